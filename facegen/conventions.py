@@ -1,0 +1,126 @@
+"""Names, orders, frames and numbers that every part agrees on (drawn in docs/conventions.md).
+
+Frames, all right-handed, all in metres:
+
+head
+    Origin midway between the eyeball centres; x to the subject's left, y up, z out of the face.
+camera
+    OpenCV: x right, y down, z forward. ``camera_from_head`` maps head points to camera points.
+pixels
+    (0, 0) is the centre of the top-left pixel.
+
+Left and right are the subject's. Landmark index 0 (iBUG point 1) is the subject's right jaw, at the image's left.
+Angles are radians inside, degrees in specs and on the command line, where the key says so (``yaw_deg``).
+"""
+
+from enum import IntEnum
+
+BLENDSHAPES: tuple[str, ...] = (
+    *("eyeBlinkLeft", "eyeLookDownLeft", "eyeLookInLeft", "eyeLookOutLeft", "eyeLookUpLeft", "eyeSquintLeft"),
+    *("eyeWideLeft", "eyeBlinkRight", "eyeLookDownRight", "eyeLookInRight", "eyeLookOutRight"),
+    *("eyeLookUpRight", "eyeSquintRight", "eyeWideRight"),
+    *("jawForward", "jawLeft", "jawRight", "jawOpen"),
+    *("mouthClose", "mouthFunnel", "mouthPucker", "mouthLeft", "mouthRight", "mouthSmileLeft", "mouthSmileRight"),
+    *("mouthFrownLeft", "mouthFrownRight", "mouthDimpleLeft", "mouthDimpleRight", "mouthStretchLeft"),
+    *("mouthStretchRight", "mouthRollLower", "mouthRollUpper", "mouthShrugLower", "mouthShrugUpper"),
+    *("mouthPressLeft", "mouthPressRight", "mouthLowerDownLeft", "mouthLowerDownRight", "mouthUpperUpLeft"),
+    "mouthUpperUpRight",
+    *("browDownLeft", "browDownRight", "browInnerUp", "browOuterUpLeft", "browOuterUpRight"),
+    *("cheekPuff", "cheekSquintLeft", "cheekSquintRight"),
+    *("noseSneerLeft", "noseSneerRight"),
+    "tongueOut",
+)
+"""The 52 ARKit blendshapes in Live Link Face's order, but with Left before Right throughout."""
+
+BLENDSHAPE_INDEX: dict[str, int] = {name: index for index, name in enumerate(BLENDSHAPES)}
+
+
+def mirrored_name(blendshape: str) -> str:
+    """Name of the same blendshape on the other side of the face; shapes without a side give themselves."""
+    if blendshape.endswith("Left"):
+        return blendshape.removesuffix("Left") + "Right"
+    if blendshape.endswith("Right"):
+        return blendshape.removesuffix("Right") + "Left"
+    return blendshape
+
+
+MIRRORED_BLENDSHAPES: tuple[int, ...] = tuple(BLENDSHAPE_INDEX[mirrored_name(name)] for name in BLENDSHAPES)
+"""``weights[..., MIRRORED_BLENDSHAPES]`` are the weights of the mirrored face."""
+
+LANDMARK_COUNT = 68
+
+LANDMARK_GROUPS: dict[str, range] = {
+    "jaw": range(0, 17),
+    "right_brow": range(17, 22),
+    "left_brow": range(22, 27),
+    "nose_bridge": range(27, 31),
+    "nose_base": range(31, 36),
+    "right_eye": range(36, 42),
+    "left_eye": range(42, 48),
+    "outer_lip": range(48, 60),
+    "inner_lip": range(60, 68),
+}
+"""Landmark indices (0-67, iBUG order) of each part of the face."""
+
+MIRRORED_LANDMARKS: tuple[int, ...] = (
+    *(16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0),
+    *(26, 25, 24, 23, 22, 21, 20, 19, 18, 17),
+    *(27, 28, 29, 30, 35, 34, 33, 32, 31),
+    *(45, 44, 43, 42, 47, 46, 39, 38, 37, 36, 41, 40),
+    *(54, 53, 52, 51, 50, 49, 48, 59, 58, 57, 56, 55),
+    *(64, 63, 62, 61, 60, 67, 66, 65),
+)
+"""``points[..., MIRRORED_LANDMARKS, :]`` are the landmarks of the mirrored face, once x is mirrored too."""
+
+FACE_WIDTH_LANDMARKS = (0, 16)
+"""The face's width in a picture is the distance between these two landmarks (ear to ear along the jaw)."""
+
+SIDES = ("left", "right")
+"""Order of every array with one row an eye: the subject's left first, as in ``BLENDSHAPES``."""
+
+
+class Visibility(IntEnum):
+    """COCO's numbers: outside the picture, inside but hidden, visible."""
+
+    OUTSIDE = 0
+    HIDDEN = 1
+    VISIBLE = 2
+
+
+class Part(IntEnum):
+    """What a face of a mesh, or a pixel of a picture, belongs to; 0 is nothing at all."""
+
+    BACKGROUND = 0
+    SKIN = 1
+    LIPS = 2
+    BROWS = 3
+    LASHES = 4
+    SCLERA = 5
+    IRIS = 6
+    PUPIL = 7
+    CORNEA = 8
+    TEETH = 9
+    GUMS = 10
+    TONGUE = 11
+    MOUTH_CAVITY = 12
+    EYE_CAVITY = 13
+    HEADSET = 14
+    GLASSES = 15
+    HAIR = 16
+
+
+class ExitCode(IntEnum):
+    """Exit codes of both programs."""
+
+    OK = 0
+    INVALID = 1
+    BAD_INPUT = 2
+    NOT_WRITABLE = 74
+    DRAINED = 75
+
+
+SPLITS = ("train", "validation", "test")
+BLOCK = 1000
+"""Samples that are drawn and computed together; a block is always computed whole, then cut."""
+SHARD_ROWS = 10_000
+"""Rows of a keypoint shard: ten blocks, committed whole."""

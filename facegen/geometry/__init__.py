@@ -1,0 +1,26 @@
+"""Rigid motions, camera models and small solids: pure functions on arrays, float64."""
+
+from facegen.geometry.cameras import Camera, project, pixel_rays, unproject
+from facegen.geometry.rotations import (
+    angles_from_direction,
+    apply_transform,
+    direction_from_angles,
+    invert_transform,
+    look_at,
+    rotation_from_angles,
+    transform,
+)
+
+__all__ = [
+    "Camera",
+    "angles_from_direction",
+    "apply_transform",
+    "direction_from_angles",
+    "invert_transform",
+    "look_at",
+    "project",
+    "pixel_rays",
+    "rotation_from_angles",
+    "transform",
+    "unproject",
+]

@@ -1,0 +1,102 @@
+"""A scene as plain data: meshes, lamps and views in the head frame. A renderer takes it and gives back linear images."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from facegen.geometry import Camera
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Mesh:
+    """A surface with one material and one part per face.
+
+    Attributes
+    ----------
+    name
+        Unique within the scene, and the same for the same object in every sample (a renderer may keep and move it).
+    vertices
+        (V, 3) float64, head frame, metres.
+    faces
+        (F, 4) int32, counter-clockwise seen from outside; triangles are padded with -1.
+    part
+        (F,) uint8, `facegen.conventions.Part` of each face.
+    materials
+        Names of the materials, looked up by the renderer.
+    face_material
+        (F,) index into ``materials``.
+    uv
+        (F, 4, 2) texture coordinates of each face's corners, or None.
+    """
+
+    name: str
+    vertices: np.ndarray
+    faces: np.ndarray
+    part: np.ndarray
+    materials: tuple[str, ...]
+    face_material: np.ndarray
+    uv: np.ndarray | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Lamp:
+    """A round infra-red LED.
+
+    Attributes
+    ----------
+    position, direction
+        (3,) head frame, metres; ``direction`` is the unit vector along the middle of its beam.
+    diameter_m, power_w, spread_rad
+        Size of the emitting disc, radiant power, and full angle of the beam.
+    """
+
+    name: str
+    position: np.ndarray
+    direction: np.ndarray
+    diameter_m: float
+    power_w: float
+    spread_rad: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class View:
+    """One camera: its intrinsics and ``camera_from_head`` (4, 4)."""
+
+    name: str
+    camera: Camera
+    camera_from_head: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scene:
+    """Meshes, lamps and views; material parameters by name (for example ``{"iris": {"albedo": 0.3}}``)."""
+
+    meshes: tuple[Mesh, ...]
+    lamps: tuple[Lamp, ...]
+    views: tuple[View, ...]
+    materials: dict[str, dict[str, float]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Layers:
+    """What a renderer gives back for one view; arrays are (height, width, ...), row 0 on top.
+
+    Attributes
+    ----------
+    radiance
+        (h, w) float32, linear, in W sr-1 m-2 up to one factor that is equal for all pictures.
+    depth
+        (h, w) float32, metres along the camera's z axis at the pixel's centre; +inf where there is nothing.
+    normal
+        (h, w, 3) float32, unit, camera frame (OpenCV); 0 where there is nothing.
+    part
+        (h, w) uint8, `facegen.conventions.Part` seen at the pixel's centre, through the refracting cornea.
+    uv
+        (h, w, 2) float32, texture coordinates; 0 where there is nothing.
+    """
+
+    radiance: np.ndarray
+    depth: np.ndarray
+    normal: np.ndarray
+    part: np.ndarray
+    uv: np.ndarray
