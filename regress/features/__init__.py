@@ -1,0 +1,27 @@
+"""From 68 points to the 178 numbers the networks see: alignment, edge lengths, face width."""
+
+from regress.features.alignment import ANCHORS, align_affine, mean_shape
+from regress.features.distances import edge_distances
+from regress.features.extraction import ALIGNMENTS, Features, extract
+from regress.features.reference_shape import (
+    ReferenceShape,
+    delaunay_edges,
+    load_reference_shape,
+    make_reference_shape,
+    mirrored_edges,
+)
+
+__all__ = [
+    "ALIGNMENTS",
+    "ANCHORS",
+    "Features",
+    "ReferenceShape",
+    "align_affine",
+    "delaunay_edges",
+    "edge_distances",
+    "extract",
+    "load_reference_shape",
+    "make_reference_shape",
+    "mean_shape",
+    "mirrored_edges",
+]

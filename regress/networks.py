@@ -1,0 +1,62 @@
+"""Many small networks side by side: inference in one go, with everything linear folded into the weights."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, kw_only=True)
+class FoldedNetworks:
+    """All networks as two matrix products and one tanh: ``y = W2 tanh(W1 x + b1) + b2``.
+
+    Z-scores of inputs and targets, the PCA rotation and the halves of ``sigmoid(a) = (1 + tanh(a/2))/2`` are
+    folded in.
+
+    Parameters
+    ----------
+    w1 : (M*H, E) float64
+        Hidden weights of M networks with H units each, network by network; they act on raw features.
+    b1 : (M*H,) float64
+    w2 : (O, H) float64
+        Output weights: row o acts on the H hidden units of network ``network_of_output[o]``.
+    b2 : (O,) float64
+    network_of_output : (O,) int64
+    """
+
+    w1: np.ndarray
+    b1: np.ndarray
+    w2: np.ndarray
+    b2: np.ndarray
+    network_of_output: np.ndarray
+
+    @property
+    def hidden(self) -> int:
+        """Hidden units of one network, H."""
+        return self.w2.shape[1]
+
+
+def block_w2(networks: FoldedNetworks) -> np.ndarray:
+    """Output weights as one (O, M*H) matrix with zeros outside each network's block: one product for all."""
+    hidden = networks.hidden
+    dense = np.zeros((len(networks.b2), len(networks.b1)))
+    columns = networks.network_of_output[:, None] * hidden + np.arange(hidden)
+    np.put_along_axis(dense, columns, networks.w2, axis=1)
+    return dense
+
+
+def evaluate(networks: FoldedNetworks, features: np.ndarray) -> np.ndarray:
+    """Outputs of all networks.
+
+    Parameters
+    ----------
+    features : (n, E) float64
+        Raw features; rows of NaN give rows of NaN.
+
+    Returns
+    -------
+    (n, O) float64
+    """
+    hidden = features @ networks.w1.T
+    hidden += networks.b1
+    np.tanh(hidden, out=hidden)
+    return hidden @ block_w2(networks).T + networks.b2
