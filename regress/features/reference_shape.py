@@ -12,7 +12,7 @@ from regress.errors import InputError
 
 EDGE_COUNT = 178
 TILT_DEG = 1.5
-"""Tilt about x before projection: at 0.5 to 3 degrees anny's hull has 23 points (178 edges), at 0 it has 25 (176)."""
+"""Tilt about x before projection: from 0.5 to 3 degrees the hull has 23 points (178 edges), at 0 only 176."""
 
 
 @dataclass(frozen=True, kw_only=True)

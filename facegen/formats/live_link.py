@@ -1,0 +1,98 @@
+"""Recordings of the Live Link Face app: one row a frame, 52 blendshapes, read by name.
+
+The header's second column is ``BlendShapeCount`` or ``BlendshapeCount``; JawRight and MouthRight stand before
+their left partners, which is why columns are never read by number.
+"""
+
+import csv
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES
+from facegen.errors import FormatError
+
+TIMECODE_RATE = 60
+"""The app counts 60 timecode frames a second, also where it writes 30 rows a second (seen in two takes)."""
+
+_TIMECODE = re.compile(r"(\d+):(\d+):(\d+):(\d+(?:\.\d+)?)")
+
+
+@dataclass(frozen=True, kw_only=True)
+class LiveLinkTake:
+    """One recording.
+
+    Parameters
+    ----------
+    weights : (n, 52) float64
+        In ``BLENDSHAPES`` order and as recorded: some devices give -0.02 to 1.4. Empty cells are NaN.
+    timecodes
+        As in the file, ``HH:MM:SS:FF.mmm``.
+    time_s : (n,) float64
+        Seconds from the first row.
+    """
+
+    weights: np.ndarray
+    timecodes: tuple[str, ...]
+    time_s: np.ndarray
+
+
+def read_live_link(path: str | os.PathLike[str], *, fps: float | None = None) -> LiveLinkTake:
+    """Read a Live Link Face CSV.
+
+    Parameters
+    ----------
+    path
+        The file; columns may stand in any order and be spelled with or without a capital.
+    fps
+        Rows a second. Without it the time comes from the timecodes, whose frames count 60 a second.
+
+    Raises
+    ------
+    FormatError
+        Where a blendshape's column is missing, a row is too short or a cell is no number.
+    """
+    path = Path(path)
+    with open(path, encoding="utf-8-sig", newline="") as file:
+        try:
+            header, *rows = [row for row in csv.reader(file) if row] or [[]]
+        except (UnicodeDecodeError, csv.Error) as error:
+            raise FormatError(f"{path} is not a CSV file: {error}") from error
+    columns = {name.strip().lower(): column for column, name in enumerate(header)}
+    missing = [name for name in BLENDSHAPES if name.lower() not in columns]
+    if missing or "timecode" not in columns:
+        lacking = missing[0] if missing else "Timecode"
+        raise FormatError(
+            f"{path} is not a Live Link Face recording: column {lacking} is missing"
+            + (f" and {len(missing) - 1} more" if len(missing) > 1 else "")
+        )
+    if not rows:
+        raise FormatError(f"{path} has a header and no rows")
+    for number, row in enumerate(rows, start=2):
+        if len(row) < len(header):
+            raise FormatError(f"{path}: row {number} has {len(row)} cells; the header names {len(header)}")
+    picked = [columns[name.lower()] for name in BLENDSHAPES]
+    try:
+        weights = np.array([[float(row[column].strip() or "nan") for column in picked] for row in rows])
+    except ValueError as error:
+        raise FormatError(f"{path}: a weight is not a number ({error})") from error
+    timecodes = tuple(row[columns["timecode"]].strip() for row in rows)
+    time_s = _timecode_seconds(timecodes, path) if fps is None else np.arange(len(rows)) / fps
+    return LiveLinkTake(weights=weights, timecodes=timecodes, time_s=time_s)
+
+
+def _timecode_seconds(timecodes: tuple[str, ...], path: Path) -> np.ndarray:
+    seconds = np.empty(len(timecodes))
+    for row, timecode in enumerate(timecodes):
+        found = _TIMECODE.fullmatch(timecode)
+        if found is None:
+            raise FormatError(f"{path}: row {row + 2} has timecode {timecode!r}; HH:MM:SS:FF.mmm is needed")
+        hours, minutes, whole, frames = (float(group) for group in found.groups())
+        seconds[row] = hours * 3600 + minutes * 60 + whole + frames / TIMECODE_RATE
+    day = 24 * 3600
+    # A take across midnight starts again at 00:00:00.
+    seconds += day * np.cumsum(np.concatenate([[0], np.diff(seconds) < -day / 2]))
+    return seconds - seconds[0]
