@@ -1,0 +1,71 @@
+"""Labels that every sample has, rendered or not: 68 landmarks before the keypoint camera."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import FACE_WIDTH_LANDMARKS, Visibility
+from facegen.geometry import apply_transform
+from facegen.raster import hidden, triangles_of
+from facegen.rigs import Rig, evaluate
+from facegen.sampling import Samples
+from facegen.spec import Spec
+
+KEYPOINT_TOLERANCE_M = 2e-3
+"""A cage face must be this much nearer to hide a landmark. The cage cuts up to 1 mm off the smooth surface between its
+vertices (measured on the default rig), and lips and lids that touch lie within another millimetre."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Keypoints:
+    """Landmarks of n samples.
+
+    Attributes
+    ----------
+    points_3d
+        (n, 68, 3) head frame, metres.
+    points_2d
+        (n, 68, 2) exact pixels in the keypoint camera.
+    detected_2d
+        (n, 68, 2) the same with the spec's detector noise.
+    visibility
+        (n, 68) uint8, `facegen.conventions.Visibility`.
+    face_width
+        (n,) pixels between the landmarks at both ends of the jaw.
+    """
+
+    points_3d: np.ndarray
+    points_2d: np.ndarray
+    detected_2d: np.ndarray
+    visibility: np.ndarray
+    face_width: np.ndarray
+
+
+def project_pinhole(points_camera: np.ndarray, intrinsics: np.ndarray) -> np.ndarray:
+    """Pixels (n, p, 2) of points (n, p, 3) in the frames of n pinholes with (n, 4) fx, fy, cx, cy."""
+    focal, center = intrinsics[:, None, :2], intrinsics[:, None, 2:]
+    return points_camera[..., :2] / points_camera[..., 2:] * focal + center
+
+
+def label_keypoints(spec: Spec, rig: Rig, samples: Samples) -> Keypoints:
+    """Keypoint labels of samples; each row follows from its own sample alone."""
+    faces = evaluate(rig, samples.identity, samples.weights, samples.gaze, cage_only=True)
+    in_camera = apply_transform(samples.camera_from_head, faces.landmarks)
+    points_2d = project_pinhole(in_camera, samples.intrinsics)
+    first, last = FACE_WIDTH_LANDMARKS
+    face_width = np.linalg.norm(points_2d[:, first] - points_2d[:, last], axis=-1)
+    triangles = triangles_of(rig.cage_faces)
+    visibility = np.empty(points_2d.shape[:2], np.uint8)
+    for row, camera_from_head in enumerate(samples.camera_from_head):
+        vertices = apply_transform(camera_from_head, faces.vertices[row])
+        covered = hidden(in_camera[row], vertices, triangles, tolerance_m=KEYPOINT_TOLERANCE_M)
+        visibility[row] = np.where(covered, Visibility.HIDDEN, Visibility.VISIBLE)
+    size = np.array([spec.camera.width_px, spec.camera.height_px])
+    inside = ((points_2d >= -0.5) & (points_2d < size - 0.5)).all(axis=-1) & (in_camera[..., 2] > 0)
+    return Keypoints(
+        points_3d=faces.landmarks,
+        points_2d=points_2d,
+        detected_2d=points_2d + samples.detector_noise * face_width[:, None, None],
+        visibility=np.where(inside, visibility, Visibility.OUTSIDE).astype(np.uint8),
+        face_width=face_width,
+    )

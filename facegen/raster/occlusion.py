@@ -1,0 +1,65 @@
+"""Which points a mesh hides from a camera."""
+
+import numpy as np
+
+
+def triangles_of(faces: np.ndarray) -> np.ndarray:
+    """Triangles (T, 3) of faces (F, 4) whose missing fourth corner is -1; quads are cut along their first diagonal."""
+    quads = faces[faces[:, 3] >= 0]
+    return np.concatenate([faces[:, :3], quads[:, [0, 2, 3]]]).astype(np.int64)
+
+
+def hidden(
+    points_camera: np.ndarray, vertices_camera: np.ndarray, triangles: np.ndarray, *, tolerance_m: float
+) -> np.ndarray:
+    """Whether a mesh stands between the camera's centre and each point.
+
+    Parameters
+    ----------
+    points_camera, vertices_camera
+        (n, 3) points and (V, 3) vertices in the camera frame, metres. Points and vertices at z <= 0 are behind the
+        camera: such points count as hidden, triangles with such vertices hide nothing.
+    triangles
+        (T, 3) vertex indices; both sides of a triangle hide.
+    tolerance_m
+        A triangle hides a point only if it is nearer by more than this (a point of a surface is not hidden by it).
+
+    Returns
+    -------
+    numpy.ndarray
+        (n,) bool.
+    """
+    z = vertices_camera[:, 2]
+    plane = vertices_camera[:, :2] / np.where(z > 0, z, np.nan)[:, None]
+    corners = plane[triangles]
+    low, high = corners.min(axis=1), corners.max(axis=1)  # NaN where behind: all comparisons are then false
+    in_front = points_camera[:, 2] > 0
+    xy = points_camera[:, :2] / np.where(in_front, points_camera[:, 2], np.nan)[:, None]
+    # the boxes of n x T pairs are compared one axis at a time: few triangles survive the first
+    near = (low[None, :, 0] <= xy[:, None, 0]) & (high[None, :, 0] >= xy[:, None, 0])
+    point, face = np.nonzero(near)
+    inside = (low[face, 1] <= xy[point, 1]) & (high[face, 1] >= xy[point, 1])
+    point, face = point[inside], face[inside]
+    depth = depth_on_triangles(xy[point], corners[face], 1.0 / z[triangles[face]])
+    result = ~in_front
+    blocked = depth < points_camera[point, 2] - tolerance_m
+    result[point[blocked]] = True
+    return result
+
+
+def depth_on_triangles(xy: np.ndarray, corners: np.ndarray, inverse_z: np.ndarray) -> np.ndarray:
+    """Depth (m,) of triangles (m, 3, 2) with 1/z (m, 3) at image-plane points (m, 2); +inf outside the triangle."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+
+    def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+        return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+    area = cross(b - a, c - a)
+    safe = np.where(area == 0, np.nan, area)
+    wa, wb = cross(b - xy, c - xy) / safe, cross(c - xy, a - xy) / safe
+    wc = 1.0 - wa - wb
+    inside = (wa >= 0) & (wb >= 0) & (wc >= 0)  # NaN (an edge-on triangle) is never inside
+    # 1/z is linear on the image plane
+    with np.errstate(divide="ignore"):
+        depth = 1.0 / (wa * inverse_z[:, 0] + wb * inverse_z[:, 1] + wc * inverse_z[:, 2])
+    return np.where(inside, depth, np.inf)

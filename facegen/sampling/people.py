@@ -1,0 +1,82 @@
+"""Who the people are: traits that the rig knows, and the coefficients of its identity basis."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import ndtr, ndtri
+
+from facegen.randomness import stream
+from facegen.rigs import Rig
+from facegen.conventions import BLOCK, SPLITS
+from facegen.spec import Spec, draw
+
+LARGEST_SCORE = 2.5
+"""Standard normal draws are cut here: identities further out fold the skin at nose and lips."""
+
+YOUNG_YEARS, OLD_YEARS = 25.0, 90.0
+"""Ages of the rig's "young" and "old" adults (MakeHuman's anchors); younger adults take the young shape."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class People:
+    """Traits and identity coefficients of people.
+
+    Attributes
+    ----------
+    female
+        (n,) bool.
+    age_years
+        (n,) years.
+    ancestry
+        (n, 3) shares of African, Asian and Caucasian ancestry, adding up to 1.
+    identity
+        (n, K) coefficients of the rig's identity basis.
+    """
+
+    female: np.ndarray
+    age_years: np.ndarray
+    ancestry: np.ndarray
+    identity: np.ndarray
+
+
+def draw_people(spec: Spec, rig: Rig, block: int) -> People:
+    """The 1,000 people of one block of people."""
+    traits_rng = stream(spec.seed, "traits", block)
+    female = traits_rng.random(BLOCK) < spec.identity.female
+    age_years = draw(spec.identity.age_years, traits_rng, BLOCK)
+    ancestry = traits_rng.dirichlet([spec.identity.ancestry_concentration] * 3, BLOCK)
+    edge = ndtr(LARGEST_SCORE)
+    unit = stream(spec.seed, "identity", block).random((BLOCK, rig.components))
+    scores = ndtri((1 - edge) + unit * (2 * edge - 1)) * spec.identity.spread
+    known = {
+        "one": np.ones(BLOCK),
+        "female": female.astype(np.float64),
+        "age": np.clip((age_years - YOUNG_YEARS) / (OLD_YEARS - YOUNG_YEARS), 0.0, 1.0),
+        "african": ancestry[:, 0],
+        "asian": ancestry[:, 1],
+    }
+    identity = scores @ rig.identity_residual.T
+    if rig.traits:
+        identity += np.stack([known[name] for name in rig.traits], axis=-1) @ rig.identity_from_traits.T
+    return People(female=female, age_years=age_years, ancestry=ancestry, identity=identity)
+
+
+def people_of(spec: Spec, rig: Rig, person: np.ndarray) -> People:
+    """People by number (n,); whole blocks of people are drawn, then picked from."""
+    blocks = np.unique(person // BLOCK)
+    drawn = [draw_people(spec, rig, int(block)) for block in blocks]
+    row = np.searchsorted(blocks, person // BLOCK) * BLOCK + person % BLOCK
+
+    def pick(name: str) -> np.ndarray:
+        return np.concatenate([getattr(people, name) for people in drawn])[row]
+
+    return People(**{name: pick(name) for name in ("female", "age_years", "ancestry", "identity")})
+
+
+def split_of(spec: Spec, person: np.ndarray) -> np.ndarray:
+    """Index into `facegen.conventions.SPLITS` of people (n,): a random partition of all people by the spec's shares."""
+    order = stream(spec.seed, "split", 0).permutation(spec.people)
+    edges = np.round(np.cumsum(spec.split_shares) * spec.people).astype(int)
+    split = np.empty(spec.people, np.int8)
+    split[order] = np.minimum(np.searchsorted(edges, np.arange(spec.people), side="right"), len(SPLITS) - 1)
+    return split[np.minimum(person, spec.people - 1)]

@@ -1,0 +1,101 @@
+"""Which person, session, clip and frame each sample of a dataset is."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import BLOCK
+from facegen.errors import InputError
+from facegen.formats import read_live_link
+from facegen.spec import Spec
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Plan:
+    """A spec with its recording read: enough to say what every sample is.
+
+    Attributes
+    ----------
+    spec
+        The checked spec.
+    frames
+        Samples of one person; sample ``i`` belongs to person ``i // frames``.
+    recording
+        (frames, 52) weights that everyone plays, for ``kind = "playback"``; None otherwise.
+    """
+
+    spec: Spec
+    frames: int
+    recording: np.ndarray | None
+
+    @property
+    def samples(self) -> int:
+        """Number of samples of the dataset."""
+        return self.spec.people * self.frames
+
+    @property
+    def blocks(self) -> int:
+        """Number of blocks that hold all samples, the last one perhaps cut."""
+        return -(-self.samples // BLOCK)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Places:
+    """Where samples stand in people → sessions → clips → frames; all arrays (n,)."""
+
+    sample: np.ndarray
+    person: np.ndarray
+    session: np.ndarray
+    clip: np.ndarray
+    frame: np.ndarray
+    time_s: np.ndarray
+    neutral: np.ndarray
+
+
+def plan_dataset(spec: Spec) -> Plan:
+    """Plan of a spec; reads the recording of a playback.
+
+    Raises
+    ------
+    InputError
+        If the recording cannot be read, or has not the frames asked for.
+    """
+    if spec.kind == "still":
+        return Plan(spec=spec, frames=spec.still.neutral + spec.still.faces, recording=None)
+    playback = spec.playback
+    weights = read_live_link(playback.recording).weights
+    last = len(weights) if playback.frames is None else playback.first_frame + playback.frames
+    if not playback.first_frame < last <= len(weights):
+        raise InputError(
+            f"playback: frames {playback.first_frame}-{last - 1} were asked for, but {playback.recording} has "
+            f"frames 0-{len(weights) - 1}"
+        )
+    recording = weights[playback.first_frame : last]
+    return Plan(spec=spec, frames=len(recording), recording=recording)
+
+
+def block_places(plan: Plan, block: int) -> Places:
+    """Places of the 1,000 samples of a block; the last block reaches past the dataset's end and is cut later."""
+    sample = np.arange(block * BLOCK, (block + 1) * BLOCK, dtype=np.int64)
+    person, within = np.divmod(sample, plan.frames)
+    nothing = np.zeros_like(sample)
+    if plan.spec.kind == "playback":
+        return Places(
+            sample=sample,
+            person=person,
+            session=person,
+            clip=person,
+            frame=within,
+            time_s=within / plan.spec.playback.fps,
+            neutral=np.zeros(BLOCK, bool),
+        )
+    # a still is a clip of one frame
+    return Places(
+        sample=sample,
+        person=person,
+        session=person,
+        clip=sample,
+        frame=nothing,
+        time_s=np.zeros(BLOCK),
+        neutral=within < plan.spec.still.neutral,
+    )

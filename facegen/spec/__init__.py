@@ -1,0 +1,19 @@
+"""Specs: what a dataset is, in TOML."""
+
+from facegen.spec.distribution import Distribution, draw
+from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
+from facegen.spec.sample_ranges import sample_numbers
+from facegen.spec.spec import Spec
+
+__all__ = [
+    "LABEL_VERSION",
+    "Distribution",
+    "Spec",
+    "draw",
+    "load_spec",
+    "parse_spec",
+    "sample_numbers",
+    "spec_hash",
+    "spec_schema",
+    "spec_table",
+]

@@ -1,0 +1,112 @@
+"""Numbers that vary, written as data: ``12``, ``{uniform = [-20, 20]}`` or ``{normal = [0, 6], within = [-20, 20]}``."""
+
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
+from pydantic_core import PydanticCustomError
+from scipy.special import ndtr, ndtri
+
+DEFAULT_SDS = 3.0
+"""A normal distribution without ``within`` is cut at this many standard deviations."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Distribution:
+    """A number, uniform or truncated normal; ``low`` and ``high`` bound every draw."""
+
+    kind: Literal["constant", "uniform", "normal"]
+    low: float
+    high: float
+    mean: float = 0.0
+    sd: float = 0.0
+
+
+def draw(distribution: Distribution, rng: np.random.Generator, size: int | tuple[int, ...]) -> np.ndarray:
+    """Values (size) of a distribution: exactly one random number each, so later draws never shift."""
+    unit = rng.random(size)
+    if distribution.kind == "normal":
+        below, above = (ndtr((edge - distribution.mean) / distribution.sd) for edge in (distribution.low, distribution.high))
+        value = distribution.mean + distribution.sd * ndtri(below + unit * (above - below))
+        return np.clip(value, distribution.low, distribution.high)
+    return distribution.low + unit * (distribution.high - distribution.low)
+
+
+def _pair(value: Any, what: str) -> tuple[float, float]:
+    if (
+        not isinstance(value, list | tuple)
+        or len(value) != 2
+        or any(isinstance(x, bool) or not isinstance(x, int | float) for x in value)
+    ):
+        raise PydanticCustomError("distribution", "{what} must be two numbers", {"what": what})
+    return float(value[0]), float(value[1])
+
+
+def _normal(value: dict[str, Any]) -> Distribution:
+    mean, sd = _pair(value["normal"], "normal = [mean, standard deviation]")
+    if sd <= 0:
+        raise PydanticCustomError("distribution", "the standard deviation of a normal must be above 0")
+    low, high = mean - DEFAULT_SDS * sd, mean + DEFAULT_SDS * sd
+    if "within" in value:
+        low, high = _pair(value["within"], "within = [low, high]")
+    return Distribution(kind="normal", low=low, high=high, mean=mean, sd=sd)
+
+
+def parse(value: Any) -> Distribution:
+    """Distribution of a TOML value; raises ``PydanticCustomError`` with one sentence if it is none."""
+    if isinstance(value, Distribution):
+        return value
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return Distribution(kind="constant", low=float(value), high=float(value))
+    if isinstance(value, dict) and set(value) == {"uniform"}:
+        low, high = _pair(value["uniform"], "uniform = [low, high]")
+        result = Distribution(kind="uniform", low=low, high=high)
+    elif isinstance(value, dict) and "normal" in value and set(value) <= {"normal", "within"}:
+        result = _normal(value)
+    else:
+        raise PydanticCustomError(
+            "distribution", "must be a number, {uniform = [low, high]} or {normal = [mean, sd], within = [low, high]}"
+        )
+    if not result.low < result.high:
+        raise PydanticCustomError("distribution", "the lower bound must be below the upper one")
+    return result
+
+
+def as_data(distribution: Distribution) -> float | dict[str, list[float]]:
+    """The TOML value of a distribution; `parse` takes it back."""
+    if distribution.kind == "constant":
+        return distribution.low
+    bounds = [distribution.low, distribution.high]
+    if distribution.kind == "uniform":
+        return {"uniform": bounds}
+    return {"normal": [distribution.mean, distribution.sd], "within": bounds}
+
+
+_SCHEMA = WithJsonSchema(
+    {
+        "anyOf": [
+            {"type": "number"},
+            {"type": "object", "properties": {"uniform": {"type": "array"}}, "required": ["uniform"]},
+            {
+                "type": "object",
+                "properties": {"normal": {"type": "array"}, "within": {"type": "array"}},
+                "required": ["normal"],
+            },
+        ]
+    }
+)
+
+
+def quantity(low: float, high: float, unit: str) -> Any:
+    """Type of a spec's key whose every draw must lie in ``[low, high]``, given in ``unit``."""
+
+    def check(value: Any) -> Distribution:
+        result = parse(value)
+        if not low <= result.low <= result.high <= high:
+            raise PydanticCustomError(
+                "quantity", "must lie between {low} and {high} {unit}", {"low": f"{low:g}", "high": f"{high:g}", "unit": unit}
+            )
+        return result
+
+    return Annotated[Distribution, BeforeValidator(check), PlainSerializer(as_data), _SCHEMA]

@@ -1,0 +1,114 @@
+"""From a TOML file to a checked `Spec`, and what makes two datasets the same: the hash."""
+
+import dataclasses
+import difflib
+import hashlib
+import json
+import tomllib
+from pathlib import Path
+from typing import Any, get_args
+
+from pydantic import TypeAdapter, ValidationError
+
+from facegen.errors import InputError
+from facegen.spec.sample_ranges import parse_ranges
+from facegen.spec.spec import Spec
+
+LABEL_VERSION = 1
+"""Raised with every change that alters labels or pixels for the same spec; part of every hash (see CHANGELOG.md)."""
+
+_ADAPTER = TypeAdapter(Spec)
+
+
+def load_spec(path: str | Path) -> Spec:
+    """Read and check a spec.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not TOML, or a key or value is not allowed; says which, and what is.
+    """
+    path = Path(path)
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError(f"{path}: there is no such spec; the ones that come with facegen are datasets/*.toml") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: cannot be read as a spec ({error})") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: is not valid TOML: {error}") from None
+    spec = parse_spec(table, where=str(path))
+    if spec.playback is not None:
+        recording = path.parent / spec.playback.recording
+        if not recording.is_file():
+            raise InputError(f"{path}: playback.recording = {spec.playback.recording!r}: there is no file {recording}")
+        spec = dataclasses.replace(spec, playback=dataclasses.replace(spec.playback, recording=str(recording.resolve())))
+    return spec
+
+
+def parse_spec(table: dict[str, Any], *, where: str) -> Spec:
+    """Check a table of a spec's keys and values; ``where`` names its origin in error messages."""
+    try:
+        # through JSON, whose strict mode takes tables as records and lists as tuples
+        spec = _ADAPTER.validate_json(json.dumps(table, default=str))
+    except ValidationError as error:
+        raise InputError(f"{where}: {_sentence(error.errors()[0])}") from None
+    if abs(sum(spec.split_shares) - 1) > 1e-9:
+        raise InputError(f"{where}: split_shares = {list(spec.split_shares)} must add up to 1 (train, validation, test)")
+    if spec.expression.sparse_shapes[0] > spec.expression.sparse_shapes[1]:
+        raise InputError(f"{where}: expression.sparse_shapes must be [fewest, most] with fewest <= most")
+    if spec.kind == "playback" and spec.playback is None:
+        raise InputError(f'{where}: kind = "playback" needs a [playback] table with recording and fps')
+    if spec.kind == "still" and spec.still.neutral + spec.still.faces == 0:
+        raise InputError(f"{where}: still.neutral and still.faces are both 0; at least one face a person is needed")
+    parse_ranges(spec.render.samples, where=f"{where}: render.samples")
+    return spec
+
+
+def spec_table(spec: Spec) -> dict[str, Any]:
+    """The resolved spec as plain data, defaults filled in; `parse_spec` takes it back."""
+    return _ADAPTER.dump_python(spec, mode="json")
+
+
+def spec_schema() -> dict[str, Any]:
+    """JSON schema of a spec, for editors."""
+    return _ADAPTER.json_schema()
+
+
+def spec_hash(spec: Spec, *, asset_sha256: dict[str, str]) -> str:
+    """SHA-256 of all that decides a dataset: the resolved spec, the assets it uses, and the label version.
+
+    Which samples are rendered does not matter to any one of them and stays out, so a dataset can grow pictures.
+    """
+    table = spec_table(spec)
+    table["render"].pop("samples")
+    if spec.playback is not None:
+        table["playback"].pop("recording")  # its content is among the assets; where it lies does not matter
+    content = {"spec": table, "assets": asset_sha256, "label_version": LABEL_VERSION}
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def _known_keys(location: tuple[int | str, ...]) -> list[str]:
+    record: Any = Spec
+    for key in location[:-1]:
+        annotation = {f.name: f.type for f in dataclasses.fields(record)}.get(str(key))
+        options = [t for t in (annotation, *get_args(annotation)) if dataclasses.is_dataclass(t)]
+        if not options:
+            return []
+        record = options[0]
+    return [f.name for f in dataclasses.fields(record)]
+
+
+def _sentence(error: dict[str, Any]) -> str:
+    location = error["loc"]
+    path = ".".join(str(part) for part in location)
+    if error["type"] == "unexpected_keyword_argument":
+        known = _known_keys(location)
+        close = difflib.get_close_matches(str(location[-1]), known, n=1)
+        hint = f"did you mean {close[0]!r}? " if close else ""
+        return f"unknown key {path!r}; {hint}Known keys here: {', '.join(known)}"
+    if error["type"] in ("missing", "missing_argument"):
+        return f"key {path!r} is missing"
+    message = error["msg"].replace("Input should", "must").replace("must be a valid integer", "must be a whole number")
+    message = message.replace("must be a valid", "must be a").replace("must be an object", "must be a table")
+    return f"{path} = {json.dumps(error['input'], default=str)}: {message}"
