@@ -54,6 +54,10 @@ class Rig:
         (2, M) indices of the skin and lash vertices that follow a closing lid, padded with -1.
     licence, source, version
         Where the shapes come from and under which terms pictures of them may be used.
+    missing
+        Blendshapes that the source does not have; their displacements are zero.
+    sha256
+        Of the file the rig was read from; empty for a rig that was not saved yet.
     """
 
     name: str
@@ -80,6 +84,8 @@ class Rig:
     licence: str
     source: str
     version: str
+    missing: tuple[str, ...] = ()
+    sha256: str = ""
 
     @property
     def components(self) -> int:

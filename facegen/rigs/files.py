@@ -1,0 +1,188 @@
+"""Rigs on disk: NAME.npz with the arrays, NAME.json with what a person or a program wants to know about them.
+
+Both are written byte for byte the same by every build from the same arrays: entries in a fixed order, no time stamps,
+no compression (its bytes depend on the version of zlib). Datasets name their rig by the SHA-256 kept in the JSON.
+"""
+
+import hashlib
+import io
+import json
+import os
+import zipfile
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import Part
+from facegen.errors import InputError, MissingAsset, OutputError
+from facegen.rigs.rig import Rig
+
+FORMAT = 1
+"""Version of the files. A reader refuses others: a rig is built anew in seconds."""
+
+_TEXTS = ("licence", "source", "version")
+_INDICES = ("faces", "cage_faces", "landmark_vertices", "upper_lid", "lower_lid", "lid_vertices")
+_ARRAYS = (
+    *("vertices", "faces", "cage_faces", "uv", "part"),
+    *("identity", "identity_from_traits", "identity_residual", "expression"),
+    *("landmark_vertices", "landmark_weights"),
+    *("eye_center", "eye_center_identity", "eye_radius", "eye_radius_identity"),
+    *("upper_lid", "lower_lid", "lid_vertices"),
+)
+
+
+def assets_folder() -> Path:
+    """The source tree's ``blender_assets``; that of the current folder where facegen runs without its source tree."""
+    in_source = Path(__file__).resolve().parents[2] / "blender_assets"
+    return in_source if in_source.is_dir() else Path("blender_assets")
+
+
+def rigs_folder() -> Path:
+    """Where built rigs lie: the environment's FACEGEN_RIGS, else ``blender_assets/build``."""
+    return Path(os.environ.get("FACEGEN_RIGS") or assets_folder() / "build")
+
+
+def save_rig(rig: Rig, folder: Path | None = None) -> Path:
+    """Write ``NAME.npz`` and ``NAME.json`` into ``folder`` (default `rigs_folder`) and return the first's path.
+
+    Arrays are cast to float32 and int32 here. Each file appears by one rename, the JSON last.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be written or is full.
+    """
+    folder = Path(folder) if folder is not None else rigs_folder()
+    content = _zip_bytes({name: _on_disk(name, getattr(rig, name)) for name in _ARRAYS})
+    npz, record = folder / f"{rig.name}.npz", _record(rig, content)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        _write_whole(npz, content)
+        _write_whole(npz.with_suffix(".json"), (json.dumps(record, indent=2) + "\n").encode())
+    except OSError as error:
+        raise OutputError(f"The rig cannot be written to {folder}: {error.strerror or error}.") from error
+    return npz
+
+
+def read_record(name: str, folder: Path | None = None) -> dict:
+    """Content of ``NAME.json``.
+
+    Raises
+    ------
+    MissingAsset
+        No rig of this name has been built.
+    InputError
+        The file is not one that `save_rig` wrote.
+    """
+    folder = Path(folder) if folder is not None else rigs_folder()
+    path = folder / f"{name}.json"
+    if not path.is_file() or not path.with_suffix(".npz").is_file():
+        raise MissingAsset(f"There is no rig {name!r} in {folder}; make it with: facegen rig build {name}")
+    try:
+        record = json.loads(path.read_text())
+        if record["format"] != FORMAT:
+            raise InputError(
+                f"{path} has format {record['format']}, this version reads {FORMAT}; "
+                f"build it again with: facegen rig build {name} --force"
+            )
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(
+            f"{path} is damaged; build it again with: facegen rig build {name} --force"
+        ) from error
+    return record
+
+
+def load_rig(name: str, folder: Path | None = None) -> Rig:
+    """Read a built rig.
+
+    Parameters
+    ----------
+    name
+        Name of the rig, ``"anny"`` or ``"ict"`` for those that facegen builds.
+    folder
+        Where it lies; default `rigs_folder`.
+
+    Raises
+    ------
+    MissingAsset
+        No rig of this name has been built.
+    InputError
+        The file's content is not what its checksum says.
+    """
+    folder = Path(folder) if folder is not None else rigs_folder()
+    record = read_record(name, folder)
+    path = folder / f"{name}.npz"
+    content = path.read_bytes()
+    if hashlib.sha256(content).hexdigest() != record.get("sha256"):
+        raise InputError(
+            f"{path} is not the file that was built (its SHA-256 differs from {name}.json's); "
+            f"build it again with: facegen rig build {name} --force"
+        )
+    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
+        values = {key: _in_memory(key, arrays[key]) for key in _ARRAYS}
+    texts = {key: record[key] for key in _TEXTS}
+    return Rig(
+        name=record["name"],
+        cage_vertices=record["cage_vertices"],
+        traits=tuple(record["traits"]),
+        sha256=record["sha256"],
+        missing=tuple(record["missing"]),
+        **texts,
+        **values,
+    )
+
+
+def _on_disk(name: str, array: np.ndarray) -> np.ndarray:
+    if name == "part":
+        return np.ascontiguousarray(array, np.uint8)
+    return np.ascontiguousarray(array, np.int32 if name in _INDICES else np.float32)
+
+
+def _in_memory(name: str, array: np.ndarray) -> np.ndarray:
+    array = array if name == "part" or name in _INDICES else array.astype(np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def _record(rig: Rig, content: bytes) -> dict:
+    present = [int(value) for value in np.unique(rig.part)]
+    return {
+        "name": rig.name,
+        "format": FORMAT,
+        "sha256": hashlib.sha256(content).hexdigest(),
+        **{key: getattr(rig, key) for key in _TEXTS},
+        "vertices": len(rig.vertices),
+        "faces": len(rig.faces),
+        "cage_vertices": rig.cage_vertices,
+        "identity_components": rig.components,
+        "traits": list(rig.traits),
+        "missing": list(rig.missing),
+        "parts": {Part(value).name.lower(): int((rig.part == value).sum()) for value in present},
+        "eye_distance_mm": round(float(1e3 * (rig.eye_center[0, 0] - rig.eye_center[1, 0])), 3),
+        "eye_radius_mm": [round(float(1e3 * radius), 3) for radius in rig.eye_radius],
+    }
+
+
+def _zip_bytes(arrays: dict[str, np.ndarray]) -> bytes:
+    """An .npz as `numpy.savez` makes it, but with time stamps of 1980 so that equal arrays give equal bytes."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
+        for name, array in arrays.items():
+            entry = io.BytesIO()
+            np.lib.format.write_array(entry, array, version=(1, 0), allow_pickle=False)
+            archive.writestr(
+                zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0)), entry.getvalue()
+            )
+    return stream.getvalue()
+
+
+def _write_whole(path: Path, content: bytes) -> None:
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        with open(temporary, "wb") as stream:
+            stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)

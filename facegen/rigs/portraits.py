@@ -1,0 +1,149 @@
+"""Draws rigs with numbered landmarks, so that a person can judge where the points lie."""
+
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES, Part
+from facegen.errors import OutputError
+from facegen.geometry import rotation_from_angles
+from facegen.rigs.evaluation import EvaluatedFaces, evaluate
+from facegen.rigs.eyes import lid_support_radius
+from facegen.rigs.rig import Rig
+from facegen.rigs.zbuffer import DepthMap, nearest_along_z, triangles_of
+
+VIEWS_DEG = {"front": 0.0, "three-quarter": -35.0, "side": -75.0}
+COLOURS = {
+    Part.SKIN: (0.80, 0.68, 0.62),
+    Part.LIPS: (0.76, 0.45, 0.45),
+    Part.BROWS: (0.62, 0.50, 0.44),
+    Part.LASHES: (0.25, 0.20, 0.18),
+    Part.SCLERA: (0.95, 0.95, 0.95),
+    Part.IRIS: (0.35, 0.45, 0.55),
+    Part.TEETH: (0.95, 0.93, 0.85),
+    Part.TONGUE: (0.70, 0.35, 0.35),
+    Part.MOUTH_CAVITY: (0.40, 0.15, 0.15),
+    Part.EYE_CAVITY: (0.55, 0.30, 0.30),
+}
+LASHES_SHOWN = False
+_HALF_WIDTH_M, _TOP_M, _BOTTOM_M = 0.100, 0.085, -0.125
+
+
+def eyeball_mesh(
+    center: np.ndarray, radius: float, axis: np.ndarray, *, rings: int = 40, segments: int = 64
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and part per triangle of the front half of an eye's outer surface, cornea included."""
+    axis = axis / np.linalg.norm(axis)
+    right = np.cross((0.0, 1.0, 0.0), axis)
+    right /= np.linalg.norm(right)
+    up = np.cross(axis, right)
+    polar = np.linspace(0.0, 0.6 * np.pi, rings + 1)
+    around = np.linspace(0.0, 2.0 * np.pi, segments, endpoint=False)
+    p, a = (grid.ravel()[..., None] for grid in np.meshgrid(polar, around, indexing="ij"))
+    direction = np.cos(p) * axis + np.sin(p) * (np.cos(a) * right + np.sin(a) * up)
+    vertices = center + lid_support_radius(direction, radius, axis)[:, None] * direction
+    i, j = np.meshgrid(np.arange(rings), np.arange(segments), indexing="ij")
+    near, far = i * segments + j, (i + 1) * segments + j
+    near_next, far_next = i * segments + (j + 1) % segments, (i + 1) * segments + (j + 1) % segments
+    first, second = np.stack([near, far, far_next], -1), np.stack([near, far_next, near_next], -1)
+    triangles = np.concatenate([first.reshape(-1, 3), second.reshape(-1, 3)])
+    iris = np.sin(polar[i.ravel() + 1]) * radius < 5.9e-3
+    part = np.where(np.concatenate([iris, iris]), Part.IRIS, Part.SCLERA)
+    return vertices, triangles, part
+
+
+def drawn_mesh(
+    rig: Rig, faces: EvaluatedFaces, index: int, gaze: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and part per triangle of evaluated face ``index`` with its eyeballs."""
+    shown = rig.faces if LASHES_SHOWN else rig.faces[rig.part != Part.LASHES]
+    part = rig.part if LASHES_SHOWN else rig.part[rig.part != Part.LASHES]
+    triangles, source = triangles_of(shown)
+    vertices, all_triangles, parts = [faces.vertices[index]], [triangles], [part[source]]
+    for eye in range(2):
+        v, t, p = eyeball_mesh(faces.eye_center[index, eye], faces.eye_radius[index, eye], gaze[eye])
+        all_triangles.append(t + sum(map(len, vertices)))
+        vertices.append(v)
+        parts.append(p)
+    return np.concatenate(vertices), np.concatenate(all_triangles), np.concatenate(parts)
+
+
+def shade(vertices: np.ndarray, triangles: np.ndarray, part: np.ndarray, depth: DepthMap) -> np.ndarray:
+    """Picture (h, w, 3) in [0, 1] of a z-buffer, lit from the camera's upper left."""
+    corner = vertices[triangles]
+    flat = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    normal = np.zeros_like(vertices)
+    for k in range(3):
+        np.add.at(normal, triangles[:, k], flat)
+    smooth = normal[triangles].sum(axis=1)
+    smooth /= np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
+    light = np.array([-0.35, 0.45, 0.82])
+    lit = 0.25 + 0.75 * np.maximum(smooth @ light, 0.0)
+    palette = np.ones((max(Part) + 1, 3))
+    for name, colour in COLOURS.items():
+        palette[name] = colour
+    colour = palette[part] * lit[:, None]
+    return np.where(depth.triangle[..., None] >= 0, colour[depth.triangle], 1.0)
+
+
+def portrait(
+    rig: Rig,
+    faces: EvaluatedFaces,
+    index: int,
+    gaze: np.ndarray,
+    *,
+    yaw_deg: float = 0.0,
+    pitch_deg: float = 0.0,
+    window_m: tuple[float, float, float, float] = (-_HALF_WIDTH_M, _TOP_M, _HALF_WIDTH_M, _BOTTOM_M),
+    step_m: float = 0.5e-3,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Picture of one evaluated face, turned in front of the viewer, and its landmarks in pixels (68, 2).
+
+    ``window_m`` holds left, top, right and bottom of the picture in the turned head's frame.
+    """
+    turn = rotation_from_angles(np.radians(yaw_deg), np.radians(pitch_deg), 0.0).T
+    vertices, triangles, part = drawn_mesh(rig, faces, index, gaze)
+    vertices = vertices @ turn
+    left, top, right, bottom = window_m
+    shape = (round((top - bottom) / step_m), round((right - left) / step_m))
+    depth = nearest_along_z(vertices, triangles, origin=np.array([left, top]), step=step_m, shape=shape)
+    points = faces.landmarks[index] @ turn
+    pixels = np.stack([(points[:, 0] - left) / step_m, (top - points[:, 1]) / step_m], axis=-1)
+    return shade(vertices, triangles, part, depth), pixels
+
+
+def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
+    """Write a PNG of the mean person and others from the front, three quarters and the side.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be written.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg  # heavy, and only this function needs it
+    from matplotlib.figure import Figure
+
+    rng = np.random.Generator(np.random.PCG64(7))
+    identity = np.clip(rng.standard_normal((people, rig.components)), -2.0, 2.0)
+    identity[0] = 0.0
+    gaze = np.tile((0.0, 0.0, 1.0), (people, 2, 1))
+    faces = evaluate(rig, identity, np.zeros((people, len(BLENDSHAPES))), gaze)
+    figure = Figure(figsize=(4.0 * len(VIEWS_DEG), 4.2 * people), dpi=100)
+    canvas = FigureCanvasAgg(figure)
+    for person in range(people):
+        for column, (view, yaw) in enumerate(VIEWS_DEG.items()):
+            axes = figure.add_axes((column / 3, 1 - (person + 1) / people, 1 / 3, 1 / people))
+            picture, pixels = portrait(rig, faces, person, gaze[person], yaw_deg=yaw)
+            axes.imshow(picture, interpolation="bilinear")
+            axes.plot(*pixels.T, ".", color="#0040ff", markersize=3)
+            for number, (x, y) in enumerate(pixels):
+                axes.annotate(
+                    str(number), (x, y), (1.5, 1.5), textcoords="offset points", fontsize=5, color="#a00000"
+                )
+            axes.set_axis_off()
+            if person == 0:
+                axes.set_title(view, y=0.95, fontsize=9)
+    try:
+        canvas.print_png(str(out), metadata={"Software": None})
+    except OSError as error:
+        raise OutputError(f"{out} cannot be written: {error.strerror or error}.") from error
