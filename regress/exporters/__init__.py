@@ -1,0 +1,69 @@
+"""Trained models as files that run elsewhere: landmarks in, avatar weights out, alignment included.
+
+Every exporter is one function ``export(formula, folder, name) -> paths`` in a module of its own and one line
+in `EXPORTERS`; the tests run over the table. All write the same `Formula` and agree with ``Model.predict`` to
+1e-4.
+"""
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from regress.errors import InputError, OutputError
+from regress.exporters.c_source import export_c
+from regress.exporters.formula import Formula, formula_of
+from regress.exporters.json_text import export_json
+from regress.exporters.npz_archive import export_npz
+from regress.exporters.onnx_graph import export_onnx
+from regress.model import Model
+
+__all__ = ["EXPORTERS", "Formula", "export_model", "formula_of"]
+
+Exporter = Callable[[Formula, Path, str], tuple[Path, ...]]
+
+EXPORTERS: dict[str, Exporter] = {
+    "onnx": export_onnx,
+    "c": export_c,
+    "json": export_json,
+    "npz": export_npz,
+}
+
+
+def export_model(
+    model: Model, folder: Path, *, name: str, formats: Iterable[str] = EXPORTERS
+) -> tuple[Path, ...]:
+    """Write a model in several formats.
+
+    Parameters
+    ----------
+    model : Model
+    folder : Path
+        Where the files go; made if it is missing.
+    name : str
+        What the files are called, without a suffix.
+    formats : iterable of str
+        Keys of `EXPORTERS`; all by default.
+
+    Returns
+    -------
+    tuple of Path
+        The files; exporting the same model again gives the same bytes.
+
+    Raises
+    ------
+    InputError
+        An unknown format, or a name that a format cannot use; nothing was written in that format.
+    OutputError
+        The folder cannot be written.
+    """
+    formats = tuple(formats)
+    for chosen in formats:
+        if chosen not in EXPORTERS:
+            raise InputError(f"unknown export format {chosen!r}; known are {', '.join(EXPORTERS)}")
+    if not name or Path(name).name != name:
+        raise InputError(f"export name {name!r} must be a file name without a folder")
+    formula = formula_of(model)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        return tuple(path for chosen in formats for path in EXPORTERS[chosen](formula, folder, name))
+    except OSError as error:
+        raise OutputError(f"cannot write the export into {folder}: {error.strerror or error}") from error

@@ -1,0 +1,112 @@
+"""One C99 pair, ``NAME.h`` and ``NAME.c``: no allocation, no state, no dependency but ``math.h``.
+
+The code is a template beside this module (``templates/predict.c``) that a C person can read as it stands;
+here the numbers are put in. Geometry is computed in double, the networks in float.
+"""
+
+import re
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
+from regress.errors import InputError
+from regress.exporters.files import write_whole
+from regress.exporters.formula import Formula
+
+LINE_WIDTH = 110
+C_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+
+def export_c(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:
+    """Write ``NAME.h`` and ``NAME.c``, declaring ``NAME_predict`` and ``NAME_names``.
+
+    Raises
+    ------
+    InputError
+        The name cannot begin a C identifier.
+    """
+    if not C_IDENTIFIER.fullmatch(name):
+        raise InputError(
+            f"--name {name!r} becomes part of C names such as {name}_predict: use letters, digits and "
+            f"underscores, a letter first"
+        )
+    values = _values(formula, name)
+    templates = files("regress.exporters") / "templates"
+    return tuple(
+        write_whole(
+            folder / f"{name}{suffix}",
+            Template((templates / f"predict{suffix}").read_text()).substitute(values),
+        )
+        for suffix in (".h", ".c")
+    )
+
+
+def _values(formula: Formula, name: str) -> dict[str, object]:
+    stacked = formula.stacked()
+    runs = [_run(row) for row in stacked.output_weights]  # (first hidden unit, weights) of each of the 52
+    connection_counts = [len(weights) for _, weights in runs]
+    connections = np.concatenate([weights for _, weights in runs])
+    return {
+        "name": name,
+        "GUARD": name.upper(),
+        "title": f"{name}: {LANDMARK_COUNT} facial landmarks to {len(BLENDSHAPES)} avatar weights.",
+        "licence": _comment(formula.about["licence"]),
+        "dataset": _comment(formula.about["dataset"]),
+        "recipe": _comment(formula.about["recipe"]),
+        "aligned": int(formula.alignment == "affine"),
+        "point_count": LANDMARK_COUNT,
+        "weight_count": len(BLENDSHAPES),
+        "anchor_count": len(formula.anchors),
+        "feature_count": len(formula.edges),
+        "hidden_count": len(stacked.hidden_bias),
+        "connection_count": len(connections),
+        "names": _wrapped(f'"{name}"' for name in BLENDSHAPES),
+        "anchors": _wrapped(map(str, formula.anchors)),
+        "reference": _wrapped(f"{{{x:.17g}, {y:.17g}}}" for x, y in formula.reference),
+        "edges": _wrapped(f"{{{i}, {j}}}" for i, j in [*formula.edges, formula.width_landmarks]),
+        "feature_mean": _wrapped(f"{value:.17g}" for value in formula.feature_mean),
+        "hidden_weights": ",\n".join(f"{{{_floats(row)}}}" for row in stacked.hidden_weights.T),
+        "hidden_bias": _floats(stacked.hidden_bias),
+        "first_hidden": _wrapped(str(first) for first, _ in runs),
+        "first_connection": _wrapped(map(str, np.cumsum([0, *connection_counts]))),
+        "output_weights": _floats(connections),
+        "output_bias": _floats(stacked.output_bias),
+    }
+
+
+def _run(row: np.ndarray) -> tuple[int, np.ndarray]:
+    """First index and values of the shortest run that holds all of a row that is not zero."""
+    used = np.flatnonzero(row)
+    if len(used) == 0:
+        return 0, row[:0]
+    return int(used[0]), row[used[0] : used[-1] + 1]
+
+
+def _floats(values: np.ndarray) -> str:
+    """C literals of type float: nine significant digits bring back the same float32."""
+    return _wrapped(_float(value) for value in np.asarray(values, dtype=np.float32))
+
+
+def _float(value: np.float32) -> str:
+    digits = f"{value:.9g}"
+    return (digits if re.search(r"[.e]", digits) else f"{digits}.0") + "f"
+
+
+def _wrapped(items) -> str:
+    """Items with commas between them, as few lines as fit `LINE_WIDTH`."""
+    lines, line = [], ""
+    for item in items:
+        if line and len(line) + len(item) + 2 > LINE_WIDTH:
+            lines.append(line + ",")
+            line = item
+        else:
+            line = f"{line}, {item}" if line else item
+    return "\n".join([*lines, line])
+
+
+def _comment(text: str) -> str:
+    """A text that cannot end the comment it stands in."""
+    return " ".join(text.replace("*/", "* /").split())

@@ -1,0 +1,162 @@
+"""What every exported file computes, as plain arrays: the form between a model and the exporters.
+
+A face's 68 points become 52 weights in four steps; an exporter only writes them down in its language:
+
+1. ``map``: with P the anchor points less their mean and R the reference, ``inverse(P'P) P'R`` (2 x 2), or
+   the identity where ``alignment`` is ``"none"``;
+2. ``features``: lengths of the edges under the map, over the face's width under the map, less
+   ``feature_mean``;
+3. ``hidden = tanh(hidden_weights features + hidden_bias)``, network by network;
+4. ``weights = output_weights hidden + output_bias``, clipped to `WEIGHT_RANGE`; shapes without a network
+   are 0.
+
+A face with a missing point gives NaN throughout, as in ``Model.predict``.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, FACE_WIDTH_LANDMARKS
+from regress import __version__
+from regress.features import ANCHORS
+from regress.model import Model
+
+FORMAT_VERSION = 1
+"""Of the JSON and NPZ files; raised by any change that breaks a reader."""
+
+WEIGHT_RANGE = (0.0, 1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FormulaNetwork:
+    """One small network that acts on centred features.
+
+    Parameters
+    ----------
+    name
+        For example ``"eyes.blink"``.
+    outputs
+        Blendshapes it gives.
+    hidden_weights : (H, E) float64
+    hidden_bias : (H,) float64
+    output_weights : (len(outputs), H) float64
+    output_bias : (len(outputs),) float64
+    """
+
+    name: str
+    outputs: tuple[str, ...]
+    hidden_weights: np.ndarray
+    hidden_bias: np.ndarray
+    output_weights: np.ndarray
+    output_bias: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class StackedNetworks:
+    """All networks as two matrix products.
+
+    Parameters
+    ----------
+    hidden_weights : (M, E) float64
+        Hidden units of all networks, one below the other.
+    hidden_bias : (M,) float64
+    output_weights : (52, M) float64
+        In `BLENDSHAPES` order; zero outside the network that gives a shape, and for shapes without a network.
+    output_bias : (52,) float64
+    """
+
+    hidden_weights: np.ndarray
+    hidden_bias: np.ndarray
+    output_weights: np.ndarray
+    output_bias: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Formula:
+    """Everything between points and weights, and the words that go with it.
+
+    Parameters
+    ----------
+    alignment
+        ``"affine"`` or ``"none"``.
+    anchors : (A,) int64
+        Landmarks that are aligned.
+    reference : (A, 2) float64
+        Where the anchors are in the mean shape, about their own mean.
+    edges : (E, 2) int64
+        Pairs of landmarks.
+    width_landmarks : (2,) int64
+    feature_mean : (E,) float64
+        Kept apart: folded into the bias it would cost float32 readers two digits.
+    networks
+        In the model's order.
+    about
+        Words for people and tools: ``recipe``, ``dataset``, ``licence``, ``program``.
+    """
+
+    alignment: str
+    anchors: np.ndarray
+    reference: np.ndarray
+    edges: np.ndarray
+    width_landmarks: np.ndarray
+    feature_mean: np.ndarray
+    networks: tuple[FormulaNetwork, ...]
+    about: dict[str, str]
+
+    def stacked(self) -> StackedNetworks:
+        """The networks side by side."""
+        hidden_counts = [len(network.hidden_bias) for network in self.networks]
+        ends = np.cumsum(hidden_counts)
+        output_weights = np.zeros((len(BLENDSHAPES), ends[-1]))
+        output_bias = np.zeros(len(BLENDSHAPES))
+        for network, end, count in zip(self.networks, ends, hidden_counts, strict=True):
+            rows = [BLENDSHAPE_INDEX[name] for name in network.outputs]
+            output_weights[rows, end - count : end] = network.output_weights
+            output_bias[rows] = network.output_bias
+        return StackedNetworks(
+            hidden_weights=np.concatenate([network.hidden_weights for network in self.networks]),
+            hidden_bias=np.concatenate([network.hidden_bias for network in self.networks]),
+            output_weights=output_weights,
+            output_bias=output_bias,
+        )
+
+
+def formula_of(model: Model) -> Formula:
+    """Write a model down as a formula."""
+    reference = model.features.mean_shape[list(ANCHORS)]
+    return Formula(
+        alignment=model.features.alignment,
+        anchors=np.array(ANCHORS, dtype=np.int64),
+        reference=reference - reference.mean(axis=0),
+        edges=model.features.edges,
+        width_landmarks=np.array(FACE_WIDTH_LANDMARKS, dtype=np.int64),
+        feature_mean=model.normalisation.feature_mean,
+        networks=tuple(_network(model, index) for index in range(len(model.table))),
+        about=_about(model),
+    )
+
+
+def _network(model: Model, index: int) -> FormulaNetwork:
+    folded, described = model.networks, model.table[index]
+    hidden = slice(index * folded.hidden, (index + 1) * folded.hidden)
+    outputs = folded.network_of_output == index
+    weights = folded.w1[hidden]
+    return FormulaNetwork(
+        name=described.key,
+        outputs=described.outputs,
+        hidden_weights=weights,
+        hidden_bias=folded.b1[hidden] + weights @ model.normalisation.feature_mean,
+        output_weights=folded.w2[outputs],
+        output_bias=folded.b2[outputs],
+    )
+
+
+def _about(model: Model) -> dict[str, str]:
+    dataset = model.record.get("dataset", {})
+    return {
+        "recipe": model.recipe,
+        "dataset": str(dataset.get("hash", "unknown")),
+        "licence": str(dataset.get("licence", "unknown")),
+        "program": f"regress {__version__}",
+    }

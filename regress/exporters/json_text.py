@@ -1,0 +1,75 @@
+"""JSON that explains itself: what a reader of any language needs, network by network.
+
+===================  =====================================================================================
+key                  what
+===================  =====================================================================================
+format, version      ``"regress-networks"`` and 1; a change that breaks readers raises the version
+about                recipe, dataset hash, licence, program version
+names                the 52 blendshapes in the order of the result
+alignment            ``"affine"``, or ``"none"``: then A below is the identity
+anchors              indices (0-67) of the landmarks that are aligned
+reference            where each anchor is in the mean face, about their own mean
+edges                178 pairs of landmark indices
+width_landmarks      the pair whose distance is the face's width
+feature_mean         178 numbers
+networks             list of ``name``, ``outputs`` (names), ``hidden_weights`` (20 x 178), ``hidden_bias``,
+                     ``output_weights`` (one row an output), ``output_bias``
+constant             names that no network gives, and their value (``tongueOut``: 68 points do not show it)
+weight_range         [0, 1]: what results are clipped to
+===================  =====================================================================================
+
+To evaluate, with P the 31 anchor points of a face less their mean (rows) and R ``reference``:
+1. A = inverse(P'P) P'R, a 2 x 2 matrix (the identity where ``alignment`` is ``"none"``);
+2. length of a pair (i, j) = | (point j - point i) A |, points being rows;
+3. feature e = length of edge e / length of ``width_landmarks`` - ``feature_mean[e]``;
+4. in each network hidden = tanh(``hidden_weights`` feature + ``hidden_bias``), and
+   result = ``output_weights`` hidden + ``output_bias``, clipped.
+"""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES
+from regress.exporters.files import write_whole
+from regress.exporters.formula import FORMAT_VERSION, WEIGHT_RANGE, Formula
+
+
+def export_json(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:
+    """Write ``NAME.json``; this module's first lines are its documentation."""
+    given = {blendshape for network in formula.networks for blendshape in network.outputs}
+    document = {
+        "format": "regress-networks",
+        "version": FORMAT_VERSION,
+        "about": formula.about,
+        "names": list(BLENDSHAPES),
+        "alignment": formula.alignment,
+        "anchors": formula.anchors.tolist(),
+        "reference": formula.reference.tolist(),
+        "edges": formula.edges.tolist(),
+        "width_landmarks": formula.width_landmarks.tolist(),
+        "feature_mean": formula.feature_mean.tolist(),
+        "networks": [
+            {
+                "name": network.name,
+                "outputs": list(network.outputs),
+                "hidden_weights": _nine_digits(network.hidden_weights),
+                "hidden_bias": _nine_digits(network.hidden_bias),
+                "output_weights": _nine_digits(network.output_weights),
+                "output_bias": _nine_digits(network.output_bias),
+            }
+            for network in formula.networks
+        ],
+        "constant": {blendshape: 0.0 for blendshape in BLENDSHAPES if blendshape not in given},
+        "weight_range": list(WEIGHT_RANGE),
+    }
+    text = json.dumps(document, separators=(",", ":"), allow_nan=False)
+    return (write_whole(folder / f"{name}.json", text + "\n"),)
+
+
+def _nine_digits(values: np.ndarray) -> list:
+    """Nested lists of numbers short enough to read, long enough to bring back every float32."""
+    if values.ndim > 1:
+        return [_nine_digits(row) for row in values]
+    return [float(f"{value:.9g}") for value in values]

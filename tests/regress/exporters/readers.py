@@ -1,0 +1,99 @@
+"""Evaluators of exported files, written from the files' own documentation and from nothing in ``regress``."""
+
+import ctypes
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+
+
+def read_json(paths: tuple[Path, ...]):
+    """Follow the four steps that ``json_text`` documents, in float64."""
+    document = json.loads(paths[0].read_text())
+    assert (document["format"], document["version"]) == ("regress-networks", 1)
+
+    def predict(points: np.ndarray) -> np.ndarray:
+        rows = []
+        for face in points.astype(np.float64):
+            matrix = np.eye(2)
+            if document["alignment"] == "affine":
+                anchors = face[document["anchors"]]
+                anchors = anchors - anchors.mean(axis=0)
+                matrix = np.linalg.inv(anchors.T @ anchors) @ anchors.T @ np.array(document["reference"])
+
+            def length(pair, face=face, matrix=matrix):
+                return np.linalg.norm((face[pair[1]] - face[pair[0]]) @ matrix)
+
+            width = length(document["width_landmarks"])
+            feature = (
+                np.array([length(edge) / width for edge in document["edges"]]) - document["feature_mean"]
+            )
+            values = dict(document["constant"])
+            for network in document["networks"]:
+                hidden = np.tanh(np.array(network["hidden_weights"]) @ feature + network["hidden_bias"])
+                result = np.array(network["output_weights"]) @ hidden + network["output_bias"]
+                values.update(
+                    zip(network["outputs"], np.clip(result, *document["weight_range"]), strict=True)
+                )
+            rows.append([values[name] for name in document["names"]])
+        return np.array(rows)
+
+    return predict, tuple(document["names"])
+
+
+def read_npz(paths: tuple[Path, ...]):
+    """Run the lines that ``npz_archive`` documents, in float64."""
+    z = dict(np.load(paths[0], allow_pickle=False))
+
+    def predict(points: np.ndarray) -> np.ndarray:
+        points = points.astype(np.float64)
+        a = points[:, z["anchors"]] - points[:, z["anchors"]].mean(1, keepdims=True)
+        t = a.swapaxes(1, 2)
+        matrix = np.linalg.inv(t @ a) @ (t @ z["reference"]) if z["alignment"] == "affine" else np.eye(2)
+
+        def length(i, j):
+            return np.linalg.norm((points[:, j] - points[:, i]) @ matrix, axis=-1)
+
+        i, j = z["width_landmarks"]
+        ratio = length(*z["edges"].T) / length([i], [j])
+        hidden = np.tanh((ratio - z["feature_mean"]) @ z["hidden_weights"].T + z["hidden_bias"])
+        return np.clip(hidden @ z["output_weights"].T + z["output_bias"], *z["weight_range"])
+
+    return predict, tuple(map(str, z["names"]))
+
+
+def read_onnx(paths: tuple[Path, ...]):
+    """onnxruntime on the CPU, one thread."""
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = 1
+    session = onnxruntime.InferenceSession(paths[0], options, providers=["CPUExecutionProvider"])
+    names = json.loads(session.get_modelmeta().custom_metadata_map["names"])
+    return lambda points: session.run(["weights"], {"points": points.astype(np.float32)})[0], tuple(names)
+
+
+def read_c(paths: tuple[Path, ...]):
+    """The system's C compiler, with every warning an error, as a shared library."""
+    header, source = paths
+    library_path = source.with_suffix(".so")
+    flags = ["-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-pedantic", "-Wconversion", "-Wshadow"]
+    command = ["cc", *flags, "-shared", "-fPIC", str(source), "-o", str(library_path), "-lm"]
+    subprocess.run(command, check=True, capture_output=True, text=True)
+    library = ctypes.CDLL(str(library_path))
+    function = getattr(library, f"{header.stem}_predict")
+    float_pointer = ctypes.POINTER(ctypes.c_float)
+    function.argtypes, function.restype = [float_pointer, float_pointer], None
+    names = (ctypes.c_char_p * 52).in_dll(library, f"{header.stem}_names")
+
+    def predict(points: np.ndarray) -> np.ndarray:
+        points = np.ascontiguousarray(points, dtype=np.float32)
+        weights = np.full((len(points), 52), -1, dtype=np.float32)
+        for face, row in zip(points, weights, strict=True):
+            function(face.ctypes.data_as(float_pointer), row.ctypes.data_as(float_pointer))
+        return weights
+
+    return predict, tuple(name.decode() for name in names)
+
+
+READERS = {"json": read_json, "npz": read_npz, "onnx": read_onnx, "c": read_c}

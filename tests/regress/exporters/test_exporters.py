@@ -1,0 +1,172 @@
+"""Every exporter in the table against ``Model.predict``, which is the reference."""
+
+import shutil
+import subprocess
+
+import hypothesis
+import hypothesis.strategies as st
+import numpy as np
+import onnx
+import pytest
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from regress.errors import InputError, OutputError
+from regress.exporters import EXPORTERS, export_model, formula_of
+from regress.exporters.onnx_graph import OPERATORS, OPSET, build_graph
+from tests.regress.exporters.conftest import draw_faces, random_model
+from tests.regress.exporters.readers import READERS
+
+AGREEMENT = 1e-4
+"""What the project promises. float32 networks give about 1e-6 (measured); the rest is for other runtimes."""
+
+FORMATS = [pytest.param(name, marks=[pytest.mark.compiler] if name == "c" else []) for name in EXPORTERS]
+"""Straight from the table: a new exporter is tested the day it appears, and fails until it has a reader."""
+
+
+@pytest.fixture(scope="session")
+def exported(model, tmp_path_factory):
+    """``exported(format) -> (predict, names)``, each made once."""
+    folder = tmp_path_factory.mktemp("exports")
+    made = {}
+
+    def get(chosen):
+        if chosen == "c" and shutil.which("cc") is None:
+            pytest.skip("no C compiler (cc) on this machine")
+        if chosen not in made:
+            made[chosen] = READERS[chosen](export_model(model, folder, name="face", formats=[chosen]))
+        return made[chosen]
+
+    return get
+
+
+def test_the_models_under_test_swing_like_trained_ones(model, faces):
+    weights = model.predict(faces)
+    assert 0.1 < np.mean(weights == 0) < 0.6
+    assert 0.02 < np.mean(weights == 1) < 0.4
+    assert np.median(weights.std(axis=0)) > 0.2
+
+
+@pytest.mark.parametrize("chosen", FORMATS)
+def test_agrees_with_predict(chosen, model, exported, faces):
+    predict, names = exported(chosen)
+    weights = predict(faces)
+    assert names == BLENDSHAPES
+    assert weights.shape == (len(faces), 52)
+    np.testing.assert_allclose(weights, model.predict(faces), atol=AGREEMENT, rtol=0)
+    assert (weights[:, BLENDSHAPE_INDEX["tongueOut"]] == 0).all()
+    assert weights.min() >= 0
+    assert weights.max() <= 1
+
+
+@pytest.mark.parametrize("chosen", FORMATS)
+@hypothesis.settings(deadline=None, max_examples=25)
+@hypothesis.given(
+    seed=st.integers(0, 2**32 - 1),
+    face_widths_away=st.tuples(st.floats(-30, 30), st.floats(-30, 30)),
+    log10_width=st.floats(-6, 6),
+)
+def test_agrees_far_from_the_origin_and_at_any_scale(
+    chosen, model, exported, seed, face_widths_away, log10_width
+):
+    predict, _ = exported(chosen)
+    shapes = draw_faces(np.random.default_rng(seed), 3)
+    shapes = (shapes - shapes.mean(axis=1, keepdims=True)) / np.ptp(shapes[..., 0], axis=1)[:, None, None]
+    faces = ((shapes + face_widths_away) * 10**log10_width).astype(np.float32)
+    np.testing.assert_allclose(predict(faces), model.predict(faces), atol=AGREEMENT, rtol=0)
+
+
+@pytest.mark.parametrize("chosen", [param for param in FORMATS if param.values[0] in ("onnx", "c")])
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("landmark", [0, 8, 30, 50, 67])
+def test_a_missing_point_gives_nan_for_its_face_alone(chosen, exported, faces, bad, landmark):
+    predict, _ = exported(chosen)
+    broken = faces[:3].copy()
+    broken[1, landmark, 1] = bad
+    weights = predict(broken)
+    assert np.isnan(weights[1]).all()
+    np.testing.assert_array_equal(weights[[0, 2]], predict(faces[:3])[[0, 2]])
+
+
+@pytest.mark.parametrize("chosen", [param for param in FORMATS if param.values[0] in ("onnx", "c")])
+def test_a_face_in_one_point_gives_nan(chosen, exported):
+    predict, _ = exported(chosen)
+    assert np.isnan(predict(np.zeros((1, 68, 2), dtype=np.float32))).all()
+
+
+@pytest.mark.parametrize("chosen", list(EXPORTERS))
+def test_equal_models_give_equal_bytes_and_no_leavings(chosen, tmp_path):
+    def export(folder):
+        return export_model(random_model(np.random.default_rng(7)), folder, name="face", formats=[chosen])
+
+    first, second = export(tmp_path / "a"), export(tmp_path / "b")
+    assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
+    before = [path.read_bytes() for path in first]
+    assert export(tmp_path / "a") == first
+    assert [path.read_bytes() for path in first] == before
+    assert sorted((tmp_path / "a").iterdir()) == sorted(first)
+
+
+@pytest.mark.parametrize("chosen", FORMATS)
+def test_the_shipped_model_agrees(chosen, shipped_model, tmp_path):
+    if chosen == "c" and shutil.which("cc") is None:
+        pytest.skip("no C compiler (cc) on this machine")
+    predict, _ = READERS[chosen](export_model(shipped_model, tmp_path, name="face", formats=[chosen]))
+    rng = np.random.default_rng(8)
+    noise = rng.normal(size=(300, 68, 2)) * 0.01
+    faces = ((shipped_model.features.mean_shape + noise) * 300 + 900).astype(np.float32)
+    np.testing.assert_allclose(predict(faces), shipped_model.predict(faces), atol=AGREEMENT, rtol=0)
+
+
+def test_onnx_is_one_plain_graph(model):
+    graph = build_graph(formula_of(model))
+    assert {node.op_type for node in graph.graph.node} <= OPERATORS
+    assert [(entry.domain, entry.version) for entry in graph.opset_import] == [("", OPSET)]
+    (points,), (weights,) = graph.graph.input, graph.graph.output
+    for value, shape in ((points, ["n", 68, 2]), (weights, ["n", 52])):
+        assert value.type.tensor_type.elem_type == onnx.TensorProto.FLOAT
+        assert [size.dim_param or size.dim_value for size in value.type.tensor_type.shape.dim] == shape
+    about = {prop.key: prop.value for prop in graph.metadata_props}
+    assert set(about) == {"names", "recipe", "dataset", "licence", "program"}
+
+
+def test_onnx_runs_on_one_face(exported, faces):
+    predict, _ = exported("onnx")
+    np.testing.assert_allclose(predict(faces[:1]), predict(faces)[:1], atol=1e-5, rtol=0)
+
+
+@pytest.mark.compiler
+def test_c_header_serves_c_plus_plus(tmp_path):
+    if shutil.which("c++") is None:
+        pytest.skip("no C++ compiler (c++) on this machine")
+    model = random_model(np.random.default_rng(9))
+    header, source = export_model(model, tmp_path, name="face", formats=["c"])
+    program = tmp_path / "main.cpp"
+    program.write_text(
+        f'#include "{header.name}"\n#include <cstdio>\n'
+        "int main() { float points[68][2] = {{0}}, weights[face_WEIGHTS_OF()];\n"
+        "  face_predict(points, weights); std::puts(face_names[17]); }\n".replace(
+            "face_WEIGHTS_OF()", "FACE_WEIGHTS"
+        )
+    )
+    objects = tmp_path / "face.o"
+    subprocess.run(["cc", "-std=c99", "-c", str(source), "-o", str(objects)], check=True)
+    flags = ["-Wall", "-Wextra", "-Werror", "-pedantic"]
+    executable = tmp_path / "main"
+    subprocess.run(["c++", *flags, str(program), str(objects), "-o", str(executable), "-lm"], check=True)
+    assert subprocess.run([str(executable)], capture_output=True, text=True).stdout == "jawOpen\n"
+
+
+def test_c_refuses_names_that_c_cannot_say(model, tmp_path):
+    with pytest.raises(InputError, match="letters, digits and underscores"):
+        export_model(model, tmp_path, name="my-face", formats=["c"])
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_unknown_formats_and_names_with_folders_are_refused(model, tmp_path):
+    with pytest.raises(InputError, match="known are onnx, c, json, npz"):
+        export_model(model, tmp_path, name="face", formats=["xml"])
+    with pytest.raises(InputError, match="without a folder"):
+        export_model(model, tmp_path, name="a/b")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputError, match="cannot write"):
+        export_model(model, tmp_path / "file", name="face", formats=["json"])
