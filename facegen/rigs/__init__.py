@@ -3,6 +3,7 @@
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, visual_axis
 from facegen.rigs.files import load_rig, rigs_folder, save_rig
+from facegen.rigs.neutral import eye_centers, neutral_landmarks
 from facegen.rigs.rig import Rig
 
 __all__ = [
@@ -10,9 +11,11 @@ __all__ = [
     "EyeGeometry",
     "Rig",
     "evaluate",
+    "eye_centers",
     "eye_geometry",
     "lid_support_radius",
     "load_rig",
+    "neutral_landmarks",
     "rigs_folder",
     "save_rig",
     "visual_axis",

@@ -1,0 +1,96 @@
+"""Labels of one rendered view: what the headset's camera sees of landmarks and eyes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import Part, Visibility
+from facegen.geometry import apply_transform, project
+from facegen.raster import hidden, triangles_of
+from facegen.rigs.eyes import EyeGeometry
+from facegen.scene import Mesh, View
+
+VIEW_TOLERANCE_M = 5e-4
+"""A face of the rendered mesh must be this much nearer to hide a landmark: half of the millimetre by which `validate`
+lets a visible landmark differ from the picture's depth."""
+
+TRANSPARENT = (Part.CORNEA, Part.LASHES)
+"""Parts that hide nothing behind them: the cornea is clear, lashes are strands."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ViewLabels:
+    """Labels of a view. Pixels as in `facegen.conventions`, points in the camera frame, metres.
+
+    Attributes
+    ----------
+    points_2d, points_camera, visibility
+        (68, 2) pixels (NaN behind the camera), (68, 3), and (68,) `facegen.conventions.Visibility`.
+    eye_center_2d, pupil_center_2d
+        (2, 2) pixels of eyeball and pupil centres, subject's left first; the pupil's without refraction.
+    pupil_center_camera
+        (2, 3) centres of the pupils.
+    gaze_camera
+        (2, 3) unit optical axes in the camera frame.
+    """
+
+    points_2d: np.ndarray
+    points_camera: np.ndarray
+    visibility: np.ndarray
+    eye_center_2d: np.ndarray
+    pupil_center_2d: np.ndarray
+    pupil_center_camera: np.ndarray
+    gaze_camera: np.ndarray
+
+
+def occluders(meshes: tuple[Mesh, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (V, 3) and triangles (T, 3) of everything opaque in a scene, as one mesh in the head frame."""
+    vertices, triangles, start = [], [], 0
+    for mesh in meshes:
+        opaque = ~np.isin(mesh.part, TRANSPARENT)
+        vertices.append(mesh.vertices)
+        triangles.append(triangles_of(mesh.faces[opaque]) + start)
+        start += len(mesh.vertices)
+    return np.concatenate(vertices), np.concatenate(triangles)
+
+
+def label_view(
+    view: View,
+    landmarks: np.ndarray,
+    eyes: tuple[EyeGeometry, EyeGeometry],
+    occluder: tuple[np.ndarray, np.ndarray],
+) -> ViewLabels:
+    """Labels of one view.
+
+    Parameters
+    ----------
+    view
+        Camera and ``camera_from_head``.
+    landmarks
+        (68, 3) head frame, metres.
+    eyes
+        The subject's left and right eye.
+    occluder
+        What `occluders` gives for the scene.
+    """
+    in_camera = apply_transform(view.camera_from_head, landmarks)
+    points_2d = project(view.camera, in_camera)
+    vertices, triangles = occluder
+    covered = hidden(
+        in_camera, apply_transform(view.camera_from_head, vertices), triangles, tolerance_m=VIEW_TOLERANCE_M
+    )
+    inside = view.camera.contains(points_2d) & (in_camera[:, 2] > 0)
+    visibility = np.where(inside, np.where(covered, Visibility.HIDDEN, Visibility.VISIBLE), Visibility.OUTSIDE)
+    centers = apply_transform(view.camera_from_head, np.stack([eye.center for eye in eyes]))
+    pupils = apply_transform(
+        view.camera_from_head, np.stack([eye.center + eye.iris_plane_offset * eye.axis for eye in eyes])
+    )
+    return ViewLabels(
+        points_2d=points_2d,
+        points_camera=in_camera,
+        visibility=visibility.astype(np.uint8),
+        eye_center_2d=project(view.camera, centers),
+        pupil_center_2d=project(view.camera, pupils),
+        pupil_center_camera=pupils,
+        gaze_camera=np.stack([eye.axis for eye in eyes]) @ view.camera_from_head[:3, :3].T,
+    )

@@ -1,0 +1,40 @@
+"""Datasets on disk."""
+
+from facegen.store.dataset import Dataset, begin, open_dataset, resolve
+from facegen.store.folder import (
+    DatasetFolder,
+    commit_file,
+    commit_folder,
+    output_errors,
+    read_json,
+    shard_samples,
+    staging,
+    write_json,
+)
+from facegen.store.images import exr_bytes, png_bytes, read_exr, read_png
+from facegen.store.keypoint_table import column_array, keypoint_schema, keypoint_table, write_shard
+from facegen.store.record import sample_record
+
+__all__ = [
+    "Dataset",
+    "DatasetFolder",
+    "begin",
+    "column_array",
+    "commit_file",
+    "commit_folder",
+    "exr_bytes",
+    "keypoint_schema",
+    "keypoint_table",
+    "open_dataset",
+    "output_errors",
+    "png_bytes",
+    "read_exr",
+    "read_json",
+    "read_png",
+    "resolve",
+    "sample_record",
+    "shard_samples",
+    "staging",
+    "write_json",
+    "write_shard",
+]

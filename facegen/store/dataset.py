@@ -1,0 +1,186 @@
+"""A dataset opened or begun: its spec with everything the spec names, and the folder it lives in."""
+
+import hashlib
+import importlib.metadata
+import json
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import tomli_w
+from pydantic import TypeAdapter
+
+from facegen.conventions import BLENDSHAPES, SHARD_ROWS
+from facegen.errors import InputError
+from facegen.headsets import Headset, load_headset
+from facegen.rigs import Rig, load_rig
+from facegen.sampling import Plan, plan_dataset
+from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_hash, spec_table
+from facegen.store.folder import DatasetFolder, commit_file, output_errors, read_json, staging, write_json
+from facegen.store.keypoint_table import column_array
+
+_PACKAGES = ("facegen", "numpy", "scipy", "pyarrow", "bpy", "opencv-contrib-python-headless", "OpenEXR")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Dataset:
+    """A spec, the assets it names, and where its samples lie.
+
+    Attributes
+    ----------
+    folder
+        Where the dataset is, or will be.
+    plan
+        The spec, its recording and the number of samples.
+    rig, headset
+        What the spec names; the headset's pictures already have the spec's size.
+    hash
+        `facegen.spec.spec_hash` of all of it.
+    """
+
+    folder: DatasetFolder
+    plan: Plan
+    rig: Rig
+    headset: Headset
+    hash: str
+
+    @property
+    def spec(self) -> Spec:
+        """The checked spec."""
+        return self.plan.spec
+
+    @property
+    def shards(self) -> int:
+        """Number of keypoint shards when the dataset is complete."""
+        return -(-self.plan.samples // SHARD_ROWS)
+
+    def samples_to_render(self, ranges: str | None = None) -> list[int]:
+        """Numbers of the samples to render: ``ranges`` (``"0-99,140"``) or, without, the spec's own."""
+        text = self.spec.render.samples if ranges is None else ranges
+        where = "render.samples" if ranges is None else "--samples"
+        return sample_numbers(text, total=self.plan.samples, where=where)
+
+    def keypoints(self) -> pa.Table:
+        """All finished keypoint shards as one Arrow table."""
+        shards = self.folder.shards()
+        if not shards:
+            raise InputError(f"{self.folder.path}: has no keypoints yet; run: facegen generate")
+        return pa.concat_tables([pq.read_table(shard) for shard in shards])
+
+    def array(self, column: str) -> np.ndarray:
+        """A keypoint column as (n, ...) array, for example ``array("points_2d")`` (n, 68, 2)."""
+        return column_array(self.keypoints(), column)
+
+    def sample(self, number: int) -> dict:
+        """``sample.json`` of a rendered sample."""
+        return read_json(self.folder.render(number) / "sample.json")
+
+
+def resolve(spec: Spec, out: str | Path) -> Dataset:
+    """A spec with its assets loaded; reads, writes nothing.
+
+    Raises
+    ------
+    InputError
+        If the rig, the headset or the recording is missing or damaged.
+    """
+    plan, rig = plan_dataset(spec), load_rig(spec.rig)
+    headset = load_headset(spec.render.headset)
+    assets = {"rig": rig.sha256, "headset": _content_sha256(TypeAdapter(Headset).dump_python(headset, mode="json"))}
+    if plan.recording is not None:
+        assets["recording"] = hashlib.sha256(np.ascontiguousarray(plan.recording).tobytes()).hexdigest()
+    return Dataset(
+        folder=DatasetFolder(Path(out)),
+        plan=plan,
+        rig=rig,
+        headset=headset.scaled(spec.render.size_px),
+        hash=spec_hash(spec, asset_sha256=assets),
+    )
+
+
+def begin(dataset: Dataset) -> None:
+    """Write ``spec.toml`` and ``dataset.json`` of a new dataset; check an old one.
+
+    Raises
+    ------
+    InputError
+        If the folder holds a dataset of another spec, or other files.
+    OutputError
+        If the folder cannot be written.
+    """
+    folder = dataset.folder
+    if folder.dataset_json.is_file():
+        found = read_json(folder.dataset_json).get("spec_hash")
+        if found != dataset.hash:
+            raise InputError(
+                f"{folder.path}: holds a dataset of another spec (its hash is {str(found)[:12]}, this spec's with its rig "
+                f"and headset {dataset.hash[:12]}); choose another folder, or delete this one"
+            )
+        return
+    with output_errors(folder.path):
+        if folder.path.is_dir() and any(p.name not in ("tmp", "logs") for p in folder.path.iterdir()):
+            raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
+        folder.path.mkdir(parents=True, exist_ok=True)
+    table = spec_table(dataset.spec)
+    with staging(folder, "begin") as stage:
+        if dataset.spec.playback is not None:
+            shutil.copyfile(dataset.spec.playback.recording, stage / "recording.csv")
+            commit_file(stage / "recording.csv", folder.recording_csv)
+            table["playback"]["recording"] = folder.recording_csv.name
+        (stage / "spec.toml").write_text(tomli_w.dumps(_without_none(table)), encoding="utf-8")
+        commit_file(stage / "spec.toml", folder.spec_toml)
+        write_json(stage / "dataset.json", _description(dataset))
+        commit_file(stage / "dataset.json", folder.dataset_json)
+
+
+def open_dataset(path: str | Path) -> Dataset:
+    """Open a dataset on disk.
+
+    Raises
+    ------
+    InputError
+        If there is none, or its rig or headset is no longer the one it was made with.
+    """
+    folder = DatasetFolder(Path(path))
+    described = read_json(folder.dataset_json)
+    spec = load_spec(folder.spec_toml)
+    dataset = resolve(spec, path)
+    if dataset.hash != described.get("spec_hash"):
+        raise InputError(
+            f"{path}: was made with another version of rig {spec.rig!r}, headset {spec.render.headset!r} or of facegen's "
+            f"labels ({described.get('label_version')}, now {LABEL_VERSION}); build those again, or make the dataset anew"
+        )
+    return dataset
+
+
+def _description(dataset: Dataset) -> dict:
+    return {
+        "format": 1,
+        "spec_hash": dataset.hash,
+        "label_version": LABEL_VERSION,
+        "seed": dataset.spec.seed,
+        "samples": dataset.plan.samples,
+        "people": dataset.spec.people,
+        "rig": {
+            "name": dataset.rig.name,
+            "sha256": dataset.rig.sha256,
+            "version": dataset.rig.version,
+            "source": dataset.rig.source,
+            "licence": dataset.rig.licence,
+        },
+        "headset": dataset.headset.name,
+        "licence": f"Pictures and labels derive from the rig {dataset.rig.name!r}: {dataset.rig.licence}",
+        "blendshapes": list(BLENDSHAPES),
+        "versions": {name: importlib.metadata.version(name) for name in _PACKAGES},
+    }
+
+
+def _content_sha256(content: object) -> str:
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def _without_none(table: dict) -> dict:
+    return {k: _without_none(v) if isinstance(v, dict) else v for k, v in table.items() if v is not None}

@@ -1,0 +1,145 @@
+"""A dataset's folder: where everything lies, and how things appear in it complete or not at all."""
+
+import contextlib
+import errno
+import json
+import os
+import shutil
+import socket
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from facegen.conventions import SHARD_ROWS
+from facegen.errors import InputError, OutputError
+
+SAMPLES_PER_FOLDER = 1000
+
+
+@dataclass(frozen=True)
+class DatasetFolder:
+    """Paths inside a dataset; nothing is read or written by making one."""
+
+    path: Path
+
+    @property
+    def dataset_json(self) -> Path:
+        """What the dataset is: spec hash, versions, licences."""
+        return self.path / "dataset.json"
+
+    @property
+    def spec_toml(self) -> Path:
+        """The resolved spec."""
+        return self.path / "spec.toml"
+
+    @property
+    def recording_csv(self) -> Path:
+        """Copy of the recording of a playback."""
+        return self.path / "recording.csv"
+
+    def shard(self, index: int) -> Path:
+        """Keypoints of samples ``index * 10,000`` and on."""
+        return self.path / "keypoints" / f"shard-{index:05d}.parquet"
+
+    def render(self, sample: int) -> Path:
+        """Folder of one rendered sample."""
+        return self.path / "renders" / f"{sample // SAMPLES_PER_FOLDER:03d}" / f"{sample:06d}"
+
+    def quarantine(self, name: str) -> Path:
+        """Record of a task that failed for good."""
+        return self.path / "quarantine" / name
+
+    def shards(self) -> list[Path]:
+        """Finished shards, in order."""
+        return sorted((self.path / "keypoints").glob("shard-*.parquet"))
+
+    def rendered(self) -> list[int]:
+        """Numbers of the finished rendered samples, in order."""
+        return sorted(int(p.name) for p in (self.path / "renders").glob("[0-9]*/[0-9]*") if p.name.isdigit())
+
+
+def shard_samples(index: int, *, total: int) -> range:
+    """Samples in a shard of a dataset of ``total`` samples."""
+    return range(index * SHARD_ROWS, min((index + 1) * SHARD_ROWS, total))
+
+
+@contextlib.contextmanager
+def output_errors(path: Path) -> Iterator[None]:
+    """Turns the operating system's refusals to write into `OutputError`, with the place and the reason."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno in (errno.ENOSPC, errno.EDQUOT):
+            raise OutputError(f"{path}: no space left; free some and run the same command again") from error
+        if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST, errno.EISDIR):
+            raise OutputError(f"{path}: cannot be written ({os.strerror(error.errno)}); choose another folder") from error
+        raise
+
+
+def sync(path: Path) -> None:
+    """Flush a file or folder to the disk, so that a rename after it never shows an empty file."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+@contextlib.contextmanager
+def staging(folder: DatasetFolder, name: str) -> Iterator[Path]:
+    """A private folder below ``tmp/`` for half-made things; removed at the end, whatever happened."""
+    stamp = f"{socket.gethostname()}-{os.getpid()}-{time.time_ns()}"
+    path = folder.path / "tmp" / f"{name}-{stamp}"
+    with output_errors(path):
+        path.mkdir(parents=True)
+    try:
+        with output_errors(path):
+            yield path
+    finally:
+        shutil.rmtree(path, ignore_errors=True)
+
+
+def commit_file(source: Path, target: Path) -> None:
+    """Let a finished file appear under its name, at once and whole; an existing file is replaced by its equal."""
+    sync(source)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    os.replace(source, target)
+    sync(target.parent)
+
+
+def commit_folder(source: Path, target: Path) -> bool:
+    """Let a finished folder appear under its name; False if another worker was first (its content is equal)."""
+    for file in source.iterdir():
+        sync(file)
+    sync(source)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        os.rename(source, target)
+    except OSError as error:
+        if error.errno in (errno.ENOTEMPTY, errno.EEXIST) and target.is_dir():
+            return False
+        raise
+    sync(target.parent)
+    return True
+
+
+def write_json(path: Path, content: object) -> None:
+    """Write JSON with sorted keys, one way only, so that equal content gives equal bytes."""
+    path.write_text(json.dumps(content, sort_keys=True, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def read_json(path: Path) -> dict:
+    """Read JSON.
+
+    Raises
+    ------
+    InputError
+        If there is no such file or it is not JSON.
+    """
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError(f"{path}: there is no such file, so {path.parent} is not a facegen dataset") from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read as JSON ({error})") from None

@@ -1,0 +1,113 @@
+"""``sample.json``: the labels of one rendered sample as JSON."""
+
+from typing import Any
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES, SIDES, SPLITS
+from facegen.geometry import Camera
+from facegen.headsets import Sensor
+from facegen.labels import RenderedSample, ViewLabels
+from facegen.rigs import EyeGeometry, visual_axis
+from facegen.scene import Lamp, View
+
+
+def numbers(array: np.ndarray) -> Any:
+    """Nested lists of float32-rounded numbers (None for NaN): what the keypoint shards hold, to the last digit."""
+    array = np.asarray(array)
+    if array.dtype.kind in "iub":
+        return array.tolist()
+    rounded = array.astype(np.float32)
+    # the shortest decimal that reads back as the same float32
+    return np.vectorize(lambda x: None if np.isnan(x) else float(str(x)), otypes=[object])(rounded).tolist()
+
+
+def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str, headset: str, sensor: Sensor) -> dict:
+    """Labels of a rendered sample that follow from (spec, sample number) alone; pictures' checksums come on top."""
+    samples, keypoints = rendered.samples, rendered.keypoints
+    return {
+        "spec_hash": dataset_hash,
+        "rig": rig,
+        "sample": int(samples.sample[0]),
+        "person": int(samples.person[0]),
+        "session": int(samples.session[0]),
+        "clip": int(samples.clip[0]),
+        "frame": int(samples.frame[0]),
+        "time_s": float(samples.time_s[0]),
+        "split": SPLITS[samples.split[0]],
+        "neutral": bool(samples.neutral[0]),
+        "sex": "female" if samples.female[0] else "male",
+        "age_years": numbers(samples.age_years[0]),
+        "weights": dict(zip(BLENDSHAPES, numbers(samples.weights[0]), strict=True)),
+        "identity": numbers(samples.identity[0]),
+        "keypoints": {
+            "points_2d": numbers(keypoints.points_2d[0]),
+            "detected_2d": numbers(keypoints.detected_2d[0]),
+            "points_3d": numbers(keypoints.points_3d[0]),
+            "visibility": numbers(keypoints.visibility[0]),
+            "camera_from_head": samples.camera_from_head[0].tolist(),
+            "intrinsics": samples.intrinsics[0].tolist(),
+        },
+        "eyes": {side: _eye(eye, sight) for side, eye, sight in _by_side(rendered)},
+        "headset": {
+            "name": headset,
+            "head_from_headset": rendered.head_from_headset.tolist(),
+            "lamps": [_lamp(lamp) for lamp in rendered.scene.lamps],
+            "sensor": {
+                "exposure": float(sensor.exposure),
+                "black_level": float(sensor.black_level),
+                "bits": int(sensor.bits),
+            },
+        },
+        "views": {view.name: _view(view, rendered.views[view.name]) for view in rendered.scene.views},
+    }
+
+
+def _by_side(rendered: RenderedSample) -> zip:
+    return zip(SIDES, rendered.eyes, visual_axis(np.stack([eye.axis for eye in rendered.eyes])), strict=True)
+
+
+def _eye(eye: EyeGeometry, sight: np.ndarray) -> dict:
+    return {
+        "center": numbers(eye.center),
+        "radius_m": numbers(eye.radius),
+        "optical_axis": numbers(eye.axis),
+        "visual_axis": numbers(sight),
+        "pupil_radius_m": numbers(eye.pupil_radius),
+        "pupil_center": numbers(eye.center + eye.iris_plane_offset * eye.axis),
+    }
+
+
+def _lamp(lamp: Lamp) -> dict:
+    return {
+        "name": lamp.name,
+        "position": numbers(lamp.position),
+        "direction": numbers(lamp.direction),
+        "diameter_m": lamp.diameter_m,
+        "power_w": lamp.power_w,
+        "spread_rad": lamp.spread_rad,
+    }
+
+
+def _camera(camera: Camera) -> dict:
+    return {
+        "model": camera.model,
+        "width": camera.width,
+        "height": camera.height,
+        **{name: float(getattr(camera, name)) for name in ("fx", "fy", "cx", "cy")},
+        "distortion": [float(term) for term in camera.coefficients],
+    }
+
+
+def _view(view: View, labels: ViewLabels) -> dict:
+    return {
+        "camera": _camera(view.camera),
+        "camera_from_head": view.camera_from_head.tolist(),
+        "points_2d": numbers(labels.points_2d),
+        "points_camera": numbers(labels.points_camera),
+        "visibility": numbers(labels.visibility),
+        "eye_center_2d": dict(zip(SIDES, numbers(labels.eye_center_2d), strict=True)),
+        "pupil_center_2d": dict(zip(SIDES, numbers(labels.pupil_center_2d), strict=True)),
+        "pupil_center_camera": dict(zip(SIDES, numbers(labels.pupil_center_camera), strict=True)),
+        "gaze_camera": dict(zip(SIDES, numbers(labels.gaze_camera), strict=True)),
+    }

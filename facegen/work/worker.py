@@ -1,0 +1,116 @@
+"""One worker: makes shards and rendered samples, each committed by one rename."""
+
+import hashlib
+
+import pyarrow as pa
+
+from facegen.conventions import BLOCK
+from facegen.labels import RenderedSample, label_keypoints, label_rendered
+from facegen.randomness import stream
+from facegen.sampling import Samples, draw_samples
+from facegen.sensor import develop
+from facegen.store import (
+    Dataset,
+    commit_file,
+    commit_folder,
+    exr_bytes,
+    keypoint_table,
+    png_bytes,
+    sample_record,
+    shard_samples,
+    staging,
+    write_json,
+    write_shard,
+)
+from facegen.work.tasks import Task
+
+
+class Worker:
+    """Makes the tasks of one dataset; Blender is started by the first picture and kept.
+
+    Parameters
+    ----------
+    dataset
+        What to make.
+    threads
+        Threads for Blender.
+    """
+
+    def __init__(self, dataset: Dataset, *, threads: int) -> None:
+        self.dataset = dataset
+        self.threads = threads
+        self._renderer = None
+        self._block: tuple[int, Samples] | None = None
+
+    def make(self, task: Task) -> None:
+        """Make one task and let it appear under its name."""
+        if task.kind == "shard":
+            self._make_shard(task.number)
+        else:
+            self._make_sample(task.number)
+
+    def _samples(self, block: int) -> Samples:
+        if self._block is None or self._block[0] != block:
+            self._block = block, draw_samples(self.dataset.plan, self.dataset.rig, block)
+        return self._block[1]
+
+    def _make_shard(self, number: int) -> None:
+        dataset, spec = self.dataset, self.dataset.spec
+        rows = shard_samples(number, total=dataset.plan.samples)
+        tables = []
+        for block in range(rows.start // BLOCK, -(-rows.stop // BLOCK)):
+            # a block is always drawn whole; a row's labels follow from the row alone, so only real rows get them
+            samples = self._samples(block).rows(slice(0, min(BLOCK, rows.stop - block * BLOCK)))
+            keypoints = label_keypoints(spec, dataset.rig, samples)
+            size = spec.camera.width_px, spec.camera.height_px
+            tables.append(keypoint_table(samples, keypoints, image_size=size))
+        with staging(dataset.folder, f"shard-{number}") as stage:
+            path = stage / "shard.parquet"
+            write_shard(pa.concat_tables(tables).combine_chunks(), path)
+            commit_file(path, dataset.folder.shard(number))
+
+    def _make_sample(self, number: int) -> None:
+        dataset = self.dataset
+        rendered = label_sample(dataset, number, self._samples(number // BLOCK))
+        files = self._pictures(rendered)
+        record = sample_record(
+            rendered,
+            dataset_hash=dataset.hash,
+            rig=dataset.rig.name,
+            headset=dataset.headset.name,
+            sensor=dataset.headset.sensor,
+        )
+        record["render"] = {
+            **self._renderer.description,
+            "samples_per_pixel": dataset.spec.render.samples_per_pixel,
+            "denoise": dataset.spec.render.denoise,
+        }
+        record["sha256"] = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
+        with staging(dataset.folder, f"sample-{number}") as stage:
+            for name, content in files.items():
+                (stage / name).write_bytes(content)
+            write_json(stage / "sample.json", record)
+            commit_folder(stage, dataset.folder.render(number))
+
+    def _pictures(self, rendered: RenderedSample) -> dict[str, bytes]:
+        from facegen.blender import Renderer  # half a second and 250 MB that shards do not need
+
+        settings = self.dataset.spec.render
+        if self._renderer is None:
+            self._renderer = Renderer(threads=self.threads)
+        files = {}
+        for view in rendered.scene.views:
+            key = f"render/{view.name}"
+            seed = int(stream(self.dataset.spec.seed, key, int(rendered.samples.sample[0])).integers(1, 2**31 - 1))
+            layers = self._renderer.render(
+                rendered.scene, view.name, samples=settings.samples_per_pixel, seed=seed, denoise=settings.denoise
+            )
+            files[f"{view.name}.png"] = png_bytes(develop(layers.radiance, self.dataset.headset.sensor))
+            files[f"{view.name}.exr"] = exr_bytes(layers)
+        return files
+
+
+def label_sample(dataset: Dataset, number: int, block: Samples) -> RenderedSample:
+    """Scene and labels of one sample out of its drawn block."""
+    row = number % BLOCK
+    return label_rendered(dataset.spec, dataset.rig, dataset.headset, block.rows(slice(row, row + 1)))
