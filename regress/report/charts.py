@@ -1,0 +1,169 @@
+"""The report's figures as SVG text: drawn in classes, so that the page's style decides the colours."""
+
+from collections.abc import Sequence
+from html import escape
+
+import numpy as np
+
+from regress.report.axes import Scale, label
+from regress.report.content import LearningCurve, RegressionPlot, ShapeScores
+
+BAR_ROW = 17
+BAR_NAMES = 158
+BAR_WIDTH = 900
+BAR_VALUES = 52
+
+
+def score_bars(scores: Sequence[ShapeScores]) -> str:
+    """One row a shape: the network's R2 as a bar, ridge regression's as a mark; grouped by region."""
+    # Below -0.2 a shape is simply not seen; a longer bar would squeeze all the others.
+    low = min(0.0, max(-0.2, min(min(score.network.r2, score.ridge.r2) for score in scores)))
+    x = Scale(low=low, high=1.0, start=BAR_NAMES + 6, stop=BAR_WIDTH - BAR_VALUES)
+    rows, y, region = [], 26.0, None
+    for score in scores:
+        if score.region != region:
+            region = score.region
+            rows.append(_text(0, y + 13, region, "region"))
+            y += 20
+        rows.append(_score_bar(score, x, y))
+        y += BAR_ROW
+    height = y + 8
+    grid = [_line(x(tick), 20, x(tick), y + 2, "zero" if tick == 0 else "grid") for tick in x.ticks()]
+    ticks = [_text(x(tick), 12, label(tick), "tick middle") for tick in x.ticks()]
+    return _svg(BAR_WIDTH, height, [*grid, *ticks, *rows], "R squared of every shape, networks beside ridge")
+
+
+def _score_bar(score: ShapeScores, x: Scale, y: float) -> str:
+    network, ridge = score.network.r2, score.ridge.r2
+    left, right = sorted((float(x(0.0)), float(x(network))))
+    width = max(right - left, 0.5)
+    middle = y + BAR_ROW / 2
+    title = escape(f"{score.name}: network {network:.3f}, ridge {ridge:.3f}")
+    return (
+        f"<g><title>{title}</title>"
+        + _text(BAR_NAMES - 8, middle + 4, score.name, "name end")
+        + f'<rect class="bar {score.grade}" x="{left:.1f}" y="{y + 3:.1f}" width="{width:.1f}" '
+        f'height="{BAR_ROW - 6}" rx="1.5"/>'
+        + _line(x(ridge), y + 1.5, x(ridge), y + BAR_ROW - 1.5, "ridge")
+        + _text(BAR_WIDTH, middle + 4, _signed(network), "value end")
+        + "</g>"
+    )
+
+
+def learning_curves(curve: LearningCurve) -> str:
+    """Training, validation and test error against steps, logarithmic, with the chosen step marked."""
+    width, height, left, bottom = 900, 320, 58, 46
+    parts = _curve_parts(curve, (left, 14, width - 110, height - bottom), large=True)
+    return _svg(width, height, parts, f"Learning curves, {curve.name}")
+
+
+def small_curves(curve: LearningCurve, *, low: float, high: float) -> str:
+    """The same, small, to stand in a grid: one range of errors for all."""
+    box = (30, 20, 206, 112)
+    parts = _curve_parts(curve, box, large=False, low=low, high=high)
+    return _svg(214, 132, [_text(30, 12, curve.name, "name"), *parts], f"Learning curves of {curve.name}")
+
+
+def _curve_parts(curve: LearningCurve, box, *, large: bool, low: float = 0.0, high: float = 0.0) -> list[str]:
+    left, top, right, bottom = box
+    series = {"train": curve.train, "validation": curve.validation, "test": curve.test}
+    known = np.concatenate([values for values in series.values() if len(values)])
+    y = Scale(
+        low=low or known.min() * 0.9, high=high or known.max() * 1.1, start=bottom, stop=top, logarithmic=True
+    )
+    steps = max(len(curve.train) - 1, 1)
+    x = Scale(low=0, high=steps, start=left, stop=right)
+    parts = []
+    for tick in y.ticks():
+        parts.append(_line(left, y(tick), right, y(tick), "grid"))
+        if large or f"{tick:e}"[0] == "1":
+            parts.append(_text(left - 6, y(tick) + 4, label(tick), "tick end"))
+    for tick in x.ticks(10) if large else (0, steps):
+        if tick == int(tick):
+            parts.append(_text(x(tick), bottom + (18 if large else 14), label(tick), "tick middle"))
+    if curve.best_step is not None:
+        parts.append(_line(x(curve.best_step), top, x(curve.best_step), bottom, "chosen"))
+    for name, values in series.items():
+        if len(values):
+            places = zip(x(np.arange(len(values))), y(np.asarray(values)), strict=True)
+            path = "L".join(f"{a:.1f} {b:.1f}" for a, b in places)
+            parts.append(f'<path class="curve {name}" d="M{path}"/>')
+    if large:
+        parts += _end_labels(series, y, right)
+        parts.append(_text((left + right) / 2, bottom + 38, "Levenberg-Marquardt step", "tick middle"))
+    return parts
+
+
+def _end_labels(series: dict[str, np.ndarray], y: Scale, right: float) -> list[str]:
+    """Names at the curves' ends, kept 15 units apart where curves end close together."""
+    ends = sorted((float(y(values[-1])), name) for name, values in series.items() if len(values))
+    parts, last = [], -np.inf
+    for place, name in ends:
+        last = max(place, last + 15)
+        parts.append(_text(right + 8, last + 4, name, f"label {name}"))
+    return parts
+
+
+PANEL = 280
+PANEL_CELLS = 50
+PANEL_SHADES = 9
+
+
+def regression_panel(plot: RegressionPlot) -> str:
+    """Predicted against true weights as a density, with the line of equality and the best fit."""
+    low, high = -0.1, 1.1
+    x = Scale(low=low, high=high, start=38, stop=PANEL - 6)
+    y = Scale(low=low, high=high, start=PANEL - 40, stop=8)
+    ticks = (0, 0.25, 0.5, 0.75, 1)
+    parts = [_line(x(tick), y(low), x(tick), y(high), "grid") for tick in ticks]
+    parts += [_line(x(low), y(tick), x(high), y(tick), "grid") for tick in ticks]
+    parts += _density(plot, x, y, low, high)
+    parts.append(_line(x(0), y(0), x(1), y(1), "equal"))
+    start, stop = plot.intercept, plot.intercept + plot.slope
+    parts.append(_line(x(0), y(start), x(1), y(stop), "fit"))
+    parts += [_text(x(tick), PANEL - 24, label(tick), "tick middle") for tick in ticks]
+    parts += [_text(32, y(tick) + 4, label(tick), "tick end") for tick in ticks]
+    parts.append(_text((x(low) + x(high)) / 2, PANEL - 6, "true weight", "tick middle"))
+    parts.append(
+        f'<text class="tick middle" transform="translate(9 {(y(low) + y(high)) / 2:.1f}) rotate(-90)">'
+        "predicted</text>"
+    )
+    return _svg(PANEL, PANEL, parts, f"Predicted against true weights, {plot.split} faces")
+
+
+def _density(plot: RegressionPlot, x: Scale, y: Scale, low: float, high: float) -> list[str]:
+    """Cells in a few shades, one path a shade; shades follow the logarithm of the count."""
+    edges = np.linspace(low, high, PANEL_CELLS + 1)
+    inside = np.clip(plot.true, low, high), np.clip(plot.predicted, low, high)
+    counts, _, _ = np.histogram2d(*inside, bins=[edges, edges])
+    shades = np.log1p(counts) / np.log1p(counts.max())
+    shades = np.minimum(np.ceil(PANEL_SHADES * shades), PANEL_SHADES).astype(int)
+    width, height = (x(high) - x(low)) / PANEL_CELLS, (y(low) - y(high)) / PANEL_CELLS
+    parts = []
+    for shade in range(1, PANEL_SHADES + 1):
+        cells = "".join(
+            f"M{x(edges[i]):.1f} {y(edges[j]):.1f}h{width:.2f}v-{height:.2f}h-{width:.2f}z"
+            for i, j in np.argwhere(shades == shade)
+        )
+        if cells:
+            parts.append(
+                f'<path class="cell" fill-opacity="{0.06 + 0.94 * shade / PANEL_SHADES:.2f}" d="{cells}"/>'
+            )
+    return parts
+
+
+def _signed(value: float) -> str:
+    return f"{value:.3f}".replace("-", "\N{MINUS SIGN}")
+
+
+def _line(x1: float, y1: float, x2: float, y2: float, kind: str) -> str:
+    return f'<line class="{kind}" x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}"/>'
+
+
+def _text(x: float, y: float, text: str, kind: str) -> str:
+    return f'<text class="{kind}" x="{x:.1f}" y="{y:.1f}">{escape(text)}</text>'
+
+
+def _svg(width: float, height: float, parts: Sequence[str], description: str) -> str:
+    named = f'role="img" aria-label="{escape(description, quote=True)}"'
+    return f'<svg viewBox="0 0 {width:.0f} {height:.0f}" {named}>{"".join(parts)}</svg>'

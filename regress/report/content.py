@@ -1,0 +1,157 @@
+"""What a report says, as plain records: read from a model once, then only drawn and printed."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+SEEN_R2, PARTLY_R2 = 0.7, 0.3
+"""Where a reader may trust a shape, and where it is no better than a hint."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figures:
+    """How well one method gives one shape, on people it has never seen.
+
+    Parameters
+    ----------
+    r2 : float
+        1 is perfect, 0 is as good as always saying the mean.
+    mae : float
+        Mean absolute error in weights (0 to 1).
+    pearson : float
+        Correlation; NaN where a method always says the same.
+    """
+
+    r2: float
+    mae: float
+    pearson: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShapeScores:
+    """One shape, predicted by the networks and by the two methods that anything must beat."""
+
+    name: str
+    region: str
+    network: Figures
+    ridge: Figures
+    mean: Figures
+
+    @property
+    def grade(self) -> str:
+        """``"seen"``, ``"partly"`` or ``"hidden"``, by the network's R2."""
+        if self.network.r2 >= SEEN_R2:
+            return "seen"
+        return "partly" if self.network.r2 >= PARTLY_R2 else "hidden"
+
+
+@dataclass(frozen=True, kw_only=True)
+class LearningCurve:
+    """Mean squared error in z-scored targets after each step, from the start (step 0).
+
+    Parameters
+    ----------
+    name : str
+        Of the network, or of what is averaged.
+    train, validation, test : (steps + 1,) float64
+        Empty where a recipe has none.
+    best_step : int or None
+        The step whose weights were kept; None where that differs by network.
+    """
+
+    name: str
+    train: np.ndarray
+    validation: np.ndarray
+    test: np.ndarray
+    best_step: int | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class RegressionPlot:
+    """Predicted against true weights of one split, all shapes together.
+
+    Parameters
+    ----------
+    split : str
+    true, predicted : (n,) float64
+        A sample of the split's values.
+    slope, intercept, pearson : float
+        Of the least-squares line through the values.
+    """
+
+    split: str
+    true: np.ndarray
+    predicted: np.ndarray
+    slope: float
+    intercept: float
+    pearson: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Headline:
+    """One large figure with what it means below it."""
+
+    value: str
+    caption: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReportContent:
+    """Everything in a report, in the order of the page.
+
+    Parameters
+    ----------
+    title, summary : str
+    headlines : tuple of Headline
+    scores : tuple of ShapeScores
+        In the networks' order, region by region.
+    constant : tuple of str
+        Shapes that are always 0, because 68 points do not show them.
+    curve : LearningCurve
+        Mean over the networks.
+    curves : tuple of LearningCurve
+        Each network.
+    regressions : tuple of RegressionPlot
+    provenance : tuple of (str, str)
+        How the model came about: what, and its value.
+    """
+
+    title: str
+    summary: str
+    headlines: tuple[Headline, ...]
+    scores: tuple[ShapeScores, ...]
+    constant: tuple[str, ...]
+    curve: LearningCurve
+    curves: tuple[LearningCurve, ...]
+    regressions: tuple[RegressionPlot, ...]
+    provenance: tuple[tuple[str, str], ...]
+
+
+def mean_curve(curves: tuple[LearningCurve, ...]) -> LearningCurve:
+    """Average of all networks; one that stopped early goes on at its last error."""
+
+    def average(series: str) -> np.ndarray:
+        values = [getattr(curve, series) for curve in curves]
+        values = [value for value in values if len(value)]
+        longest = max(map(len, values), default=0)
+        padded = [np.pad(value, (0, longest - len(value)), mode="edge") for value in values]
+        return np.mean(padded, axis=0) if padded else np.zeros(0)
+
+    train, validation, test = map(average, ("train", "validation", "test"))
+    return LearningCurve(
+        name=f"mean of {len(curves)} networks", train=train, validation=validation, test=test, best_step=None
+    )
+
+
+def regression_plot(split: str, true: np.ndarray, predicted: np.ndarray) -> RegressionPlot:
+    """Fit the line through a split's values (any equal shapes)."""
+    true, predicted = np.ravel(true).astype(float), np.ravel(predicted).astype(float)
+    slope, intercept = np.polyfit(true, predicted, 1)
+    return RegressionPlot(
+        split=split,
+        true=true,
+        predicted=predicted,
+        slope=float(slope),
+        intercept=float(intercept),
+        pearson=float(np.corrcoef(true, predicted)[0, 1]),
+    )

@@ -1,0 +1,65 @@
+"""A report's HTML: one file that opens without a network, figures inside."""
+
+from collections.abc import Iterable, Sequence
+from itertools import groupby
+from operator import attrgetter
+
+import numpy as np
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from regress.report.charts import learning_curves, regression_panel, score_bars, small_curves
+from regress.report.content import PARTLY_R2, SEEN_R2, LearningCurve, ReportContent, ShapeScores
+
+
+def render_page(content: ReportContent) -> str:
+    """Draw the figures and fill in the page; equal content gives equal text."""
+    environment = Environment(
+        loader=PackageLoader("regress.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["groupby_in_order"] = _groupby_in_order
+    low, high = _error_range(content.curves)
+    return environment.get_template("report.html").render(
+        content=content,
+        seen_r2=SEEN_R2,
+        partly_r2=PARTLY_R2,
+        hidden=[score.name for score in content.scores if score.grade == "hidden"],
+        bars=Markup(score_bars(content.scores)),
+        regressions=[(plot, Markup(regression_panel(plot))) for plot in content.regressions],
+        curve=Markup(learning_curves(content.curve)),
+        small_curves=[Markup(small_curves(curve, low=low, high=high)) for curve in content.curves],
+        cells=_cells,
+    )
+
+
+def _groupby_in_order(items: Iterable, attribute: str) -> list[tuple[str, list]]:
+    """Runs of equal attributes; jinja's own filter would sort them."""
+    return [(key, list(group)) for key, group in groupby(items, key=attrgetter(attribute))]
+
+
+def _error_range(curves: Sequence[LearningCurve]) -> tuple[float, float]:
+    errors = [
+        values for curve in curves for values in (curve.train, curve.validation, curve.test) if len(values)
+    ]
+    errors = np.concatenate(errors) if errors else np.ones(1)
+    return float(errors.min() * 0.9), float(errors.max() * 1.1)
+
+
+def _cells(score: ShapeScores) -> Markup:
+    """The eight figures of a row, the best of each kind in bold."""
+    methods = (score.network, score.ridge, score.mean)
+    r2 = [method.r2 for method in methods]
+    mae = [method.mae for method in methods]
+    pearson = [method.pearson for method in methods[:2]]
+    cells = []
+    for values, best in ((r2, max(r2)), (mae, min(mae)), (pearson, max(pearson))):
+        for index, value in enumerate(values):
+            kinds = ["group"] * (index == 0) + ["best"] * (value == best)
+            kind = f' class="{" ".join(kinds)}"' if kinds else ""
+            text = f"{value:.3f}".replace("-", "\N{MINUS SIGN}") if np.isfinite(value) else "\N{EN DASH}"
+            cells.append(f"<td{kind}>{text}</td>")
+    return Markup("".join(cells))

@@ -1,0 +1,114 @@
+"""The report's figures: well-formed, inside their frames, and where the numbers say."""
+
+import re
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+
+from regress.report.axes import Scale, label
+from regress.report.charts import learning_curves, regression_panel, score_bars, small_curves
+from regress.report.content import Figures, LearningCurve, ShapeScores, mean_curve, regression_plot
+
+
+def scores(*r2: float) -> list[ShapeScores]:
+    def figures(value):
+        return Figures(r2=value, mae=0.1, pearson=0.9)
+
+    return [
+        ShapeScores(
+            name=f"shape{index}",
+            region="jaw",
+            network=figures(value),
+            ridge=figures(value / 2),
+            mean=figures(0),
+        )
+        for index, value in enumerate(r2)
+    ]
+
+
+def curve(train, validation, test=(), best_step=1) -> LearningCurve:
+    return LearningCurve(
+        name="jaw.open",
+        train=np.array(train, dtype=float),
+        validation=np.array(validation, dtype=float),
+        test=np.array(test, dtype=float),
+        best_step=best_step,
+    )
+
+
+def numbers_in_frame(svg: str) -> bool:
+    """All coordinates of lines, rectangles and texts lie in the view box."""
+    root = ElementTree.fromstring(svg)
+    _, _, width, height = map(float, root.attrib["viewBox"].split())
+    for element in root.iter():
+        for keys, limit in ((("x", "x1", "x2"), width), (("y", "y1", "y2"), height)):
+            for key in keys:
+                if not 0 <= float(element.attrib.get(key, 0)) <= limit:
+                    return False
+    return True
+
+
+@pytest.mark.parametrize(
+    "svg",
+    [
+        score_bars(scores(0.9, 0.5, 0.05, -3.0, 1.0)),
+        learning_curves(curve([1, 0.5, 0.2], [1, 0.6, 0.7], [1, 0.7, 0.75])),
+        learning_curves(curve([1.0], [1.0])),
+        small_curves(curve([1, 0.5], [1, 0.6]), low=0.1, high=2),
+        regression_panel(regression_plot("test", np.linspace(0, 1, 50), np.linspace(-0.5, 1.5, 50))),
+    ],
+)
+def test_figures_are_well_formed_and_stay_in_their_frames(svg):
+    assert numbers_in_frame(svg)
+
+
+def test_bars_are_as_long_as_the_score():
+    root = ElementTree.fromstring(score_bars(scores(0.8, 0.4)))
+    long, short = (float(bar.attrib["width"]) for bar in root.iter("rect"))
+    assert long == pytest.approx(2 * short, rel=0.01)
+    kinds = [bar.attrib["class"] for bar in root.iter("rect")]
+    assert kinds == ["bar seen", "bar partly"]
+
+
+def test_density_counts_every_value_once():
+    values = np.repeat([0.0, 0.5, 1.0], [100, 10, 1])
+    svg = regression_panel(regression_plot("train", values, values))
+    cells = re.findall(r'class="cell" fill-opacity="([\d.]+)" d="([^"]*)"', svg)
+    assert sum(path.count("M") for _, path in cells) == 3
+    assert [path.count("M") for _, path in cells] == [1, 1, 1]
+    assert cells[-1][0] == "1.00"
+
+
+def test_names_of_curves_that_end_together_stay_apart():
+    svg = learning_curves(curve([1, 0.5], [1, 0.5], [1, 0.5]))
+    places = sorted(float(y) for y in re.findall(r'class="label \w+" x="[\d.]+" y="([\d.]+)"', svg))
+    assert np.diff(places).min() >= 14
+
+
+def test_fit_is_the_least_squares_line():
+    true = np.array([0.0, 0.5, 1.0])
+    plot = regression_plot("test", true, 0.8 * true + 0.1)
+    assert (plot.slope, plot.intercept, plot.pearson) == pytest.approx((0.8, 0.1, 1.0))
+
+
+def test_mean_curve_holds_a_stopped_network_at_its_last_error():
+    mean = mean_curve((curve([1, 0.5], [1, 0.6]), curve([1, 0.4, 0.2, 0.1], [1, 0.5, 0.3, 0.2])))
+    np.testing.assert_allclose(mean.train, [1, 0.45, 0.35, 0.3])
+    np.testing.assert_allclose(mean.validation, [1, 0.55, 0.45, 0.4])
+    assert len(mean.test) == 0
+
+
+@pytest.mark.parametrize("decades", [(0.5, 0.9), (0.02, 1.2), (1e-5, 3)])
+def test_logarithmic_ticks_lie_inside_and_are_neither_few_nor_crowded(decades):
+    low, high = decades
+    ticks = Scale(low=low, high=high, start=0, stop=1, logarithmic=True).ticks()
+    assert 3 <= len(ticks) <= 9
+    assert low <= ticks[0]
+    assert ticks[-1] <= high
+
+
+def test_ticks_are_round_numbers_with_a_true_minus_sign():
+    ticks = Scale(low=-0.2, high=1, start=0, stop=1).ticks()
+    assert [label(tick) for tick in ticks] == ["0", "0.25", "0.5", "0.75", "1"]
+    assert label(-0.25) == "\N{MINUS SIGN}0.25"
