@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from facegen.errors import InputError
-from facegen.rigs.lids import close_lids
+from facegen.rigs.lids import clamp_contact, close_lids
 from facegen.rigs.rig import Rig
 from facegen.rigs.threads import one_blas_thread
 
@@ -121,4 +121,5 @@ def _landmarks(rig: Rig, vertices: np.ndarray) -> np.ndarray:
     landmarks = np.zeros((len(vertices), len(rig.landmark_vertices), 3))
     for index, weight in zip(rig.landmark_vertices.T, rig.landmark_weights.T, strict=True):
         landmarks += weight[:, None] * vertices[:, index]
+    clamp_contact(landmarks)
     return landmarks

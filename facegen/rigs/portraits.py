@@ -12,7 +12,7 @@ from facegen.rigs.eyes import lid_support_radius
 from facegen.rigs.rig import Rig
 from facegen.rigs.zbuffer import DepthMap, nearest_along_z, triangles_of
 
-VIEWS_DEG = {"front": 0.0, "three-quarter": -35.0, "side": -75.0}
+VIEWS_DEG = {"front": 0.0, "three-quarter": 35.0, "side": 75.0}
 COLOURS = {
     Part.SKIN: (0.80, 0.68, 0.62),
     Part.LIPS: (0.76, 0.45, 0.45),
@@ -97,11 +97,11 @@ def portrait(
     window_m: tuple[float, float, float, float] = (-_HALF_WIDTH_M, _TOP_M, _HALF_WIDTH_M, _BOTTOM_M),
     step_m: float = 0.5e-3,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Picture of one evaluated face, turned in front of the viewer, and its landmarks in pixels (68, 2).
+    """Picture of one evaluated face, and its landmarks in pixels (68, 2).
 
-    ``window_m`` holds left, top, right and bottom of the picture in the turned head's frame.
+    The viewer stands ``yaw_deg`` towards the subject's left and ``pitch_deg`` above. ``window_m`` holds left, top, right and bottom of the picture in the turned head's frame.
     """
-    turn = rotation_from_angles(np.radians(yaw_deg), np.radians(pitch_deg), 0.0).T
+    turn = rotation_from_angles(np.radians(yaw_deg), np.radians(pitch_deg), 0.0)
     vertices, triangles, part = drawn_mesh(rig, faces, index, gaze)
     vertices = vertices @ turn
     left, top, right, bottom = window_m

@@ -40,32 +40,52 @@ def nearest_along_z(
     shape
         Height and width in samples.
     """
-    z = np.full(shape, -np.inf)
-    hit = np.full(shape, -1)
+    z = np.full(shape[0] * shape[1], -np.inf)
+    hit = np.full(shape[0] * shape[1], -1)
     corner = vertices[triangles]
     column = (corner[..., 0] - origin[0]) / step
     row = (origin[1] - corner[..., 1]) / step
-    first_column, last_column = np.ceil(column.min(1)).astype(int), np.floor(column.max(1)).astype(int)
-    first_row, last_row = np.ceil(row.min(1)).astype(int), np.floor(row.max(1)).astype(int)
-    first_column, first_row = np.maximum(first_column, 0), np.maximum(first_row, 0)
-    last_column, last_row = np.minimum(last_column, shape[1] - 1), np.minimum(last_row, shape[0] - 1)
+    first = np.maximum(np.ceil(np.stack([row.min(1), column.min(1)], -1)).astype(int), 0)
+    last = np.minimum(np.floor(np.stack([row.max(1), column.max(1)], -1)).astype(int), np.array(shape) - 1)
+    size = np.maximum(last - first + 1, 0)
+    for some in _batches(size.prod(axis=1)):
+        triangle = np.repeat(some, size[some].prod(axis=1))
+        local = _counted(size[some].prod(axis=1))
+        pixel_row = first[triangle, 0] + local // size[triangle, 1]
+        pixel_column = first[triangle, 1] + local % size[triangle, 1]
+        u, v = _barycentric(column, row, triangle, pixel_column, pixel_row)
+        inside = (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0)
+        triangle, u, v = triangle[inside], u[inside], v[inside]
+        pixel = pixel_row[inside] * shape[1] + pixel_column[inside]
+        z0, z1, z2 = corner[triangle, :, 2].T
+        depth = z0 + u * (z1 - z0) + v * (z2 - z0)
+        np.maximum.at(z, pixel, depth)
+        front = depth == z[pixel]
+        hit[pixel[front]] = triangle[front]
+    return DepthMap(z=z.reshape(shape), triangle=hit.reshape(shape))
+
+
+def _batches(pixels: np.ndarray, limit: int = 4_000_000) -> list[np.ndarray]:
+    """Triangles with pixels at all, in groups of about ``limit`` pixels, which bounds memory to about 300 MB."""
+    drawn = np.flatnonzero(pixels)
+    return np.split(drawn, np.flatnonzero(np.diff(np.cumsum(pixels[drawn]) // limit)) + 1) if len(drawn) else []
+
+
+def _counted(lengths: np.ndarray) -> np.ndarray:
+    """0 .. length - 1 for each length, one after the other."""
+    ends = np.cumsum(lengths)
+    return np.arange(ends[-1]) - np.repeat(ends - lengths, lengths)
+
+
+def _barycentric(
+    column: np.ndarray, row: np.ndarray, triangle: np.ndarray, pixel_column: np.ndarray, pixel_row: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Weights of the second and third corner at the pixels; NaN, hence outside, for triangles seen edge on."""
     ax, ay = column[:, 1] - column[:, 0], row[:, 1] - row[:, 0]
     bx, by = column[:, 2] - column[:, 0], row[:, 2] - row[:, 0]
     area = ax * by - ay * bx
-    drawn = (first_column <= last_column) & (first_row <= last_row) & (np.abs(area) > 1e-12)
-    for t in np.flatnonzero(drawn):
-        rows = slice(first_row[t], last_row[t] + 1)
-        columns = slice(first_column[t], last_column[t] + 1)
-        px = np.arange(columns.start, columns.stop) - column[t, 0]
-        py = np.arange(rows.start, rows.stop)[:, None] - row[t, 0]
-        u = (px * by[t] - py * bx[t]) / area[t]
-        v = (py * ax[t] - px * ay[t]) / area[t]
-        depth = (
-            corner[t, 0, 2]
-            + u * (corner[t, 1, 2] - corner[t, 0, 2])
-            + v * (corner[t, 2, 2] - corner[t, 0, 2])
-        )
-        nearer = (u >= 0) & (v >= 0) & (u + v <= 1) & (depth > z[rows, columns])
-        z[rows, columns] = np.where(nearer, depth, z[rows, columns])
-        hit[rows, columns] = np.where(nearer, t, hit[rows, columns])
-    return DepthMap(z=z, triangle=hit)
+    area = np.where(np.abs(area) > 1e-12, area, np.nan)
+    px, py = pixel_column - column[triangle, 0], pixel_row - row[triangle, 0]
+    u = (px * by[triangle] - py * bx[triangle]) / area[triangle]
+    v = (py * ax[triangle] - px * ay[triangle]) / area[triangle]
+    return u, v
