@@ -32,12 +32,19 @@ def hidden(
     z = vertices_camera[:, 2]
     plane = vertices_camera[:, :2] / np.where(z > 0, z, np.nan)[:, None]
     corners = plane[triangles]
-    low, high = corners.min(axis=1), corners.max(axis=1)  # NaN where behind: all comparisons are then false
+    low = np.minimum(np.minimum(corners[:, 0], corners[:, 1]), corners[:, 2])
+    high = np.maximum(np.maximum(corners[:, 0], corners[:, 1]), corners[:, 2])
     in_front = points_camera[:, 2] > 0
     xy = points_camera[:, :2] / np.where(in_front, points_camera[:, 2], np.nan)[:, None]
-    # the boxes of n x T pairs are compared one axis at a time: few triangles survive the first
-    near = (low[None, :, 0] <= xy[:, None, 0]) & (high[None, :, 0] >= xy[:, None, 0])
-    point, face = np.nonzero(near)
+    # which points lie within each triangle's box: by bisection in x, then by comparison in y. NaN (behind the camera)
+    # sorts last, so it is within no box
+    order = np.argsort(xy[:, 0], kind="stable")
+    first = np.searchsorted(xy[order, 0], low[:, 0], side="left")
+    count = np.searchsorted(xy[order, 0], high[:, 0], side="right") - first
+    count = np.where(np.isnan(low[:, 0]), 0, np.maximum(count, 0))
+    face = np.repeat(np.arange(len(triangles)), count)
+    within = np.arange(len(face)) - np.repeat(np.cumsum(count) - count, count)
+    point = order[first[face] + within]
     inside = (low[face, 1] <= xy[point, 1]) & (high[face, 1] >= xy[point, 1])
     point, face = point[inside], face[inside]
     depth = depth_on_triangles(xy[point], corners[face], 1.0 / z[triangles[face]])

@@ -13,6 +13,7 @@ import pyarrow.parquet as pq
 import tomli_w
 from pydantic import TypeAdapter
 
+from facegen import __version__
 from facegen.conventions import BLENDSHAPES, SHARD_ROWS
 from facegen.errors import InputError
 from facegen.headsets import Headset, load_headset
@@ -22,7 +23,10 @@ from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_ha
 from facegen.store.folder import DatasetFolder, commit_file, output_errors, read_json, staging, write_json
 from facegen.store.keypoint_table import column_array
 
-_PACKAGES = ("facegen", "numpy", "scipy", "pyarrow", "bpy", "opencv-contrib-python-headless", "OpenEXR")
+_PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "opencv-contrib-python-headless", "OpenEXR")
+
+_FIRST_THINGS = ("tmp", "logs", "spec.toml", "recording.csv")
+"""What `begin` leaves if it is killed before ``dataset.json``."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -121,7 +125,7 @@ def begin(dataset: Dataset) -> None:
             )
         return
     with output_errors(folder.path):
-        if folder.path.is_dir() and any(p.name not in ("tmp", "logs") for p in folder.path.iterdir()):
+        if folder.path.is_dir() and any(p.name not in _FIRST_THINGS for p in folder.path.iterdir()):
             raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
         folder.path.mkdir(parents=True, exist_ok=True)
     table = spec_table(dataset.spec)
@@ -174,7 +178,7 @@ def _description(dataset: Dataset) -> dict:
         "headset": dataset.headset.name,
         "licence": f"Pictures and labels derive from the rig {dataset.rig.name!r}: {dataset.rig.licence}",
         "blendshapes": list(BLENDSHAPES),
-        "versions": {name: importlib.metadata.version(name) for name in _PACKAGES},
+        "versions": {"facegen": __version__} | {name: importlib.metadata.version(name) for name in _PACKAGES},
     }
 
 

@@ -81,13 +81,23 @@ def keypoint_table(samples: Samples, keypoints: Keypoints, *, image_size: tuple[
     return pa.table([_column(columns[field.name], field.type) for field in schema], schema=schema)
 
 
+_NUMPY = {
+    pa.float32(): np.float32,
+    pa.float64(): np.float64,
+    pa.int32(): np.int32,
+    pa.int64(): np.int64,
+    pa.uint8(): np.uint8,
+    pa.bool_(): np.bool_,
+}
+
+
 def _column(values: np.ndarray, kind: pa.DataType) -> pa.Array:
-    if pa.types.is_fixed_size_list(kind):
-        flat = np.ascontiguousarray(values.reshape(len(values), -1), dtype=kind.value_type.to_pandas_dtype())
-        return pa.FixedSizeListArray.from_arrays(pa.array(flat.ravel()), type=kind)
     if pa.types.is_string(kind):
         return pa.array(values, type=kind)
-    return pa.array(np.ascontiguousarray(values, dtype=kind.to_pandas_dtype()), type=kind)
+    if pa.types.is_fixed_size_list(kind):
+        flat = np.ascontiguousarray(values, dtype=_NUMPY[kind.value_type]).ravel()
+        return pa.FixedSizeListArray.from_arrays(pa.array(flat), type=kind)
+    return pa.array(np.ascontiguousarray(values, dtype=_NUMPY[kind]), type=kind)
 
 
 def write_shard(table: pa.Table, path: Path) -> None:

@@ -1,6 +1,7 @@
 """One worker: makes shards and rendered samples, each committed by one rename."""
 
 import hashlib
+import importlib.metadata
 
 import pyarrow as pa
 
@@ -81,7 +82,9 @@ class Worker:
             sensor=dataset.headset.sensor,
         )
         record["render"] = {
-            **self._renderer.description,
+            "engine": "cycles",
+            "blender": importlib.metadata.version("bpy"),
+            "device": str(self._renderer.device),
             "samples_per_pixel": dataset.spec.render.samples_per_pixel,
             "denoise": dataset.spec.render.denoise,
         }
@@ -93,7 +96,7 @@ class Worker:
             commit_folder(stage, dataset.folder.render(number))
 
     def _pictures(self, rendered: RenderedSample) -> dict[str, bytes]:
-        from facegen.blender import Renderer  # half a second and 250 MB that shards do not need
+        from facegen.blender.renderer import Renderer  # half a second and 250 MB that shards do not need
 
         settings = self.dataset.spec.render
         if self._renderer is None:

@@ -1,0 +1,86 @@
+# facegen and regress: from a bare clone to trained networks. `make` alone says what there is.
+PYTHON  ?= python3.11
+SPEC    ?= datasets/default.toml
+WORKERS ?=
+
+NAME    := $(basename $(notdir $(SPEC)))
+VENV    := .venv
+BIN     := $(VENV)/bin
+OUT     := datasets/out/$(NAME)
+MODEL   := models/$(NAME)
+RIG     := blender_assets/build/anny.json
+READY   := $(VENV)/.ready
+MADE    := $(OUT)/.made
+
+.DEFAULT_GOAL := help
+.PHONY: help setup rig dataset train export test test-quick lint format clean distclean
+.DELETE_ON_ERROR:
+
+help:  ## Say what the targets are
+	@echo "facegen: synthetic people with exact labels; regress: avatar blendshapes from 68 keypoints."
+	@echo
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-11s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@echo
+	@echo "  PYTHON=$(PYTHON)  SPEC=$(SPEC)  WORKERS=$(if $(WORKERS),$(WORKERS),one per processor)"
+
+setup: $(READY)  ## Make the virtual environment (.venv)
+
+rig: $(RIG)  ## Build the default rig
+
+dataset: $(MADE)  ## Make the dataset of SPEC in datasets/out
+
+train: $(MODEL)/report.html $(MODEL)/exports/.made  ## Dataset, 31 networks, report and exports, from a bare clone
+	@echo "model:   $(MODEL)"
+	@echo "report:  $(MODEL)/report.html"
+	@echo "exports: $(MODEL)/exports"
+
+export: $(MODEL)/exports/.made  ## Weights for game engines, C programs and others
+
+test: $(READY) $(RIG)  ## All tests
+	$(BIN)/python -m pytest
+
+test-quick: $(READY) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)
+	$(BIN)/python -m pytest -m "not slow and not blender"
+
+lint: $(READY)  ## Style, and the direction of imports
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports
+
+format: $(READY)  ## Put the code into its format
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+clean:  ## Remove rigs, datasets and models that make can make again
+	rm -rf blender_assets/build datasets/out models
+
+distclean: clean  ## Remove the virtual environment as well
+	rm -rf $(VENV) *.egg-info
+
+$(READY): pyproject.toml constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || \
+	  { echo "facegen needs Python 3.11 (Blender's module is built for no other); give one with PYTHON=/path/to/python3.11" >&2; exit 2; }
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+	@touch $@
+
+$(RIG): $(READY) $(wildcard facegen/rigs/*.py blender_assets/rigs/anny/*)
+	$(BIN)/facegen rig build anny
+	@touch $@
+
+$(SPEC):
+	@echo "there is no spec $(SPEC); those that come with facegen are: $(wildcard datasets/*.toml)" >&2; exit 2
+
+$(MADE): $(SPEC) $(RIG)
+	$(BIN)/facegen generate $(SPEC) --out $(OUT) $(if $(WORKERS),--workers $(WORKERS))
+	@touch $@
+
+$(MODEL)/model.json: $(MADE)
+	$(BIN)/regress train $(OUT) --out $(MODEL)
+
+$(MODEL)/report.html: $(MODEL)/model.json
+	$(BIN)/regress report $(MODEL) --out $@
+
+$(MODEL)/exports/.made: $(MODEL)/model.json
+	$(BIN)/regress export $(MODEL) --out $(MODEL)/exports
+	@touch $@

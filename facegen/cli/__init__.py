@@ -1,0 +1,59 @@
+"""The ``facegen`` command. Only this package prints: results to stdout, talk to stderr."""
+
+import sys
+from importlib.metadata import version as installed
+from typing import Annotated
+
+import typer
+
+from facegen import __version__
+from facegen.cli.generate import generate
+from facegen.cli.headset import headset_app
+from facegen.cli.preview import preview
+from facegen.cli.rig import rig_app
+from facegen.cli.spec import spec_app
+from facegen.cli.validate import validate
+from facegen.errors import FacegenError
+
+app = typer.Typer(
+    name="facegen",
+    help="Synthetic people with exact labels: face keypoints by the million, and what cameras in a VR headset see.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.add_typer(rig_app, name="rig")
+app.add_typer(headset_app, name="headset")
+app.add_typer(spec_app, name="spec")
+app.command()(generate)
+app.command()(validate)
+app.command()(preview)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        parts = ", ".join(f"{name} {installed(name)}" for name in ("bpy", "numpy", "pyarrow"))
+        print(f"facegen {__version__} ({parts}, Python {sys.version.split()[0]})")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the versions that decide pixels and labels.", callback=_print_version, is_eager=True)
+    ] = False,
+) -> None:
+    pass
+
+
+def main() -> None:
+    """Entry point of the console script: one sentence and an exit code for every error on purpose."""
+    try:
+        app()
+    except FacegenError as error:
+        print(f"facegen: {error}", file=sys.stderr)
+        sys.exit(error.exit_code)
+    except BrokenPipeError:
+        sys.stderr.close()  # the reader of our output has gone, as `| head` does
+        sys.exit(0)

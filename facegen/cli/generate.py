@@ -1,0 +1,86 @@
+"""``facegen generate``."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from facegen.cli.progress import progress
+from facegen.conventions import ExitCode
+
+
+def generate(
+    spec: Annotated[Path, typer.Argument(help="What to make, for example datasets/tiny.toml.")],
+    out: Annotated[Path, typer.Option("--out", help="Folder of the dataset; made if it is not there.")],
+    samples: Annotated[
+        str | None, typer.Option("--samples", help="Render these instead of the spec's: 0-99,140,200-300:10.")
+    ] = None,
+    workers: Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default: one per processor.")] = None,
+    grace: Annotated[float, typer.Option("--grace", min=0, help="Seconds that running work gets to end after Ctrl-C.")] = 30.0,
+    retry_quarantined: Annotated[
+        bool, typer.Option("--retry-quarantined", help="Try again what failed three times in an earlier run.")
+    ] = False,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would be made, and make nothing.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+) -> None:
+    """Make what a dataset is missing: keypoints of all samples, pictures of some. Run it again and it goes on.
+
+    Example: facegen generate datasets/tiny.toml --out datasets/out/tiny
+    """
+    from facegen.spec import load_spec
+    from facegen.store import resolve
+    from facegen.work import generate as make
+    from facegen.work import plan_work
+
+    dataset = resolve(load_spec(spec), out)
+    work = plan_work(dataset, samples, retry_quarantined=retry_quarantined)
+    if dry_run:
+        shards = sum(task.kind == "shard" for task in work.missing)
+        _print(
+            {
+                "out": str(out),
+                "spec_hash": dataset.hash,
+                "missing_shards": shards,
+                "missing_renders": len(work.missing) - shards,
+                "found": work.done,
+                "quarantined": len(work.quarantined),
+            },
+            as_json=as_json,
+        )
+        return
+    with progress("shards and rendered samples", len(work.missing)) as update:
+        summary = make(
+            dataset,
+            samples,
+            workers=workers,
+            grace_s=grace,
+            retry_quarantined=retry_quarantined,
+            on_progress=update,
+        )
+    names = [task.name for task in summary.quarantined]
+    _print(
+        {
+            "out": str(out),
+            "spec_hash": dataset.hash,
+            "made": summary.made,
+            "found": summary.found,
+            "quarantined": names,
+            "left": summary.left,
+        },
+        as_json=as_json,
+    )
+    if summary.left:
+        print(f"facegen: stopped with {summary.left} things left; run the same command to go on", file=sys.stderr)
+        raise typer.Exit(ExitCode.DRAINED)
+    if names:
+        print(f"facegen: {len(names)} failed three times; their logs are in {out}/quarantine", file=sys.stderr)
+        raise typer.Exit(ExitCode.INVALID)
+
+
+def _print(summary: dict, *, as_json: bool) -> None:
+    if as_json:
+        print(json.dumps(summary))
+    else:
+        print("\n".join(f"{key.replace('_', ' ')}: {value if value != [] else 'none'}" for key, value in summary.items()))

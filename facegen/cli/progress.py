@@ -1,0 +1,48 @@
+"""Progress of long work: a bar with rate and time left on a terminal, plain lines elsewhere."""
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+LINE_EVERY_S = 10.0
+"""Without a terminal a line is written at most this often, and at the end."""
+
+
+@contextmanager
+def progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
+    """Gives a function that takes the number of finished things; shows it on stderr.
+
+    Parameters
+    ----------
+    what
+        Title, for example ``"samples"``.
+    total
+        Number of things there are.
+    """
+    console = Console(stderr=True)
+    if console.is_terminal:
+        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("{task.fields[rate]}"))
+        with Progress(*columns, TimeElapsedColumn(), TimeRemainingColumn(), console=console) as bar:
+            task, started = bar.add_task(what, total=total, rate=""), time.monotonic()
+
+            def update(done: int) -> None:
+                rate = f"{done / max(time.monotonic() - started, 1e-9):.2f}/s"
+                bar.update(task, completed=done, rate=rate)
+
+            yield update
+        return
+    started = last = time.monotonic()
+
+    def line(done: int) -> None:
+        nonlocal last
+        now = time.monotonic()
+        if done == total or now - last >= LINE_EVERY_S:
+            last, elapsed = now, now - started
+            left = elapsed / done * (total - done) if done else float("nan")
+            print(f"{what}: {done}/{total}, {elapsed:.0f} s, about {left:.0f} s left", file=sys.stderr, flush=True)
+
+    yield line

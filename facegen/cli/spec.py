@@ -1,0 +1,49 @@
+"""``facegen spec check | show | schema``."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+spec_app = typer.Typer(help="Specs: what a dataset is, in TOML.", no_args_is_help=True)
+
+
+@spec_app.command()
+def check(spec: Annotated[Path, typer.Argument(help="A spec, for example datasets/default.toml.")]) -> None:
+    """Say whether a spec can be used, and how much it makes.
+
+    Example: facegen spec check datasets/default.toml
+    """
+    from facegen.sampling import plan_dataset
+    from facegen.spec import load_spec, sample_numbers
+
+    checked = load_spec(spec)
+    plan = plan_dataset(checked)
+    rendered = len(sample_numbers(checked.render.samples, total=plan.samples, where=f"{spec}: render.samples"))
+    print(f"{spec}: good; {checked.people} people, {plan.samples} samples, {rendered} of them rendered")
+
+
+@spec_app.command()
+def show(spec: Annotated[Path, typer.Argument(help="A spec, for example datasets/default.toml.")]) -> None:
+    """Print the resolved spec, defaults filled in, as JSON.
+
+    Example: facegen spec show datasets/tiny.toml
+    """
+    from facegen.spec import load_spec, spec_table
+
+    json.dump(spec_table(load_spec(spec)), sys.stdout, indent=2)
+    print()
+
+
+@spec_app.command()
+def schema() -> None:
+    """Print the JSON schema of a spec, for editors that check TOML.
+
+    Example: facegen spec schema > spec.schema.json
+    """
+    from facegen.spec import spec_schema
+
+    json.dump(spec_schema(), sys.stdout, indent=2)
+    print()

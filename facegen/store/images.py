@@ -1,0 +1,89 @@
+"""Pictures as files: an 8-bit grey PNG as the sensor gives it, and one multi-part EXR with what is true.
+
+Both are made here rather than by Blender, whose files carry times: the same arrays always give the same bytes.
+"""
+
+import tempfile
+from pathlib import Path
+
+import cv2
+import numpy as np
+import OpenEXR
+
+from facegen.errors import FormatError
+from facegen.scene.scene import Layers
+
+EXR_PARTS: dict[str, dict[str, type[np.generic]]] = {
+    "radiance": {"Y": np.float16},
+    "depth": {"Z": np.float32},
+    "normal": {"X": np.float16, "Y": np.float16, "Z": np.float16},
+    "part": {"id": np.uint32},
+    "uv": {"U": np.float32, "V": np.float32},
+}
+"""Parts of an EXR file in order, and the channels of each with their types; radiance comes first for simple readers."""
+
+
+def png_bytes(grey: np.ndarray) -> bytes:
+    """A PNG file of a grey picture (h, w) uint8."""
+    done, encoded = cv2.imencode(".png", grey, [cv2.IMWRITE_PNG_COMPRESSION, 6])
+    if not done:
+        raise ValueError(f"a picture of shape {grey.shape} and type {grey.dtype} cannot be a PNG")
+    return encoded.tobytes()
+
+
+def read_png(path: str | Path) -> np.ndarray:
+    """The grey picture (h, w) uint8 of a PNG file."""
+    picture = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    if picture is None or picture.ndim != 2 or picture.dtype != np.uint8:
+        raise FormatError(f"{path} is not an 8-bit grey PNG")
+    return picture
+
+
+def exr_bytes(layers: Layers) -> bytes:
+    """An EXR file of a view's layers: parts and channels as in `EXR_PARTS`, ZIP-compressed, without any date."""
+    parts = []
+    for name, channels in EXR_PARTS.items():
+        image = getattr(layers, name)
+        image = image[..., None] if image.ndim == 2 else image
+        arrays = {
+            channel: np.ascontiguousarray(image[..., index].astype(kind))
+            for index, (channel, kind) in enumerate(channels.items())
+        }
+        header = {"name": name, "type": OpenEXR.scanlineimage, "compression": OpenEXR.ZIP_COMPRESSION}
+        parts.append(OpenEXR.Part(header, arrays))
+    # the library writes to paths only
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "layers.exr"
+        OpenEXR.File(parts).write(str(path))
+        return path.read_bytes()
+
+
+def read_exr(path: str | Path) -> Layers:
+    """The layers of a file that `exr_bytes` made.
+
+    Raises
+    ------
+    FormatError
+        Where it is no EXR file, or a part or channel is missing.
+    """
+    if not Path(path).is_file():
+        raise FormatError(f"there is no file {path}")
+    try:
+        with OpenEXR.File(str(path), separate_channels=True) as file:
+            found = {part.name(): {name: c.pixels for name, c in part.channels.items()} for part in file.parts}
+    except Exception as error:  # the library raises plain RuntimeErrors and its own types
+        raise FormatError(f"{path} is not a readable EXR file: {error}") from error
+    images = {}
+    for name, channels in EXR_PARTS.items():
+        missing = [f"{name}.{channel}" for channel in channels if channel not in found.get(name, {})]
+        if missing:
+            raise FormatError(f"{path} has no {missing[0]}; a view's EXR has the parts {', '.join(EXR_PARTS)}")
+        image = np.stack([found[name][channel] for channel in channels], axis=-1)
+        images[name] = image[..., 0] if len(channels) == 1 else image
+    return Layers(
+        radiance=images["radiance"].astype(np.float32),
+        depth=images["depth"],
+        normal=images["normal"].astype(np.float32),
+        part=images["part"].astype(np.uint8),
+        uv=images["uv"],
+    )
