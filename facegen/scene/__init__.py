@@ -1,5 +1,18 @@
-"""Scenes as plain data, and the eyes that go into them."""
+"""Scenes as plain data, the eyes that go into them, and their assembly from a head and a headset."""
 
+from facegen.scene.assembly import assemble
+from facegen.scene.eyes import eye_meshes
+from facegen.scene.materials import MATERIALS, material_values
 from facegen.scene.scene import Lamp, Layers, Mesh, Scene, View
 
-__all__ = ["Lamp", "Layers", "Mesh", "Scene", "View"]
+__all__ = [
+    "MATERIALS",
+    "Lamp",
+    "Layers",
+    "Mesh",
+    "Scene",
+    "View",
+    "assemble",
+    "eye_meshes",
+    "material_values",
+]

@@ -60,16 +60,21 @@ class Lamp:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class View:
-    """One camera: its intrinsics and ``camera_from_head`` (4, 4)."""
+    """One camera: its intrinsics, ``camera_from_head`` (4, 4), and the names of the lamps lit while it exposes."""
 
     name: str
     camera: Camera
     camera_from_head: np.ndarray
+    lamps: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scene:
-    """Meshes, lamps and views; material parameters by name (for example ``{"iris": {"albedo": 0.3}}``)."""
+    """Meshes, lamps and views.
+
+    ``materials`` holds parameters by material name (for example ``{"iris": {"albedo": 0.3}}``); what it leaves out has
+    the defaults of `facegen.scene.materials.MATERIALS`.
+    """
 
     meshes: tuple[Mesh, ...]
     lamps: tuple[Lamp, ...]
@@ -84,15 +89,19 @@ class Layers:
     Attributes
     ----------
     radiance
-        (h, w) float32, linear, in W sr-1 m-2 up to one factor that is equal for all pictures.
+        (h, w) float32, linear, in W sr-1 m-2 up to one factor that is equal for all pictures. The values are ones that
+        16-bit floats hold, so that what a file keeps is what was developed.
     depth
-        (h, w) float32, metres along the camera's z axis at the pixel's centre; +inf where there is nothing.
+        (h, w) float32, metres along the camera's z axis at the pixel's centre; +inf where there is nothing. Depth and
+        normal are those of the first surface, which over iris and pupil is the cornea.
     normal
-        (h, w, 3) float32, unit, camera frame (OpenCV); 0 where there is nothing.
+        (h, w, 3) float32, unit, camera frame (OpenCV), smooth; 0 where there is nothing.
     part
-        (h, w) uint8, `facegen.conventions.Part` seen at the pixel's centre, through the refracting cornea.
+        (h, w) uint8, `facegen.conventions.Part` at the pixel's centre, as it appears through the refracting cornea:
+        ``CORNEA`` itself never occurs.
     uv
-        (h, w, 2) float32, texture coordinates; 0 where there is nothing.
+        (h, w, 2) float32, texture coordinates of what ``part`` shows; 0 where there is nothing. Head and eyes have
+        their own (`facegen.scene.eyes.eye_meshes`), so read it together with ``part``.
     """
 
     radiance: np.ndarray

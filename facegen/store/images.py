@@ -70,14 +70,18 @@ def read_exr(path: str | Path) -> Layers:
         raise FormatError(f"there is no file {path}")
     try:
         with OpenEXR.File(str(path), separate_channels=True) as file:
-            found = {part.name(): {name: c.pixels for name, c in part.channels.items()} for part in file.parts}
+            found = {
+                part.name(): {name: c.pixels for name, c in part.channels.items()} for part in file.parts
+            }
     except Exception as error:  # the library raises plain RuntimeErrors and its own types
         raise FormatError(f"{path} is not a readable EXR file: {error}") from error
     images = {}
     for name, channels in EXR_PARTS.items():
         missing = [f"{name}.{channel}" for channel in channels if channel not in found.get(name, {})]
         if missing:
-            raise FormatError(f"{path} has no {missing[0]}; a view's EXR has the parts {', '.join(EXR_PARTS)}")
+            raise FormatError(
+                f"{path} has no {missing[0]}; a view's EXR has the parts {', '.join(EXR_PARTS)}"
+            )
         image = np.stack([found[name][channel] for channel in channels], axis=-1)
         images[name] = image[..., 0] if len(channels) == 1 else image
     return Layers(

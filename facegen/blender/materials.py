@@ -1,0 +1,220 @@
+"""Near infra-red materials as Cycles shaders, one function each; names and parameters are `facegen.scene.materials`'.
+
+Albedos are plain greys with equal scattering in all channels, so a picture has no colour noise and one channel says all.
+"""
+
+from collections.abc import Callable
+
+import bpy
+
+from facegen.blender.nodes import Graph, Socket
+from facegen.conventions import Part
+from facegen.scene.materials import MATERIALS
+
+EYE_INDEX = MATERIALS["cornea"]["index"]
+CLUMP = 3.5
+"""Lashes to a clump."""
+UV_METRES = 0.9
+"""Length on the face of one unit of the head's texture coordinates, about (0.43 mm a pixel at 2,048)."""
+
+
+def _surface(
+    graph: Graph, albedo: Socket, *, subsurface: bool, normal: Socket = None, **extra: Socket
+) -> Socket:
+    """A Principled surface; it scatters below the surface where the material has a ``scatter_m`` and the option is on."""
+    p = graph.parameters
+    inputs = dict(Base_Color=albedo, Roughness=p["roughness"], IOR=1.4, **extra)
+    settings = {}
+    if subsurface and "scatter_m" in p:
+        # BURLEY: RANDOM_WALK looks a little better and costs 1.75 times as much
+        settings["subsurface_method"] = "BURLEY"
+        inputs |= dict(
+            Subsurface_Weight=1.0, Subsurface_Radius=(1.0, 1.0, 1.0), Subsurface_Scale=p["scatter_m"]
+        )
+    if normal is not None:
+        inputs["Normal"] = normal
+    return graph.node("BsdfPrincipled", settings=settings, **inputs)
+
+
+def _mottled(graph: Graph, place: Socket, albedo: Socket, *sizes_m: float) -> Socket:
+    """Albedo that varies around its mean with the relative depth ``mottle``, at each of the given sizes."""
+    total: Socket = 0.0
+    for size in sizes_m:
+        total = graph.math("ADD", total, graph.noise(place, 1.0 / size))
+    relative = graph.math(
+        "MULTIPLY_ADD", total, graph.math("DIVIDE", graph.parameters["mottle"], len(sizes_m)), 1.0
+    )
+    return graph.math("MULTIPLY", albedo, relative)
+
+
+def _face_place(graph: Graph) -> Socket:
+    """Texture coordinates of the head in about metres, so that patterns stay on the skin when it moves."""
+    uv = graph.node("UVMap", settings={"uv_map": "uv"})
+    return graph.node("VectorMath", uv, (UV_METRES,) * 3, settings={"operation": "MULTIPLY"})
+
+
+def _skin(graph: Graph, subsurface: bool) -> Socket:
+    p, place = graph.parameters, _face_place(graph)
+    albedo = _mottled(graph, place, p["albedo"], 12e-3, 2.5e-3, 0.8e-3)
+    # fine wrinkles; cellular pores as well would cost a third of the render and are below a pixel
+    height = graph.noise(place, 1.0 / 1.0e-3, detail=1.0)
+    normal = graph.node("Bump", Strength=1.0, Distance=p["bump_m"], Height=height)
+    return _surface(graph, albedo, subsurface=subsurface, normal=normal, Specular_IOR_Level=p["specular"])
+
+
+def _brows(graph: Graph, subsurface: bool) -> Socket:
+    """Skin under hairs that run along the brow: noise stretched tenfold, so the faces' jagged border hides in it."""
+    p = graph.parameters
+    stretched = graph.node(
+        "VectorMath", _face_place(graph), (2.0e3, 0.2e3, 0.0), settings={"operation": "MULTIPLY"}
+    )
+    hairs = graph.node("TexNoise", Vector=stretched, Scale=1.0, Detail=1.0)
+    dark = graph.node(
+        "MapRange", hairs, 0.5, 0.6, 0.0, p["hair"], settings={"interpolation_type": "SMOOTHSTEP"}
+    )
+    albedo = graph.math("MULTIPLY", p["albedo"], graph.math("SUBTRACT", 1.0, dark))
+    return _surface(graph, albedo, subsurface=subsurface, Specular_IOR_Level=p["specular"])
+
+
+def _plain(graph: Graph, subsurface: bool) -> Socket:
+    return _surface(graph, graph.parameters["albedo"], subsurface=subsurface)
+
+
+def _sclera(graph: Graph, subsurface: bool) -> Socket:
+    p = graph.parameters
+    uv = graph.node("UVMap", settings={"uv_map": "uv"})
+    u, v = (graph.node("SeparateXYZ", uv, output=axis) for axis in ("X", "Y"))
+    # vessels run along the meridians: stretch the noise along v; u wraps through the cosine and sine of its angle
+    albedo = _mottled(graph, _around(graph, u, 9.0, graph.math("MULTIPLY", v, 4.0)), p["albedo"], 1.0)
+    edge = graph.node(
+        "MapRange", v, 0.95, 1.0, 0.0, p["limbus"], settings={"interpolation_type": "SMOOTHSTEP"}
+    )
+    albedo = graph.math("MULTIPLY", albedo, graph.math("SUBTRACT", 1.0, edge))
+    return _surface(graph, albedo, subsurface=subsurface)
+
+
+def _around(graph: Graph, u: Socket, frequency: float, along: Socket) -> Socket:
+    """A place for noise that closes around the eye: (f cos, f sin, along) of the angle 2 pi u."""
+    angle = graph.math("MULTIPLY", u, 6.283185307)
+    cosine, sine = (graph.math("MULTIPLY", graph.math(name, angle), frequency) for name in ("COSINE", "SINE"))
+    return graph.node("CombineXYZ", cosine, sine, along)
+
+
+def _iris(graph: Graph, subsurface: bool) -> Socket:
+    p = graph.parameters
+    uv = graph.node("UVMap", settings={"uv_map": "uv"})
+    u, v = (graph.node("SeparateXYZ", uv, output=axis) for axis in ("X", "Y"))
+    along = graph.math("MULTIPLY_ADD", v, 1.2, graph.math("MULTIPLY", p["pattern"], 17.0))
+    fibres = graph.node("TexNoise", Vector=_around(graph, u, 9.0, along), Scale=1.6, Detail=4.0)
+    fibres = graph.math("MULTIPLY", graph.math("MULTIPLY_ADD", fibres, 4.0, -2.0), p["contrast"])
+    # the collarette lies a third of the way out; inside it the iris is a little lighter, at the limbus darker
+    inner = graph.node(
+        "MapRange", v, 0.2, 0.45, p["collarette"], 0.0, settings={"interpolation_type": "SMOOTHSTEP"}
+    )
+    # refraction magnifies: what is at v = 0.87 appears at the limbus
+    outer = graph.node(
+        "MapRange", v, 0.62, 0.9, 0.0, p["limbus"], settings={"interpolation_type": "SMOOTHSTEP"}
+    )
+    relative = graph.math("ADD", graph.math("ADD", fibres, 1.0), graph.math("SUBTRACT", inner, outer))
+    albedo = graph.math("MULTIPLY", p["albedo"], graph.math("MAXIMUM", relative, 0.15))
+    return graph.node("BsdfDiffuse", albedo)
+
+
+def _matte(graph: Graph, subsurface: bool) -> Socket:
+    return graph.node("BsdfDiffuse", graph.parameters["albedo"])
+
+
+def _cornea(graph: Graph, subsurface: bool) -> Socket:
+    """Clear for shadow and diffuse rays, refracting for the camera's: LEDs light the iris without caustics' noise."""
+    p = graph.parameters
+    refraction = graph.node("BsdfRefraction", IOR=p["index"], Roughness=0.0)
+    # a mirror finds an LED in 1 of 40 samples; from about 0.06 on, light sampling finds it in all
+    gloss = graph.node("BsdfAnisotropic", Roughness=p["roughness"])
+    front = graph.math("SUBTRACT", 1.0, graph.node("NewGeometry", output="Backfacing"))
+    share = graph.math("MULTIPLY", graph.node("Fresnel", IOR=p["index"]), front)
+    seen = graph.mix(share, refraction, gloss)
+    straight = graph.math(
+        "MAXIMUM",
+        graph.node("LightPath", output="Is Shadow Ray"),
+        graph.node("LightPath", output="Is Diffuse Ray"),
+    )
+    return graph.mix(straight, seen, graph.node("BsdfTransparent", (0.95, 0.95, 0.95, 1.0)))
+
+
+def _lash_mask(graph: Graph) -> Socket:
+    """1 on a strand and 0 between, on strips whose u runs along the lid and v from root (0) to tip (1).
+
+    Strands stand in clumps of three or four that close towards their tips, and have lengths of their own.
+    """
+    p, math = graph.parameters, graph.math
+    uv = graph.node("UVMap", settings={"uv_map": "uv"})
+    u, v = (graph.node("SeparateXYZ", uv, output=axis) for axis in ("X", "Y"))
+    spread = graph.node("TexNoise", settings={"noise_dimensions": "1D"}, W=u, Scale=7.0)
+    place = math("MULTIPLY_ADD", u, p["strands"], math("MULTIPLY", spread, 6.0))
+    middle = math("MULTIPLY_ADD", math("FLOOR", math("DIVIDE", place, CLUMP)), CLUMP, CLUMP / 2)
+    # where on the lid the strand through this point has its root
+    closing = math("SUBTRACT", 1.0, math("MULTIPLY", v, 0.65))
+    from_middle = math("DIVIDE", math("SUBTRACT", place, middle), closing)
+    root = math("ADD", middle, from_middle)
+    strand = math("FLOOR", root)
+    chance = graph.node("TexWhiteNoise", settings={"noise_dimensions": "1D"}, W=strand)
+    length = math("MULTIPLY", p["length"], math("MULTIPLY_ADD", chance, 0.5, 0.5))
+    thickness = math(
+        "MULTIPLY", math("SUBTRACT", 1.0, math("DIVIDE", v, length)), math("MULTIPLY", p["cover"], 0.5)
+    )
+    aside = math("ABSOLUTE", math("SUBTRACT", math("SUBTRACT", root, strand), 0.5))
+    in_clump = math("LESS_THAN", math("ABSOLUTE", from_middle), CLUMP / 2)
+    return math("MULTIPLY", math("LESS_THAN", aside, thickness), in_clump)
+
+
+def _lashes(graph: Graph, subsurface: bool) -> Socket:
+    hair = graph.node("BsdfDiffuse", graph.parameters["albedo"])
+    return graph.mix(_lash_mask(graph), graph.node("BsdfTransparent"), hair)
+
+
+def _emitter(graph: Graph, subsurface: bool) -> Socket:
+    """Shines evenly: markers of tests and calibration targets."""
+    return graph.node("Emission", None, graph.parameters["radiance"])
+
+
+SHADERS: dict[str, Callable[[Graph, bool], Socket]] = {
+    "skin": _skin,
+    "lips": _skin,
+    "brows": _brows,
+    "cavity": _plain,
+    "sclera": _sclera,
+    "iris": _iris,
+    "pupil": _matte,
+    "cornea": _cornea,
+    "teeth": _plain,
+    "gums": _plain,
+    "tongue": _plain,
+    "lashes": _lashes,
+    "emitter": _emitter,
+}
+"""Shader of every material in `facegen.scene.materials.MATERIALS`."""
+
+
+def build_material(name: str, *, subsurface: bool) -> bpy.types.Material:
+    """A new Blender material with its default parameters; ``subsurface`` off is flatter and a third cheaper."""
+    graph = Graph(name, MATERIALS[name])
+    return graph.finish(SHADERS[name](graph, subsurface))
+
+
+def build_truth_material() -> bpy.types.Material:
+    """The one material of truth passes: emits (part, u, v) as a colour, refracts in the cornea, is clear between lashes.
+
+    Parts come from a face attribute, so they are exact integers; Cycles traces the refraction, so they are what appears.
+    Its parameters are those of the lashes, whose strands it must know.
+    """
+    graph = Graph("truth", MATERIALS["lashes"])
+    part = graph.node("Attribute", output="Fac", settings={"attribute_name": "part"})
+    uv = graph.node("UVMap", settings={"uv_map": "uv"})
+    u, v = (graph.node("SeparateXYZ", uv, output=axis) for axis in ("X", "Y"))
+    label = graph.node("Emission", graph.node("CombineXYZ", part, u, v), 1.0)
+    refraction = graph.node("BsdfRefraction", IOR=EYE_INDEX, Roughness=0.0)
+    is_cornea = graph.math("COMPARE", part, float(Part.CORNEA), 0.1)
+    is_lash = graph.math("COMPARE", part, float(Part.LASHES), 0.1)
+    between_lashes = graph.math("MULTIPLY", is_lash, graph.math("SUBTRACT", 1.0, _lash_mask(graph)))
+    seen = graph.mix(is_cornea, label, refraction)
+    return graph.finish(graph.mix(between_lashes, seen, graph.node("BsdfTransparent")))

@@ -1,0 +1,302 @@
+"""Cycles as a function from a `Scene` and a view to linear `Layers`: one Blender scene kept alive, nothing on disk."""
+
+import hashlib
+from functools import lru_cache
+
+import bpy
+import numpy as np
+
+from facegen.blender.materials import build_material, build_truth_material
+from facegen.blender.nodes import set_parameters
+from facegen.blender.passes import passes_of_renders
+from facegen.blender.runtime import choose_device, compile_lens, quiet_stdout
+from facegen.conventions import Part
+from facegen.errors import InputError
+from facegen.geometry import Camera, invert_transform, pixel_rays
+from facegen.geometry.cameras import DISTORTION_TERMS
+from facegen.scene.materials import MATERIALS, material_values
+from facegen.scene.scene import Lamp, Layers, Mesh, Scene, View
+
+BLENDER_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
+"""Blender's cameras look along -z with y up."""
+CLIP_M = (1e-3, 10.0)
+"""Blender's default near plane of 0.1 m would hide a whole headset."""
+NOTHING_M = 1e9
+"""Cycles writes 1e10 where a ray meets nothing."""
+HALF_MAX = float(np.finfo(np.float16).max)
+
+
+class Renderer:
+    """Renders scenes in this process; make one and keep it (a second one takes over Blender's only scene).
+
+    Pictures depend on the scene, the view, ``samples`` and ``seed`` alone: not on what was rendered before, on the number
+    of threads, nor on the process.
+
+    Parameters
+    ----------
+    threads
+        Threads of Cycles, at least two. Fixed for the renderer's life, because Cycles takes a change up one render late.
+    subsurface
+        Whether skin scatters light below its surface. Off: a third of the time, and harder shadows.
+    device
+        See `facegen.blender.runtime.choose_device`.
+    """
+
+    def __init__(self, *, threads: int = 1, subsurface: bool = True, device: str = "cpu") -> None:
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        self._scene = bpy.context.scene
+        self._set_up(threads)
+        self.device = choose_device(device)
+        self._subsurface = subsurface
+        self._lens = compile_lens()
+        self._truth = build_truth_material()
+        self._materials: dict[str, bpy.types.Material] = {}
+        self._objects: dict[str, tuple[bytes, bpy.types.Object]] = {}
+        self._lamps: dict[str, bpy.types.Object] = {}
+        self._cameras: dict[str, bpy.types.Object] = {}
+        self._loaded: Scene | None = None
+
+    def _set_up(self, threads: int) -> None:
+        scene = self._scene
+        world = bpy.data.worlds.new("dark")
+        world.use_nodes = True
+        world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.0
+        scene.world = world
+        scene.render.engine = "CYCLES"
+        scene.render.threads_mode = "FIXED"
+        # measured: a single thread is joined by a second one that does nothing but wait, at full load; two share the work
+        scene.render.threads = max(2, threads)
+        scene.render.use_persistent_data = True
+        scene.render.use_compositing = False
+        scene.render.use_sequencer = False
+        scene.render.resolution_percentage = 100
+        cycles = scene.cycles
+        cycles.use_adaptive_sampling = False
+        cycles.use_animated_seed = False
+        cycles.use_light_tree = True
+        # measured: more bounces change nothing, a second diffuse one is 1 % of the brightness
+        cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces = 4, 2, 2
+        cycles.transmission_bounces, cycles.transparent_max_bounces = 4, 16
+        cycles.caustics_reflective = cycles.caustics_refractive = False
+        cycles.denoiser = "OPENIMAGEDENOISE"
+        cycles.denoising_input_passes = "RGB_ALBEDO_NORMAL"
+        # ACCURATE costs a second more per view and changes less than 1 dB
+        cycles.denoising_prefilter = "FAST"
+        cycles.denoising_use_gpu = False
+
+    def render(
+        self, scene: Scene, view_name: str, *, samples: int, seed: int, denoise: bool = True
+    ) -> Layers:
+        """Radiance with ``samples`` paths a pixel, and what is true at each pixel's centre.
+
+        Parameters
+        ----------
+        scene
+            What to render. Loaded once however many of its views are asked for in a row.
+        view_name
+            One of its views.
+        samples
+            Paths a pixel; 8 with denoising do.
+        seed
+            0 to 2**31 - 1: give every view of every sample its own.
+        denoise
+            Whether Open Image Denoise cleans the radiance.
+        """
+        views = {view.name: view for view in scene.views}
+        if view_name not in views:
+            raise InputError(f"the scene has no view {view_name!r}; it has {', '.join(views)}")
+        view = views[view_name]
+        self._load(scene)
+        self._aim(view)
+        truth = self._truth_passes(view)
+        self._light(view)
+        cycles = self._scene.cycles
+        cycles.samples, cycles.seed, cycles.use_denoising = samples, seed, denoise
+        radiance = self._passes()["Combined"][..., 0]
+        return _layers(view, radiance, truth)
+
+    def _truth_passes(self, view: View) -> dict[str, np.ndarray]:
+        """One sample a pixel, which Cycles always puts at the pixel's centre, with the label material on everything."""
+        cycles, layer = self._scene.cycles, self._scene.view_layers[0]
+        self._light(None)
+        layer.material_override = self._truth
+        layer.use_pass_z = layer.use_pass_normal = True
+        cycles.samples, cycles.seed, cycles.use_denoising = 1, 0, False
+        try:
+            return self._passes()
+        finally:
+            layer.material_override = None
+            layer.use_pass_z = layer.use_pass_normal = False
+
+    def _passes(self) -> dict[str, np.ndarray]:
+        """Render the scene as it stands; float32 arrays (h, w, channels) by pass name, row 0 on top."""
+        with passes_of_renders() as passes, quiet_stdout():
+            bpy.ops.render.render()
+        return passes
+
+    def _load(self, scene: Scene) -> None:
+        if scene is self._loaded:
+            return
+        for name in MATERIALS:
+            if name in self._materials:
+                set_parameters(self._materials[name], material_values(name, scene.materials.get(name, {})))
+        for name in scene.materials:
+            material_values(name, scene.materials[name])
+        set_parameters(self._truth, material_values("lashes", scene.materials.get("lashes", {})))
+        for mesh in scene.meshes:
+            self._place_mesh(mesh, scene)
+        for lamp in scene.lamps:
+            self._place_lamp(lamp)
+        for name in set(self._objects) - {mesh.name for mesh in scene.meshes}:
+            bpy.data.meshes.remove(self._objects.pop(name)[1].data)
+        for name in set(self._lamps) - {lamp.name for lamp in scene.lamps}:
+            bpy.data.lights.remove(self._lamps.pop(name).data)
+        self._loaded = scene
+
+    def _material(self, name: str, scene: Scene) -> bpy.types.Material:
+        values = material_values(name, scene.materials.get(name, {}))
+        if name not in self._materials:
+            self._materials[name] = build_material(name, subsurface=self._subsurface)
+            set_parameters(self._materials[name], values)
+        return self._materials[name]
+
+    def _place_mesh(self, mesh: Mesh, scene: Scene) -> None:
+        """Move the mesh's vertices, or make it anew where its topology, parts or textures are not the known ones."""
+        topology = _topology(mesh)
+        known = self._objects.get(mesh.name)
+        if known is None or known[0] != topology:
+            if known is not None:
+                bpy.data.meshes.remove(known[1].data)
+            data = _new_mesh(mesh, [self._material(name, scene) for name in mesh.materials])
+            made = bpy.data.objects.new(mesh.name, data)
+            self._scene.collection.objects.link(made)
+            self._objects[mesh.name] = (topology, made)
+        data = self._objects[mesh.name][1].data
+        data.vertices.foreach_set("co", np.ascontiguousarray(mesh.vertices, np.float32).ravel())
+        data.update()
+
+    def _place_lamp(self, lamp: Lamp) -> None:
+        if lamp.name not in self._lamps:
+            light = bpy.data.lights.new(lamp.name, "AREA")
+            light.shape = "DISK"
+            self._lamps[lamp.name] = bpy.data.objects.new(lamp.name, light)
+            self._scene.collection.objects.link(self._lamps[lamp.name])
+        placed = self._lamps[lamp.name]
+        placed.data.size, placed.data.energy, placed.data.spread = (
+            lamp.diameter_m,
+            lamp.power_w,
+            lamp.spread_rad,
+        )
+        placed.matrix_world = _matrix(_pose_along(lamp.position, lamp.direction))
+
+    def _light(self, view: View | None) -> None:
+        """Switch on the lamps of a view and no others."""
+        for name, placed in self._lamps.items():
+            placed.hide_render = view is None or name not in view.lamps
+
+    def _aim(self, view: View) -> None:
+        """Make the view's camera the scene's."""
+        if view.name not in self._cameras:
+            data = bpy.data.cameras.new(view.name)
+            data.type, data.custom_mode = "CUSTOM", "INTERNAL"
+            data.custom_bytecode, data.custom_bytecode_hash = self._lens
+            data.clip_start, data.clip_end = CLIP_M
+            self._cameras[view.name] = bpy.data.objects.new(view.name, data)
+            self._scene.collection.objects.link(self._cameras[view.name])
+        placed = self._cameras[view.name]
+        for key, value in _lens_parameters(view.camera).items():
+            placed.data.cycles_custom[key] = value
+        placed.data.update_tag()
+        placed.matrix_world = _matrix(invert_transform(view.camera_from_head) @ BLENDER_FROM_OPENCV)
+        self._scene.camera = placed
+        self._scene.render.resolution_x, self._scene.render.resolution_y = (
+            view.camera.width,
+            view.camera.height,
+        )
+
+
+def _layers(view: View, radiance: np.ndarray, truth: dict[str, np.ndarray]) -> Layers:
+    """What Cycles gives, in the camera's frame and our units."""
+    ray_length = truth["Depth"][..., 0]
+    nothing = ray_length > NOTHING_M
+    # custom cameras measure along the ray; labels want the distance along the camera's axis
+    depth = np.where(nothing, np.inf, ray_length * _ray_z(view.camera))
+    normal = np.where(nothing[..., None], 0.0, truth["Normal"] @ view.camera_from_head[:3, :3].T)
+    label = truth["Combined"]
+    part = np.rint(label[..., 0]).astype(np.uint8)
+    return Layers(
+        radiance=np.clip(radiance, 0.0, HALF_MAX).astype(np.float16).astype(np.float32),
+        depth=depth.astype(np.float32),
+        normal=normal.astype(np.float32),
+        part=part,
+        uv=np.where(part[..., None] == Part.BACKGROUND, 0.0, label[..., 1:3]).astype(np.float32),
+    )
+
+
+@lru_cache(maxsize=32)
+def _ray_z(camera: Camera) -> np.ndarray:
+    return pixel_rays(camera)[..., 2]
+
+
+def _lens_parameters(camera: Camera) -> dict[str, float | int]:
+    # custom properties keep Python's types, and the shader looks them up by type
+    values = {term: 0.0 for term in ("k1", "k2", "k3", "k4", "p1", "p2")}
+    values |= {
+        term: float(k) for term, k in zip(DISTORTION_TERMS[camera.model], camera.coefficients, strict=True)
+    }
+    return values | {
+        "fisheye": int(camera.model == "fisheye"),
+        "width": float(camera.width),
+        "height": float(camera.height),
+        "fx": float(camera.fx),
+        "fy": float(camera.fy),
+        "cx": float(camera.cx),
+        "cy": float(camera.cy),
+    }
+
+
+def _topology(mesh: Mesh) -> bytes:
+    digest = hashlib.sha256(repr((mesh.materials, len(mesh.vertices))).encode())
+    for array in (mesh.faces, mesh.part, mesh.face_material, mesh.uv):
+        digest.update(b"none" if array is None else np.ascontiguousarray(array).tobytes())
+    return digest.digest()
+
+
+def _new_mesh(mesh: Mesh, materials: list[bpy.types.Material]) -> bpy.types.Mesh:
+    """Blender's mesh with smooth normals, a texture map ``uv`` and a face attribute ``part``."""
+    data = bpy.data.meshes.new(mesh.name)
+    corners = mesh.faces >= 0
+    sizes = corners.sum(axis=1)
+    data.vertices.add(len(mesh.vertices))
+    data.vertices.foreach_set("co", np.ascontiguousarray(mesh.vertices, np.float32).ravel())
+    data.loops.add(int(sizes.sum()))
+    data.loops.foreach_set("vertex_index", mesh.faces[corners].astype(np.int32))
+    data.polygons.add(len(sizes))
+    data.polygons.foreach_set("loop_start", np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int32))
+    data.polygons.foreach_set("use_smooth", np.ones(len(sizes), bool))
+    data.polygons.foreach_set("material_index", mesh.face_material.astype(np.int32))
+    for material in materials:
+        data.materials.append(material)
+    if mesh.uv is not None:
+        data.uv_layers.new(name="uv").data.foreach_set("uv", mesh.uv[corners].astype(np.float32).ravel())
+    part = data.attributes.new("part", "FLOAT", "FACE")
+    part.data.foreach_set("value", mesh.part.astype(np.float32))
+    data.update(calc_edges=True)
+    return data
+
+
+def _pose_along(position: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Pose whose -z axis points along ``direction``; a round lamp does not care about the turn about it."""
+    z = -np.asarray(direction, np.float64)
+    x = np.cross((0.0, 1.0, 0.0) if abs(z[1]) < 0.9 else (1.0, 0.0, 0.0), z)
+    x /= np.linalg.norm(x)
+    pose = np.eye(4)
+    pose[:3, :3] = np.stack([x, np.cross(z, x), z], axis=-1)
+    pose[:3, 3] = position
+    return pose
+
+
+def _matrix(pose: np.ndarray):  # noqa: ANN202 - mathutils ships without types
+    from mathutils import Matrix
+
+    return Matrix(pose.tolist())

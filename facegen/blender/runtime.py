@@ -1,0 +1,137 @@
+"""Blender as a Python module: importing it, keeping it quiet, compiling its lens, choosing its device."""
+
+import contextlib
+import hashlib
+import os
+import re
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+from facegen.errors import InputError, MissingAsset
+
+DEBIAN_PACKAGES = {
+    "libX11.so": "libx11-6",
+    "libXrender.so": "libxrender1",
+    "libXfixes.so": "libxfixes3",
+    "libXi.so": "libxi6",
+    "libxkbcommon.so": "libxkbcommon0",
+    "libSM.so": "libsm6",
+    "libICE.so": "libice6",
+    "libXext.so": "libxext6",
+    "libGL.so": "libgl1",
+    "libstdc++.so": "libstdc++6",
+    "libgcc_s.so": "libgcc-s1",
+}
+"""Debian and Ubuntu packages of the system libraries that the bpy wheel links to; no X server is needed, only the files."""
+
+GPU_BACKENDS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")
+"""In order of preference."""
+
+
+def import_bpy() -> ModuleType:
+    """The ``bpy`` module.
+
+    Raises
+    ------
+    MissingAsset
+        Where it, or a system library it links to, is not installed; names the package that brings it.
+    """
+    try:
+        import bpy
+    except ImportError as error:
+        raise MissingAsset(missing_library_sentence(error)) from error
+    return bpy
+
+
+def missing_library_sentence(error: ImportError) -> str:
+    """What is missing for Blender and how to get it, from the loader's message."""
+    found = re.search(r"(lib[\w+-]+\.so)[\w.]*: cannot open shared object file", str(error))
+    if found:
+        library = found.group(1)
+        package = DEBIAN_PACKAGES.get(library)
+        remedy = (
+            f"install it, on Debian and Ubuntu with `apt-get install --no-install-recommends {package}`"
+            if package
+            else "install the system package that brings it"
+        )
+        return f"Blender cannot start because the system library {library} is missing: {remedy}"
+    if isinstance(error, ModuleNotFoundError) and error.name == "bpy":
+        return (
+            "Blender is not installed as a Python module: `pip install 'bpy==4.5.*'`, which needs Python 3.11"
+        )
+    return f"Blender cannot start: {error}"
+
+
+@contextlib.contextmanager
+def quiet_stdout() -> Iterator[None]:
+    """Send file descriptor 1 to nowhere: Blender's C code prints there, past Python's ``sys.stdout``."""
+    sys.stdout.flush()
+    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(nowhere)
+
+
+def compile_lens() -> tuple[str, str]:
+    """Bytecode of ``lens.osl`` and its MD5, as a custom camera wants them (25 to 45 ms, once a process)."""
+    import_bpy()
+    import _cycles
+
+    with tempfile.TemporaryDirectory() as folder:
+        compiled = Path(folder) / "lens.oso"
+        # the compiler's own search for bundled tools needs no path here: the stock functions ship with Cycles
+        if not _cycles.osl_compile(str(Path(__file__).with_name("lens.osl")), str(compiled)):
+            raise InputError("Blender could not compile facegen/blender/lens.osl")
+        bytecode = compiled.read_text()
+    return bytecode, hashlib.md5(bytecode.encode()).hexdigest()
+
+
+def choose_device(want: str = "cpu") -> str:
+    """Let Cycles compute on the CPU or on a GPU, and say which it is.
+
+    Only the CPU repeats pictures bit for bit, and of the GPU backends only OptiX knows custom cameras.
+
+    Parameters
+    ----------
+    want
+        ``"cpu"``; ``"auto"``, a GPU if there is one that knows our cameras; or a backend's name, ``"optix"``.
+
+    Returns
+    -------
+    str
+        ``"CPU"``, or the backend's name, for example ``"OPTIX"``.
+
+    Raises
+    ------
+    InputError
+        Where the name is unknown, or a GPU was asked for by name and is not there.
+    """
+    bpy = import_bpy()
+    names = ("cpu", "auto", *(backend.lower() for backend in GPU_BACKENDS))
+    if want.lower() not in names:
+        raise InputError(f"device is {want!r}, but must be one of {', '.join(names)}")
+    preferences = bpy.context.preferences.addons["cycles"].preferences
+    wanted = {"cpu": (), "auto": ("OPTIX",)}.get(want.lower(), (want.upper(),))
+    for backend in wanted:
+        try:
+            preferences.compute_device_type = backend
+        except TypeError:  # not built for this system
+            continue
+        preferences.refresh_devices()
+        if any(device.type == backend for device in preferences.devices):
+            for device in preferences.devices:
+                device.use = device.type == backend
+            bpy.context.scene.cycles.device = "GPU"
+            return backend
+    preferences.compute_device_type = "NONE"
+    bpy.context.scene.cycles.device = "CPU"
+    if wanted and want.lower() != "auto":
+        raise InputError(f"device is {want!r}, but no such device was found; use cpu or auto")
+    return "CPU"

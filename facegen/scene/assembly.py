@@ -1,0 +1,127 @@
+"""Puts a scene together: one evaluated head, its eyes, and a headset in place, with lamps and views."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from facegen.conventions import SIDES, Part
+from facegen.geometry import apply_transform, invert_transform
+from facegen.headsets import Headset
+from facegen.rigs import EyeGeometry, Rig
+from facegen.scene.eyes import eye_meshes
+from facegen.scene.lashes import lash_uv
+from facegen.scene.scene import Lamp, Mesh, Scene, View
+
+MATERIAL_OF_PART: dict[Part, str] = {
+    Part.SKIN: "skin",
+    Part.LIPS: "lips",
+    Part.BROWS: "brows",
+    Part.LASHES: "lashes",
+    Part.TEETH: "teeth",
+    Part.GUMS: "gums",
+    Part.TONGUE: "tongue",
+    Part.MOUTH_CAVITY: "cavity",
+    Part.EYE_CAVITY: "cavity",
+}
+"""Material of each part that a rig's faces may have."""
+
+MESHES_OF_HEAD: dict[str, tuple[Part, ...]] = {
+    "head": (Part.SKIN, Part.LIPS, Part.BROWS, Part.MOUTH_CAVITY, Part.EYE_CAVITY),
+    "teeth": (Part.TEETH, Part.GUMS),
+    "tongue": (Part.TONGUE,),
+    "lashes": (Part.LASHES,),
+}
+"""Objects that a head is cut into: light scatters below the surface within an object, not from lip to tooth."""
+
+
+def assemble(
+    rig: Rig,
+    vertices: np.ndarray,
+    eyes: Sequence[EyeGeometry],
+    headset: Headset,
+    head_from_headset: np.ndarray,
+    *,
+    materials: dict[str, dict[str, float]] | None = None,
+) -> Scene:
+    """The scene of one sample.
+
+    Parameters
+    ----------
+    rig
+        Topology, parts and texture coordinates.
+    vertices
+        (V, 3) the evaluated head, head frame, metres.
+    eyes
+        The subject's left and right eye.
+    headset, head_from_headset
+        The headset and where it sits (`facegen.headsets.head_from_headset`).
+    materials
+        Parameters by material name, over the defaults of `facegen.scene.materials.MATERIALS`.
+    """
+    eye_parts = [mesh for eye, side in zip(eyes, SIDES, strict=True) for mesh in eye_meshes(eye, side)]
+    return Scene(
+        meshes=(*head_meshes(rig, vertices), *eye_parts),
+        lamps=headset_lamps(headset, head_from_headset),
+        views=headset_views(headset, head_from_headset),
+        materials=materials or {},
+    )
+
+
+def head_meshes(rig: Rig, vertices: np.ndarray) -> tuple[Mesh, ...]:
+    """The head cut into `MESHES_OF_HEAD`, without those that the rig has no faces for."""
+    meshes = []
+    for name, parts in MESHES_OF_HEAD.items():
+        chosen = np.isin(rig.part, parts)
+        if not chosen.any():
+            continue
+        faces, part = rig.faces[chosen], rig.part[chosen]
+        used, renumbered = np.unique(faces, return_inverse=True)
+        renumbered = renumbered.reshape(faces.shape)
+        if used[0] == -1:  # padding of triangles
+            used, renumbered = used[1:], renumbered - 1
+        names = tuple(dict.fromkeys(MATERIAL_OF_PART[Part(p)] for p in parts))
+        index_of_part = np.zeros(max(Part) + 1, np.int32)
+        for p in parts:
+            index_of_part[p] = names.index(MATERIAL_OF_PART[p])
+        meshes.append(
+            Mesh(
+                name=name,
+                vertices=vertices[used],
+                faces=renumbered.astype(np.int32),
+                part=part,
+                materials=names,
+                face_material=index_of_part[part],
+                uv=lash_uv(rig.vertices, rig.faces[chosen], rig.uv[chosen], rig.eye_center)
+                if name == "lashes"
+                else rig.uv[chosen],
+            )
+        )
+    return tuple(meshes)
+
+
+def headset_lamps(headset: Headset, head_from_headset: np.ndarray) -> tuple[Lamp, ...]:
+    """The headset's LEDs in the head frame."""
+    return tuple(
+        Lamp(
+            name=led.name,
+            position=apply_transform(head_from_headset, led.position[None])[0],
+            direction=head_from_headset[:3, :3] @ led.direction,
+            diameter_m=led.diameter_mm * 1e-3,
+            power_w=led.power_mw * 1e-3,
+            spread_rad=float(np.radians(led.beam_deg)),
+        )
+        for led in headset.leds
+    )
+
+
+def headset_views(headset: Headset, head_from_headset: np.ndarray) -> tuple[View, ...]:
+    """The headset's cameras in the head frame, each with its own LEDs."""
+    return tuple(
+        View(
+            name=camera.name,
+            camera=camera.camera,
+            camera_from_head=invert_transform(head_from_headset @ camera.headset_from_camera),
+            lamps=tuple(led.name for led in headset.leds if led.camera == camera.name),
+        )
+        for camera in headset.cameras
+    )

@@ -1,0 +1,72 @@
+"""Names and default parameters of the materials, near infra-red: what a scene may ask for, and what it gets if silent.
+
+Albedos are diffuse reflectances at about 850 nm. Melanin hardly absorbs there, so skins of all colours lie close
+together and lips are almost as grey as skin [1]_. Lengths are in metres.
+
+References
+----------
+.. [1] R. R. Anderson and J. A. Parrish, "The optics of human skin", J. Invest. Dermatol. 77(1), 1981: reflectance of
+   0.5 to 0.7 between 800 and 1,000 nm, scattering deeper than in visible light.
+"""
+
+from facegen.errors import InputError
+
+MATERIALS: dict[str, dict[str, float]] = {
+    "skin": {
+        "albedo": 0.6,
+        "roughness": 0.48,
+        "specular": 0.35,
+        "scatter_m": 3.0e-3,
+        "mottle": 0.12,
+        "bump_m": 4e-5,
+    },
+    "lips": {
+        "albedo": 0.56,
+        "roughness": 0.35,
+        "specular": 0.45,
+        "scatter_m": 3.0e-3,
+        "mottle": 0.15,
+        "bump_m": 8e-5,
+    },
+    "brows": {"albedo": 0.58, "roughness": 0.48, "specular": 0.35, "scatter_m": 3.0e-3, "hair": 0.5},
+    "cavity": {"albedo": 0.18, "roughness": 0.6},
+    "sclera": {"albedo": 0.4, "roughness": 0.25, "scatter_m": 1.5e-3, "mottle": 0.1, "limbus": 0.35},
+    "iris": {"albedo": 0.235, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
+    "pupil": {"albedo": 0.12},
+    "cornea": {"index": 1.336, "roughness": 0.07},
+    "teeth": {"albedo": 0.62, "roughness": 0.2, "scatter_m": 1.0e-3},
+    "gums": {"albedo": 0.45, "roughness": 0.3, "scatter_m": 2.0e-3},
+    "tongue": {"albedo": 0.42, "roughness": 0.4, "scatter_m": 2.0e-3},
+    "lashes": {"albedo": 0.08, "strands": 55.0, "cover": 0.5, "length": 0.9},
+    "emitter": {"radiance": 1.0},
+}
+"""Every material and the parameters it knows, with their defaults.
+
+``mottle``
+    Relative depth of the albedo's fine variation.
+``limbus``
+    How far the albedo falls at the limbus: iris and sclera shade into each other there.
+``contrast``, ``collarette``, ``pattern``
+    Depth of the iris's fibres, height of its lighter inner zone, and a number that picks the fibre pattern.
+``hair``
+    Share of the albedo that the brow's hairs take away.
+``strands``, ``cover``, ``length``
+    Lashes to a lid, the share of the strip they cover at its root, and the longest one's share of the strip's depth.
+"""
+
+
+def material_values(name: str, given: dict[str, float]) -> dict[str, float]:
+    """Parameters of a material with defaults filled in.
+
+    Raises
+    ------
+    InputError
+        Where the material or a parameter does not exist.
+    """
+    if name not in MATERIALS:
+        raise InputError(f"there is no material {name!r}; known are {', '.join(MATERIALS)}")
+    unknown = sorted(set(given) - set(MATERIALS[name]))
+    if unknown:
+        known = ", ".join(MATERIALS[name])
+        raise InputError(f"material {name!r} has no parameter {unknown[0]!r}; known are {known}")
+    return {**MATERIALS[name], **given}
