@@ -1,0 +1,119 @@
+"""Specs: what is accepted, what is refused and how, and what the hash depends on."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from facegen.errors import InputError
+from facegen.spec import draw, load_spec, parse_spec, sample_numbers, spec_hash, spec_schema, spec_table
+from facegen.spec.distribution import as_data, parse
+
+ROOT = Path(__file__).resolve().parents[3]
+SMALL = {"version": 1, "kind": "still", "seed": 1, "people": 3}
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "datasets").glob("*.toml")), ids=lambda p: p.stem)
+def test_shipped_specs_load_and_survive_a_round_trip(path):
+    spec = load_spec(path)
+    assert parse_spec(spec_table(spec), where="again") == spec
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"peple": 3}, ["unknown key 'peple'", "did you mean 'people'"]),
+        ({"head": {"yaw_rad": 0.3}}, ["unknown key 'head.yaw_rad'", "'yaw_deg'", "pitch_deg"]),
+        ({"camera": {"distance_m": 600}}, ["camera.distance_m", "600", "between 0.2 and 10 metres"]),
+        ({"head": {"yaw_deg": "20deg"}}, ["head.yaw_deg", "20deg", "must be a number"]),
+        ({"head": {"yaw_deg": {"uniform": [5, 1]}}}, ["head.yaw_deg", "lower bound must be below"]),
+        ({"head": {"yaw_deg": {"normal": [0, 0]}}}, ["head.yaw_deg", "above 0"]),
+        ({"head": {"yaw_deg": {"normal": [0, 100]}}}, ["head.yaw_deg", "between -60 and 60 degrees"]),
+        ({"kind": "stil"}, ["kind", "stil", "'still' or 'playback'"]),
+        ({"people": 0}, ["people = 0", "greater than or equal to 1"]),
+        ({"people": 2.5}, ["people = 2.5", "whole number"]),
+        ({"people": True}, ["people = true"]),
+        ({"still": 3}, ["still = 3", "table"]),
+        ({"still": {"neutral": 0, "faces": 0}}, ["still.neutral", "at least one"]),
+        ({"split_shares": [0.5, 0.5, 0.5]}, ["split_shares", "add up to 1"]),
+        ({"render": {"samples": "0-x"}}, ["render.samples", "'0-x'"]),
+        ({"kind": "playback"}, ["[playback]", "recording"]),
+        ({"seed": -1}, ["seed = -1"]),
+    ],
+)
+def test_refusals_say_what_where_and_what_is_allowed(change, words):
+    with pytest.raises(InputError) as error:
+        parse_spec(SMALL | change, where="x.toml")
+    message = str(error.value)
+    assert message.startswith("x.toml: ")
+    assert "\n" not in message
+    for word in words:
+        assert word in message
+
+
+def test_a_missing_key_and_a_missing_file_are_named(tmp_path):
+    with pytest.raises(InputError, match="key 'seed' is missing"):
+        parse_spec({"version": 1, "kind": "still", "people": 3}, where="x.toml")
+    with pytest.raises(InputError, match="there is no such spec"):
+        load_spec(tmp_path / "none.toml")
+    (tmp_path / "broken.toml").write_text("people = = 3")
+    with pytest.raises(InputError, match="not valid TOML"):
+        load_spec(tmp_path / "broken.toml")
+
+
+def test_hash_depends_on_what_decides_samples_and_on_nothing_else():
+    spec = parse_spec(SMALL, where="")
+    assets = {"rig": "a"}
+    base = spec_hash(spec, asset_sha256=assets)
+    assert base == spec_hash(parse_spec(spec_table(spec), where=""), asset_sha256=assets)
+    assert base == spec_hash(replace(spec, render=replace(spec.render, samples="0-1")), asset_sha256=assets)
+    assert base != spec_hash(replace(spec, seed=2), asset_sha256=assets)
+    assert base != spec_hash(replace(spec, render=replace(spec.render, size_px=64)), asset_sha256=assets)
+    assert base != spec_hash(spec, asset_sha256={"rig": "b"})
+
+
+def test_schema_lists_every_key():
+    properties = spec_schema()["properties"]
+    assert set(properties) == set(spec_table(parse_spec(SMALL, where="")))
+
+
+_numbers = st.floats(-50, 50, allow_nan=False).map(lambda x: round(x, 3))
+_distributions = st.one_of(
+    _numbers,
+    st.tuples(_numbers, _numbers).filter(lambda p: p[0] < p[1]).map(lambda p: {"uniform": list(p)}),
+    st.tuples(_numbers, st.floats(0.01, 20)).map(lambda p: {"normal": list(p)}),
+)
+
+
+@given(_distributions, st.integers(0, 2**32))
+def test_draws_stay_within_their_bounds_and_data_survives(data, seed):
+    distribution = parse(data)
+    assert parse(as_data(distribution)) == distribution
+    values = draw(distribution, np.random.default_rng(seed), 50)
+    assert values.shape == (50,)
+    assert (values >= distribution.low).all()
+    assert (values <= distribution.high).all()
+
+
+def test_truncated_normal_has_the_moments_of_its_formula():
+    values = draw(parse({"normal": [2.0, 3.0], "within": [-1.0, 5.0]}), np.random.default_rng(0), 200_000)
+    # cut at one standard deviation on both sides: variance is (1 - 2 phi(1) / (2 Phi(1) - 1)) sd^2 = 0.2911 sd^2
+    assert values.mean() == pytest.approx(2.0, abs=0.02)
+    assert values.var() == pytest.approx(0.2911 * 9.0, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [("", []), ("3", [3]), ("0-3", [0, 1, 2, 3]), ("0-9:4, 1", [0, 1, 4, 8]), ("2,2,1-2", [1, 2])],
+)
+def test_sample_numbers(text, numbers):
+    assert sample_numbers(text, total=10, where="here") == numbers
+
+
+@pytest.mark.parametrize("text", ["-1", "3-1", "1:2", "a", "1-2-3", "10"])
+def test_sample_numbers_refuses(text):
+    with pytest.raises(InputError, match="^here: "):
+        sample_numbers(text, total=10, where="here")
