@@ -1,0 +1,136 @@
+"""Draws: what follows from (spec, sample) alone, and that faces keep to what a face can do."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLOCK
+from facegen.randomness import stream
+from facegen.rigs import eye_centers
+from facegen.sampling import draw_samples, plan_dataset
+from facegen.sampling.expression import EXCLUSIVE, TONGUE_NEEDS_JAW, draw_expression, restrain
+from facegen.sampling.gaze import axes_from_target, axes_from_weights, weights_from_axes
+from facegen.sampling.people import split_of
+from facegen.spec import parse_spec
+
+STILL = {"version": 1, "kind": "still", "seed": 7, "people": 450, "still": {"neutral": 1, "faces": 6}}
+
+
+def spec(**change):
+    return parse_spec(STILL | change, where="test")
+
+
+def test_streams_depend_on_their_key_alone():
+    first = stream(1, "gaze", 0).random(5)
+    stream(1, "expression", 0).random(100)
+    np.testing.assert_array_equal(stream(1, "gaze", 0).random(5), first)
+    others = [stream(2, "gaze", 0), stream(1, "gaze2", 0), stream(1, "gaze", 1)]
+    assert all(not np.array_equal(other.random(5), first) for other in others)
+
+
+def test_streams_are_the_ones_that_datasets_were_made_with():
+    # golden: changing these changes every dataset; raise LABEL_VERSION and say so in CHANGELOG.md
+    np.testing.assert_allclose(
+        stream(7, "identity", 3).random(3), [0.24326285, 0.65993490, 0.48084303], atol=5e-9
+    )
+
+
+def test_a_block_is_the_same_however_it_is_reached(anny):
+    plan = plan_dataset(spec())
+    once, again = draw_samples(plan, anny, 2), draw_samples(plan, anny, 2)
+    for field in fields(once):
+        np.testing.assert_array_equal(getattr(once, field.name), getattr(again, field.name))
+        assert len(getattr(once, field.name)) == BLOCK
+
+
+def test_people_do_not_depend_on_how_many_faces_they_show_nor_on_who_else_is_there(anny):
+    few, many = plan_dataset(spec()), plan_dataset(spec(still={"neutral": 1, "faces": 12}, people=900))
+    a, b = draw_samples(few, anny, 1), draw_samples(many, anny, 1)
+    shared = sorted(set(a.person) & set(b.person))
+    assert len(shared) > 10
+    for person in shared:
+        row_a, row_b = np.flatnonzero(a.person == person)[0], np.flatnonzero(b.person == person)[0]
+        np.testing.assert_array_equal(a.identity[row_a], b.identity[row_b])
+        assert a.age_years[row_a] == b.age_years[row_b]
+
+
+def test_one_person_across_the_edge_of_two_blocks_stays_one_person(anny):
+    plan = plan_dataset(spec())  # 7 faces a person: person 142 has samples 994 to 1000
+    first, second = draw_samples(plan, anny, 0), draw_samples(plan, anny, 1)
+    assert first.person[-1] == second.person[0] == 142
+    np.testing.assert_array_equal(first.identity[-1], second.identity[0])
+    np.testing.assert_array_equal(first.donning[-1], second.donning[0])
+    assert first.split[-1] == second.split[0]
+
+
+def test_neutral_faces_are_neutral_and_look_ahead(anny):
+    samples = draw_samples(plan_dataset(spec()), anny, 0)
+    assert samples.neutral[::7].all()
+    assert samples.neutral.sum() == len(samples.neutral[::7])
+    assert not samples.weights[samples.neutral].any()
+    np.testing.assert_array_equal(samples.gaze[samples.neutral], np.broadcast_to([0, 0, 1], (143, 2, 3)))
+
+
+def test_splits_have_their_shares_exactly_and_split_by_person():
+    split = split_of(spec(people=2000), np.arange(2000))
+    assert np.bincount(split).tolist() == [1400, 300, 300]
+    assert np.array_equal(split_of(spec(people=2000), np.array([5, 5, 1999])), split[[5, 5, 1999]])
+
+
+@given(st.integers(0, 2**20))
+@settings(max_examples=20, deadline=None)
+def test_drawn_faces_are_possible(seed):
+    weights = draw_expression(spec(), np.random.default_rng(seed), 300)
+    assert weights.min() >= 0
+    assert weights.max() <= 1
+    for first, second in EXCLUSIVE:
+        together = np.minimum(weights[:, BLENDSHAPE_INDEX[first]], weights[:, BLENDSHAPE_INDEX[second]])
+        assert not together.any()
+    jaw = weights[:, BLENDSHAPE_INDEX["jawOpen"]]
+    assert (weights[:, BLENDSHAPE_INDEX["mouthClose"]] <= jaw).all()
+    assert not weights[jaw < TONGUE_NEEDS_JAW, BLENDSHAPE_INDEX["tongueOut"]].any()
+    np.testing.assert_array_equal(restrain(weights), weights)
+
+
+def test_every_shape_is_shown_over_its_range(anny):
+    weights = draw_samples(plan_dataset(spec(people=2000)), anny, 0).weights
+    for index, name in enumerate(BLENDSHAPES):
+        assert weights[:, index].max() > (0.5 if name.startswith("eyeLook") else 0.8), name
+
+
+def test_both_eyes_meet_at_the_target_and_weights_say_the_same(anny):
+    samples = draw_samples(plan_dataset(spec()), anny, 0)
+    target = np.tile([0.05, -0.1, 0.8], (BLOCK, 1))
+    axes = axes_from_target(target, eye_centers(anny, samples.identity))
+    np.testing.assert_allclose(np.linalg.norm(axes, axis=-1), 1, atol=1e-12)
+    weights = np.zeros((BLOCK, len(BLENDSHAPES)))
+    for index, value in weights_from_axes(axes).items():
+        weights[:, index] = value
+    np.testing.assert_allclose(axes_from_weights(weights), axes, atol=1e-12)
+    # the target is to the subject's left and below: the left eye looks out, the right one in, both down
+    assert (weights[:, BLENDSHAPE_INDEX["eyeLookInRight"]] > 0).all()
+    assert (weights[:, BLENDSHAPE_INDEX["eyeLookDownLeft"]] > 0).all()
+    assert not weights[:, BLENDSHAPE_INDEX["eyeLookUpLeft"]].any()
+    # vergence: the axes cross, so the left eye is turned more to the right than the right eye
+    assert (axes[:, 0, 0] < axes[:, 1, 0]).all()
+
+
+def test_spread_zero_gives_the_mean_of_each_trait(anny):
+    samples = draw_samples(plan_dataset(spec(identity={"spread": 0.0, "female": 1.0, "age_years": 40})), anny, 0)
+    assert samples.female.all()
+    assert (samples.age_years == 40).all()
+    same_ancestry = replace(samples, ancestry=samples.ancestry).ancestry
+    assert np.allclose(same_ancestry.sum(axis=1), 1)
+    assert samples.identity[::7].std(axis=0).max() > 0  # ancestry still differs
+
+
+@pytest.mark.parametrize("share", [0.0, 1.0])
+def test_symmetric_faces_are_symmetric(share):
+    weights = draw_expression(spec(expression={"symmetric": share}), np.random.default_rng(0), 400)
+    left = [i for i, n in enumerate(BLENDSHAPES) if n.endswith("Left") and not n.startswith(("jaw", "mouthLeft"))]
+    right = [BLENDSHAPE_INDEX[BLENDSHAPES[i].replace("Left", "Right")] for i in left]
+    same = (weights[:, left] == weights[:, right]).all(axis=1).mean()
+    assert same == 1.0 if share else same < 0.2
