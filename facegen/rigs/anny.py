@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse import csgraph
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_GROUPS, Part
 from facegen.rigs.files import assets_folder
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
 from facegen.rigs.makehuman import DECIMETRE_M, BaseMesh, read_blendshapes, read_mesh
+from facegen.rigs.marking import lid_neighbourhood, lip_faces
 from facegen.rigs.population import TRAITS, draw_population
 from facegen.rigs.rig import Rig
 from facegen.rigs.subdivision import catmull_clark, subdivide_corners
@@ -27,8 +26,6 @@ TONGUE_DROP_M = 6e-3
 LIP_SEAL = 0.03
 """Share of mouthClose put into the neutral, whose lips stand 1 mm apart."""
 BROW_HALF_WIDTH_M = 3.5e-3
-LID_REACH = 2.2
-"""Lid vertices lie within this many eye radii of the eyeball's centre."""
 
 VERSION = "anny 0.6.2, build 1"
 LICENCE = "CC0-1.0"
@@ -122,22 +119,6 @@ def build_anny(
     )
 
 
-def lid_neighbourhood(
-    vertices: np.ndarray, expression: np.ndarray, eye_center: np.ndarray, eye_radius: np.ndarray
-) -> np.ndarray:
-    """(2, M) vertices near each eye that some eye blendshape of its side moves, padded with -1."""
-    found = []
-    for side, centre, radius in zip(("Left", "Right"), eye_center, eye_radius, strict=True):
-        shapes = [i for name, i in BLENDSHAPE_INDEX.items() if name.startswith("eye") and name.endswith(side)]
-        moves = np.linalg.norm(expression[shapes], axis=-1).max(axis=0) > 1e-6
-        near = np.linalg.norm(vertices - centre, axis=-1) < LID_REACH * radius
-        found.append(np.flatnonzero(moves & near))
-    padded = np.full((2, max(map(len, found))), -1)
-    for row, indices in zip(padded, found, strict=True):
-        row[: len(indices)] = indices
-    return padded
-
-
 def _indices(ranges: list[list[int]]) -> np.ndarray:
     return np.concatenate([np.arange(first, last + 1) for first, last in ranges])
 
@@ -161,7 +142,7 @@ def _cut(mesh: BaseMesh, parts: dict, landmark_base: np.ndarray) -> _Head:
     row_of = np.full(len(mesh.vertices), -1)
     row_of[order] = np.arange(len(order))
     quads = row_of[quads]
-    part[_lip_quads(quads, outer, mesh.vertices[order], row_of[landmark_base])] = Part.LIPS
+    part[lip_faces(quads, outer, mesh.vertices[order], row_of[landmark_base])] = Part.LIPS
     return _Head(
         base_rows=order,
         row_of=row_of,
@@ -171,39 +152,6 @@ def _cut(mesh: BaseMesh, parts: dict, landmark_base: np.ndarray) -> _Head:
         outer_vertices=len(np.unique(quads[outer])),
         outer_quads=quads[outer],
     )
-
-
-def _lip_quads(
-    quads: np.ndarray, outer: np.ndarray, vertices: np.ndarray, landmarks: np.ndarray
-) -> np.ndarray:
-    """Quads of the red of the lips: outer skin reached from the inner lip's landmarks without crossing the border.
-
-    The border is the shortest path along the mesh through the outer lip's landmarks.
-    """
-    sides = np.stack([quads[outer], np.roll(quads[outer], -1, axis=1)], axis=-1).reshape(-1, 2)
-    length = np.linalg.norm(vertices[sides[:, 0]] - vertices[sides[:, 1]], axis=1)
-    graph = sparse.csr_matrix((length, sides.T), (len(vertices), len(vertices)))
-    ring = landmarks[list(LANDMARK_GROUPS["outer_lip"])]
-    _, before = csgraph.dijkstra(graph, directed=False, indices=ring, return_predecessors=True)
-    border = set()
-    for start, goal in zip(range(len(ring)), np.roll(ring, -1), strict=True):
-        while goal != ring[start]:
-            border.add(frozenset((int(goal), int(before[start, goal]))))
-            goal = before[start, goal]
-    index = np.flatnonzero(outer).repeat(4)
-    keys = [frozenset(map(int, side)) for side in sides]
-    owners: dict[frozenset, list[int]] = {}
-    for key, quad in zip(keys, index, strict=True):
-        if key not in border:
-            owners.setdefault(key, []).append(int(quad))
-    pairs = np.array([pair for pair in owners.values() if len(pair) == 2]).T
-    linked = sparse.csr_matrix((np.ones(pairs.shape[1]), pairs), (len(quads), len(quads)))
-    _, label = csgraph.connected_components(linked, directed=False)
-    inner = landmarks[
-        list(LANDMARK_GROUPS["inner_lip"])[1:4]
-    ]  # 60 and 64 are corners, which touch the cheek too
-    seeds = label[outer & np.isin(quads, inner).any(axis=1)]
-    return outer & np.isin(label, seeds)
 
 
 def _person_rows(heads: np.ndarray, head_rows: int, size: np.ndarray) -> np.ndarray:

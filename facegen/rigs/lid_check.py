@@ -1,6 +1,7 @@
 """Measures on the mesh itself how well lids cover the eye: eyeball area seen between, and outside, the lid margins."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -54,9 +55,23 @@ def eyeball_seen(
         area[eye] = seen.sum() * (1e3 * STEP_M) ** 2
         rows, columns = np.nonzero(seen)
         points = origin + STEP_M * np.stack([columns, -rows], axis=-1)
-        margin = np.concatenate([rig.upper_lid[eye], rig.lower_lid[eye][-2:0:-1]])
-        outside[eye] = (~_in_polygon(points, vertices[margin, :2])).sum() * (1e3 * STEP_M) ** 2
+        outside[eye] = (~_in_polygon(points, vertices[margin_loop(rig, eye), :2])).sum() * (1e3 * STEP_M) ** 2
     return EyeballSeen(area_mm2=area, outside_mm2=outside)
+
+
+@lru_cache(maxsize=8)
+def margin_loop(rig: Rig, eye: int) -> np.ndarray:
+    """Vertices of the lid margins as a closed loop, those that subdivision put between the cage's included."""
+    ring = np.concatenate([rig.upper_lid[eye], rig.lower_lid[eye][-2:0:-1]])
+    sides = np.stack([rig.faces, np.roll(rig.faces, -1, axis=1)], axis=-1).reshape(-1, 2)
+    sides = np.concatenate([sides, sides[:, ::-1]])
+    beside = {int(vertex): set(sides[sides[:, 0] == vertex, 1].tolist()) for vertex in ring}
+    loop: list[int] = []
+    for vertex, following in zip(ring.tolist(), np.roll(ring, -1).tolist(), strict=True):
+        loop.append(vertex)
+        if following not in beside[vertex]:
+            loop += sorted(beside[vertex] & beside[following])[:1]
+    return np.array(loop)
 
 
 def _eye_depth(radius: float, axis: np.ndarray, shape: tuple[int, int]) -> np.ndarray:

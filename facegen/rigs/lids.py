@@ -23,7 +23,7 @@ THICKNESS_M = (0.15e-3, 2.0e-3)
 """Lids keep the clearance they have when open, between these: triangles of 3 mm sag 0.14 mm into the cornea."""
 BEHIND_M = 0.3e-3
 """Linings of the lids that lie inside the eyeball when open stay at least this deep in it, out of the skin's way."""
-FRONT_M = 0.5e-3
+FRONT_M = 0.35e-3
 """The upper margin's distance in front of the lower one in the closed eye."""
 STEADY_TRAVEL_M = 1.5e-3
 """Columns whose blink travels less than this, at the canthi, take the weight as it is: their ratio would be noise."""
@@ -206,7 +206,7 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> _
         follow=np.clip(descent / np.maximum(margin, 1e-3), 0.0, 1.0),
         skin=np.isin(vertices, rig.faces[np.isin(rig.part, (Part.SKIN, Part.BROWS, Part.LASHES, Part.LIPS))]),
         travel=np.zeros(len(upper)),
-        overlap=OVERLAP_M * np.clip(6.0 * middle * (1.0 - middle), 0.0, 1.0),
+        overlap=OVERLAP_M * np.clip(12.0 * middle * (1.0 - middle), 0.0, 1.0),
         blink_index=shapes["Blink"],
         closing_index=(shapes["LookDown"], shapes["Squint"]),
         upper=upper,
