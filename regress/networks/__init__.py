@@ -1,0 +1,22 @@
+"""Many small networks side by side: how they train, start and run."""
+
+from regress.networks.folded import FoldedNetworks, block_w2, evaluate
+from regress.networks.folding import fold
+from regress.networks.initial import nguyen_widrow, ridge_knots
+from regress.networks.least_squares import Layout, NetworkProblem, Rows
+from regress.networks.ridge import Ridge, fit_ridge, ridge_coefficients
+
+__all__ = [
+    "FoldedNetworks",
+    "Layout",
+    "NetworkProblem",
+    "Ridge",
+    "Rows",
+    "block_w2",
+    "evaluate",
+    "fit_ridge",
+    "fold",
+    "nguyen_widrow",
+    "ridge_coefficients",
+    "ridge_knots",
+]

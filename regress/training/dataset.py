@@ -1,0 +1,128 @@
+"""Keypoints and weights of a facegen dataset, as files say them (DESIGN: a dataset on disk)."""
+
+import hashlib
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, SPLITS
+from regress.errors import InputError
+
+_WIDTHS = {"weights": len(BLENDSHAPES), "detected_2d": LANDMARK_COUNT * 2}
+
+
+@dataclass(frozen=True, kw_only=True)
+class KeypointDataset:
+    """What a regressor needs of a dataset.
+
+    Parameters
+    ----------
+    name
+        Name of the dataset's folder.
+    points : (n, 68, 2) float64
+        Detected landmarks, pixels, y down: with the noise that a detector would have.
+    weights : (n, 52) float64
+        In ``BLENDSHAPES`` order.
+    split : (n,) str
+        ``train``, ``validation`` or ``test``.
+    person : (n,) int64
+    description
+        Content of dataset.json.
+    sha256
+        Of the bytes of all shards, in order.
+    """
+
+    name: str
+    points: np.ndarray
+    weights: np.ndarray
+    split: np.ndarray
+    person: np.ndarray
+    description: dict[str, Any]
+    sha256: str
+
+    def rows(self, split: str) -> np.ndarray:
+        """Row numbers of a split."""
+        return np.flatnonzero(self.split == split)
+
+
+def read_dataset(folder: str | os.PathLike[str]) -> KeypointDataset:
+    """Read the keypoints of a dataset made by ``facegen generate``.
+
+    Raises
+    ------
+    InputError
+        Where the folder is no dataset, a column is missing or has another width, or a split is empty.
+    """
+    folder = Path(folder)
+    description = _description(folder / "dataset.json")
+    shards = sorted((folder / "keypoints").glob("shard-*.parquet"))
+    if not shards:
+        raise InputError(f"{folder / 'keypoints'} holds no shard-*.parquet; facegen generate writes them")
+    digest = hashlib.sha256()
+    tables = []
+    for shard in shards:
+        content = shard.read_bytes()
+        digest.update(content)
+        tables.append(_table(shard, content))
+    table = pa.concat_tables(tables)
+    points = _column(table, "detected_2d").reshape(-1, LANDMARK_COUNT, 2)
+    weights = _column(table, "weights")
+    if not (np.isfinite(points).all() and np.isfinite(weights).all()):
+        raise InputError(f"{folder / 'keypoints'} holds points or weights that are not finite numbers")
+    split = np.array(table.column("split").to_pylist())
+    for name in SPLITS:
+        if not np.any(split == name):
+            raise InputError(
+                f"{folder} has no sample in the {name} split; it needs people in all of {', '.join(SPLITS)}"
+            )
+    return KeypointDataset(
+        name=folder.resolve().name,
+        points=points,
+        weights=weights,
+        split=split,
+        person=table.column("person").to_numpy(),
+        description=description,
+        sha256=digest.hexdigest(),
+    )
+
+
+def _description(path: Path) -> dict[str, Any]:
+    if not path.is_file():
+        raise InputError(f"{path} does not exist; a dataset is a folder that facegen generate has made")
+    try:
+        description = json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, OSError) as error:
+        raise InputError(f"{path} is not readable JSON: {error}") from error
+    if not isinstance(description, dict):
+        raise InputError(f"{path} holds {type(description).__name__}; a JSON object is needed")
+    return description
+
+
+def _table(shard: Path, content: bytes) -> pa.Table:
+    columns = ["person", "split", *_WIDTHS]
+    try:
+        file = pq.ParquetFile(pa.BufferReader(content))
+        missing = [name for name in columns if name not in file.schema_arrow.names]
+        if missing:
+            raise InputError(
+                f"{shard} lacks the column {missing[0]!r}; it holds {', '.join(file.schema_arrow.names)}"
+            )
+        table = file.read(columns=columns)
+    except pa.ArrowException as error:
+        raise InputError(f"{shard} is not a readable Parquet file: {error}") from error
+    for name, width in _WIDTHS.items():
+        kind = table.schema.field(name).type
+        if not pa.types.is_fixed_size_list(kind) or kind.list_size != width:
+            raise InputError(f"{shard}: column {name!r} is {kind}; lists of {width} numbers are needed")
+    return table
+
+
+def _column(table: pa.Table, name: str) -> np.ndarray:
+    flat = table.column(name).combine_chunks().flatten().to_numpy()
+    return flat.reshape(-1, _WIDTHS[name]).astype(np.float64)

@@ -1,0 +1,193 @@
+"""Fitting all networks: groups of them in threads, the L2 strength of each chosen on the validation split."""
+
+import os
+import threading
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from regress.errors import Interrupted
+from regress.levenberg_marquardt import Result, Settings, minimise
+from regress.networks import (
+    Layout,
+    NetworkProblem,
+    Rows,
+    nguyen_widrow,
+    ridge_coefficients,
+    ridge_knots,
+)
+from regress.targets import NETWORKS
+from regress.training.preparation import WIDEST, Prepared, Split, network_columns, used_outputs
+from regress.training.recipes import Recipe
+
+Progress = Callable[[str, int, int], None]
+"""Called with the stage's name, steps done and steps at most."""
+
+_GROUPS: tuple[np.ndarray, ...] = tuple(np.arange(first, len(NETWORKS), 6) for first in range(6))
+"""Networks fitted together. Fixed, whatever the cores: matrix products of other shapes give other last bits.
+Five to a group reach three quarters of the speed of all 31 in one product, and six groups fill 2, 3 and 6 cores."""
+
+_START_ROWS = 3000
+"""Rows on which a start's output weights are fitted: 21 unknowns need no more."""
+
+_RIDGE_FACTOR = 3.0
+"""A start's ridge strength in units of alpha."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fit:
+    """All networks, fitted.
+
+    Parameters
+    ----------
+    layout
+        Sizes.
+    parameters : (31, P) float32
+    alphas : (31,) float64
+        The chosen L2 strengths.
+    search_errors : (A, 31) float64
+        Validation errors per tried alpha, on the search's rows.
+    groups
+        Networks of each group.
+    results
+        What came of each group on all rows; validation is monitored first, test second.
+    """
+
+    layout: Layout
+    parameters: np.ndarray
+    alphas: np.ndarray
+    search_errors: np.ndarray
+    groups: tuple[np.ndarray, ...]
+    results: tuple[Result, ...]
+
+
+def fit_networks(prepared: Prepared, recipe: Recipe, *, seed: int, progress: Progress | None = None) -> Fit:
+    """Choose an alpha for each network on some rows, then fit it on all; starts are independent of each other.
+
+    Networks want alphas up to 40 times apart: one for all would overfit some and blur others. Warm starts from one
+    alpha to the next end 10 to 20 % worse than fresh starts.
+    """
+    train, validation, test = (prepared.splits[name] for name in ("train", "validation", "test"))
+    layout = Layout(inputs=train.inputs.shape[1], hidden=recipe.hidden, outputs=WIDEST)
+    order = np.random.default_rng(seed).permutation(len(train.inputs))
+    searched = train.take(np.sort(order[: recipe.search_rows]))
+    held, watched = validation.network_rows(), test.network_rows()
+
+    def fit(split: Split, held_out: tuple[Rows, ...], alphas: np.ndarray, stage: str) -> tuple[Result, ...]:
+        start = _start(split, prepared.rotation, layout, recipe, alphas, seed)
+        problem = split.network_rows()
+        return _fit_groups(
+            layout, problem, held_out, start, alphas, recipe, _Stage(progress, stage, recipe.steps)
+        )
+
+    with threadpool_limits(limits=1, user_api="blas"):
+        errors = np.stack(
+            [
+                _gathered(
+                    result.error for result in fit(searched, (held,), np.full(len(NETWORKS), alpha), stage)
+                )
+                for alpha in recipe.alphas
+                for stage in [f"alpha {alpha:g}"]
+            ]
+        )
+        alphas = np.array(recipe.alphas)[errors.argmin(axis=0)]
+        results = fit(train, (held, watched), alphas, "all rows")
+    return Fit(
+        layout=layout,
+        parameters=_gathered(result.parameters for result in results),
+        alphas=alphas,
+        search_errors=errors,
+        groups=_GROUPS,
+        results=results,
+    )
+
+
+def _start(
+    split: Split, rotation: np.ndarray, layout: Layout, recipe: Recipe, alphas: np.ndarray, seed: int
+) -> np.ndarray:
+    coefficients = {alpha: _ridge(split, alpha) for alpha in np.unique(alphas)}
+    few = split.take(slice(_START_ROWS))
+    rows = []
+    for number, columns in enumerate(network_columns()):
+        rng = np.random.default_rng([seed, number])
+        if recipe.start == "nguyen_widrow":
+            w1, w2 = nguyen_widrow(layout=layout, rotation=rotation, rng=rng)
+        else:
+            w1, w2 = ridge_knots(
+                layout=layout,
+                inputs=few.inputs,
+                targets=few.targets[:, columns],
+                coefficients=coefficients[alphas[number]][:, columns],
+                alpha=float(alphas[number]),
+                rng=rng,
+            )
+        rows.append(layout.join(w1[None], w2[None])[0])
+    return np.array(rows, dtype=np.float32)
+
+
+def _ridge(split: Split, alpha: float) -> np.ndarray:
+    return ridge_coefficients(split.inputs, split.targets, _RIDGE_FACTOR * alpha)
+
+
+def _fit_groups(
+    layout: Layout,
+    train: Rows,
+    held_out: tuple[Rows, ...],
+    start: np.ndarray,
+    alphas: np.ndarray,
+    recipe: Recipe,
+    stage: "_Stage",
+) -> tuple[Result, ...]:
+    settings = Settings(steps=recipe.steps, patience=recipe.patience, improvement=recipe.improvement)
+    used = used_outputs()
+
+    def fit(group: np.ndarray) -> Result:
+        problem = NetworkProblem(
+            layout=layout,
+            used=used[group],
+            train=Rows(inputs=train.inputs, targets=train.targets[group]),
+            held_out=tuple(Rows(inputs=rows.inputs, targets=rows.targets[group]) for rows in held_out),
+        )
+        result = minimise(problem, start[group], alphas[group], settings, on_step=stage.step)
+        stage.finish(int(result.steps.max()))
+        return result
+
+    # Matrix products release Python's lock, so threads suffice; OpenBLAS itself keeps to one thread each.
+    with ThreadPoolExecutor(max_workers=min(len(_GROUPS), os.cpu_count() or 1)) as threads:
+        try:
+            return tuple(threads.map(fit, _GROUPS))
+        except BaseException:
+            stage.stopped.set()  # Ctrl-C arrives in this thread alone: the others stop at their next step
+            raise
+
+
+def _gathered(values: Iterable[np.ndarray]) -> np.ndarray:
+    """Rows of all groups, back in the networks' order."""
+    return np.concatenate(list(values))[np.argsort(np.concatenate(_GROUPS))]
+
+
+class _Stage:
+    """Counts the steps of all groups of one stage, and tells them to stop."""
+
+    def __init__(self, progress: Progress | None, name: str, steps: int) -> None:
+        self.stopped = threading.Event()
+        self._progress, self._name = progress, name
+        self._steps, self._done = steps, 0
+        self._lock = threading.Lock()
+
+    def step(self, number: int, going: int) -> None:
+        if self.stopped.is_set():
+            raise Interrupted("training was stopped; no model was written")
+        self._advance(1)
+
+    def finish(self, steps: int) -> None:
+        self._advance(self._steps - steps)
+
+    def _advance(self, steps: int) -> None:
+        with self._lock:
+            self._done += steps
+            if self._progress is not None:
+                self._progress(self._name, self._done, self._steps * len(_GROUPS))

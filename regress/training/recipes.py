@@ -1,0 +1,56 @@
+"""Named ways to train. A new recipe is one new entry."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recipe:
+    """How features are made and networks are fitted.
+
+    Parameters
+    ----------
+    name
+        What the command line calls it.
+    alignment
+        One of ``regress.features.ALIGNMENTS``.
+    hidden
+        Hidden units of each network.
+    start
+        ``"ridge_knots"`` or ``"nguyen_widrow"``.
+    mirror
+        Train on every face and its mirror image.
+    steps, patience, improvement
+        Of :class:`regress.levenberg_marquardt.Settings`.
+    alphas
+        L2 strengths to choose from for each network, in units of half the sum of squares of z-scored targets.
+    search_rows
+        Training rows on which alphas are compared; the best one then sees all rows.
+    smooth_frames
+        Moving average that the recipe wants for video.
+    """
+
+    name: str
+    alignment: str = "affine"
+    hidden: int = 20
+    start: str = "ridge_knots"
+    mirror: bool = True
+    steps: int = 40
+    patience: int = 6
+    improvement: float = 1e-3
+    alphas: tuple[float, ...] = (0.3, 1.0, 3.0, 10.0, 30.0)
+    search_rows: int = 3000
+    smooth_frames: int = 1
+
+
+RECIPES: dict[str, Recipe] = {
+    "default": Recipe(name="default"),
+    "paper": Recipe(
+        name="paper",
+        start="nguyen_widrow",
+        mirror=False,
+        steps=1000,
+        improvement=1e-4,
+        smooth_frames=10,
+    ),
+}
+"""``paper`` follows the paper to the letter; ``default`` adds mirrored faces and starts from ridge regression."""

@@ -1,0 +1,65 @@
+"""How good predictions are, shape by shape."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX
+from regress.model import Model
+from regress.training.dataset import KeypointDataset
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scores:
+    """Figures of one shape; None where they are undefined (a shape that never moves has no R2).
+
+    Parameters
+    ----------
+    r2
+        Share of the variance explained: 1 is perfect, 0 is as good as the mean of the scored rows.
+    mae
+        Mean absolute error, in weights.
+    pearson
+        Correlation of prediction and truth.
+    """
+
+    r2: float | None
+    mae: float
+    pearson: float | None
+
+
+def score(predicted: np.ndarray, true: np.ndarray) -> tuple[Scores, ...]:
+    """Scores of every column of two (n, O) arrays of weights."""
+    error = predicted - true
+    variance = true.var(axis=0)
+    spread = predicted.std(axis=0)
+    covariance = np.mean((predicted - predicted.mean(axis=0)) * (true - true.mean(axis=0)), axis=0)
+    scores = []
+    for column in range(true.shape[1]):
+        moves = variance[column] > 0
+        # A constant prediction has rounding for a spread; below 1e-9 of a weight there is nothing to correlate.
+        follows = moves and spread[column] > 1e-9
+        scores.append(
+            Scores(
+                r2=float(1 - np.mean(error[:, column] ** 2) / variance[column]) if moves else None,
+                mae=float(np.abs(error[:, column]).mean()),
+                pearson=float(covariance[column] / (spread[column] * np.sqrt(variance[column])))
+                if follows
+                else None,
+            )
+        )
+    return tuple(scores)
+
+
+def evaluate_model(model: Model, dataset: KeypointDataset, *, split: str = "test") -> dict[str, Scores]:
+    """Scores of a model's outputs on one split of a dataset."""
+    rows = dataset.rows(split)
+    columns = [BLENDSHAPE_INDEX[name] for name in model.outputs]
+    scores = score(model.predict(dataset.points[rows])[:, columns], dataset.weights[rows][:, columns])
+    return dict(zip(model.outputs, scores, strict=True))
+
+
+def mean_r2(scores: dict[str, Scores], shapes: tuple[str, ...]) -> float | None:
+    """Mean R2 of those shapes that have one."""
+    values = [scores[name].r2 for name in shapes if scores[name].r2 is not None]
+    return float(np.mean(values)) if values else None
