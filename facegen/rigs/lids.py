@@ -23,7 +23,7 @@ THICKNESS_M = (0.15e-3, 2.0e-3)
 """Lids keep the clearance they have when open, between these: triangles of 3 mm sag 0.14 mm into the cornea."""
 BEHIND_M = 0.3e-3
 """Linings of the lids that lie inside the eyeball when open stay at least this deep in it, out of the skin's way."""
-FRONT_M = 0.35e-3
+FRONT_M = 0.5e-3
 """The upper margin's distance in front of the lower one in the closed eye."""
 STEADY_TRAVEL_M = 1.5e-3
 """Columns whose blink travels less than this, at the canthi, take the weight as it is: their ratio would be noise."""
@@ -111,12 +111,11 @@ def _closed(eye: _Eye, lid: np.ndarray, weights: np.ndarray, radius: np.ndarray,
     steady = STEADY_TRAVEL_M**2
     scale = (travel * eye.travel + blink * steady) / (np.square(eye.travel) + steady)
     lid = without_blink + _along(eye, scale)[..., None] * eye.blink
+    lid = _rest_on_eye(eye, lid, thickness, radius, gaze)
     for _ in range(2):
-        lid = _rest_on_eye(eye, lid, thickness, radius, gaze)
-        missing = _along(eye, goal - _gap(eye, lid))
-        lid[..., 1] += eye.follow * missing
-    lid = _lay_in_front(eye, lid)
-    return _rest_on_eye(eye, lid, thickness, radius, gaze)
+        lid[..., 1] += eye.follow * _along(eye, goal - _gap(eye, lid))
+        lid = _lay_in_front(eye, lid)
+    return _rest_on_eye(eye, lid, np.minimum(thickness, THICKNESS_M[0]), radius, gaze)
 
 
 def _length(v: np.ndarray) -> np.ndarray:
@@ -166,11 +165,11 @@ def _support(lid: np.ndarray, length: np.ndarray, radius: np.ndarray, gaze: np.n
 
 
 def _lay_in_front(eye: _Eye, lid: np.ndarray) -> np.ndarray:
-    """Move the upper lid outwards where its margin would lie behind the lower lid's."""
+    """Bring the upper lid's margin to `FRONT_M` before the lower one where they touch, from behind or from afar."""
     length = _length(lid)
     below = _lower_at_columns(eye, lid, length[:, eye.lower])
     nearness = np.clip((0.5e-3 - _gap(eye, lid)) / 1e-3, 0.0, 1.0)  # from nothing at 0.5 mm apart to all at contact
-    outwards = np.maximum(below + FRONT_M - length[:, eye.upper], 0.0) * nearness * nearness * (3.0 - 2.0 * nearness)
+    outwards = (below + FRONT_M * eye.overlap / OVERLAP_M - length[:, eye.upper]) * nearness * nearness * (3.0 - 2.0 * nearness)
     wanted = length + eye.follow * _along(eye, outwards)
     return lid * (wanted / length)[..., None]
 
