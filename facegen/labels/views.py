@@ -5,14 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from facegen.conventions import Part, Visibility
-from facegen.geometry import apply_transform, project
-from facegen.raster import hidden, triangles_of
+from facegen.geometry import apply_transform, project, unproject
+from facegen.raster import hidden, nearest_depth, triangles_of
 from facegen.rigs.eyes import EyeGeometry
 from facegen.scene import Mesh, View
 
 VIEW_TOLERANCE_M = 5e-4
-"""A face of the rendered mesh must be this much nearer to hide a landmark: half of the millimetre by which `validate`
-lets a visible landmark differ from the picture's depth."""
+"""A face of the rendered mesh must be this much nearer to hide a landmark (floats, and lips that touch)."""
+RESOLVED_M = 9e-4
+"""A landmark is visible only where the picture can show it: one of the 3x3 pixels around it must see the surface at the
+landmark's depth. Skin seen at grazing angles runs several millimetres per pixel. `validate` allows 1 mm."""
 
 TRANSPARENT = (Part.CORNEA, Part.LASHES)
 """Parts that hide nothing behind them: the cornea is clear, lashes are strands."""
@@ -76,11 +78,11 @@ def label_view(
     in_camera = apply_transform(view.camera_from_head, landmarks)
     points_2d = project(view.camera, in_camera)
     vertices, triangles = occluder
-    covered = hidden(
-        in_camera, apply_transform(view.camera_from_head, vertices), triangles, tolerance_m=VIEW_TOLERANCE_M
-    )
+    vertices = apply_transform(view.camera_from_head, vertices)
     inside = view.camera.contains(points_2d) & (in_camera[:, 2] > 0)
-    visibility = np.where(inside, np.where(covered, Visibility.HIDDEN, Visibility.VISIBLE), Visibility.OUTSIDE)
+    seen = ~hidden(in_camera, vertices, triangles, tolerance_m=VIEW_TOLERANCE_M)
+    seen[inside] &= _resolved(view, points_2d[inside], in_camera[inside, 2], vertices, triangles)
+    visibility = np.where(inside, np.where(seen, Visibility.VISIBLE, Visibility.HIDDEN), Visibility.OUTSIDE)
     centers = apply_transform(view.camera_from_head, np.stack([eye.center for eye in eyes]))
     pupils = apply_transform(
         view.camera_from_head, np.stack([eye.center + eye.iris_plane_offset * eye.axis for eye in eyes])
@@ -94,3 +96,15 @@ def label_view(
         pupil_center_camera=pupils,
         gaze_camera=np.stack([eye.axis for eye in eyes]) @ view.camera_from_head[:3, :3].T,
     )
+
+
+def _resolved(
+    view: View, pixels: np.ndarray, depth_m: np.ndarray, vertices_camera: np.ndarray, triangles: np.ndarray
+) -> np.ndarray:
+    """Whether one of the 3x3 pixels around each point (n, 2) sees a surface at the point's depth (n,)."""
+    steps = np.stack(np.meshgrid((-1, 0, 1), (-1, 0, 1)), axis=-1).reshape(-1, 2)
+    around = np.round(pixels)[:, None] + steps
+    rays = unproject(view.camera, around)
+    depth = nearest_depth(rays.reshape(-1, 3), vertices_camera, triangles).reshape(len(pixels), -1)
+    near = np.abs(depth - depth_m[:, None]) <= RESOLVED_M
+    return (near & view.camera.contains(around)).any(axis=1)

@@ -9,6 +9,44 @@ def triangles_of(faces: np.ndarray) -> np.ndarray:
     return np.concatenate([faces[:, :3], quads[:, [0, 2, 3]]]).astype(np.int64)
 
 
+def nearest_depth(rays_camera: np.ndarray, vertices_camera: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Depth at which rays from the camera's centre first meet a mesh.
+
+    Parameters
+    ----------
+    rays_camera
+        (n, 3) points or directions in the camera frame, of any length.
+    vertices_camera
+        (V, 3) vertices in the camera frame, metres.
+    triangles
+        (T, 3) vertex indices; both sides count, triangles with a vertex at z <= 0 do not.
+
+    Returns
+    -------
+    numpy.ndarray
+        (n,) metres along z; +inf where a ray meets nothing, and for rays with z <= 0.
+    """
+    z = vertices_camera[:, 2]
+    corners = (vertices_camera[:, :2] / np.where(z > 0, z, np.nan)[:, None])[triangles]
+    low = np.minimum(np.minimum(corners[:, 0], corners[:, 1]), corners[:, 2])
+    high = np.maximum(np.maximum(corners[:, 0], corners[:, 1]), corners[:, 2])
+    xy = rays_camera[:, :2] / np.where(rays_camera[:, 2] > 0, rays_camera[:, 2], np.nan)[:, None]
+    # which rays pass each triangle's box: by bisection in x, then by comparison in y. NaN (behind the camera) sorts
+    # last, so it is within no box
+    order = np.argsort(xy[:, 0], kind="stable")
+    first = np.searchsorted(xy[order, 0], low[:, 0], side="left")
+    count = np.searchsorted(xy[order, 0], high[:, 0], side="right") - first
+    count = np.where(np.isnan(low[:, 0]), 0, np.maximum(count, 0))
+    face = np.repeat(np.arange(len(triangles)), count)
+    within = np.arange(len(face)) - np.repeat(np.cumsum(count) - count, count)
+    ray = order[first[face] + within]
+    inside = (low[face, 1] <= xy[ray, 1]) & (high[face, 1] >= xy[ray, 1])
+    ray, face = ray[inside], face[inside]
+    depth = np.full(len(rays_camera), np.inf)
+    np.minimum.at(depth, ray, depth_on_triangles(xy[ray], corners[face], 1.0 / z[triangles[face]]))
+    return depth
+
+
 def hidden(
     points_camera: np.ndarray, vertices_camera: np.ndarray, triangles: np.ndarray, *, tolerance_m: float
 ) -> np.ndarray:
@@ -16,42 +54,20 @@ def hidden(
 
     Parameters
     ----------
-    points_camera, vertices_camera
-        (n, 3) points and (V, 3) vertices in the camera frame, metres. Points and vertices at z <= 0 are behind the
-        camera: such points count as hidden, triangles with such vertices hide nothing.
-    triangles
-        (T, 3) vertex indices; both sides of a triangle hide.
+    points_camera
+        (n, 3) points in the camera frame, metres; those at z <= 0 count as hidden.
+    vertices_camera, triangles
+        The mesh, as for `nearest_depth`.
     tolerance_m
-        A triangle hides a point only if it is nearer by more than this (a point of a surface is not hidden by it).
+        The mesh hides a point only if it is nearer by more than this (a point of a surface is not hidden by it).
 
     Returns
     -------
     numpy.ndarray
         (n,) bool.
     """
-    z = vertices_camera[:, 2]
-    plane = vertices_camera[:, :2] / np.where(z > 0, z, np.nan)[:, None]
-    corners = plane[triangles]
-    low = np.minimum(np.minimum(corners[:, 0], corners[:, 1]), corners[:, 2])
-    high = np.maximum(np.maximum(corners[:, 0], corners[:, 1]), corners[:, 2])
-    in_front = points_camera[:, 2] > 0
-    xy = points_camera[:, :2] / np.where(in_front, points_camera[:, 2], np.nan)[:, None]
-    # which points lie within each triangle's box: by bisection in x, then by comparison in y. NaN (behind the camera)
-    # sorts last, so it is within no box
-    order = np.argsort(xy[:, 0], kind="stable")
-    first = np.searchsorted(xy[order, 0], low[:, 0], side="left")
-    count = np.searchsorted(xy[order, 0], high[:, 0], side="right") - first
-    count = np.where(np.isnan(low[:, 0]), 0, np.maximum(count, 0))
-    face = np.repeat(np.arange(len(triangles)), count)
-    within = np.arange(len(face)) - np.repeat(np.cumsum(count) - count, count)
-    point = order[first[face] + within]
-    inside = (low[face, 1] <= xy[point, 1]) & (high[face, 1] >= xy[point, 1])
-    point, face = point[inside], face[inside]
-    depth = depth_on_triangles(xy[point], corners[face], 1.0 / z[triangles[face]])
-    result = ~in_front
-    blocked = depth < points_camera[point, 2] - tolerance_m
-    result[point[blocked]] = True
-    return result
+    z = points_camera[:, 2]
+    return (z <= 0) | (nearest_depth(points_camera, vertices_camera, triangles) < z - tolerance_m)
 
 
 def depth_on_triangles(xy: np.ndarray, corners: np.ndarray, inverse_z: np.ndarray) -> np.ndarray:
