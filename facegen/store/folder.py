@@ -72,9 +72,8 @@ def output_errors(path: Path) -> Iterator[None]:
     except OSError as error:
         if error.errno in (errno.ENOSPC, errno.EDQUOT):
             raise OutputError(f"{path}: no space left; free some and run the same command again") from error
-        if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST, errno.EISDIR):
-            raise OutputError(f"{path}: cannot be written ({os.strerror(error.errno)}); choose another folder") from error
-        raise
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise OutputError(f"{path}: cannot be written ({reason}); choose another folder") from error
 
 
 def sync(path: Path) -> None:
