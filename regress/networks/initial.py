@@ -22,8 +22,8 @@ def ridge_knots(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Start of one network: every hidden unit along a ridge direction, its sigmoid shifted to a knot.
 
-    Targets are 0 four times out of five and positive otherwise: nearly a clipped function of the ridge output,
-    as a spline of that output is. Validation errors end 10 to 40 % below those of random starts.
+    Targets are 0 four times out of five, else positive: nearly a clipped function of the ridge output,
+    and a spline of it comes close from the start. Errors end 10 to 40 % below those of random starts.
 
     Parameters
     ----------

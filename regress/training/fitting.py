@@ -28,7 +28,7 @@ Progress = Callable[[str, int, int], None]
 
 _GROUPS: tuple[np.ndarray, ...] = tuple(np.arange(first, len(NETWORKS), 6) for first in range(6))
 """Networks fitted together. Fixed, whatever the cores: matrix products of other shapes give other last bits.
-Five to a group reach three quarters of the speed of all 31 in one product, and six groups fill 2, 3 and 6 cores."""
+Five to a group reach three quarters of the speed of all 31 in one; six groups fill 2, 3 and 6 cores."""
 
 _START_ROWS = 3000
 """Rows on which a start's output weights are fitted: 21 unknowns need no more."""
@@ -65,10 +65,10 @@ class Fit:
 
 
 def fit_networks(prepared: Prepared, recipe: Recipe, *, seed: int, progress: Progress | None = None) -> Fit:
-    """Choose an alpha for each network on some rows, then fit it on all; starts are independent of each other.
+    """Choose an alpha for each network on some rows, then fit it on all.
 
-    Networks want alphas up to 40 times apart: one for all would overfit some and blur others. Warm starts from one
-    alpha to the next end 10 to 20 % worse than fresh starts.
+    Networks want alphas up to 40 times apart: one for all would overfit some and blur others. Every fit
+    starts afresh: warm starts from one alpha to the next end 10 to 20 % worse.
     """
     train, validation, test = (prepared.splits[name] for name in ("train", "validation", "test"))
     layout = Layout(inputs=train.inputs.shape[1], hidden=recipe.hidden, outputs=WIDEST)

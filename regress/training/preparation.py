@@ -17,7 +17,7 @@ OUTPUT_COLUMNS = [BLENDSHAPE_INDEX[name] for name in OUTPUTS]
 WIDEST = max(len(network.outputs) for network in NETWORKS)
 
 _FLOAT = np.float32
-"""Training's precision: errors agree with float64 to four digits at alphas of 0.1 and above, at half the time."""
+"""Training's precision: errors agree with float64 to four digits at alphas from 0.1, in half the time."""
 
 
 @dataclass(frozen=True, kw_only=True)

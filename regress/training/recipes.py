@@ -53,4 +53,4 @@ RECIPES: dict[str, Recipe] = {
         smooth_frames=10,
     ),
 }
-"""``paper`` follows the paper to the letter; ``default`` adds mirrored faces and starts from ridge regression."""
+"""``paper`` follows the paper; ``default`` adds mirrored faces and starts from ridge regression."""

@@ -1,12 +1,12 @@
 """Training from start to model: features, networks, baselines, and the record of it all."""
 
 import dataclasses
-from importlib import metadata
 from typing import Any
 
 import numpy as np
 import scipy
 
+from regress import __version__
 from regress.features import Features, load_reference_shape, mean_shape
 from regress.model import Model
 from regress.networks import fit_ridge, fold
@@ -15,6 +15,7 @@ from regress.training.dataset import KeypointDataset
 from regress.training.fitting import Fit, Progress, fit_networks
 from regress.training.preparation import OUTPUT_COLUMNS, Prepared, prepare
 from regress.training.recipes import Recipe
+from regress.training.regression import regress_split
 from regress.training.scores import Scores, evaluate_model, mean_r2, score
 
 
@@ -84,7 +85,7 @@ def _record(
         "training_rows": len(prepared.splits["train"].inputs),
         "licence": "Apache-2.0",
         "versions": {
-            "regress": metadata.version("facegen"),
+            "regress": __version__,
             "numpy": np.__version__,
             "scipy": scipy.__version__,
         },
@@ -100,12 +101,15 @@ def _record(
             shape: {name: dataclasses.asdict(shapes[shape]) for name, shapes in scores.items()}
             for shape in OUTPUTS
         },
+        "regression": {
+            split: dataclasses.asdict(regress_split(model, dataset, split=split)) for split in prepared.splits
+        },
         "networks": _network_records(recipe, fit),
     }
 
 
 def _baselines(dataset: KeypointDataset, prepared: Prepared) -> dict[str, dict[str, Scores]]:
-    """Ridge on the same features and rows, its strength chosen per shape, and the training mean; both clipped."""
+    """Ridge on the same features and rows, its strength chosen per shape, and the training mean; clipped."""
     train, validation, test = (prepared.splits[name] for name in ("train", "validation", "test"))
     normalisation = prepared.normalisation
     ridge = fit_ridge(train.inputs, train.targets, validation.inputs, validation.targets)
@@ -126,7 +130,7 @@ def _mean_over_networks(scores: dict[str, Scores]) -> float | None:
 
 
 def _network_records(recipe: Recipe, fit: Fit) -> dict[str, Any]:
-    """How each network's training went; errors are mean squares in z-scored targets, so 1 is as good as the mean."""
+    """How each network's training went; errors are mean squares of z-scored targets."""
     records: dict[int, Any] = {}
     for group, result in zip(fit.groups, fit.results, strict=True):
         for row, number in enumerate(group):

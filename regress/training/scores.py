@@ -37,7 +37,7 @@ def score(predicted: np.ndarray, true: np.ndarray) -> tuple[Scores, ...]:
     scores = []
     for column in range(true.shape[1]):
         moves = variance[column] > 0
-        # A constant prediction has rounding for a spread; below 1e-9 of a weight there is nothing to correlate.
+        # A constant prediction has rounding for a spread: below 1e-9 there is nothing to correlate.
         follows = moves and spread[column] > 1e-9
         scores.append(
             Scores(

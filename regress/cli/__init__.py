@@ -1,0 +1,62 @@
+"""The ``regress`` command. Only this package prints: results to stdout, talk to stderr."""
+
+import os
+import sys
+from importlib.metadata import version as installed
+from typing import Annotated
+
+import typer
+
+from facegen.conventions import ExitCode
+from facegen.formats import FormatError
+from regress import __version__
+from regress.cli.edges import edges
+from regress.cli.evaluate import evaluate
+from regress.cli.predict import predict
+from regress.cli.train import train
+from regress.errors import RegressError
+
+app = typer.Typer(
+    name="regress",
+    help="68 facial landmarks in, 52 avatar blendshape weights out; learnt from synthetic people.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command()(train)
+app.command()(evaluate)
+app.command()(predict)
+app.command()(edges)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        parts = ", ".join(f"{name} {installed(name)}" for name in ("numpy", "scipy"))
+        print(f"regress {__version__} ({parts}, Python {sys.version.split()[0]})")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", help="Print the versions that matter.", callback=_print_version, is_eager=True
+        ),
+    ] = False,
+) -> None:
+    pass
+
+
+def main() -> None:
+    """Entry point of the console script: one sentence and an exit code for every error on purpose."""
+    try:
+        app()
+    except (RegressError, FormatError) as error:
+        print(f"regress: {error}", file=sys.stderr)
+        sys.exit(int(error.exit_code))
+    except BrokenPipeError:
+        # The reader of our output has gone, as `| head` does; closing stdout at exit would complain again.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(int(ExitCode.OK))

@@ -1,0 +1,43 @@
+"""``regress edges``: make the reference shape's file from 68 points of a face."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from regress.cli.talk import say
+from regress.errors import InputError, OutputError
+from regress.features import make_reference_shape
+from regress.features.reference_shape import TILT_DEG, reference_shape_json
+
+
+def edges(
+    points: Annotated[Path, typer.Argument(help="68 points in 3D, head frame, metres: .npy or .json.")],
+    out: Annotated[Path, typer.Option("--out", help="File to write.")],
+    name: Annotated[str, typer.Option("--name", help="Whose face it is.")] = "anny mean face",
+    source: Annotated[str, typer.Option("--source", help="How the points were made.")] = "",
+    tilt_deg: Annotated[float, typer.Option("--tilt-deg", help="Tilt about x before projection.")] = TILT_DEG,
+) -> None:
+    """Triangulate a reference face; the package ships the result and copies it into each model.
+
+    Example: facegen rig landmarks anny --out anny.npy && regress edges anny.npy --out reference_shape.json
+    """
+    shape = make_reference_shape(_read(points), name=name, source=source, tilt_deg=tilt_deg)
+    try:
+        out.write_text(reference_shape_json(shape), encoding="utf-8")
+    except OSError as error:
+        raise OutputError(f"{out} cannot be written: {error.strerror or error}") from error
+    say(f"{len(shape.edges)} edges of {shape.name}, SHA-256 {shape.sha256[:12]}, in {out}")
+
+
+def _read(path: Path) -> np.ndarray:
+    try:
+        if path.suffix == ".npy":
+            return np.load(path, allow_pickle=False)
+        if path.suffix == ".json":
+            return np.array(json.loads(path.read_text(encoding="utf-8")), dtype=np.float64)
+    except (OSError, ValueError, TypeError) as error:
+        raise InputError(f"{path} cannot be read: {error}") from error
+    raise InputError(f"{path} is neither .npy nor .json")

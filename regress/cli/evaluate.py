@@ -1,0 +1,51 @@
+"""``regress evaluate``: a model's figures on a dataset."""
+
+import dataclasses
+import json
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from facegen.conventions import SPLITS
+from regress.model import load_model
+from regress.targets import OUTPUTS, VISIBLE_SHAPES, observability
+from regress.training import evaluate_model, read_dataset
+from regress.training.scores import mean_r2
+
+SplitName = StrEnum("SplitName", list(SPLITS))
+
+
+def evaluate(
+    model: Annotated[Path, typer.Argument(help="Model folder.")],
+    dataset: Annotated[Path, typer.Argument(help="Folder that `facegen generate` made.")],
+    split: Annotated[SplitName, typer.Option("--split", help="Whose faces to score.")] = SplitName.test,
+    as_json: Annotated[bool, typer.Option("--json", help="Unrounded figures for programs.")] = False,
+) -> None:
+    """Print R2, mean absolute error and correlation of every shape on one split.
+
+    Example: regress evaluate models/default datasets/out/default
+    """
+    scores = evaluate_model(load_model(model), read_dataset(dataset), split=split.value)
+    visible = tuple(name for name in VISIBLE_SHAPES if name in scores)
+    summary = {
+        "mean_r2": mean_r2(scores, tuple(scores)),
+        "mean_r2_visible": mean_r2(scores, visible),
+    }
+    if as_json:
+        shapes = {name: dataclasses.asdict(figures) for name, figures in scores.items()}
+        typer.echo(json.dumps({"split": split.value, "summary": summary, "scores": shapes}))
+        return
+    typer.echo(f"{'shape':<20} {'R2':>7} {'MAE':>7} {'r':>7}")
+    for name in OUTPUTS:
+        if name in scores:
+            figures = scores[name]
+            cells = " ".join(_cell(value) for value in (figures.r2, figures.mae, figures.pearson))
+            typer.echo(f"{name:<20} {cells}  {observability(name)}")
+    for name, value in summary.items():
+        typer.echo(f"{name:<20} {_cell(value)}")
+
+
+def _cell(value: float | None) -> str:
+    return f"{'-':>7}" if value is None else f"{value:7.3f}"

@@ -1,0 +1,53 @@
+"""Talk to the person: one-liners and progress on standard error, results on standard output."""
+
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from regress.training.fitting import Progress as ProgressCall
+
+_PLAIN_SECONDS = 10.0
+"""Between two plain progress lines: a log of a long run stays short."""
+
+
+def say(message: str) -> None:
+    """One line on standard error."""
+    print(message, file=sys.stderr, flush=True)
+
+
+@contextmanager
+def progress() -> Iterator[ProgressCall]:
+    """A callback that draws a bar on a terminal and plain lines elsewhere."""
+    if sys.stderr.isatty():
+        columns = (
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TextColumn("{task.completed}/{task.total} steps"),
+            TimeElapsedColumn(),
+            TimeRemainingColumn(),
+        )
+        with Progress(*columns, console=Console(stderr=True)) as bar:
+            tasks: dict[str, int] = {}
+            lock = threading.Lock()
+
+            def draw(stage: str, done: int, total: int) -> None:
+                with lock:
+                    if stage not in tasks:
+                        tasks[stage] = bar.add_task(stage, total=total)
+                bar.update(tasks[stage], completed=done)
+
+            yield draw
+        return
+    last = [time.monotonic()]
+
+    def write(stage: str, done: int, total: int) -> None:
+        if done == total or time.monotonic() - last[0] > _PLAIN_SECONDS:
+            last[0] = time.monotonic()
+            say(f"{stage}: {done} of {total} steps")
+
+    yield write

@@ -1,0 +1,56 @@
+"""``regress train``: from a dataset to a model."""
+
+import os
+import time
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regress.cli.talk import progress, say
+from regress.errors import OutputError
+from regress.model import save_model
+from regress.training import RECIPES, read_dataset
+from regress.training import train as train_model
+
+RecipeName = StrEnum("RecipeName", list(RECIPES))
+
+
+def train(
+    dataset: Annotated[Path, typer.Argument(help="Folder that `facegen generate` made.")],
+    out: Annotated[
+        Path, typer.Option("--out", help="Model folder to write; an older model there is replaced.")
+    ],
+    recipe: Annotated[RecipeName, typer.Option("--recipe", help="How to train.")] = RecipeName.default,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the networks' starts.")] = 0,
+) -> None:
+    """Train the 31 networks on a dataset's keypoints and compare them with ridge regression and the mean.
+
+    Example: regress train datasets/out/default --out models/default
+    """
+    keypoints = read_dataset(dataset)
+    _check_writable(out)
+    began = time.monotonic()
+    with progress() as draw:
+        model = train_model(keypoints, RECIPES[recipe.value], seed=seed, progress=draw)
+    save_model(model, out)
+    say(
+        f"trained on {model.record['training_rows']} rows in {time.monotonic() - began:.0f} s; model in {out}"
+    )
+    for name, figures in model.record["summary"].items():
+        r2, visible = figures["mean_r2_networks"], figures["mean_r2_visible"]
+        say(f"{name:>8}: test R2 {_figure(r2)}, visible shapes {_figure(visible)}")
+
+
+def _check_writable(out: Path) -> None:
+    """Minutes of training should not end in a folder that cannot be written."""
+    parent = out.absolute().parent
+    while not parent.exists():
+        parent = parent.parent
+    if not (parent.is_dir() and os.access(parent, os.W_OK)):
+        raise OutputError(f"the model cannot be written to {out}: {parent} is not a writable folder")
+
+
+def _figure(value: float | None) -> str:
+    return "undefined" if value is None else f"{value:.3f}"
