@@ -12,7 +12,9 @@ from facegen.formats import FormatError
 from regress import __version__
 from regress.cli.edges import edges
 from regress.cli.evaluate import evaluate
+from regress.cli.export import export
 from regress.cli.predict import predict
+from regress.cli.report import report
 from regress.cli.train import train
 from regress.errors import RegressError
 
@@ -27,6 +29,8 @@ app = typer.Typer(
 app.command()(train)
 app.command()(evaluate)
 app.command()(predict)
+app.command()(export)
+app.command()(report)
 app.command()(edges)
 
 

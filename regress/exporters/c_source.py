@@ -13,8 +13,8 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from regress.errors import InputError
-from regress.exporters.files import write_whole
 from regress.exporters.formula import Formula
+from regress.files import write_whole
 
 LINE_WIDTH = 110
 C_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -54,7 +54,7 @@ def _values(formula: Formula, name: str) -> dict[str, object]:
         "GUARD": name.upper(),
         "title": f"{name}: {LANDMARK_COUNT} facial landmarks to {len(BLENDSHAPES)} avatar weights.",
         "licence": _comment(formula.about["licence"]),
-        "dataset": _comment(formula.about["dataset"]),
+        "dataset": _comment(f"{formula.about['dataset']} (SHA-256 {formula.about['dataset_sha256']})"),
         "recipe": _comment(formula.about["recipe"]),
         "aligned": int(formula.alignment == "affine"),
         "point_count": LANDMARK_COUNT,

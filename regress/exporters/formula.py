@@ -92,7 +92,7 @@ class Formula:
     networks
         In the model's order.
     about
-        Words for people and tools: ``recipe``, ``dataset``, ``licence``, ``program``.
+        Words for people and tools: ``recipe``, ``dataset``, ``dataset_sha256``, ``licence``, ``program``.
     """
 
     alignment: str
@@ -156,7 +156,8 @@ def _about(model: Model) -> dict[str, str]:
     dataset = model.record.get("dataset", {})
     return {
         "recipe": model.recipe,
-        "dataset": str(dataset.get("hash", "unknown")),
-        "licence": str(dataset.get("licence", "unknown")),
+        "dataset": str(dataset.get("name", "unknown")),
+        "dataset_sha256": str(dataset.get("keypoints_sha256", "unknown")),
+        "licence": str(model.record.get("licence", "unknown")),
         "program": f"regress {__version__}",
     }

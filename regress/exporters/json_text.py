@@ -4,7 +4,7 @@
 key                  what
 ===================  =====================================================================================
 format, version      ``"regress-networks"`` and 1; a change that breaks readers raises the version
-about                recipe, dataset hash, licence, program version
+about                recipe, dataset and its SHA-256, licence, program version
 names                the 52 blendshapes in the order of the result
 alignment            ``"affine"``, or ``"none"``: then A below is the identity
 anchors              indices (0-67) of the landmarks that are aligned
@@ -32,8 +32,8 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
-from regress.exporters.files import write_whole
 from regress.exporters.formula import FORMAT_VERSION, WEIGHT_RANGE, Formula
+from regress.files import write_whole
 
 
 def export_json(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:

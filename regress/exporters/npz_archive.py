@@ -21,8 +21,8 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
-from regress.exporters.files import write_whole
 from regress.exporters.formula import FORMAT_VERSION, WEIGHT_RANGE, Formula
+from regress.files import write_whole
 
 
 def export_npz(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:

@@ -15,8 +15,8 @@ import onnx
 from onnx import TensorProto, helper, numpy_helper
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
-from regress.exporters.files import write_whole
 from regress.exporters.formula import Formula
+from regress.files import write_whole
 
 OPSET = 15
 IR_VERSION = 8

@@ -17,7 +17,8 @@ BAR_VALUES = 52
 def score_bars(scores: Sequence[ShapeScores]) -> str:
     """One row a shape: the network's R2 as a bar, ridge regression's as a mark; grouped by region."""
     # Below -0.2 a shape is simply not seen; a longer bar would squeeze all the others.
-    low = min(0.0, max(-0.2, min(min(score.network.r2, score.ridge.r2) for score in scores)))
+    lowest = np.nanmin([[0.0, 0.0], *([score.network.r2, score.ridge.r2] for score in scores)])
+    low = max(-0.2, float(lowest))
     x = Scale(low=low, high=1.0, start=BAR_NAMES + 6, stop=BAR_WIDTH - BAR_VALUES)
     rows, y, region = [], 26.0, None
     for score in scores:
@@ -35,9 +36,13 @@ def score_bars(scores: Sequence[ShapeScores]) -> str:
 
 def _score_bar(score: ShapeScores, x: Scale, y: float) -> str:
     network, ridge = score.network.r2, score.ridge.r2
+    middle = y + BAR_ROW / 2
+    if score.grade == "unmoved":
+        return _text(BAR_NAMES - 8, middle + 4, score.name, "name end") + _text(
+            x(0.0) + 6, middle + 4, "never moves in the test split", "tick"
+        )
     left, right = sorted((float(x(0.0)), float(x(network))))
     width = max(right - left, 0.5)
-    middle = y + BAR_ROW / 2
     title = escape(f"{score.name}: network {network:.3f}, ridge {ridge:.3f}")
     return (
         f"<g><title>{title}</title>"
@@ -50,10 +55,22 @@ def _score_bar(score: ShapeScores, x: Scale, y: float) -> str:
     )
 
 
+SMALLEST_ERROR = 1e-4
+"""Errors below are drawn here: a shape that never moves has error 0, which no logarithm shows."""
+
+
+def error_range(curves: Sequence[LearningCurve]) -> tuple[float, float]:
+    """Lower and upper end of an axis that shows all of the curves."""
+    errors = [values for curve in curves for values in (curve.train, curve.validation, curve.test)]
+    errors = np.maximum(np.concatenate([[SMALLEST_ERROR], *errors])[1:], SMALLEST_ERROR)
+    return float(errors.min() * 0.9), float(errors.max() * 1.1)
+
+
 def learning_curves(curve: LearningCurve) -> str:
     """Training, validation and test error against steps, logarithmic, with the chosen step marked."""
     width, height, left, bottom = 900, 320, 58, 46
-    parts = _curve_parts(curve, (left, 14, width - 110, height - bottom), large=True)
+    low, high = error_range([curve])
+    parts = _curve_parts(curve, (left, 14, width - 110, height - bottom), large=True, low=low, high=high)
     return _svg(width, height, parts, f"Learning curves, {curve.name}")
 
 
@@ -64,13 +81,10 @@ def small_curves(curve: LearningCurve, *, low: float, high: float) -> str:
     return _svg(214, 132, [_text(30, 12, curve.name, "name"), *parts], f"Learning curves of {curve.name}")
 
 
-def _curve_parts(curve: LearningCurve, box, *, large: bool, low: float = 0.0, high: float = 0.0) -> list[str]:
+def _curve_parts(curve: LearningCurve, box, *, large: bool, low: float, high: float) -> list[str]:
     left, top, right, bottom = box
     series = {"train": curve.train, "validation": curve.validation, "test": curve.test}
-    known = np.concatenate([values for values in series.values() if len(values)])
-    y = Scale(
-        low=low or known.min() * 0.9, high=high or known.max() * 1.1, start=bottom, stop=top, logarithmic=True
-    )
+    y = Scale(low=low, high=high, start=bottom, stop=top, logarithmic=True)
     steps = max(len(curve.train) - 1, 1)
     x = Scale(low=0, high=steps, start=left, stop=right)
     parts = []
@@ -105,22 +119,22 @@ def _end_labels(series: dict[str, np.ndarray], y: Scale, right: float) -> list[s
 
 
 PANEL = 280
-PANEL_CELLS = 50
 PANEL_SHADES = 9
 
 
 def regression_panel(plot: RegressionPlot) -> str:
     """Predicted against true weights as a density, with the line of equality and the best fit."""
-    low, high = -0.1, 1.1
+    low, high = -0.03, 1.03
     x = Scale(low=low, high=high, start=38, stop=PANEL - 6)
     y = Scale(low=low, high=high, start=PANEL - 40, stop=8)
     ticks = (0, 0.25, 0.5, 0.75, 1)
     parts = [_line(x(tick), y(low), x(tick), y(high), "grid") for tick in ticks]
     parts += [_line(x(low), y(tick), x(high), y(tick), "grid") for tick in ticks]
-    parts += _density(plot, x, y, low, high)
+    parts += _density(plot.counts, x, y)
     parts.append(_line(x(0), y(0), x(1), y(1), "equal"))
-    start, stop = plot.intercept, plot.intercept + plot.slope
-    parts.append(_line(x(0), y(start), x(1), y(stop), "fit"))
+    if np.isfinite(plot.slope):
+        start, stop = plot.intercept, plot.intercept + plot.slope
+        parts.append(_line(x(0), y(start), x(1), y(stop), "fit"))
     parts += [_text(x(tick), PANEL - 24, label(tick), "tick middle") for tick in ticks]
     parts += [_text(32, y(tick) + 4, label(tick), "tick end") for tick in ticks]
     parts.append(_text((x(low) + x(high)) / 2, PANEL - 6, "true weight", "tick middle"))
@@ -131,24 +145,22 @@ def regression_panel(plot: RegressionPlot) -> str:
     return _svg(PANEL, PANEL, parts, f"Predicted against true weights, {plot.split} faces")
 
 
-def _density(plot: RegressionPlot, x: Scale, y: Scale, low: float, high: float) -> list[str]:
+def _density(counts: np.ndarray, x: Scale, y: Scale) -> list[str]:
     """Cells in a few shades, one path a shade; shades follow the logarithm of the count."""
-    edges = np.linspace(low, high, PANEL_CELLS + 1)
-    inside = np.clip(plot.true, low, high), np.clip(plot.predicted, low, high)
-    counts, _, _ = np.histogram2d(*inside, bins=[edges, edges])
-    shades = np.log1p(counts) / np.log1p(counts.max())
+    shades = np.log1p(counts) / np.log1p(max(counts.max(), 1))
     shades = np.minimum(np.ceil(PANEL_SHADES * shades), PANEL_SHADES).astype(int)
-    width, height = (x(high) - x(low)) / PANEL_CELLS, (y(low) - y(high)) / PANEL_CELLS
+    centres = np.linspace(0, 1, len(counts))
+    width, height = x(centres[1]) - x(0), y(0) - y(centres[1])
     parts = []
     for shade in range(1, PANEL_SHADES + 1):
         cells = "".join(
-            f"M{x(edges[i]):.1f} {y(edges[j]):.1f}h{width:.2f}v-{height:.2f}h-{width:.2f}z"
+            f"M{x(centres[i]) - width / 2:.1f} {y(centres[j]) - height / 2:.1f}"
+            f"h{width:.2f}v{height:.2f}h-{width:.2f}z"
             for i, j in np.argwhere(shades == shade)
         )
         if cells:
-            parts.append(
-                f'<path class="cell" fill-opacity="{0.06 + 0.94 * shade / PANEL_SHADES:.2f}" d="{cells}"/>'
-            )
+            opacity = 0.06 + 0.94 * shade / PANEL_SHADES
+            parts.append(f'<path class="cell" fill-opacity="{opacity:.2f}" d="{cells}"/>')
     return parts
 
 

@@ -15,11 +15,11 @@ class Figures:
     Parameters
     ----------
     r2 : float
-        1 is perfect, 0 is as good as always saying the mean.
+        1 is perfect, 0 is as good as always saying the mean; NaN where the shape never moves.
     mae : float
         Mean absolute error in weights (0 to 1).
     pearson : float
-        Correlation; NaN where a method always says the same.
+        Correlation; NaN where the shape never moves, or a method always says the same.
     """
 
     r2: float
@@ -39,7 +39,9 @@ class ShapeScores:
 
     @property
     def grade(self) -> str:
-        """``"seen"``, ``"partly"`` or ``"hidden"``, by the network's R2."""
+        """``"seen"``, ``"partly"`` or ``"hidden"``, by the network's R2; ``"unmoved"`` without one."""
+        if np.isnan(self.network.r2):
+            return "unmoved"
         if self.network.r2 >= SEEN_R2:
             return "seen"
         return "partly" if self.network.r2 >= PARTLY_R2 else "hidden"
@@ -73,15 +75,15 @@ class RegressionPlot:
     Parameters
     ----------
     split : str
-    true, predicted : (n,) float64
-        A sample of the split's values.
+    counts : (c, c) int64
+        Values with the truth in a row's cell and the prediction in a column's; cells are centred on c equal
+        steps from 0 to 1.
     slope, intercept, pearson : float
-        Of the least-squares line through the values.
+        Of the least-squares line through the values; NaN where nothing moves.
     """
 
     split: str
-    true: np.ndarray
-    predicted: np.ndarray
+    counts: np.ndarray
     slope: float
     intercept: float
     pearson: float
@@ -140,18 +142,4 @@ def mean_curve(curves: tuple[LearningCurve, ...]) -> LearningCurve:
     train, validation, test = map(average, ("train", "validation", "test"))
     return LearningCurve(
         name=f"mean of {len(curves)} networks", train=train, validation=validation, test=test, best_step=None
-    )
-
-
-def regression_plot(split: str, true: np.ndarray, predicted: np.ndarray) -> RegressionPlot:
-    """Fit the line through a split's values (any equal shapes)."""
-    true, predicted = np.ravel(true).astype(float), np.ravel(predicted).astype(float)
-    slope, intercept = np.polyfit(true, predicted, 1)
-    return RegressionPlot(
-        split=split,
-        true=true,
-        predicted=predicted,
-        slope=float(slope),
-        intercept=float(intercept),
-        pearson=float(np.corrcoef(true, predicted)[0, 1]),
     )

@@ -1,6 +1,6 @@
 """A report's HTML: one file that opens without a network, figures inside."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from itertools import groupby
 from operator import attrgetter
 
@@ -8,8 +8,8 @@ import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from regress.report.charts import learning_curves, regression_panel, score_bars, small_curves
-from regress.report.content import PARTLY_R2, SEEN_R2, LearningCurve, ReportContent, ShapeScores
+from regress.report.charts import error_range, learning_curves, regression_panel, score_bars, small_curves
+from regress.report.content import PARTLY_R2, SEEN_R2, ReportContent, ShapeScores
 
 
 def render_page(content: ReportContent) -> str:
@@ -22,12 +22,13 @@ def render_page(content: ReportContent) -> str:
         lstrip_blocks=True,
     )
     environment.filters["groupby_in_order"] = _groupby_in_order
-    low, high = _error_range(content.curves)
+    low, high = error_range(content.curves)
     return environment.get_template("report.html").render(
         content=content,
         seen_r2=SEEN_R2,
         partly_r2=PARTLY_R2,
         hidden=[score.name for score in content.scores if score.grade == "hidden"],
+        unmoved=[score.name for score in content.scores if score.grade == "unmoved"],
         bars=Markup(score_bars(content.scores)),
         regressions=[(plot, Markup(regression_panel(plot))) for plot in content.regressions],
         curve=Markup(learning_curves(content.curve)),
@@ -41,14 +42,6 @@ def _groupby_in_order(items: Iterable, attribute: str) -> list[tuple[str, list]]
     return [(key, list(group)) for key, group in groupby(items, key=attrgetter(attribute))]
 
 
-def _error_range(curves: Sequence[LearningCurve]) -> tuple[float, float]:
-    errors = [
-        values for curve in curves for values in (curve.train, curve.validation, curve.test) if len(values)
-    ]
-    errors = np.concatenate(errors) if errors else np.ones(1)
-    return float(errors.min() * 0.9), float(errors.max() * 1.1)
-
-
 def _cells(score: ShapeScores) -> Markup:
     """The eight figures of a row, the best of each kind in bold."""
     methods = (score.network, score.ridge, score.mean)
@@ -56,9 +49,9 @@ def _cells(score: ShapeScores) -> Markup:
     mae = [method.mae for method in methods]
     pearson = [method.pearson for method in methods[:2]]
     cells = []
-    for values, best in ((r2, max(r2)), (mae, min(mae)), (pearson, max(pearson))):
+    for values, best in ((r2, np.fmax.reduce(r2)), (mae, min(mae)), (pearson, np.fmax.reduce(pearson))):
         for index, value in enumerate(values):
-            kinds = ["group"] * (index == 0) + ["best"] * (value == best)
+            kinds = [kind for kind, so in (("group", index == 0), ("best", value == best)) if so]
             kind = f' class="{" ".join(kinds)}"' if kinds else ""
             text = f"{value:.3f}".replace("-", "\N{MINUS SIGN}") if np.isfinite(value) else "\N{EN DASH}"
             cells.append(f"<td{kind}>{text}</td>")

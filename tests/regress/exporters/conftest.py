@@ -1,4 +1,4 @@
-"""Models without training: a drawn face, random deformations of it, random networks of realistic size."""
+"""Models without training: drawn faces and random networks of realistic size."""
 
 from pathlib import Path
 
@@ -10,44 +10,9 @@ from regress.features import Features, delaunay_edges, extract
 from regress.model import Normalisation
 from regress.networks import FoldedNetworks
 from regress.targets import NETWORKS
+from tests.regress.drawn import drawn_face, drawn_faces
 
 HIDDEN = 20
-
-
-def drawn_face() -> np.ndarray:
-    """68 points of a face of width 2 about the origin, y down."""
-
-    def arc(count, start_deg, stop_deg, centre, radii):
-        angles = np.deg2rad(np.linspace(start_deg, stop_deg, count))
-        return np.asarray(centre) + np.stack([np.cos(angles), np.sin(angles)], axis=1) * radii
-
-    def ring(count, centre, radii):
-        return arc(count + 1, 180, 540, centre, radii)[:-1]
-
-    nose = np.stack([np.zeros(4), np.linspace(-0.25, 0.2, 4)], axis=1)
-    return np.concatenate(
-        [
-            arc(17, 180, 0, (0, -0.1), (1, 1.25)),
-            arc(5, 200, 320, (-0.48, -0.42), (0.34, 0.15)),
-            arc(5, 220, 340, (0.48, -0.42), (0.34, 0.15)),
-            nose,
-            arc(5, 170, 10, (0, 0.26), (0.2, 0.09)),
-            ring(6, (-0.45, -0.28), (0.17, 0.07)),
-            ring(6, (0.45, -0.28), (0.17, 0.07)),
-            ring(12, (0, 0.6), (0.36, 0.16)),
-            ring(8, (0, 0.6), (0.28, 0.07)),
-        ]
-    )
-
-
-def draw_faces(rng: np.random.Generator, count: int) -> np.ndarray:
-    """Faces that differ as people do (smoothly) and as detectors do (by noise), in pixels at video places."""
-    modes = rng.normal(size=(12, 68, 2)) * 0.03
-    faces = drawn_face() + np.einsum("nk,kpd->npd", rng.normal(size=(count, 12)), modes)
-    roll = rng.normal(size=count) * 0.2
-    turn = np.stack([np.cos(roll), -np.sin(roll), np.sin(roll), np.cos(roll)], axis=1).reshape(-1, 2, 2)
-    scale = rng.uniform(40, 300, size=(count, 1, 1))
-    return (faces @ turn) * scale + rng.uniform(200, 1700, size=(count, 1, 2))
 
 
 def random_model(rng: np.random.Generator, *, alignment: str = "affine") -> Model:
@@ -59,7 +24,7 @@ def random_model(rng: np.random.Generator, *, alignment: str = "affine") -> Mode
         reference_name="drawn",
         reference_sha256="0" * 64,
     )
-    raw = extract(features, draw_faces(rng, 500))
+    raw = extract(features, drawn_faces(rng, 500))
     mean, std = raw.mean(axis=0), raw.std(axis=0)
     hidden_count = HIDDEN * len(NETWORKS)
     w1 = rng.normal(size=(hidden_count, len(mean))) / np.sqrt(len(mean)) / std
@@ -94,7 +59,7 @@ def model(request) -> Model:
 @pytest.fixture(scope="session")
 def faces() -> np.ndarray:
     """What exports read is float32, so what they are compared on is float32 too."""
-    return draw_faces(np.random.default_rng(6), 400).astype(np.float32)
+    return drawn_faces(np.random.default_rng(6), 400).astype(np.float32)
 
 
 @pytest.fixture(scope="session")

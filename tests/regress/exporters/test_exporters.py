@@ -13,7 +13,9 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError, OutputError
 from regress.exporters import EXPORTERS, export_model, formula_of
 from regress.exporters.onnx_graph import OPERATORS, OPSET, build_graph
-from tests.regress.exporters.conftest import draw_faces, random_model
+from regress.training import Recipe, train
+from tests.regress.drawn import drawn_dataset, drawn_faces
+from tests.regress.exporters.conftest import random_model
 from tests.regress.exporters.readers import READERS
 
 AGREEMENT = 1e-4
@@ -69,7 +71,7 @@ def test_agrees_far_from_the_origin_and_at_any_scale(
     chosen, model, exported, seed, face_widths_away, log10_width
 ):
     predict, _ = exported(chosen)
-    shapes = draw_faces(np.random.default_rng(seed), 3)
+    shapes = drawn_faces(np.random.default_rng(seed), 3)
     shapes = (shapes - shapes.mean(axis=1, keepdims=True)) / np.ptp(shapes[..., 0], axis=1)[:, None, None]
     faces = ((shapes + face_widths_away) * 10**log10_width).astype(np.float32)
     np.testing.assert_allclose(predict(faces), model.predict(faces), atol=AGREEMENT, rtol=0)
@@ -107,6 +109,17 @@ def test_equal_models_give_equal_bytes_and_no_leavings(chosen, tmp_path):
 
 
 @pytest.mark.parametrize("chosen", FORMATS)
+def test_agrees_on_the_test_split_after_training(chosen, tmp_path):
+    if chosen == "c" and shutil.which("cc") is None:
+        pytest.skip("no C compiler (cc) on this machine")
+    dataset = drawn_dataset(np.random.default_rng(3), people=60)
+    model = train(dataset, Recipe(name="quick", steps=3, alphas=(1.0,)))
+    predict, _ = READERS[chosen](export_model(model, tmp_path, name="face", formats=[chosen]))
+    faces = dataset.points[dataset.rows("test")].astype(np.float32)
+    np.testing.assert_allclose(predict(faces), model.predict(faces), atol=AGREEMENT, rtol=0)
+
+
+@pytest.mark.parametrize("chosen", FORMATS)
 def test_the_shipped_model_agrees(chosen, shipped_model, tmp_path):
     if chosen == "c" and shutil.which("cc") is None:
         pytest.skip("no C compiler (cc) on this machine")
@@ -126,7 +139,7 @@ def test_onnx_is_one_plain_graph(model):
         assert value.type.tensor_type.elem_type == onnx.TensorProto.FLOAT
         assert [size.dim_param or size.dim_value for size in value.type.tensor_type.shape.dim] == shape
     about = {prop.key: prop.value for prop in graph.metadata_props}
-    assert set(about) == {"names", "recipe", "dataset", "licence", "program"}
+    assert set(about) == {"names", "recipe", "dataset", "dataset_sha256", "licence", "program"}
 
 
 def test_onnx_runs_on_one_face(exported, faces):

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from regress.exporters.files import write_whole
+from regress.files import write_whole
 
 
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):

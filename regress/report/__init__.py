@@ -1,0 +1,29 @@
+"""What a model can do and cannot, as one HTML page that opens without a network."""
+
+from pathlib import Path
+
+from regress.errors import OutputError
+from regress.files import write_whole
+from regress.model import Model
+from regress.report.page import render_page
+from regress.report.reading import content_of
+
+__all__ = ["content_of", "render_page", "write_report"]
+
+
+def write_report(model: Model, path: Path) -> Path:
+    """Write a model's report; the same model gives the same bytes.
+
+    Raises
+    ------
+    ModelError
+        The model has no training record.
+    OutputError
+        The file cannot be written.
+    """
+    page = render_page(content_of(model))
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return write_whole(path, page)
+    except OSError as error:
+        raise OutputError(f"the report cannot be written to {path}: {error.strerror or error}") from error

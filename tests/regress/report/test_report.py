@@ -1,0 +1,117 @@
+"""A trained model's page: every figure of the record, nothing from elsewhere."""
+
+import dataclasses
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPES
+from regress.errors import ModelError, OutputError
+from regress.model import load_model, save_model
+from regress.report import content_of, render_page, write_report
+from regress.training import Recipe, train
+from tests.regress.drawn import drawn_dataset
+
+
+@pytest.fixture(scope="module")
+def model():
+    dataset = drawn_dataset(np.random.default_rng(4), people=60)
+    return train(dataset, Recipe(name="quick", steps=4, alphas=(1.0, 10.0)))
+
+
+@pytest.fixture(scope="module")
+def page(model):
+    return render_page(content_of(model))
+
+
+class Outline(HTMLParser):
+    """Open tags and addresses of a page; complains of tags that do not close."""
+
+    EMPTY = frozenset({"meta", "line", "rect", "path"})
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.addresses = [], []
+
+    def handle_starttag(self, tag, attrs):
+        self.addresses += [value for key, value in attrs if key in ("src", "href", "xlink:href", "action")]
+        if tag not in self.EMPTY:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        pass
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def test_page_is_well_formed_and_fetches_nothing(page):
+    outline = Outline()
+    outline.feed(page)
+    assert outline.open == []
+    assert outline.addresses == []
+    assert not re.search(r"https?://|@import|url\(", page)
+
+
+def test_page_holds_every_shape_with_its_figures(model, page):
+    rows = dict(re.findall(r"<tr><td>(\w+)</td>(.*?)</tr>", page))
+    assert set(rows) == set(BLENDSHAPES) - {"tongueOut"}
+    for shape, scores in model.record["scores"].items():
+        shown = re.findall(r">([^<]+)</td>", rows[shape])
+        figures = [scores[method]["r2"] for method in ("network", "ridge", "mean")]
+        figures += [scores[method]["mae"] for method in ("network", "ridge", "mean")]
+        figures += [scores[method]["pearson"] for method in ("network", "ridge")]
+        for text, figure in zip(shown, figures, strict=True):
+            if figure is None:
+                assert text == "\N{EN DASH}"
+            else:
+                assert float(text.replace("\N{MINUS SIGN}", "-")) == pytest.approx(figure, abs=6e-4)
+
+
+def test_page_says_plainly_what_cannot_be_seen(model, page):
+    start = page.index("What 68 points cannot show")
+    section = page[start : page.index("<h2>", start)]
+    named = set(re.findall(r"<code>(\w+)</code>", section))
+    weak = {shape for shape, scores in model.record["scores"].items() if (scores["network"]["r2"] or 1) < 0.3}
+    assert named == weak | {"tongueOut", "browInnerUp"}
+    assert "never moves" in section
+
+
+def test_page_says_how_the_model_was_made(model, page):
+    dataset = model.record["dataset"]
+    for value in (
+        dataset["spec_hash"],
+        dataset["keypoints_sha256"],
+        "CC0-1.0",
+        model.features.reference_sha256,
+    ):
+        assert value in page
+
+
+def test_figures_are_drawn(page):
+    assert page.count("<svg") == 1 + 3 + 1 + 31
+
+
+def test_names_from_a_dataset_are_escaped(model):
+    record = {**model.record, "dataset": {**model.record["dataset"], "name": "<script>alert(1)</script>"}}
+    assert "<script>" not in render_page(content_of(dataclasses.replace(model, record=record)))
+
+
+def test_a_model_read_back_gives_the_same_page(model, page, tmp_path):
+    save_model(model, tmp_path / "model")
+    path = write_report(load_model(tmp_path / "model"), tmp_path / "new" / "report.html")
+    assert path.read_text() == page
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_model_without_a_record_is_refused(model, tmp_path):
+    with pytest.raises(ModelError, match=r"no 'scores'.*regress train"):
+        write_report(dataclasses.replace(model, record={}), tmp_path / "report.html")
+
+
+def test_a_place_that_cannot_be_written_is_said(model, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputError, match="cannot be written"):
+        write_report(model, tmp_path / "file" / "report.html")
