@@ -1,4 +1,4 @@
-"""Cycles as a renderer of `facegen.scene` scenes: the only package that imports ``bpy``, and only when asked to render."""
+"""Renders scenes with Cycles: the only package that imports ``bpy``, and only when asked to render."""
 
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,8 @@ __all__ = ["open_renderer"]
 def open_renderer(*, threads: int = 1, subsurface: bool = True, device: str = "cpu") -> "Renderer":
     """Start Blender in this process and return its `facegen.blender.renderer.Renderer`.
 
-    Call it in spawned processes only: a child that was forked after Blender started hangs in its first render.
+    Call it in spawned processes only: a child that was forked after Blender started hangs in its first
+    render.
 
     Raises
     ------

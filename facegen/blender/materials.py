@@ -1,6 +1,7 @@
-"""Near infra-red materials as Cycles shaders, one function each; names and parameters are `facegen.scene.materials`'.
+"""Near infra-red materials as Cycles shaders, named as in `facegen.scene.materials`.
 
-Albedos are plain greys with equal scattering in all channels, so a picture has no colour noise and one channel says all.
+Albedos are plain greys with equal scattering in all channels, so a picture has no colour noise and one
+channel says all.
 """
 
 from collections.abc import Callable
@@ -21,7 +22,7 @@ UV_METRES = 0.9
 def _surface(
     graph: Graph, albedo: Socket, *, subsurface: bool, normal: Socket = None, **extra: Socket
 ) -> Socket:
-    """A Principled surface; it scatters below the surface where the material has a ``scatter_m`` and the option is on."""
+    """A Principled surface that scatters below it, where it has a ``scatter_m`` and the option is on."""
     p = graph.parameters
     inputs = dict(Base_Color=albedo, Roughness=p["roughness"], IOR=1.4, **extra)
     settings = {}
@@ -63,10 +64,10 @@ def _skin(graph: Graph, subsurface: bool) -> Socket:
 
 
 def _brows(graph: Graph, subsurface: bool) -> Socket:
-    """Skin under hairs that run along the brow: noise stretched tenfold, so the faces' jagged border hides in it."""
+    """Skin under hairs along the brow: noise stretched tenfold, which hides the faces' jagged border."""
     p = graph.parameters
     stretched = graph.node(
-        "VectorMath", _face_place(graph), (2.0e3, 0.2e3, 0.0), settings={"operation": "MULTIPLY"}
+        "VectorMath", _face_place(graph), (3.0e3, 0.4e3, 0.0), settings={"operation": "MULTIPLY"}
     )
     hairs = graph.node("TexNoise", Vector=stretched, Scale=1.0, Detail=1.0)
     dark = graph.node(
@@ -84,7 +85,8 @@ def _sclera(graph: Graph, subsurface: bool) -> Socket:
     p = graph.parameters
     uv = graph.node("UVMap", settings={"uv_map": "uv"})
     u, v = (graph.node("SeparateXYZ", uv, output=axis) for axis in ("X", "Y"))
-    # vessels run along the meridians: stretch the noise along v; u wraps through the cosine and sine of its angle
+    # vessels run along the meridians: stretch the noise along v; u wraps through the cosine and sine of its
+    # angle
     albedo = _mottled(graph, _around(graph, u, 9.0, graph.math("MULTIPLY", v, 4.0)), p["albedo"], 1.0)
     edge = graph.node(
         "MapRange", v, 0.95, 1.0, 0.0, p["limbus"], settings={"interpolation_type": "SMOOTHSTEP"}
@@ -125,7 +127,7 @@ def _matte(graph: Graph, subsurface: bool) -> Socket:
 
 
 def _cornea(graph: Graph, subsurface: bool) -> Socket:
-    """Clear for shadow and diffuse rays, refracting for the camera's: LEDs light the iris without caustics' noise."""
+    """Refracts the camera's rays and is clear for shadow and diffuse ones: no caustics, no noise."""
     p = graph.parameters
     refraction = graph.node("BsdfRefraction", IOR=p["index"], Roughness=0.0)
     # a mirror finds an LED in 1 of 40 samples; from about 0.06 on, light sampling finds it in all
@@ -196,16 +198,16 @@ SHADERS: dict[str, Callable[[Graph, bool], Socket]] = {
 
 
 def build_material(name: str, *, subsurface: bool) -> bpy.types.Material:
-    """A new Blender material with its default parameters; ``subsurface`` off is flatter and a third cheaper."""
+    """A new Blender material with default parameters; without ``subsurface`` it is a third cheaper."""
     graph = Graph(name, MATERIALS[name])
     return graph.finish(SHADERS[name](graph, subsurface))
 
 
 def build_truth_material() -> bpy.types.Material:
-    """The one material of truth passes: emits (part, u, v) as a colour, refracts in the cornea, is clear between lashes.
+    """The one material of truth passes: emits (part, u, v) as a colour, and lets rays through where eyes do.
 
-    Parts come from a face attribute, so they are exact integers; Cycles traces the refraction, so they are what appears.
-    Its parameters are those of the lashes, whose strands it must know.
+    Parts come from a face attribute, so they are exact integers; Cycles traces the refraction, so they are
+    what appears. Its parameters are those of the lashes, whose strands it must know.
     """
     graph = Graph("truth", MATERIALS["lashes"])
     part = graph.node("Attribute", output="Fac", settings={"attribute_name": "part"})

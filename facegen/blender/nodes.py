@@ -1,4 +1,4 @@
-"""Writing Blender's shader graphs in few words: nodes are made with their inputs, numbers or other nodes' outputs."""
+"""Writes Blender's shader graphs in few words: a node is made together with its inputs."""
 
 from typing import Any
 
@@ -14,7 +14,8 @@ class Graph:
     def __init__(self, name: str, parameters: dict[str, float]) -> None:
         self.material = bpy.data.materials.new(name)
         self.material.use_nodes = True
-        # label materials and lamps aside, nothing here is a light: keep meshes out of the light tree (0.7 s a switch)
+        # label materials and lamps aside, nothing here is a light: keep meshes out of the light tree (0.7 s a
+        # switch)
         self.material.cycles.emission_sampling = "NONE"
         self._tree = self.material.node_tree
         self._tree.nodes.clear()
@@ -31,7 +32,8 @@ class Graph:
     ) -> Socket:
         """Make a node and return one of its outputs.
 
-        Positional inputs go to its sockets in order (None leaves a default), named ones by name with ``_`` for spaces.
+        Positional inputs go to its sockets in order (None leaves a default), named ones by name with ``_``
+        for spaces.
         """
         node = self._tree.nodes.new(f"ShaderNode{kind}")
         for key, value in (settings or {}).items():
@@ -75,7 +77,7 @@ class Graph:
 
 
 def set_parameters(material: bpy.types.Material, values: dict[str, float]) -> None:
-    """Give a graph's Value nodes new numbers; equal ones are left alone so that nothing is synchronised for them."""
+    """Give a graph's Value nodes new numbers; equal ones are left alone, so nothing is synchronised."""
     nodes = material.node_tree.nodes
     for key, value in values.items():
         socket = nodes[key].outputs[0]

@@ -1,7 +1,8 @@
-"""Pixels of a render without files: Blender keeps none in background mode, so they are taken from the engine itself.
+"""Pixels of a render without files, taken from the engine itself: in background mode Blender keeps none.
 
-Blender's own EXR and PNG writers put times into their headers, and its Viewer node stays black without a window. The
-engine's result is there right after its ``render`` returns, bit-equal to what a file would hold, in 20 microseconds.
+Blender's own EXR and PNG writers put times into their headers, and its Viewer node stays black without a
+window. The engine's result is there right after its ``render`` returns, bit-equal to what a file would hold,
+in 20 microseconds.
 """
 
 import contextlib

@@ -25,7 +25,7 @@ DEBIAN_PACKAGES = {
     "libstdc++.so": "libstdc++6",
     "libgcc_s.so": "libgcc-s1",
 }
-"""Debian and Ubuntu packages of the system libraries that the bpy wheel links to; no X server is needed, only the files."""
+"""Debian and Ubuntu packages of the libraries that bpy links to; the files suffice, no X server runs."""
 
 GPU_BACKENDS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")
 """In order of preference."""
@@ -48,7 +48,7 @@ def import_bpy() -> ModuleType:
 
 def missing_library_sentence(error: ImportError) -> str:
     """What is missing for Blender and how to get it, from the loader's message."""
-    found = re.search(r"(lib[\w+-]+\.so)[\w.]*: cannot open shared object file", str(error))
+    found = re.search(r"(lib[\w.+-]+?\.so)[\w.]*: cannot open shared object file", str(error))
     if found:
         library = found.group(1)
         package = DEBIAN_PACKAGES.get(library)

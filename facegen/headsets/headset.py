@@ -1,8 +1,8 @@
-"""A headset as data: cameras, LEDs, sensor, and how it sits on a head. Loaded from TOML, checked once, then trusted.
+"""A headset as data: cameras, LEDs, sensor, and how it sits on a head; checked once, then trusted.
 
-Headset frame: axes as the head's (x to the subject's left, y up, z out of the face), origin between the places where the
-file's maker expects the two eyeball centres. Keys carry their unit (``position_mm``, ``roll_deg``); the properties without
-one are in metres and radians.
+Headset frame: axes as the head's (x to the subject's left, y up, z out of the face), origin between the
+places where the file's maker expects the two eyeball centres. Keys carry their unit (``position_mm``,
+``roll_deg``); the properties without one are in metres and radians.
 """
 
 from dataclasses import replace
@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from facegen.geometry import Camera, look_at, rotation_from_angles, transform
+from facegen.geometry import Camera, look_at, project, rotation_from_angles, transform, unproject
 from facegen.geometry.cameras import DISTORTION_TERMS
 
 CONFIG = ConfigDict(extra="forbid", allow_inf_nan=False)
@@ -42,8 +42,9 @@ class Distortion:
 class HeadsetCamera:
     """One camera: its intrinsics in pixels and its pose in the headset frame.
 
-    The camera stands at ``position_mm`` and its optical axis meets ``target_mm``; the headset's y appears upwards in the
-    picture until ``roll_deg`` turns the camera about its axis (clockwise as the camera itself sees it).
+    The camera stands at ``position_mm`` and its optical axis meets ``target_mm``; the headset's y appears
+    upwards in the picture until ``roll_deg`` turns the camera about its axis (clockwise as the camera itself
+    sees it).
     """
 
     name: Name
@@ -72,7 +73,25 @@ class HeadsetCamera:
             raise ValueError(
                 "target_mm lies straight above, below or at position_mm, so up in the picture is undefined"
             )
+        if not self._sees_everywhere():
+            raise ValueError(
+                "distortion folds within the picture: some of its pixels see no ray; make it weaker"
+            )
         return self
+
+    def _sees_everywhere(self) -> bool:
+        """Whether the distortion has an inverse in the whole picture, judged along lines to its corners."""
+        corners = np.array([[u, v] for u in (-0.5, self.width - 0.5) for v in (-0.5, self.height - 0.5)])
+        centre = np.array([self.cx, self.cy])
+        pixels = centre + (corners - centre)[:, None] * np.linspace(0.02, 1.0, 50)[:, None]
+        rays = unproject(self.camera, pixels)
+        # a polynomial that turns back has its ray elsewhere: on the other side, or nearer to the axis than
+        # the last one
+        same_side = (rays[..., :2] * (pixels - centre)).sum(axis=-1) > 0
+        outwards = np.diff(rays[..., 2], axis=1) < 0
+        # a hundredth of a pixel is far above rounding
+        back = np.allclose(project(self.camera, rays), pixels, rtol=0.0, atol=0.01)
+        return bool(same_side.all() and outwards.all() and back)
 
     @property
     def camera(self) -> Camera:
@@ -160,7 +179,7 @@ class Sensor:
 
 @_record
 class Fit:
-    """Where the headset sits: the wearer's nose bridge touches ``nose_bridge_mm``, the eye line is at ``eye_line_mm``.
+    """Where the headset sits: the wearer's nose bridge and eye line, in the headset's frame.
 
     Only depth (z) and the middle (x) follow the nose bridge (landmark index 27); height follows the eyes.
     """
@@ -171,9 +190,10 @@ class Fit:
 
 @_record
 class Tolerances:
-    """Standard deviations. Millimetres along x, y, z; degrees of yaw, pitch, roll, about the headset's origin.
+    """Standard deviations: millimetres along x, y, z; degrees of yaw, pitch, roll about the origin.
 
-    ``donning`` changes each time the headset is put on, ``slip`` within a clip; the others belong to a single unit.
+    ``donning`` changes each time the headset is put on, ``slip`` within a clip; the others belong to a single
+    unit.
     """
 
     donning_mm: Spread = (0.0, 0.0, 0.0)
@@ -236,8 +256,8 @@ def head_from_headset(headset: Headset, nose_bridge: np.ndarray, donning: np.nda
     nose_bridge
         (3,) the person's neutral landmark 27, head frame, metres.
     donning
-        (6,) how this donning deviates: metres along the head's x, y, z, then radians of yaw, pitch and roll about the
-        headset's origin (`facegen.geometry.rotation_from_angles`).
+        (6,) how this donning deviates: metres along the head's x, y, z, then radians of yaw, pitch and roll
+        about the headset's origin (`facegen.geometry.rotation_from_angles`).
 
     Returns
     -------

@@ -31,7 +31,7 @@ MESHES_OF_HEAD: dict[str, tuple[Part, ...]] = {
     "tongue": (Part.TONGUE,),
     "lashes": (Part.LASHES,),
 }
-"""Objects that a head is cut into: light scatters below the surface within an object, not from lip to tooth."""
+"""Objects that a head is cut into: light scatters within an object, not from lip to tooth."""
 
 
 def assemble(

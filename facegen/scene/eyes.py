@@ -9,13 +9,13 @@ from facegen.scene.scene import Mesh
 SEGMENTS = 96
 """Around the axis; a chord of the 5.9 mm limbus then lies 3 micrometres inside the circle."""
 IRIS_MARGIN_M = 1.1e-3
-"""The iris disc goes this far beyond the limbus circle, inside the ball: refraction shows no gap at any angle."""
+"""The iris goes this far beyond the limbus circle, inside the ball: refraction then shows no gap."""
 PUPIL_DEPTH_M = 0.3e-3
 """The dark disc lies this far behind the iris plane, and is as much wider than the hole."""
 
 
 def _revolve(profile: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and quads of a profile (k, 2) of (radius, height) turned about z; heights fall, so normals point out."""
+    """Vertices and quads of a profile (k, 2) of (radius, height) turned about z; falling heights face out."""
     rows = len(profile)
     angle = np.linspace(0.0, 2.0 * np.pi, SEGMENTS, endpoint=False)
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
@@ -44,7 +44,7 @@ def _sphere_profile(radius: float, offset: float, start: float, stop: float, row
 
 
 def head_from_eye(eye: EyeGeometry) -> np.ndarray:
-    """Pose (4, 4) of the eye's own frame: origin at the centre, z along the optical axis, y upwards (no torsion)."""
+    """Pose (4, 4) of the eye's own frame: origin at its centre, z along the optical axis, y upwards."""
     sideways = np.cross((0.0, 1.0, 0.0), eye.axis)
     sideways /= np.linalg.norm(sideways)
     pose = np.eye(4)
@@ -56,9 +56,9 @@ def head_from_eye(eye: EyeGeometry) -> np.ndarray:
 def eye_meshes(eye: EyeGeometry, side: str) -> tuple[Mesh, ...]:
     """Sclera, iris, pupil and cornea of one eye, in the head frame.
 
-    The iris is a flat ring in the plane that labels use, its hole the physical pupil. Its texture coordinates are the
-    angle about the axis (u, 0 to 1) and the place between pupil (v = 0) and limbus circle (v = 1, beyond it more); the
-    sclera's v is 1 at the limbus and 0 at the back pole, and the cornea's are 0.
+    The iris is a flat ring in the plane that labels use, its hole the physical pupil. Its texture coordinates
+    are the angle about the axis (u, 0 to 1) and the place between pupil (v = 0) and limbus circle (v = 1,
+    beyond it more); the sclera's v is 1 at the limbus and 0 at the back pole, and the cornea's are 0.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Texture coordinates of lash strips, on which a renderer draws strands: along the lid, and from root to tip."""
+"""Texture coordinates of lash strips, for strands to be drawn on: along the lid, and from root to tip."""
 
 import numpy as np
 from scipy import sparse
@@ -6,10 +6,10 @@ from scipy.sparse import csgraph
 
 
 def lash_uv(vertices: np.ndarray, faces: np.ndarray, uv: np.ndarray, eye_center: np.ndarray) -> np.ndarray:
-    """Coordinates of each strip's own grid: u from one end of the lid to the other, v from root (0) to tip (1).
+    """Coordinates of each strip's own grid: u along the lid, from 0 to 1, and v from root (0) to tip (1).
 
-    Rigs bend their strips' patches of the atlas, so rows and columns are counted on the mesh. Hair grows away from the
-    eye, which tells roots from tips. A strip that is no plain grid keeps its texture coordinates.
+    Rigs bend their strips' patches of the atlas, so rows and columns are counted on the mesh. Hair grows away
+    from the eye, which tells roots from tips. A strip that is no plain grid keeps its texture coordinates.
 
     Parameters
     ----------

@@ -1,12 +1,12 @@
-"""Names and default parameters of the materials, near infra-red: what a scene may ask for, and what it gets if silent.
+"""Names of the materials, near infra-red, and the parameters they have if a scene says nothing.
 
-Albedos are diffuse reflectances at about 850 nm. Melanin hardly absorbs there, so skins of all colours lie close
-together and lips are almost as grey as skin [1]_. Lengths are in metres.
+Albedos are diffuse reflectances at about 850 nm. Melanin hardly absorbs there, so skins of all colours lie
+close together and lips are almost as grey as skin [1]_. Lengths are in metres.
 
 References
 ----------
-.. [1] R. R. Anderson and J. A. Parrish, "The optics of human skin", J. Invest. Dermatol. 77(1), 1981: reflectance of
-   0.5 to 0.7 between 800 and 1,000 nm, scattering deeper than in visible light.
+.. [1] R. R. Anderson and J. A. Parrish, "The optics of human skin", J. Invest. Dermatol. 77(1), 1981:
+   reflectance of 0.5 to 0.7 between 800 and 1,000 nm, scattering deeper than in visible light.
 """
 
 from facegen.errors import InputError
@@ -17,7 +17,7 @@ MATERIALS: dict[str, dict[str, float]] = {
         "roughness": 0.48,
         "specular": 0.35,
         "scatter_m": 3.0e-3,
-        "mottle": 0.12,
+        "mottle": 0.09,
         "bump_m": 4e-5,
     },
     "lips": {
@@ -31,7 +31,7 @@ MATERIALS: dict[str, dict[str, float]] = {
     "brows": {"albedo": 0.58, "roughness": 0.48, "specular": 0.35, "scatter_m": 3.0e-3, "hair": 0.5},
     "cavity": {"albedo": 0.18, "roughness": 0.6},
     "sclera": {"albedo": 0.4, "roughness": 0.25, "scatter_m": 1.5e-3, "mottle": 0.1, "limbus": 0.35},
-    "iris": {"albedo": 0.235, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
+    "iris": {"albedo": 0.215, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
     "pupil": {"albedo": 0.12},
     "cornea": {"index": 1.336, "roughness": 0.07},
     "teeth": {"albedo": 0.62, "roughness": 0.2, "scatter_m": 1.0e-3},
@@ -51,7 +51,8 @@ MATERIALS: dict[str, dict[str, float]] = {
 ``hair``
     Share of the albedo that the brow's hairs take away.
 ``strands``, ``cover``, ``length``
-    Lashes to a lid, the share of the strip they cover at its root, and the longest one's share of the strip's depth.
+    Lashes to a lid, the share of the strip they cover at its root, and the longest one's share of the strip's
+    depth.
 """
 
 

@@ -1,4 +1,4 @@
-"""A scene as plain data: meshes, lamps and views in the head frame. A renderer takes it and gives back linear images."""
+"""A scene as plain data in the head frame: what a renderer takes, and the linear images it gives back."""
 
 from dataclasses import dataclass, field
 
@@ -14,7 +14,8 @@ class Mesh:
     Attributes
     ----------
     name
-        Unique within the scene, and the same for the same object in every sample (a renderer may keep and move it).
+        Unique within the scene, and the same for the same object in every sample (a renderer may keep and
+        move it).
     vertices
         (V, 3) float64, head frame, metres.
     faces
@@ -60,7 +61,7 @@ class Lamp:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class View:
-    """One camera: its intrinsics, ``camera_from_head`` (4, 4), and the names of the lamps lit while it exposes."""
+    """One camera: intrinsics, ``camera_from_head`` (4, 4), and names of the lamps lit while it exposes."""
 
     name: str
     camera: Camera
@@ -72,8 +73,8 @@ class View:
 class Scene:
     """Meshes, lamps and views.
 
-    ``materials`` holds parameters by material name (for example ``{"iris": {"albedo": 0.3}}``); what it leaves out has
-    the defaults of `facegen.scene.materials.MATERIALS`.
+    ``materials`` holds parameters by material name (for example ``{"iris": {"albedo": 0.3}}``); what it
+    leaves out has the defaults of `facegen.scene.materials.MATERIALS`.
     """
 
     meshes: tuple[Mesh, ...]
@@ -89,19 +90,19 @@ class Layers:
     Attributes
     ----------
     radiance
-        (h, w) float32, linear, in W sr-1 m-2 up to one factor that is equal for all pictures. The values are ones that
-        16-bit floats hold, so that what a file keeps is what was developed.
+        (h, w) float32, linear, in W sr-1 m-2 up to one factor that is equal for all pictures. The values are
+        ones that 16-bit floats hold, so that what a file keeps is what was developed.
     depth
-        (h, w) float32, metres along the camera's z axis at the pixel's centre; +inf where there is nothing. Depth and
-        normal are those of the first surface, which over iris and pupil is the cornea.
+        (h, w) float32, metres along the camera's z axis at the pixel's centre; +inf where there is nothing.
+        Depth and normal are those of the first surface, which over iris and pupil is the cornea.
     normal
         (h, w, 3) float32, unit, camera frame (OpenCV), smooth; 0 where there is nothing.
     part
-        (h, w) uint8, `facegen.conventions.Part` at the pixel's centre, as it appears through the refracting cornea:
-        ``CORNEA`` itself never occurs.
+        (h, w) uint8, `facegen.conventions.Part` at the pixel's centre, as it appears through the refracting
+        cornea: ``CORNEA`` itself never occurs.
     uv
-        (h, w, 2) float32, texture coordinates of what ``part`` shows; 0 where there is nothing. Head and eyes have
-        their own (`facegen.scene.eyes.eye_meshes`), so read it together with ``part``.
+        (h, w, 2) float32, texture coordinates of what ``part`` shows; 0 where there is nothing. Head and eyes
+        have their own (`facegen.scene.eyes.eye_meshes`), so read it together with ``part``.
     """
 
     radiance: np.ndarray

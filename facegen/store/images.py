@@ -1,6 +1,7 @@
 """Pictures as files: an 8-bit grey PNG as the sensor gives it, and one multi-part EXR with what is true.
 
-Both are made here rather than by Blender, whose files carry times: the same arrays always give the same bytes.
+Both are made here rather than by Blender, whose files carry times: the same arrays always give the same
+bytes.
 """
 
 import tempfile
@@ -20,7 +21,7 @@ EXR_PARTS: dict[str, dict[str, type[np.generic]]] = {
     "part": {"id": np.uint32},
     "uv": {"U": np.float32, "V": np.float32},
 }
-"""Parts of an EXR file in order, and the channels of each with their types; radiance comes first for simple readers."""
+"""Parts of an EXR file and the types of their channels; radiance comes first, for simple readers."""
 
 
 def png_bytes(grey: np.ndarray) -> bytes:
@@ -40,7 +41,7 @@ def read_png(path: str | Path) -> np.ndarray:
 
 
 def exr_bytes(layers: Layers) -> bytes:
-    """An EXR file of a view's layers: parts and channels as in `EXR_PARTS`, ZIP-compressed, without any date."""
+    """An EXR file of a view's layers, parts and channels as in `EXR_PARTS`, without any date."""
     parts = []
     for name, channels in EXR_PARTS.items():
         image = getattr(layers, name)

@@ -1,0 +1,69 @@
+"""``facegen headset``: which headsets there are, and what is in one."""
+
+import dataclasses
+import json
+from typing import Annotated
+
+import numpy as np
+import typer
+from pydantic import TypeAdapter
+
+from facegen.geometry import unproject
+from facegen.headsets import Headset, headset_path, list_headsets, load_headset
+
+headset_app = typer.Typer(
+    no_args_is_help=True,
+    help="Headsets: cameras, LEDs, sensor and fit. Example: facegen headset show tracking3",
+)
+
+
+@headset_app.command(name="list")
+def list_() -> None:
+    """Print the headsets that come with facegen, with what each is.
+
+    Example: facegen headset list
+    """
+    for name in list_headsets():
+        typer.echo(f"{name:12} {load_headset(name).description}")
+
+
+@headset_app.command()
+def show(
+    name: Annotated[str, typer.Argument(help="Name of a headset, or the path of a .toml file")],
+    as_json: Annotated[
+        bool, typer.Option("--json", help="As JSON, defaults filled in, for programs")
+    ] = False,
+) -> None:
+    """Check a headset file and print what it says.
+
+    Example: facegen headset show tracking3 --json
+    """
+    headset = load_headset(name)
+    if as_json:
+        typer.echo(json.dumps(TypeAdapter(Headset).dump_python(headset, mode="json"), indent=2))
+        return
+    typer.echo(f"{headset.name}: {headset.description}\n{headset_path(name)}\n")
+    typer.echo(f"{'camera':12} {'model':8} {'size':>9} {'field':>6}  {'position mm':22} LEDs")
+    for camera in headset.cameras:
+        leds = [led for led in headset.leds if led.camera == camera.name]
+        wavelengths = ", ".join(sorted({f"{led.wavelength_nm:g} nm" for led in leds}))
+        light = f"{len(leds)} of {wavelengths}" if leds else "none"
+        size = f"{camera.width}x{camera.height}"
+        place = ", ".join(f"{value:.1f}" for value in camera.position_mm)
+        field = f"{field_of_view_deg(headset, camera.name):.0f}°"
+        typer.echo(f"{camera.name:12} {camera.model:8} {size:>9} {field:>6}  {place:22} {light}")
+    typer.echo(
+        f"\nsensor       exposure {headset.sensor.exposure:g}, black level {headset.sensor.black_level:g}"
+    )
+    typer.echo(f"fit          nose bridge at {', '.join(f'{v:g}' for v in headset.fit.nose_bridge_mm)} mm")
+    for key, value in dataclasses.asdict(headset.tolerances).items():
+        spread = ", ".join(f"{v:g}" for v in value) if isinstance(value, tuple) else f"{value:g}"
+        typer.echo(f"{'tolerance':12} {key} ±{spread}")
+
+
+def field_of_view_deg(headset: Headset, camera_name: str) -> float:
+    """Horizontal field of view through the middle of the picture, edge to edge."""
+    camera = headset.camera(camera_name).camera
+    middle = (camera.height - 1) / 2
+    left, right = unproject(camera, np.array([[-0.5, middle], [camera.width - 0.5, middle]]))
+    return float(np.degrees(np.arccos(np.clip(left @ right, -1.0, 1.0))))

@@ -1,0 +1,216 @@
+"""The renderer against geometry: where things appear, how far away, what they are; always the same bytes."""
+
+import dataclasses
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facegen.blender import open_renderer
+from facegen.conventions import BLENDSHAPE_INDEX, Part
+from facegen.errors import InputError
+from facegen.geometry import (
+    apply_transform,
+    direction_from_angles,
+    invert_transform,
+    look_at,
+    pixel_rays,
+    project,
+    unproject,
+)
+from facegen.headsets import head_from_headset, load_headset
+from facegen.rigs import evaluate, eye_geometry
+from facegen.scene import Scene, View, assemble
+from facegen.scene.assembly import headset_views
+from facegen.sensor import develop
+from tests.facegen.blender.digest import digest
+from tests.facegen.blender.scenes import FISHEYE, PINHOLE, eye_scene, sphere
+
+pytestmark = pytest.mark.blender
+
+OBLIQUE = invert_transform(look_at([0.02, -0.03, 0.07], [0.0, 0.0, 0.0]))
+SYNTHETIC = [
+    View(name="pinhole", camera=PINHOLE, camera_from_head=OBLIQUE),
+    View(name="fisheye", camera=FISHEYE, camera_from_head=OBLIQUE),
+]
+TRACKING3 = list(
+    headset_views(
+        load_headset("tracking3"), head_from_headset(load_headset("tracking3"), np.zeros(3), np.zeros(6))
+    )
+)
+
+
+@pytest.fixture(scope="module")
+def renderer():
+    return open_renderer(threads=2)
+
+
+@pytest.mark.parametrize("view", SYNTHETIC + TRACKING3, ids=lambda view: view.name)
+def test_markers_appear_where_geometry_projects_them(renderer, view):
+    # a 4 x 4 grid over the whole picture, at depths from 25 to 60 mm, as points of the head
+    width, height = view.camera.width, view.camera.height
+    u, v = np.meshgrid(np.linspace(14.3, width - 15.6, 4), np.linspace(14.1, height - 15.2, 4))
+    rays = unproject(view.camera, np.stack([u.ravel(), v.ravel()], axis=-1))
+    distance = np.linspace(0.025, 0.06, 16)
+    centers = apply_transform(invert_transform(view.camera_from_head), rays * distance[:, None])
+    radius = 2.5 / view.camera.fx * distance
+    markers = tuple(
+        sphere(f"m{i}", c, r, rings=12) for i, (c, r) in enumerate(zip(centers, radius, strict=True))
+    )
+    scene = Scene(meshes=markers, lamps=(), views=(view,))
+    radiance = renderer.render(scene, view.name, samples=24, seed=3, denoise=False).radiance
+    expected = project(view.camera, apply_transform(view.camera_from_head, centers))
+    errors = np.array([_centroid(radiance, point) - point for point in expected])
+    assert np.abs(errors).max() < 0.1
+    assert np.linalg.norm(errors.mean(axis=0)) < 0.02
+
+
+def _centroid(image: np.ndarray, near: np.ndarray) -> np.ndarray:
+    u, v = np.rint(near).astype(int)
+    rows, columns = slice(max(v - 9, 0), v + 10), slice(max(u - 9, 0), u + 10)
+    window = image[rows, columns].astype(np.float64)
+    y, x = np.mgrid[
+        rows.start : rows.start + window.shape[0], columns.start : columns.start + window.shape[1]
+    ]
+    return np.array([(window * x).sum(), (window * y).sum()]) / window.sum()
+
+
+@pytest.mark.parametrize("view", SYNTHETIC, ids=lambda view: view.name)
+def test_depth_normal_and_part_are_those_of_the_sphere(renderer, view):
+    center, radius = np.array([0.004, -0.003, 0.0]), 0.012
+    ball = sphere("ball", center, radius, part=Part.TONGUE, rings=96)
+    layers = renderer.render(Scene(meshes=(ball,), lamps=(), views=(view,)), view.name, samples=1, seed=0)
+
+    rays = pixel_rays(view.camera)
+    middle = apply_transform(view.camera_from_head, center[None])[0]
+    along = rays @ middle
+    inside = radius**2 - (middle @ middle - along**2)
+    hit = inside > 0
+    points = rays * (along - np.sqrt(np.maximum(inside, 0.0)))[..., None]
+    # a grazing ray slips past the polygons' edges: leave out the outermost 2 % of the radius
+    well_inside = inside > (0.2 * radius) ** 2
+
+    assert (
+        np.abs(layers.depth - points[..., 2])[well_inside].max() < 2e-5
+    )  # 96 rings stay 6 micrometres inside
+    normal = (points - middle) / radius
+    assert np.abs(layers.normal - normal)[well_inside].max() < 0.01
+    assert (layers.part[well_inside] == Part.TONGUE).all()
+    assert set(np.unique(layers.part)) == {Part.BACKGROUND, Part.TONGUE}
+    far = inside < -((0.05 * radius) ** 2)
+    assert np.isinf(layers.depth[far & ~hit]).all()
+    assert (layers.normal[far] == 0).all()
+
+
+def test_pupil_appears_magnified_by_the_cornea(renderer):
+    seen, straight = (
+        (renderer.render(eye_scene(320, cornea=c), "eye", samples=1, seed=0).part == Part.PUPIL).sum()
+        for c in (True, False)
+    )
+    # half angles at which rays meet the pupil's rim, traced by hand with Snell's law and without a cornea;
+    # 288 px a radian
+    assert straight == pytest.approx(np.pi * (288 * 0.051767) ** 2, rel=0.02)
+    assert seen == pytest.approx(np.pi * (288 * 0.059048) ** 2, rel=0.02)
+
+
+def test_cornea_has_depth_and_normal_but_no_label(renderer):
+    layers = renderer.render(eye_scene(64), "eye", samples=1, seed=0)
+    assert Part.CORNEA not in layers.part
+    assert {Part.IRIS, Part.PUPIL, Part.SCLERA} <= set(np.unique(layers.part))
+    pupil = layers.part == Part.PUPIL
+    assert np.abs(layers.depth[pupil] - 0.035).max() < 1e-3
+    assert (layers.normal[pupil][:, 2] < -0.9).all()
+    iris = layers.part == Part.IRIS
+    assert layers.uv[iris][:, 1].min() < 0.1
+    assert 0.7 < layers.uv[iris][:, 1].max() < 1.2
+
+
+def test_pictures_do_not_depend_on_process_threads_or_what_came_before(renderer):
+    script = str(Path(__file__).with_name("digest.py"))
+    others = [
+        subprocess.run(
+            [sys.executable, script, threads], capture_output=True, text=True, check=True
+        ).stdout.strip()
+        for threads in ("1", "3")
+    ]
+    assert len(others[0]) == 64, "only the digest may reach stdout"
+    renderer.render(eye_scene(40, yaw_rad=-0.2), "eye", samples=2, seed=1)
+    assert {*others, digest(renderer)} == {others[0]}
+
+
+def test_seed_changes_noise_and_nothing_else(renderer):
+    a, b = (renderer.render(eye_scene(), "eye", samples=2, seed=seed, denoise=False) for seed in (1, 2))
+    assert not np.array_equal(a.radiance, b.radiance)
+    for name in ("depth", "normal", "part", "uv"):
+        assert np.array_equal(getattr(a, name), getattr(b, name))
+
+
+def test_only_the_views_own_lamps_are_lit(renderer):
+    scene = eye_scene()
+    dark = dataclasses.replace(scene, views=(dataclasses.replace(scene.views[0], lamps=()),))
+    assert renderer.render(dark, "eye", samples=2, seed=1, denoise=False).radiance.max() == 0.0
+    assert renderer.render(scene, "eye", samples=2, seed=1).radiance.mean() > 0.0
+
+
+def test_moved_vertices_and_new_topology_are_taken_up(renderer):
+    view = View(
+        name="pinhole", camera=PINHOLE, camera_from_head=invert_transform(look_at([0, 0, 0.06], [0, 0, 0]))
+    )
+
+    def nearest(ball):
+        return renderer.render(
+            Scene(meshes=(ball,), lamps=(), views=(view,)), "pinhole", samples=1, seed=0
+        ).depth.min()
+
+    assert nearest(sphere("ball", np.zeros(3), 0.010)) == pytest.approx(0.050, abs=1e-4)
+    assert nearest(sphere("ball", np.zeros(3), 0.015)) == pytest.approx(0.045, abs=1e-4)
+    assert nearest(sphere("ball", np.zeros(3), 0.020, rings=30)) == pytest.approx(0.040, abs=1e-4)
+
+
+def test_refusals(renderer):
+    scene = eye_scene()
+    with pytest.raises(InputError, match="no view 'mouth'; it has eye"):
+        renderer.render(scene, "mouth", samples=1, seed=0)
+    with pytest.raises(InputError, match="no parameter 'shine'"):
+        renderer.render(
+            dataclasses.replace(scene, materials={"iris": {"shine": 1.0}}), "eye", samples=1, seed=0
+        )
+    with pytest.raises(InputError, match="device is 'abacus', but must be one of cpu, auto"):
+        open_renderer(device="abacus")
+
+
+def _face(anny, headset, **weights):
+    axis = np.broadcast_to(direction_from_angles(0.0, 0.0), (1, 2, 3))
+    row = np.zeros((1, 52))
+    for name, value in weights.items():
+        row[0, BLENDSHAPE_INDEX[name]] = value
+    face = evaluate(anny, np.zeros((1, anny.components)), row, axis)
+    eyes = [
+        eye_geometry(c, r, a) for c, r, a in zip(face.eye_center[0], face.eye_radius[0], axis[0], strict=True)
+    ]
+    return assemble(
+        anny, face.vertices[0], eyes, headset, head_from_headset(headset, face.landmarks[0, 27], np.zeros(6))
+    )
+
+
+def test_an_eye_camera_sees_what_real_ones_see(anny):
+    # bounds from measured frames of real headsets, widened by a quarter for one face and 64 pixels
+    headset = load_headset("tracking3").scaled(64)
+    renderer = open_renderer(threads=2)
+    layers = renderer.render(_face(anny, headset), "left_eye", samples=8, seed=1)
+    grey = develop(layers.radiance, headset.sensor)
+    level = {
+        part: grey[layers.part == part].mean() for part in (Part.SKIN, Part.SCLERA, Part.IRIS, Part.PUPIL)
+    }
+    assert 55 < grey.mean() < 95
+    assert 125 < np.percentile(grey, 99) < 215
+    assert (grey >= 250).mean() < 0.004
+    assert level[Part.SCLERA] < 1.15 * level[Part.SKIN]
+    assert level[Part.PUPIL] < level[Part.IRIS] < level[Part.SCLERA]
+    assert 20 < level[Part.PUPIL] < 50
+    shut = renderer.render(
+        _face(anny, headset, eyeBlinkLeft=1.0, eyeBlinkRight=1.0), "left_eye", samples=1, seed=1
+    )
+    assert not set(np.unique(shut.part)) & {Part.SCLERA, Part.IRIS, Part.PUPIL}

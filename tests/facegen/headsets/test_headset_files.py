@@ -1,0 +1,177 @@
+"""Headset files: what they must hold, what is refused and how, and where cameras and LEDs end up."""
+
+import tomllib
+
+import numpy as np
+import pytest
+
+from facegen.errors import FormatError, InputError, MissingAsset
+from facegen.geometry import apply_transform, invert_transform, project, rotation_from_angles
+from facegen.headsets import head_from_headset, headset_path, list_headsets, load_headset, parse_headset
+
+SMALL = """
+name = "small"
+[[cameras]]
+name = "eye"
+model = "fisheye"
+width = 64
+height = 48
+fx = 60.0
+fy = 61.0
+cx = 31.5
+cy = 23.5
+distortion = { k1 = -0.02 }
+position_mm = [40, -10, 45]
+target_mm = [32, 0, 15]
+[[leds]]
+name = "led"
+camera = "eye"
+position_mm = [40, 10, 40]
+target_mm = [32, 0, 15]
+wavelength_nm = 850
+power_mw = 1.0
+diameter_mm = 1.5
+beam_deg = 100
+[sensor]
+exposure = 0.5
+black_level = 12
+[fit]
+nose_bridge_mm = [0, -4, 25]
+"""
+
+
+def parse(text: str):
+    return parse_headset(tomllib.loads(text), source="small.toml")
+
+
+@pytest.mark.parametrize("name", list_headsets())
+def test_headsets_of_the_project_load(name):
+    headset = load_headset(name)
+    assert headset.name == name
+    assert all(any(led.camera == camera for led in headset.leds) for camera in headset.camera_names)
+
+
+@pytest.mark.parametrize(
+    ("was", "becomes", "says"),
+    [
+        (
+            "fx = 60.0",
+            "fx = 60.0\nfocal = 3",
+            r"small\.toml: cameras\[0\]\.focal is not a known key; known are name, model,",
+        ),
+        (
+            "exposure = 0.5",
+            "exposure = 0.5\ngain = 2",
+            r"sensor\.gain is not a known key; known are exposure, black_level, bits",
+        ),
+        ("k1 = -0.02", "k7 = -0.02", r"cameras\[0\]\.distortion\.k7 is not a known key; known are k1, k2"),
+        (
+            "width = 64",
+            "width = -64",
+            r"cameras\[0\]\.width is -64: input should be greater than or equal to 8",
+        ),
+        ("fx = 60.0", "fx = 0.0", r"cameras\[0\]\.fx is 0\.0: input should be greater than 0"),
+        (
+            '"fisheye"',
+            '"orthographic"',
+            r"cameras\[0\]\.model is 'orthographic': input should be 'pinhole' or 'fisheye'",
+        ),
+        ("fy = 61.0", "", r"cameras\[0\]\.fy is missing"),
+        ("k1 = -0.02", "p1 = 0.1", r"a fisheye camera has no distortion term p1; it has k1, k2, k3, k4"),
+        ("k1 = -0.02", "k1 = -4.0", r"distortion folds within the picture"),
+        ('camera = "eye"', 'camera = "nose"', r"leds\[0\]\.camera is 'nose', but the cameras are eye"),
+        ("target_mm = [32, 0, 15]", "target_mm = [40, 5, 45]", r"up in the picture is undefined"),
+        (
+            "power_mw = 1.0",
+            'power_mw = "much"',
+            r"leds\[0\]\.power_mw is 'much': input should be a valid number",
+        ),
+        ("[40, -10, 45]", "[40, -10]", r"cameras\[0\]\.position_mm\[2\] is missing"),
+    ],
+)
+def test_refusals_name_the_key_and_what_is_allowed(was, becomes, says):
+    assert was in SMALL
+    with pytest.raises(InputError, match=says):
+        parse(SMALL.replace(was, becomes, 1))
+
+
+def test_missing_and_damaged_files(tmp_path):
+    with pytest.raises(MissingAsset, match=r"no headset 'nothing'; known are .*tracking3"):
+        load_headset("nothing")
+    path = tmp_path / "bad.toml"
+    path.write_text("name = ")
+    with pytest.raises(FormatError, match="is not TOML"):
+        load_headset(path)
+
+
+def test_a_path_is_as_good_as_a_name():
+    assert load_headset(headset_path("tracking3")) == load_headset("tracking3")
+
+
+def test_target_lies_on_the_optical_axis_and_up_is_up():
+    camera = parse(SMALL).camera("eye")
+    camera_from_headset = invert_transform(camera.headset_from_camera)
+    target = np.multiply(camera.target_mm, 1e-3)
+    above = target + np.array([0.0, 1e-3, 0.0])
+    pixels = project(camera.camera, apply_transform(camera_from_headset, np.stack([target, above])))
+    assert np.allclose(pixels[0], [camera.cx, camera.cy])
+    assert pixels[1, 1] < pixels[0, 1]
+    assert abs(pixels[1, 0] - pixels[0, 0]) < 1e-6
+
+
+def test_rolling_a_camera_clockwise_turns_its_picture_the_other_way():
+    plain, rolled = (
+        parse(SMALL).camera("eye"),
+        parse(SMALL.replace("cx =", "roll_deg = 90\ncx =")).camera("eye"),
+    )
+    above = np.multiply(plain.target_mm, 1e-3) + np.array([0.0, 1e-3, 0.0])
+    before, after = (
+        project(c.camera, apply_transform(invert_transform(c.headset_from_camera), above[None]))[0]
+        for c in (plain, rolled)
+    )
+    assert before[1] < plain.cy - 1
+    assert after[0] < plain.cx - 1
+    assert abs(after[1] - plain.cy) < 0.1
+
+
+def test_scaling_keeps_rays_through_corners():
+    camera = parse(SMALL).camera("eye")
+    scaled = camera.scaled(128)
+    assert (scaled.width, scaled.height) == (128, 96)
+    point = np.array([[2e-3, -1e-3, 30e-3]])
+    # corners coincide: (pixel + 0.5) scales
+    assert np.allclose((project(camera.camera, point) + 0.5) * 2, project(scaled.camera, point) + 0.5)
+
+
+def test_nose_bridge_rests_where_the_file_says():
+    headset = load_headset("tracking3")
+    bridge = np.array([0.001, -0.006, 0.031])
+    placed = head_from_headset(headset, bridge, np.zeros(6))
+    rest = np.multiply(headset.fit.nose_bridge_mm, 1e-3)
+    there = apply_transform(placed, rest[None])[0]
+    assert np.allclose(there[[0, 2]], bridge[[0, 2]])
+    assert np.allclose(placed[:3, :3], np.eye(3))
+    assert placed[1, 3] == 0.0
+
+
+def test_donning_shifts_and_turns_about_the_headsets_origin():
+    headset = load_headset("tracking3")
+    donning = np.array([1e-3, -2e-3, 3e-3, 0.1, 0.2, 0.3])
+    still = head_from_headset(headset, np.zeros(3), np.zeros(6))
+    moved = head_from_headset(headset, np.zeros(3), donning)
+    assert np.allclose(moved[:3, 3] - still[:3, 3], donning[:3])
+    assert np.allclose(moved[:3, :3], rotation_from_angles(0.1, 0.2, 0.3))
+
+
+def test_tracking3_is_mirror_symmetric():
+    headset = load_headset("tracking3")
+    left, right = headset.camera("left_eye"), headset.camera("right_eye")
+    mirrored = np.array([-1.0, 1.0, 1.0])
+    assert np.allclose(np.multiply(left.position_mm, mirrored), right.position_mm)
+    assert np.allclose(np.multiply(left.target_mm, mirrored), right.target_mm)
+    assert np.isclose(left.cx + right.cx, left.width - 1)
+    places = {
+        side: [led.position_mm for led in headset.leds if led.camera == f"{side}_eye"]
+        for side in ("left", "right")
+    }
+    assert np.allclose(np.multiply(places["left"], mirrored), places["right"])
