@@ -33,7 +33,7 @@ class Regression:
 
 
 def regression(predicted: np.ndarray, true: np.ndarray) -> Regression:
-    """Count and fit two arrays of equal shape, weights in [0, 1]; those beyond count in the outermost cells."""
+    """Count and fit two arrays of equal shape; weights beyond [0, 1] count in the outermost cells."""
     predicted, true = np.ravel(predicted), np.ravel(true)
     cells = [
         np.clip(np.rint(values * (CELLS - 1)), 0, CELLS - 1).astype(np.int64) for values in (true, predicted)
