@@ -79,8 +79,8 @@ def _open(path: Path) -> Table:
     missing = [name for name in wanted if name not in columns]
     if missing:
         raise InputError(
-            f"{path} lacks {len(missing)} of the columns x_0 .. x_67 and y_0 .. y_67, {missing[0]} the first; "
-            f"OpenFace and py-feat write them"
+            f"{path} lacks {len(missing)} of the columns x_0 .. x_67, y_0 .. y_67, first {missing[0]}; "
+            "OpenFace and py-feat write them"
         )
     if not rows:
         raise InputError(f"{path} has a header and no rows")

@@ -1,0 +1,79 @@
+"""Live Link Face recordings: columns by name, weights as they are, time."""
+
+import csv
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.formats import FormatError, read_live_link
+
+REAL = Path(os.environ.get("FACEGEN_REAL", Path(__file__).parents[4] / "shared" / "real")) / "livelink"
+needs_recordings = pytest.mark.skipif(
+    not REAL.is_dir(), reason="the real recordings are not here (FACEGEN_REAL)"
+)
+
+
+def _write(path: Path, names: list[str], rows: list[list[str]], *, count: str = "BlendShapeCount") -> Path:
+    with open(path, "w", newline="") as file:
+        csv.writer(file).writerows([["Timecode", count, *names], *rows])
+    return path
+
+
+def _pascal(name: str) -> str:
+    return name[0].upper() + name[1:]
+
+
+@pytest.mark.parametrize("count", ["BlendShapeCount", "BlendshapeCount"])
+def test_columns_are_read_by_name_whatever_their_order_and_capitals(tmp_path: Path, count: str):
+    names = [_pascal(name) for name in reversed(BLENDSHAPES)]
+    values = [f"{BLENDSHAPE_INDEX[name] / 40 - 0.02:.6f}" for name in reversed(BLENDSHAPES)]
+    take = read_live_link(
+        _write(tmp_path / "a.csv", names, [["00:00:01:00.000", "61", *values]], count=count)
+    )
+    assert np.allclose(take.weights, np.arange(52) / 40 - 0.02)  # -0.02 to 1.255: kept as they are
+
+
+def test_time_comes_from_60_timecode_frames_a_second_and_passes_midnight(tmp_path: Path):
+    codes = ["23:59:59:58.000", "23:59:59:59.500", "00:00:00:01.000"]
+    rows = [[code, "61", *["0"] * 52] for code in codes]
+    take = read_live_link(_write(tmp_path / "a.csv", list(BLENDSHAPES), rows))
+    assert np.allclose(take.time_s, [0, 1.5 / 60, 3 / 60])
+    assert take.timecodes == tuple(codes)
+    assert np.allclose(read_live_link(tmp_path / "a.csv", fps=30).time_s, [0, 1 / 30, 2 / 30])
+
+
+def test_what_is_no_recording_is_refused(tmp_path: Path):
+    path = tmp_path / "a.csv"
+    path.write_text("a,b\n1,2\n")
+    with pytest.raises(FormatError, match="column eyeBlinkLeft is missing and 51 more"):
+        read_live_link(path)
+    path.write_text("")
+    with pytest.raises(FormatError, match="is missing"):
+        read_live_link(path)
+    names = list(BLENDSHAPES)
+    with pytest.raises(FormatError, match="no rows"):
+        read_live_link(_write(path, names, []))
+    with pytest.raises(FormatError, match="row 2 has 3 cells"):
+        read_live_link(_write(path, names, [["00:00:00:00.0", "61", "0"]]))
+    with pytest.raises(FormatError, match="not a number"):
+        read_live_link(_write(path, names, [["00:00:00:00.0", "61", "x", *["0"] * 51]]))
+    with pytest.raises(FormatError, match="timecode 'soon'"):
+        read_live_link(_write(path, names, [["soon", "61", *["0"] * 52]]))
+
+
+@needs_recordings
+@pytest.mark.parametrize(("name", "rows"), [("alex_rom_3.csv", 4030), ("S07-001.csv", 2028)])
+def test_real_recordings(name: str, rows: int):
+    take = read_live_link(REAL / name)
+    assert take.weights.shape == (rows, 52)
+    assert take.weights.min() >= 0
+    assert take.weights.max() <= 1.0034
+    # Rows come at 30 a second: two timecode frames of 1/60 s apart.
+    assert np.median(np.diff(take.time_s)) == pytest.approx(1 / 30, abs=1e-6)
+    with open(REAL / name, newline="") as file:
+        first = next(csv.DictReader(file))
+    for column in ("JawRight", "JawLeft", "MouthRight", "MouthLeft"):
+        assert take.weights[0, BLENDSHAPE_INDEX[column[0].lower() + column[1:]]] == float(first[column])

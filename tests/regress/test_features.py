@@ -1,0 +1,135 @@
+"""Features: what they ignore, what they mirror, where their edges come from."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from facegen.conventions import MIRRORED_LANDMARKS
+from regress.errors import InputError
+from regress.features import (
+    ANCHORS,
+    Features,
+    align_affine,
+    delaunay_edges,
+    edge_distances,
+    extract,
+    load_reference_shape,
+    make_reference_shape,
+    mean_shape,
+    mirrored_edges,
+)
+from regress.features.reference_shape import edges_sha256, reference_shape_json
+from tests.regress.drawn import drawn_faces
+
+REFERENCE = load_reference_shape()
+FACES = drawn_faces(np.random.default_rng(0), 30)
+
+
+def _features(alignment: str) -> Features:
+    return Features(
+        alignment=alignment,
+        mean_shape=mean_shape(FACES),
+        edges=REFERENCE.edges,
+        reference_name=REFERENCE.name,
+        reference_sha256=REFERENCE.sha256,
+    )
+
+
+def test_the_reference_shape_has_178_edges_and_one_without_a_mirror_partner():
+    assert REFERENCE.edges.shape == (178, 2)
+    assert np.sum(mirrored_edges(REFERENCE.edges) < 0) == 1
+    assert (REFERENCE.edges[:, 0] < REFERENCE.edges[:, 1]).all()
+    assert np.array_equal(np.unique(REFERENCE.edges, axis=0), REFERENCE.edges)
+    assert edges_sha256(REFERENCE.edges) == REFERENCE.sha256
+
+
+def test_the_reference_shape_can_be_made_again_from_its_points():
+    again = make_reference_shape(REFERENCE.points, name=REFERENCE.name, source=REFERENCE.source)
+    assert reference_shape_json(again) == reference_shape_json(REFERENCE)
+
+
+def test_the_reference_shape_is_the_default_rigs(anny):
+    points = (anny.vertices[anny.landmark_vertices] * anny.landmark_weights[..., None]).sum(axis=1)
+    made = make_reference_shape(np.asarray(points, dtype=np.float64), name="anny", source="")
+    assert np.array_equal(made.edges, REFERENCE.edges)
+    # float32 sums of another build may differ in the last bit
+    assert np.allclose(made.points, REFERENCE.points, atol=1e-7)
+
+
+def test_points_that_do_not_give_178_edges_are_refused():
+    with pytest.raises(InputError, match=r"\(68, 3\)"):
+        make_reference_shape(np.zeros((68, 2)), name="flat", source="")
+    with pytest.raises(InputError, match="178 and 1 are needed"):
+        make_reference_shape(np.random.default_rng(0).normal(size=(68, 3)), name="noise", source="")
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    matrix=st.lists(st.floats(-3, 3), min_size=4, max_size=4),
+    shift=st.tuples(st.floats(-1e3, 1e3), st.floats(-1e3, 1e3)),
+)
+def test_affinely_aligned_features_ignore_every_affine_map(matrix: list[float], shift: tuple[float, float]):
+    matrix = np.reshape(matrix, (2, 2))
+    if np.linalg.cond(matrix) > 20:
+        return
+    features = _features("affine")
+    moved = FACES @ matrix + shift
+    assert np.allclose(extract(features, moved), extract(features, FACES), atol=1e-8)
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    roll=st.floats(-np.pi, np.pi), scale=st.floats(0.01, 100), x=st.floats(-1e3, 1e3), y=st.floats(-1e3, 1e3)
+)
+def test_unaligned_features_ignore_place_size_and_roll(roll: float, scale: float, x: float, y: float):
+    features = _features("none")
+    turn = np.array([[np.cos(roll), -np.sin(roll)], [np.sin(roll), np.cos(roll)]])
+    assert np.allclose(extract(features, scale * FACES @ turn + [x, y]), extract(features, FACES), atol=1e-7)
+
+
+@pytest.mark.parametrize("alignment", ["affine", "none"])
+def test_a_mirrored_face_has_mirrored_features(alignment: str):
+    features = _features(alignment)
+    partner = mirrored_edges(features.edges)
+    paired = partner >= 0
+    mirrored = FACES[:, list(MIRRORED_LANDMARKS)] * [-1, 1]
+    assert np.allclose(extract(features, mirrored)[:, paired], extract(features, FACES)[:, partner[paired]])
+
+
+def test_aligning_is_the_least_squares_fit_of_the_anchors():
+    target = mean_shape(FACES)
+    anchors = list(ANCHORS)
+    for face, aligned in zip(FACES, align_affine(FACES, target), strict=True):
+        design = np.column_stack([face[anchors], np.ones(len(anchors))])
+        solution, *_ = np.linalg.lstsq(design, target[anchors], rcond=None)
+        assert np.allclose(aligned, np.column_stack([face, np.ones(68)]) @ solution, atol=1e-9)
+
+
+def test_the_mean_shape_is_symmetric_level_and_one_wide():
+    mean = mean_shape(FACES)
+    assert np.allclose(mean[list(MIRRORED_LANDMARKS)] * [-1, 1], mean, atol=1e-12)
+    assert np.allclose(mean[16] - mean[0], [1, 0])
+    assert mean[8, 1] > mean[27, 1]  # y down: the chin lies below the nose's bridge
+
+
+def test_a_face_with_a_missing_point_or_without_width_gives_nan():
+    faces = FACES[:3].copy()
+    faces[0, 40] = np.nan
+    faces[1] = 7.0
+    for alignment in ("affine", "none"):
+        values = extract(_features(alignment), faces)
+        assert np.isnan(values[:2]).all()
+        assert np.isfinite(values[2]).all()
+
+
+def test_distances_are_lengths_over_face_width():
+    face = np.zeros((1, 68, 2))
+    face[0, 16] = [0, 4]
+    face[0, 5] = [3, 0]
+    assert np.allclose(edge_distances(face, np.array([[0, 5], [5, 16]])), [[3 / 4, 5 / 4]])
+
+
+def test_a_square_has_four_sides_and_a_diagonal():
+    edges = delaunay_edges(np.array([[0, 0], [1, 0], [1, 1.1], [0, 1.0]]))
+    assert len(edges) == 5

@@ -1,0 +1,211 @@
+"""The solver: exact steps, falling costs, derivatives that are derivatives, named ends."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from regress.levenberg_marquardt import Outcome, Settings, dual_step, minimise, pcg_step
+from regress.networks import Layout, NetworkProblem, Rows
+
+
+@dataclass
+class LinearState:
+    problem: "Linear"
+    members: np.ndarray
+    parameters: np.ndarray
+    residual: np.ndarray
+
+    def product(self, direction):
+        return np.einsum("mrp,mp->mr", self.problem.matrix[self.members], direction)
+
+    def transposed_product(self, residual):
+        return np.einsum("mrp,mr->mp", self.problem.matrix[self.members], residual)
+
+    def preconditioner(self, shift):
+        return lambda rows: rows
+
+    def take(self, rows):
+        return LinearState(self.problem, self.members[rows], self.parameters[rows], self.residual[rows])
+
+    def where(self, chosen, other):
+        parameters = np.where(chosen[:, None], self.parameters, other.parameters)
+        return LinearState(
+            self.problem, self.members, parameters, np.where(chosen[:, None], self.residual, other.residual)
+        )
+
+
+@dataclass
+class Linear:
+    """Residuals ``A theta - b``."""
+
+    matrix: np.ndarray
+    target: np.ndarray
+
+    def at(self, parameters, members):
+        residual = np.einsum("mrp,mp->mr", self.matrix[members], parameters) - self.target[members]
+        return LinearState(self, members, parameters, residual)
+
+    def monitor(self, parameters, members):
+        return np.mean(self.at(parameters, members).residual ** 2, axis=1, keepdims=True)
+
+
+def network_problem(
+    seed: int, *, networks: int = 3, rows: int = 40, inputs: int = 5, outputs: int = 2
+) -> NetworkProblem:
+    rng = np.random.default_rng(seed)
+    used = np.ones((networks, outputs))
+    used[0, 1:] = 0  # the first network has one output, the rest of its rows is padding
+    splits = []
+    for _ in range(2):
+        columns = np.concatenate([rng.normal(size=(inputs, rows)), np.ones((1, rows))])
+        targets = np.sin(rng.normal(size=(networks, outputs, inputs + 1)) @ columns) * used[:, :, None]
+        splits.append(Rows(inputs=columns, targets=targets))
+    layout = Layout(inputs=inputs, hidden=4, outputs=outputs)
+    return NetworkProblem(layout=layout, used=used, train=splits[0], held_out=(splits[1],))
+
+
+def start(problem: NetworkProblem, seed: int) -> np.ndarray:
+    size = (len(problem.used), problem.layout.parameters)
+    return np.random.default_rng(seed).normal(size=size) * 0.5
+
+
+def jacobian(state, member: int) -> np.ndarray:
+    """Dense Jacobian (R, P) of one member, column by column."""
+    count, parameters = state.parameters.shape
+    columns = []
+    for column in range(parameters):
+        direction = np.zeros((count, parameters))
+        direction[member, column] = 1
+        columns.append(state.product(direction)[member])
+    return np.stack(columns, axis=1)
+
+
+@settings(max_examples=15, deadline=None)
+@given(seed=st.integers(0, 10**6))
+def test_products_with_the_jacobian_are_differences_of_residuals(seed: int):
+    problem = network_problem(seed)
+    members, parameters = np.arange(3), start(problem, seed + 1)
+    direction = np.random.default_rng(seed + 2).normal(size=parameters.shape)
+    tiny = 1e-6
+    ahead, behind = (problem.at(parameters + sign * tiny * direction, members).residual for sign in (1, -1))
+    product = problem.at(parameters, members).product(direction)
+    assert np.allclose(product, (ahead - behind) / (2 * tiny), atol=1e-7)
+
+
+@settings(max_examples=15, deadline=None)
+@given(seed=st.integers(0, 10**6))
+def test_the_transposed_product_is_the_adjoint(seed: int):
+    problem = network_problem(seed)
+    state = problem.at(start(problem, seed), np.arange(3))
+    rng = np.random.default_rng(seed + 1)
+    direction, residual = rng.normal(size=state.parameters.shape), rng.normal(size=state.residual.shape)
+    left = np.sum(state.product(direction) * residual, axis=1)
+    assert np.allclose(left, np.sum(direction * state.transposed_product(residual), axis=1))
+
+
+def test_the_preconditioner_is_symmetric_and_positive():
+    problem = network_problem(0)
+    state = problem.at(start(problem, 1), np.arange(3))
+    apply = state.preconditioner(np.full(3, 0.3))
+    rng = np.random.default_rng(2)
+    a, b = rng.normal(size=(2, *state.parameters.shape))
+    assert np.allclose(np.sum(a * apply(b), axis=1), np.sum(b * apply(a), axis=1))
+    assert (np.sum(a * apply(a), axis=1) > 0).all()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_step_by_conjugate_gradients_is_the_exact_dual_step(seed: int):
+    problem = network_problem(seed)
+    state = problem.at(start(problem, seed), np.arange(3))
+    alpha, damping = np.array([0.1, 0.5, 2.0]), np.array([1.0, 0.2, 0.0])
+    step = pcg_step(state, alpha, damping, tolerance=1e-10, most=2000)
+    for member in range(3):
+        exact = dual_step(
+            jacobian(state, member),
+            state.residual[member],
+            state.parameters[member],
+            alpha=alpha[member],
+            damping=damping[member],
+        )
+        assert np.abs(step.direction[member] - exact).max() < 1e-6 * np.abs(exact).max()
+
+
+def test_the_predicted_fall_is_the_quadratic_models():
+    problem = network_problem(3)
+    state = problem.at(start(problem, 3), np.arange(3))
+    alpha, damping = np.full(3, 0.2), np.full(3, 0.7)
+    for tolerance in (0.3, 1e-8):  # also where the solve stopped early
+        step = pcg_step(state, alpha, damping, tolerance=tolerance, most=500)
+        after = state.residual + state.product(step.direction)
+        moved = state.parameters + step.direction
+        model = (after**2).sum(axis=1) / 2 + alpha * (moved**2).sum(axis=1) / 2
+        before = (state.residual**2).sum(axis=1) / 2 + alpha * (state.parameters**2).sum(axis=1) / 2
+        assert np.allclose(step.predicted, before - model)
+
+
+def test_a_linear_problem_ends_in_one_undamped_step():
+    rng = np.random.default_rng(0)
+    problem = Linear(rng.normal(size=(4, 12, 5)), rng.normal(size=(4, 12)))
+    alpha = np.array([0.0, 0.1, 1.0, 10.0])
+    settings_ = Settings(damping=0, tolerance=1e-12, products=100, steps=10)
+    result = minimise(problem, np.zeros((4, 5)), alpha, settings_)
+    for member in range(4):
+        a = problem.matrix[member]
+        exact = np.linalg.solve(a.T @ a + alpha[member] * np.eye(5), a.T @ problem.target[member])
+        first = problem.at(result.parameters, np.arange(4))
+        assert np.allclose(first.parameters[member], exact)
+    assert set(result.outcomes) == {Outcome.CONVERGED}
+    # the second step finds nothing to gain
+    assert result.steps.max() <= 2
+    assert np.allclose(result.cost[1], np.nanmin(result.cost, axis=0))
+
+
+@settings(max_examples=10, deadline=None)
+@given(seed=st.integers(0, 10**6), damping=st.floats(1e-6, 1e3))
+def test_the_cost_never_rises_and_the_best_held_out_error_is_kept(seed: int, damping: float):
+    problem = network_problem(seed)
+    result = minimise(problem, start(problem, seed), np.full(3, 0.05), Settings(damping=damping, steps=25))
+    for member in range(3):
+        cost = result.cost[: result.steps[member] + 1, member]
+        assert (np.diff(cost) <= 0).all()
+        assert np.isnan(result.cost[result.steps[member] + 1 :, member]).all()
+    kept = problem.monitor(result.parameters, np.arange(3))[:, 0]
+    assert np.allclose(kept, result.error)
+    assert np.allclose(kept, np.nanmin(result.monitored[:, :, 0], axis=0))
+
+
+def test_every_end_has_a_name_and_a_sentence():
+    problem = network_problem(1, rows=12)
+    outcome = minimise(problem, start(problem, 1), np.full(3, 1e-3), Settings(steps=200, patience=2)).outcomes
+    assert Outcome.VALIDATION_ROSE in outcome
+    short = minimise(problem, start(problem, 1), np.full(3, 1e-3), Settings(steps=1)).outcomes
+    assert set(short) == {Outcome.OUT_OF_STEPS}
+    broken = start(problem, 1)
+    broken[1] = np.nan
+    mixed = minimise(problem, broken, np.full(3, 0.1), Settings(steps=3))
+    assert mixed.outcomes[1] is Outcome.NOT_FINITE
+    assert mixed.steps[1] == 0
+    assert np.isfinite(mixed.parameters[[0, 2]]).all()
+    for end in Outcome:
+        assert end.value.endswith(".")
+
+
+def test_problems_do_not_disturb_each_other():
+    problem = network_problem(7)
+    begin = start(problem, 7)
+    together = minimise(problem, begin, np.full(3, 0.1), Settings(steps=10, tolerance=1e-8, products=400))
+    for member in range(3):
+        rows = [member]
+        alone = NetworkProblem(
+            layout=problem.layout,
+            used=problem.used[rows],
+            train=Rows(inputs=problem.train.inputs, targets=problem.train.targets[rows]),
+            held_out=tuple(Rows(inputs=r.inputs, targets=r.targets[rows]) for r in problem.held_out),
+        )
+        result = minimise(
+            alone, begin[rows], np.full(1, 0.1), Settings(steps=10, tolerance=1e-8, products=400)
+        )
+        assert np.allclose(result.error, together.error[member], rtol=1e-4)
