@@ -26,7 +26,13 @@ class EyeballSeen:
 
 
 def eyeball_seen(
-    rig: Rig, faces: EvaluatedFaces, index: int, gaze: np.ndarray, *, yaw_deg: float = 0.0, pitch_deg: float = 0.0
+    rig: Rig,
+    faces: EvaluatedFaces,
+    index: int,
+    gaze: np.ndarray,
+    *,
+    yaw_deg: float = 0.0,
+    pitch_deg: float = 0.0,
 ) -> EyeballSeen:
     """Area of each eye that one evaluated face (with all its vertices) shows to a distant camera.
 

@@ -27,8 +27,8 @@ FRONT_M = 0.5e-3
 """The upper margin's distance in front of the lower one in the closed eye."""
 STEADY_TRAVEL_M = 1.5e-3
 """Columns whose blink travels less than this, at the canthi, take the weight as it is: their ratio would be noise."""
-CANTHUS_M, COLUMN_SPACING_M = 1.2e-3, 1.0e-3
-"""Least distance along x of a column from both canthi and from the next column."""
+CANTHUS_SHARE, COLUMN_SPACING_M = 0.10, 1.0e-3
+"""Least distance along x of a column from both canthi, as a share of the eye's width, and from the next column."""
 CONTACT_LANDMARKS = ((43, 47), (44, 46), (37, 41), (38, 40))
 """Upper and lower lid landmarks that face each other."""
 
@@ -40,7 +40,8 @@ class _Eye:
     ``before``, ``after`` (M,) columns on either side of each vertex and ``share`` (M,) of the latter; ``blink`` (M, 3)
     and ``closing`` (2, M, 3) displacements; ``follow`` (M,) from 1 on the upper margin to 0 away from it; ``skin``
     (M,) whether a vertex can be seen; ``travel`` (U,) of the blink; ``overlap`` (U,); weights' indices; the margins as
-    positions among the M, ``flip`` turns x so that it grows from the inner to the outer canthus.
+    positions among the M; ``partner`` (L, U) interpolates the lower margin at the columns; ``flip`` turns x so that it
+    grows from the inner to the outer canthus.
     """
 
     vertices: np.ndarray
@@ -57,6 +58,7 @@ class _Eye:
     closing_index: tuple[int, int]
     upper: np.ndarray
     lower: np.ndarray
+    partner: np.ndarray
     flip: float
 
 
@@ -96,7 +98,9 @@ def clamp_contact(landmarks: np.ndarray) -> None:
         landmarks[:, upper, 1] = np.maximum(landmarks[:, upper, 1], landmarks[:, lower, 1])
 
 
-def _closed(eye: _Eye, lid: np.ndarray, weights: np.ndarray, radius: np.ndarray, gaze: np.ndarray) -> np.ndarray:
+def _closed(
+    eye: _Eye, lid: np.ndarray, weights: np.ndarray, radius: np.ndarray, gaze: np.ndarray
+) -> np.ndarray:
     blink = weights[:, eye.blink_index, None, None]
     down, squint = (weights[:, index, None, None] for index in eye.closing_index)
     without_blink = lid - blink * eye.blink
@@ -167,9 +171,18 @@ def _support(lid: np.ndarray, length: np.ndarray, radius: np.ndarray, gaze: np.n
 def _lay_in_front(eye: _Eye, lid: np.ndarray) -> np.ndarray:
     """Bring the upper lid's margin to `FRONT_M` before the lower one where they touch, from behind or from afar."""
     length = _length(lid)
-    below = _lower_at_columns(eye, lid, length[:, eye.lower])
-    nearness = np.clip((0.5e-3 - _gap(eye, lid)) / 1e-3, 0.0, 1.0)  # from nothing at 0.5 mm apart to all at contact
-    outwards = (below + FRONT_M * eye.overlap / OVERLAP_M - length[:, eye.upper]) * nearness * nearness * (3.0 - 2.0 * nearness)
+    # the lower margin where it faces the column in the open eye: at the inner canthus it is steep, and a partner found
+    # anew after each move would run away from the column
+    below = length[:, eye.lower] @ eye.partner
+    nearness = np.clip(
+        (0.5e-3 - _gap(eye, lid)) / 1e-3, 0.0, 1.0
+    )  # from nothing at 0.5 mm apart to all at contact
+    outwards = (
+        (below + FRONT_M * eye.overlap / OVERLAP_M - length[:, eye.upper])
+        * nearness
+        * nearness
+        * (3.0 - 2.0 * nearness)
+    )
     wanted = length + eye.follow * _along(eye, outwards)
     return lid * (wanted / length)[..., None]
 
@@ -210,6 +223,9 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> _
         closing_index=(shapes["LookDown"], shapes["Squint"]),
         upper=upper,
         lower=lower,
+        partner=np.array(
+            [np.interp(x[upper], np.maximum.accumulate(x[lower]), row) for row in np.eye(len(lower))]
+        ),
         flip=flip,
     )
     mean_lid = (rig.vertices[vertices] - rig.eye_center[side])[None]
@@ -223,8 +239,9 @@ def _columns(margin: np.ndarray, x: np.ndarray) -> np.ndarray:
     Near the canthi the margins crowd and turn back: goals there would make the skin beside them jump.
     """
     chosen: list[int] = []
+    reach = CANTHUS_SHARE * (x[margin[-1]] - x[margin[0]])
     for vertex in margin:
         from_canthi = min(x[vertex] - x[margin[0]], x[margin[-1]] - x[vertex])
-        if from_canthi > CANTHUS_M and (not chosen or x[vertex] - x[chosen[-1]] > COLUMN_SPACING_M):
+        if from_canthi > reach and (not chosen or x[vertex] - x[chosen[-1]] > COLUMN_SPACING_M):
             chosen.append(int(vertex))
     return np.array(chosen)

@@ -19,7 +19,9 @@ def face_sides(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.stack([faces[real], following[real]], axis=-1), np.nonzero(real)[0]
 
 
-def lip_faces(faces: np.ndarray, outer: np.ndarray, vertices: np.ndarray, landmarks: np.ndarray) -> np.ndarray:
+def lip_faces(
+    faces: np.ndarray, outer: np.ndarray, vertices: np.ndarray, landmarks: np.ndarray
+) -> np.ndarray:
     """Which faces (f,) are the red of the lips.
 
     It is the outer skin that is reached from the inner lip's landmarks without crossing the border, the shortest path
@@ -54,7 +56,9 @@ def lip_faces(faces: np.ndarray, outer: np.ndarray, vertices: np.ndarray, landma
     pairs = np.stack([owner[order][:-1][same], owner[order][1:][same]])
     linked = sparse.csr_matrix((np.ones(pairs.shape[1]), pairs), (len(faces), len(faces)))
     _, label = csgraph.connected_components(linked, directed=False)
-    inner = landmarks[list(LANDMARK_GROUPS["inner_lip"])[1:4]]  # 60 and 64 are corners, which touch the cheek too
+    inner = landmarks[
+        list(LANDMARK_GROUPS["inner_lip"])[1:4]
+    ]  # 60 and 64 are corners, which touch the cheek too
     return outer & np.isin(label, label[outer & np.isin(faces, inner).any(axis=1)])
 
 

@@ -68,7 +68,9 @@ def nearest_along_z(
 def _batches(pixels: np.ndarray, limit: int = 4_000_000) -> list[np.ndarray]:
     """Triangles with pixels at all, in groups of about ``limit`` pixels, which bounds memory to about 300 MB."""
     drawn = np.flatnonzero(pixels)
-    return np.split(drawn, np.flatnonzero(np.diff(np.cumsum(pixels[drawn]) // limit)) + 1) if len(drawn) else []
+    return (
+        np.split(drawn, np.flatnonzero(np.diff(np.cumsum(pixels[drawn]) // limit)) + 1) if len(drawn) else []
+    )
 
 
 def _counted(lengths: np.ndarray) -> np.ndarray:
