@@ -1,0 +1,180 @@
+"""The regress command: what it writes, what it says, how it exits."""
+
+import csv
+import importlib
+import io
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import regress.cli
+from facegen.conventions import BLENDSHAPES
+from regress.training import RECIPES, KeypointDataset
+from tests.regress.conftest import QUICK
+from tests.regress.test_inputs import bad_inputs
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+    """Run the program as its console script would; gives exit code, standard output and standard error."""
+
+    def call(*arguments: object) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["regress", *map(str, arguments)])
+        with pytest.raises(SystemExit) as left:
+            regress.cli.main()
+        said = capsys.readouterr()
+        return int(left.value.code or 0), said.out, said.err
+
+    return call
+
+
+@pytest.fixture
+def points_file(dataset: KeypointDataset, tmp_path: Path) -> Path:
+    points = dataset.points[:5].copy()
+    points[3] = np.nan
+    np.save(tmp_path / "points.npy", points)
+    return tmp_path / "points.npy"
+
+
+def test_train_writes_a_model_that_evaluate_and_predict_read(
+    run, dataset_folder: Path, tmp_path: Path, points_file: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setitem(RECIPES, "default", QUICK)
+    code, out, err = run("train", dataset_folder, "--out", tmp_path / "model", "--seed", 3)
+    assert (code, out) == (0, "")
+    assert "network: test R2" in err
+    assert "all rows: 48 of 48 steps" in err
+    code, out, _ = run("evaluate", tmp_path / "model", dataset_folder, "--json")
+    figures = json.loads(out)
+    assert code == 0
+    assert len(figures["scores"]) == 51
+    code, out, _ = run("evaluate", tmp_path / "model", dataset_folder)
+    assert code == 0
+    assert "jawOpen" in out
+    code, out, _ = run("predict", tmp_path / "model", points_file)
+    assert code == 0
+    assert len(out.splitlines()) == 6
+
+
+def test_predict_writes_a_whole_csv_and_names_the_empty_rows(
+    run, quick_model_folder: Path, points_file: Path, tmp_path: Path
+):
+    target = tmp_path / "weights.csv"
+    code, out, err = run("predict", quick_model_folder, points_file, "--out", target, "--smooth", 2)
+    assert (code, out) == (0, "")
+    assert "1 of 5 rows have no face: 4" in err
+    rows = list(csv.DictReader(io.StringIO(target.read_text())))
+    assert list(rows[0]) == ["frame", *BLENDSHAPES]
+    assert rows[3]["jawOpen"] == ""
+    assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
+
+
+def test_strict_fails_where_a_frame_has_no_face(
+    run, quick_model_folder: Path, points_file: Path, tmp_path: Path
+):
+    target = tmp_path / "weights.csv"
+    code, _, err = run("predict", quick_model_folder, points_file, "--out", target, "--strict")
+    assert code == 2
+    assert "1 of 5 rows have no face: 4" in err
+    assert not target.exists()
+
+
+def test_bad_inputs_exit_with_2_and_one_sentence(run, quick_model_folder: Path, tmp_path: Path):
+    for name, (path, said) in bad_inputs(tmp_path / "bad").items():
+        code, out, err = run("predict", quick_model_folder, path)
+        assert (code, out) == (2, ""), name
+        assert said in err
+        assert err.startswith("regress: ")
+        assert len(err.splitlines()) == 1
+
+
+def test_a_missing_model_or_dataset_exits_with_2(
+    run, quick_model_folder: Path, points_file: Path, tmp_path: Path
+):
+    for arguments in (
+        ("predict", tmp_path / "none", points_file),
+        ("evaluate", tmp_path / "none", tmp_path),
+        ("evaluate", quick_model_folder, tmp_path),
+        ("train", tmp_path, "--out", tmp_path / "model"),
+        ("edges", points_file, "--out", tmp_path / "edges.json"),
+        ("edges", tmp_path / "none.npy", "--out", tmp_path / "edges.json"),
+        ("edges", quick_model_folder / "weights.npz", "--out", tmp_path / "edges.json"),
+        ("train", tmp_path),
+        ("frobnicate",),
+    ):
+        code, out, err = run(*arguments)
+        assert (code, out) == (2, ""), arguments
+        assert "Traceback" not in err
+    assert not (tmp_path / "model").exists()
+    assert not (tmp_path / "edges.json").exists()
+
+
+def test_a_place_that_cannot_be_written_exits_with_74(
+    run, quick_model_folder: Path, points_file: Path, dataset_folder: Path, tmp_path: Path
+):
+    (tmp_path / "file").write_text("mine")
+    for arguments in (
+        ("predict", quick_model_folder, points_file, "--out", tmp_path / "file" / "a.csv"),
+        ("train", dataset_folder, "--out", tmp_path / "file" / "model"),
+    ):
+        code, _, err = run(*arguments)
+        assert code == 74, arguments
+        assert "written" in err.splitlines()[-1]
+        assert "Traceback" not in err
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+def test_edges_makes_the_shipped_reference_shape_again(run, tmp_path: Path):
+    shipped = json.loads((ROOT / "regress" / "data" / "reference_shape.json").read_text())
+    (tmp_path / "points.json").write_text(json.dumps(shipped["points"]))
+    code, _, err = run(
+        "edges", tmp_path / "points.json", "--out", tmp_path / "shape.json", "--source", shipped["source"]
+    )
+    assert code == 0
+    assert "178 edges" in err
+    assert (tmp_path / "shape.json").read_bytes() == (
+        ROOT / "regress" / "data" / "reference_shape.json"
+    ).read_bytes()
+
+
+def test_version_and_help(run):
+    code, out, _ = run("--version")
+    assert code == 0
+    assert out.startswith("regress 0.")
+    for command in ("train", "evaluate", "predict", "edges"):
+        code, out, _ = run(command, "--help")
+        assert code == 0
+        assert "Example" in out
+
+
+def test_ctrl_c_leaves_no_traceback(
+    run, dataset_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    def interrupted(*arguments: object, **options: object) -> None:
+        raise KeyboardInterrupt
+
+    # the package names the command like its module, so the module is asked for by name
+    monkeypatch.setattr(importlib.import_module("regress.cli.train"), "train_model", interrupted)
+    code, _, err = run("train", dataset_folder, "--out", tmp_path / "model")
+    assert code in (75, 130)
+    assert "Traceback" not in err
+    assert not (tmp_path / "model").exists()
+
+
+def test_a_closed_pipe_is_quiet(quick_model_folder: Path, tmp_path: Path):
+    faces = np.random.default_rng(0).uniform(size=(3000, 68, 2))
+    np.save(tmp_path / "many.npy", faces)
+    program = "import sys; sys.argv[0] = 'regress'; from regress.cli import main; main()"
+    command = [sys.executable, "-c", program, "predict", str(quick_model_folder), str(tmp_path / "many.npy")]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process.stdout.readline()
+    process.stdout.close()
+    _, err = process.communicate(timeout=60)
+    assert b"Traceback" not in err
+    assert b"Error" not in err

@@ -1,0 +1,152 @@
+"""Training on a small drawn dataset: it repeats, it learns, it records, it refuses."""
+
+import dataclasses
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import regress
+from facegen.conventions import BLENDSHAPE_INDEX
+from regress.errors import InputError, Interrupted
+from regress.model import Model
+from regress.targets import NETWORKS, OUTPUTS
+from regress.training import RECIPES, KeypointDataset, evaluate_model, read_dataset, score, train
+from regress.training.preparation import mirrored, prepare
+from tests.regress.conftest import QUICK, write_dataset
+
+
+def test_a_dataset_reads_as_it_was_written(dataset: KeypointDataset, dataset_folder: Path):
+    read = read_dataset(dataset_folder)
+    assert np.allclose(read.points, dataset.points, rtol=1e-6)
+    assert np.allclose(read.weights, dataset.weights, atol=1e-7)
+    assert np.array_equal(read.split, dataset.split)
+    assert np.array_equal(read.person, dataset.person)
+    assert read.description["spec_hash"] == "abc"
+    assert read.sha256 == read_dataset(dataset_folder).sha256
+
+
+def test_what_is_no_dataset_is_refused(dataset: KeypointDataset, tmp_path: Path):
+    with pytest.raises(InputError, match=r"dataset\.json does not exist"):
+        read_dataset(tmp_path)
+    write_dataset(dataset, tmp_path / "no_points", without=("detected_2d",))
+    with pytest.raises(InputError, match="lacks the column 'detected_2d'"):
+        read_dataset(tmp_path / "no_points")
+    one_split = dataclasses.replace(dataset, split=np.full(len(dataset.split), "train"))
+    write_dataset(one_split, tmp_path / "one_split")
+    with pytest.raises(InputError, match="no sample in the validation split"):
+        read_dataset(tmp_path / "one_split")
+    missing = dataclasses.replace(dataset, points=np.full_like(dataset.points, np.nan))
+    write_dataset(missing, tmp_path / "missing")
+    with pytest.raises(InputError, match="not finite"):
+        read_dataset(tmp_path / "missing")
+    write_dataset(dataset, tmp_path / "broken")
+    (tmp_path / "broken" / "keypoints" / "shard-00001.parquet").write_bytes(b"PAR1")
+    with pytest.raises(InputError, match="not a readable Parquet file"):
+        read_dataset(tmp_path / "broken")
+    (tmp_path / "broken" / "dataset.json").write_text("[]")
+    with pytest.raises(InputError, match="a JSON object is needed"):
+        read_dataset(tmp_path / "broken")
+
+
+def test_training_repeats_to_the_bit_and_follows_its_seed(quick_model: Model, dataset: KeypointDataset):
+    again, other = train(dataset, QUICK, seed=3), train(dataset, QUICK, seed=4)
+    for name in ("w1", "b1", "w2", "b2"):
+        assert np.array_equal(getattr(again.networks, name), getattr(quick_model.networks, name))
+    assert again.record == quick_model.record
+    assert not np.array_equal(other.networks.w1, quick_model.networks.w1)
+
+
+def test_networks_beat_the_mean_and_their_scores_are_recorded(quick_model: Model, dataset: KeypointDataset):
+    record = quick_model.record
+    assert set(record["scores"]) == set(OUTPUTS)
+    assert record["summary"]["network"]["mean_r2"] > 0.3
+    assert record["summary"]["mean"]["mean_r2"] < 0.01
+    scores = evaluate_model(quick_model, dataset)
+    for name, figures in scores.items():
+        assert record["scores"][name]["network"] == dataclasses.asdict(figures)
+    # browInnerUp never moves in the drawn dataset: no R2, and nothing breaks
+    assert scores["browInnerUp"].r2 is None
+    assert scores["browInnerUp"].mae == pytest.approx(0, abs=1e-6)
+    json.dumps(record, allow_nan=False)
+
+
+def test_each_network_records_its_curves_alpha_and_outcome(quick_model: Model):
+    networks = quick_model.record["networks"]
+    assert set(networks) == {network.key for network in NETWORKS}
+    for figures in networks.values():
+        curves = figures["curves"]
+        assert (
+            len(curves["train"]) == len(curves["validation"]) == len(curves["test"]) == figures["steps"] + 1
+        )
+        assert figures["alpha"] in QUICK.alphas
+        assert figures["best_step"] == int(np.argmin(curves["validation"]))
+        assert figures["reason"].endswith(".")
+
+
+def test_scores_are_the_textbooks():
+    rng = np.random.default_rng(0)
+    true = rng.uniform(size=(200, 2))
+    predicted = true + rng.normal(size=true.shape) * 0.1
+    from sklearn.metrics import mean_absolute_error, r2_score
+
+    for column, figures in enumerate(score(predicted, true)):
+        assert figures.r2 == pytest.approx(r2_score(true[:, column], predicted[:, column]))
+        assert figures.mae == pytest.approx(mean_absolute_error(true[:, column], predicted[:, column]))
+        assert figures.pearson == pytest.approx(np.corrcoef(true[:, column], predicted[:, column])[0, 1])
+
+
+def test_mirrored_training_rows_double_the_train_split_only(dataset: KeypointDataset, quick_model: Model):
+    plain, doubled = (prepare(dataset, quick_model.features, mirror=mirror) for mirror in (False, True))
+    assert len(doubled.splits["train"].inputs) == 2 * len(plain.splits["train"].inputs)
+    assert len(doubled.splits["test"].inputs) == len(plain.splits["test"].inputs)
+    points, weights = mirrored(dataset.points[:5], dataset.weights[:5])
+    left, right = BLENDSHAPE_INDEX["mouthSmileLeft"], BLENDSHAPE_INDEX["mouthSmileRight"]
+    assert np.array_equal(weights[:, left], dataset.weights[:5, right])
+    assert np.array_equal(mirrored(points, weights)[0], dataset.points[:5])
+
+
+def test_principal_axes_are_uncorrelated(dataset: KeypointDataset, quick_model: Model):
+    inputs = prepare(dataset, quick_model.features, mirror=True).splits["train"].inputs
+    gram = inputs.T @ inputs
+    assert np.abs(gram - np.diag(np.diag(gram))).max() < 1e-8 * gram.max()
+
+
+def test_a_progress_callback_that_raises_stops_training(dataset: KeypointDataset):
+    calls = []
+
+    def stop(stage: str, done: int, total: int) -> None:
+        calls.append((stage, done, total))
+        raise KeyboardInterrupt
+
+    with pytest.raises((KeyboardInterrupt, Interrupted)):
+        train(dataset, QUICK, progress=stop)
+    assert calls
+
+
+@pytest.mark.parametrize("name", RECIPES)
+def test_every_recipe_trains(dataset: KeypointDataset, name: str):
+    quick = dataclasses.replace(RECIPES[name], alphas=(1.0,), steps=3, search_rows=100)
+    model = train(dataset, quick)
+    assert model.recipe == name
+    assert np.isfinite(model.predict(dataset.points[:3])).all()
+
+
+def test_the_paper_recipe_is_the_papers():
+    paper = RECIPES["paper"]
+    assert (paper.alignment, paper.hidden, paper.start) == ("affine", 20, "nguyen_widrow")
+    assert (paper.steps, paper.smooth_frames, paper.mirror) == (1000, 10, False)
+
+
+def test_the_estimator_is_scikit_learns():
+    rng = np.random.default_rng(0)
+    x = rng.normal(size=(300, 4))
+    y = np.tanh(x @ rng.normal(size=(4, 2)))
+    network = regress.LevenbergMarquardtRegressor(hidden=8, alpha=0.1)
+    from sklearn.base import clone
+    from sklearn.model_selection import cross_val_score
+
+    assert cross_val_score(clone(network), x, y, cv=2).min() > 0.9
+    assert network.fit(x, y[:, 0]).predict(x).shape == (300,)
+    assert network.result_.outcomes[0].value.endswith(".")
