@@ -184,6 +184,7 @@ SHADERS: dict[str, Callable[[Graph, bool], Socket]] = {
     "lips": _skin,
     "brows": _brows,
     "cavity": _plain,
+    "conjunctiva": _plain,
     "sclera": _sclera,
     "iris": _iris,
     "pupil": _matte,

@@ -21,7 +21,7 @@ MATERIAL_OF_PART: dict[Part, str] = {
     Part.GUMS: "gums",
     Part.TONGUE: "tongue",
     Part.MOUTH_CAVITY: "cavity",
-    Part.EYE_CAVITY: "cavity",
+    Part.EYE_CAVITY: "conjunctiva",
 }
 """Material of each part that a rig's faces may have."""
 
