@@ -1,8 +1,8 @@
 """Trained models as files that run elsewhere: landmarks in, avatar weights out, alignment included.
 
-Every exporter is one function ``export(formula, folder, name) -> paths`` in a module of its own and one line
-in `EXPORTERS`; the tests run over the table. All write the same `Formula` and agree with ``Model.predict`` to
-1e-4.
+Every exporter is one function ``export(formula, name) -> {file name: content}`` in a module of its own and
+one line in `EXPORTERS`; the tests run over the table. All write the same `Formula` and agree with
+``Model.predict`` to 1e-4.
 """
 
 from collections.abc import Callable, Iterable
@@ -14,11 +14,12 @@ from regress.exporters.formula import Formula, formula_of
 from regress.exporters.json_text import export_json
 from regress.exporters.npz_archive import export_npz
 from regress.exporters.onnx_graph import export_onnx
+from regress.files import write_whole
 from regress.model import Model
 
 __all__ = ["EXPORTERS", "Formula", "export_model", "formula_of"]
 
-Exporter = Callable[[Formula, Path, str], tuple[Path, ...]]
+Exporter = Callable[[Formula, str], dict[str, bytes]]
 
 EXPORTERS: dict[str, Exporter] = {
     "onnx": export_onnx,
@@ -51,7 +52,7 @@ def export_model(
     Raises
     ------
     InputError
-        An unknown format, or a name that a format cannot use; nothing was written in that format.
+        An unknown format, or a name that a format cannot use; nothing was written.
     OutputError
         The folder cannot be written.
     """
@@ -62,8 +63,11 @@ def export_model(
     if not name or Path(name).name != name:
         raise InputError(f"export name {name!r} must be a file name without a folder")
     formula = formula_of(model)
+    files = {}
+    for chosen in formats:
+        files |= EXPORTERS[chosen](formula, name)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        return tuple(path for chosen in formats for path in EXPORTERS[chosen](formula, folder, name))
+        return tuple(write_whole(folder / file_name, content) for file_name, content in files.items())
     except OSError as error:
         raise OutputError(f"cannot write the export into {folder}: {error.strerror or error}") from error

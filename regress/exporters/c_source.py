@@ -6,7 +6,6 @@ here the numbers are put in. Geometry is computed in double, the networks in flo
 
 import re
 from importlib.resources import files
-from pathlib import Path
 from string import Template
 
 import numpy as np
@@ -14,14 +13,13 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from regress.errors import InputError
 from regress.exporters.formula import Formula
-from regress.files import write_whole
 
 LINE_WIDTH = 110
 C_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
-def export_c(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:
-    """Write ``NAME.h`` and ``NAME.c``, declaring ``NAME_predict`` and ``NAME_names``.
+def export_c(formula: Formula, name: str) -> dict[str, bytes]:
+    """Make ``NAME.h`` and ``NAME.c``, declaring ``NAME_predict`` and ``NAME_names``.
 
     Raises
     ------
@@ -35,13 +33,11 @@ def export_c(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:
         )
     values = _values(formula, name)
     templates = files("regress.exporters") / "templates"
-    return tuple(
-        write_whole(
-            folder / f"{name}{suffix}",
-            Template((templates / f"predict{suffix}").read_text()).substitute(values),
-        )
+    texts = {
+        suffix: Template((templates / f"predict{suffix}").read_text(encoding="utf-8"))
         for suffix in (".h", ".c")
-    )
+    }
+    return {f"{name}{suffix}": text.substitute(values).encode() for suffix, text in texts.items()}
 
 
 def _values(formula: Formula, name: str) -> dict[str, object]:

@@ -27,17 +27,15 @@ To evaluate, with P the 31 anchor points of a face less their mean (rows) and R 
 """
 
 import json
-from pathlib import Path
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from regress.exporters.formula import FORMAT_VERSION, WEIGHT_RANGE, Formula
-from regress.files import write_whole
 
 
-def export_json(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:
-    """Write ``NAME.json``; this module's first lines are its documentation."""
+def export_json(formula: Formula, name: str) -> dict[str, bytes]:
+    """Make ``NAME.json``; this module's first lines are its documentation."""
     given = {blendshape for network in formula.networks for blendshape in network.outputs}
     document = {
         "format": "regress-networks",
@@ -65,7 +63,7 @@ def export_json(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:
         "weight_range": list(WEIGHT_RANGE),
     }
     text = json.dumps(document, separators=(",", ":"), allow_nan=False)
-    return (write_whole(folder / f"{name}.json", text + "\n"),)
+    return {f"{name}.json": (text + "\n").encode()}
 
 
 def _nine_digits(values: np.ndarray) -> list:

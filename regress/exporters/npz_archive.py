@@ -16,17 +16,15 @@ licence. Nothing is pickled.
 
 import io
 import json
-from pathlib import Path
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from regress.exporters.formula import FORMAT_VERSION, WEIGHT_RANGE, Formula
-from regress.files import write_whole
 
 
-def export_npz(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:
-    """Write ``NAME.npz``; this module's first lines are its documentation."""
+def export_npz(formula: Formula, name: str) -> dict[str, bytes]:
+    """Make ``NAME.npz``; this module's first lines are its documentation."""
     stacked = formula.stacked()
     content = io.BytesIO()
     np.savez(  # not compressed: weights do not shrink, and zlib's versions differ in bytes
@@ -45,4 +43,4 @@ def export_npz(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:
         output_bias=stacked.output_bias.astype(np.float32),
         weight_range=np.array(WEIGHT_RANGE),
     )
-    return (write_whole(folder / f"{name}.npz", content.getvalue()),)
+    return {f"{name}.npz": content.getvalue()}

@@ -8,7 +8,6 @@ their spread is divided out before anything is squared.
 """
 
 import json
-from pathlib import Path
 
 import numpy as np
 import onnx
@@ -16,7 +15,6 @@ from onnx import TensorProto, helper, numpy_helper
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from regress.exporters.formula import Formula
-from regress.files import write_whole
 
 OPSET = 15
 IR_VERSION = 8
@@ -40,10 +38,9 @@ OPERATORS = frozenset(
 """What a graph may contain: all are in the tables of onnxruntime-web (WASM, WebGPU) and Unity Sentis."""
 
 
-def export_onnx(formula: Formula, folder: Path, name: str) -> tuple[Path, ...]:
-    """Write ``NAME.onnx``; see `build_graph` for what is inside."""
-    model = build_graph(formula)
-    return (write_whole(folder / f"{name}.onnx", model.SerializeToString(deterministic=True)),)
+def export_onnx(formula: Formula, name: str) -> dict[str, bytes]:
+    """Make ``NAME.onnx``; see `build_graph` for what is inside."""
+    return {f"{name}.onnx": build_graph(formula).SerializeToString(deterministic=True)}
 
 
 def build_graph(formula: Formula) -> onnx.ModelProto:

@@ -50,7 +50,9 @@ def _ticks(low: float, high: float, count: int) -> list[float]:
 
 def _log_ticks(low: float, high: float) -> list[float]:
     decades = math.log10(high / low)
-    factors = (1,) if decades > 3 else (1, 2, 5) if decades > 0.6 else (1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9)
+    if decades < 0.5:  # so short that equal steps look nearly even
+        return _ticks(low, high, 5)
+    factors = (1,) if decades > 3 else (1, 2, 5)
     powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     values = [factor * 10.0**power for power in powers for factor in factors]
     return [value for value in values if low * 0.9999 <= value <= high * 1.0001]
@@ -58,5 +60,12 @@ def _log_ticks(low: float, high: float) -> list[float]:
 
 def label(value: float) -> str:
     """A tick's text: as many digits as it has, a true minus sign."""
-    text = f"{value:.6g}"
-    return text.replace("-", "\N{MINUS SIGN}")
+    return f"{value:.6g}".replace("-", "\N{MINUS SIGN}")
+
+
+def figure(value: float) -> str:
+    """A score with three decimals, an en dash where there is none, and no minus before zeros."""
+    if math.isnan(value):
+        return "\N{EN DASH}"
+    text = f"{value:.3f}"
+    return "0.000" if text == "-0.000" else text.replace("-", "\N{MINUS SIGN}")

@@ -5,7 +5,7 @@ from html import escape
 
 import numpy as np
 
-from regress.report.axes import Scale, label
+from regress.report.axes import Scale, figure, label
 from regress.report.content import LearningCurve, RegressionPlot, ShapeScores
 
 BAR_ROW = 17
@@ -50,7 +50,7 @@ def _score_bar(score: ShapeScores, x: Scale, y: float) -> str:
         + f'<rect class="bar {score.grade}" x="{left:.1f}" y="{y + 3:.1f}" width="{width:.1f}" '
         f'height="{BAR_ROW - 6}" rx="1.5"/>'
         + _line(x(ridge), y + 1.5, x(ridge), y + BAR_ROW - 1.5, "ridge")
-        + _text(BAR_WIDTH, middle + 4, _signed(network), "value end")
+        + _text(BAR_WIDTH, middle + 4, figure(network), "value end")
         + "</g>"
     )
 
@@ -162,10 +162,6 @@ def _density(counts: np.ndarray, x: Scale, y: Scale) -> list[str]:
             opacity = 0.06 + 0.94 * shade / PANEL_SHADES
             parts.append(f'<path class="cell" fill-opacity="{opacity:.2f}" d="{cells}"/>')
     return parts
-
-
-def _signed(value: float) -> str:
-    return f"{value:.3f}".replace("-", "\N{MINUS SIGN}")
 
 
 def _line(x1: float, y1: float, x2: float, y2: float, kind: str) -> str:

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from regress.targets import VISIBLE_SHAPES
+
 SEEN_R2, PARTLY_R2 = 0.7, 0.3
 """Where a reader may trust a shape, and where it is no better than a hint."""
 
@@ -36,6 +38,11 @@ class ShapeScores:
     network: Figures
     ridge: Figures
     mean: Figures
+
+    @property
+    def inferred(self) -> bool:
+        """Whether it scores well enough although no landmark shows it: the rig's skin gives it away."""
+        return self.name not in VISIBLE_SHAPES and self.grade in ("seen", "partly")
 
     @property
     def grade(self) -> str:

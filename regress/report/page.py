@@ -8,6 +8,7 @@ import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from regress.report.axes import figure
 from regress.report.charts import error_range, learning_curves, regression_panel, score_bars, small_curves
 from regress.report.content import PARTLY_R2, SEEN_R2, ReportContent, ShapeScores
 
@@ -28,6 +29,7 @@ def render_page(content: ReportContent) -> str:
         seen_r2=SEEN_R2,
         partly_r2=PARTLY_R2,
         hidden=[score.name for score in content.scores if score.grade == "hidden"],
+        inferred=[score.name for score in content.scores if score.inferred],
         unmoved=[score.name for score in content.scores if score.grade == "unmoved"],
         bars=Markup(score_bars(content.scores)),
         regressions=[(plot, Markup(regression_panel(plot))) for plot in content.regressions],
@@ -53,6 +55,5 @@ def _cells(score: ShapeScores) -> Markup:
         for index, value in enumerate(values):
             kinds = [kind for kind, so in (("group", index == 0), ("best", value == best)) if so]
             kind = f' class="{" ".join(kinds)}"' if kinds else ""
-            text = f"{value:.3f}".replace("-", "\N{MINUS SIGN}") if np.isfinite(value) else "\N{EN DASH}"
-            cells.append(f"<td{kind}>{text}</td>")
+            cells.append(f"<td{kind}>{figure(value)}</td>")
     return Markup("".join(cells))

@@ -124,7 +124,7 @@ def _provenance(model: Model) -> tuple[tuple[str, str], ...]:
         ("dataset", f"{dataset['name']} ({samples}; {dataset['people']:,} people)"),
         ("spec hash", _said(dataset["spec_hash"])),
         ("keypoints SHA-256", dataset["keypoints_sha256"]),
-        ("rig", _said(dataset["rig"])),
+        *_rig(dataset["rig"]),
         ("licence of the data", _said(dataset["licence"])),
         ("licence of the model", record["licence"]),
         ("recipe", f"{model.recipe}: {recipe}"),
@@ -135,6 +135,13 @@ def _provenance(model: Model) -> tuple[tuple[str, str], ...]:
         ("ways networks ended", _outcomes(record["networks"])),
         ("versions", ", ".join(f"{name} {version}" for name, version in record["versions"].items())),
     )
+
+
+def _rig(rig: Any) -> tuple[tuple[str, str], ...]:
+    """A row for each thing a dataset says of its rig: attribution is among them."""
+    if isinstance(rig, dict):
+        return tuple((f"rig {key.replace('_', ' ')}", _said(value)) for key, value in rig.items())
+    return (("rig", _said(rig)),)
 
 
 def _outcomes(networks: dict[str, Any]) -> str:
@@ -150,8 +157,6 @@ def _said(value: Any) -> str:
         return "not stated"
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if isinstance(value, dict):
-        return ", ".join(f"{key} {_said(part)}" for key, part in value.items())
     if isinstance(value, list | tuple):
         return " / ".join(map(_said, value))
     return str(value)

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from regress.report.axes import Scale, label
+from regress.report.axes import Scale, figure, label
 from regress.report.charts import learning_curves, regression_panel, score_bars, small_curves
 from regress.report.content import Figures, LearningCurve, RegressionPlot, ShapeScores, mean_curve
 
@@ -104,7 +104,7 @@ def test_mean_curve_holds_a_stopped_network_at_its_last_error():
     assert len(mean.test) == 0
 
 
-@pytest.mark.parametrize("decades", [(0.5, 0.9), (0.02, 1.2), (1e-5, 3)])
+@pytest.mark.parametrize("decades", [(0.15, 0.31), (0.5, 0.9), (0.02, 1.2), (1e-5, 3)])
 def test_logarithmic_ticks_lie_inside_and_are_neither_few_nor_crowded(decades):
     low, high = decades
     ticks = Scale(low=low, high=high, start=0, stop=1, logarithmic=True).ticks()
@@ -117,3 +117,8 @@ def test_ticks_are_round_numbers_with_a_true_minus_sign():
     ticks = Scale(low=-0.2, high=1, start=0, stop=1).ticks()
     assert [label(tick) for tick in ticks] == ["0", "0.25", "0.5", "0.75", "1"]
     assert label(-0.25) == "\N{MINUS SIGN}0.25"
+
+
+def test_figures_have_three_decimals_and_no_negative_zero():
+    texts = [figure(value) for value in (0.12345, -0.5, -0.0001, float("nan"))]
+    assert texts == ["0.123", "\N{MINUS SIGN}0.500", "0.000", "\N{EN DASH}"]
