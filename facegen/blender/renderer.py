@@ -23,6 +23,8 @@ CLIP_M = (1e-3, 10.0)
 NOTHING_M = 1e9
 """Cycles writes 1e10 where a ray meets nothing."""
 HALF_MAX = float(np.finfo(np.float16).max)
+DEPTH_STEP_M, UV_STEP = 2.0**-20, 2.0**-16
+"""A micrometre, and a thirtieth of a pixel of a 2,048 texture: digits below mean nothing and do not compress."""
 
 
 class Renderer:
@@ -230,11 +232,15 @@ def _layers(view: View, radiance: np.ndarray, truth: dict[str, np.ndarray]) -> L
     part = np.rint(label[..., 0]).astype(np.uint8)
     return Layers(
         radiance=np.clip(radiance, 0.0, HALF_MAX).astype(np.float16).astype(np.float32),
-        depth=depth.astype(np.float32),
-        normal=normal.astype(np.float32),
+        depth=_rounded(depth, DEPTH_STEP_M),
+        normal=normal.astype(np.float16).astype(np.float32),
         part=part,
-        uv=np.where(part[..., None] == Part.BACKGROUND, 0.0, label[..., 1:3]).astype(np.float32),
+        uv=np.where(part[..., None] == Part.BACKGROUND, 0.0, _rounded(label[..., 1:3], UV_STEP)),
     )
+
+
+def _rounded(values: np.ndarray, step: float) -> np.ndarray:
+    return (np.rint(values / step) * step).astype(np.float32)
 
 
 @lru_cache(maxsize=32)

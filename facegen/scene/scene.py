@@ -87,6 +87,9 @@ class Scene:
 class Layers:
     """What a renderer gives back for one view; arrays are (height, width, ...), row 0 on top.
 
+    All values are ones that a view's file holds exactly, so what is read back is what was developed and labelled:
+    radiance and normal are 16-bit floats, depth is in steps of 2**-20 m, uv in steps of 2**-16.
+
     Attributes
     ----------
     radiance

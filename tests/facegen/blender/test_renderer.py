@@ -25,6 +25,7 @@ from facegen.rigs import evaluate, eye_geometry
 from facegen.scene import Scene, View, assemble
 from facegen.scene.assembly import headset_views
 from facegen.sensor import develop
+from facegen.store.images import exr_bytes, read_exr
 from tests.facegen.blender.digest import digest
 from tests.facegen.blender.scenes import FISHEYE, PINHOLE, eye_scene, sphere
 
@@ -138,6 +139,15 @@ def test_pictures_do_not_depend_on_process_threads_or_what_came_before(renderer)
     assert len(others[0]) == 64, "only the digest may reach stdout"
     renderer.render(eye_scene(40, yaw_rad=-0.2), "eye", samples=2, seed=1)
     assert {*others, digest(renderer)} == {others[0]}
+
+
+def test_files_hold_a_render_exactly(renderer, tmp_path):
+    layers = renderer.render(eye_scene(), "eye", samples=2, seed=1)
+    path = tmp_path / "eye.exr"
+    path.write_bytes(exr_bytes(layers))
+    back = read_exr(path)
+    for name in ("radiance", "depth", "normal", "part", "uv"):
+        assert np.array_equal(getattr(back, name), getattr(layers, name)), name
 
 
 def test_seed_changes_noise_and_nothing_else(renderer):
