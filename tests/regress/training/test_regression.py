@@ -7,12 +7,12 @@ from regress.training.regression import CELLS, regression
 
 
 def test_every_value_counts_once_where_it_belongs():
-    true = np.array([[0.0, 0.5, 1.0], [0.0, 0.009, 1.2]])
-    predicted = np.array([[0.0, 0.5, 1.0], [-0.3, 1.0, 0.0]])
+    true = np.array([[0.0, 0.5, 1.0], [0.0, 0.009, 0.2]])
+    predicted = np.array([[0.0, 0.5, 1.0], [-0.3, 1.2, 0.8]])
     counts = np.array(regression(predicted, true).counts)
     assert counts.shape == (CELLS, CELLS)
     assert counts.sum() == true.size
-    assert (counts[0, 0], counts[25, 25], counts[50, 50], counts[0, 50], counts[50, 0]) == (2, 1, 1, 1, 1)
+    assert (counts[0, 0], counts[25, 25], counts[50, 50], counts[0, 50], counts[10, 40]) == (2, 1, 1, 1, 1)
 
 
 def test_fit_is_the_least_squares_line():
