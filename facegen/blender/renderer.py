@@ -24,7 +24,7 @@ NOTHING_M = 1e9
 """Cycles writes 1e10 where a ray meets nothing."""
 HALF_MAX = float(np.finfo(np.float16).max)
 DEPTH_STEP_M, UV_STEP = 2.0**-20, 2.0**-16
-"""A micrometre, and a thirtieth of a pixel of a 2,048 texture: digits below mean nothing and do not compress."""
+"""A micrometre, and a 32nd of a pixel of a 2,048 texture: digits below mean nothing and do not compress."""
 
 
 class Renderer:

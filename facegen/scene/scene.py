@@ -87,14 +87,13 @@ class Scene:
 class Layers:
     """What a renderer gives back for one view; arrays are (height, width, ...), row 0 on top.
 
-    All values are ones that a view's file holds exactly, so what is read back is what was developed and labelled:
-    radiance and normal are 16-bit floats, depth is in steps of 2**-20 m, uv in steps of 2**-16.
+    All values are ones that a view's file holds exactly, so what is read back is what was developed: radiance
+    and normal are 16-bit floats, depth is in steps of 2**-20 m, uv in steps of 2**-16.
 
     Attributes
     ----------
     radiance
-        (h, w) float32, linear, in W sr-1 m-2 up to one factor that is equal for all pictures. The values are
-        ones that 16-bit floats hold, so that what a file keeps is what was developed.
+        (h, w) float32, linear, in W sr-1 m-2 up to one factor that is equal for all pictures.
     depth
         (h, w) float32, metres along the camera's z axis at the pixel's centre; +inf where there is nothing.
         Depth and normal are those of the first surface, which over iris and pupil is the cornea.
