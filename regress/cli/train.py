@@ -1,6 +1,5 @@
 """``regress train``: from a dataset to a model."""
 
-import os
 import time
 from enum import StrEnum
 from pathlib import Path
@@ -9,8 +8,7 @@ from typing import Annotated
 import typer
 
 from regress.cli.talk import progress, say
-from regress.errors import OutputError
-from regress.model import save_model
+from regress.model import check_place, save_model
 from regress.training import RECIPES, read_dataset
 from regress.training import train as train_model
 
@@ -30,7 +28,7 @@ def train(
     Example: regress train datasets/out/default --out models/default
     """
     keypoints = read_dataset(dataset)
-    _check_writable(out)
+    check_place(out)
     began = time.monotonic()
     with progress() as draw:
         model = train_model(keypoints, RECIPES[recipe.value], seed=seed, progress=draw)
@@ -41,15 +39,6 @@ def train(
     for name, figures in model.record["summary"].items():
         r2, visible = figures["mean_r2_networks"], figures["mean_r2_visible"]
         say(f"{name:>8}: test R2 {_figure(r2)}, visible shapes {_figure(visible)}")
-
-
-def _check_writable(out: Path) -> None:
-    """Minutes of training should not end in a folder that cannot be written."""
-    parent = out.absolute().parent
-    while not parent.exists():
-        parent = parent.parent
-    if not (parent.is_dir() and os.access(parent, os.W_OK)):
-        raise OutputError(f"the model cannot be written to {out}: {parent} is not a writable folder")
 
 
 def _figure(value: float | None) -> str:

@@ -34,7 +34,7 @@ class Recipe:
     hidden: int = 20
     start: str = "ridge_knots"
     mirror: bool = True
-    steps: int = 40
+    steps: int = 30
     patience: int = 6
     improvement: float = 1e-3
     alphas: tuple[float, ...] = (0.3, 1.0, 3.0, 10.0, 30.0)

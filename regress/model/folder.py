@@ -1,122 +1,24 @@
-"""A trained model: a folder with model.json and weights.npz, and what it predicts."""
+"""A model on disk: a folder with model.json and weights.npz, no pickle, equal bytes for equal models."""
 
 import dataclasses
 import hashlib
 import io
 import json
 import os
-import shutil
 import tempfile
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_COUNT
-from regress.errors import InputError, ModelError, OutputError
-from regress.features import Features, extract
-from regress.networks import FoldedNetworks, evaluate
+from facegen.conventions import BLENDSHAPES
+from regress.errors import ModelError, OutputError
+from regress.features import Features
+from regress.model.model import Model, Normalisation
+from regress.networks import FoldedNetworks
 from regress.targets import Network, observability
 
 SCHEMA = 1
-_BLOCK_ROWS = 4096
-"""Rows predicted at a time: 4096 x 620 hidden units are 20 MB."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Normalisation:
-    """The z-scores of the training split; already folded into the weights, kept for reading.
-
-    Parameters
-    ----------
-    feature_mean, feature_std : (E,) float64
-        Face widths.
-    target_mean, target_std : (O,) float64
-        In the networks' output order.
-    """
-
-    feature_mean: np.ndarray
-    feature_std: np.ndarray
-    target_mean: np.ndarray
-    target_std: np.ndarray
-
-
-@dataclass(frozen=True, kw_only=True)
-class Model:
-    """Everything needed to predict, and the record of how it came about.
-
-    Parameters
-    ----------
-    recipe
-        Name of the recipe: ``"default"`` or ``"paper"``.
-    table
-        The networks, in the order of the folded weights.
-    features
-        Alignment and edges.
-    normalisation
-        Z-scores, for reading only.
-    networks
-        The folded weights.
-    record
-        Training record: JSON data, every figure unrounded (see ``regress.training``).
-    """
-
-    recipe: str
-    table: tuple[Network, ...]
-    features: Features
-    normalisation: Normalisation
-    networks: FoldedNetworks
-    record: dict[str, Any]
-
-    @property
-    def outputs(self) -> tuple[str, ...]:
-        """Predicted shapes in the networks' order (51; tongueOut is not among them)."""
-        return tuple(output for network in self.table for output in network.outputs)
-
-    def predict_raw(self, points: np.ndarray) -> np.ndarray:
-        """What the networks say, unclipped, in their own order (see ``outputs``).
-
-        Parameters
-        ----------
-        points : (n, 68, 2) float
-            Faces in pixels or any other unit, y down.
-
-        Returns
-        -------
-        (n, O) float64
-            Rows of NaN where a face has missing points.
-        """
-        points = np.asarray(points, dtype=np.float64)
-        if points.ndim != 3 or points.shape[1:] != (LANDMARK_COUNT, 2):
-            raise InputError(f"points have shape {points.shape}; (n, 68, 2) is needed")
-        usable = np.isfinite(points).all(axis=(1, 2))
-        raw = np.full((len(points), len(self.networks.b2)), np.nan)
-        rows = np.flatnonzero(usable)
-        for start in range(0, len(rows), _BLOCK_ROWS):
-            block = rows[start : start + _BLOCK_ROWS]
-            raw[block] = evaluate(self.networks, extract(self.features, points[block]))
-        return raw
-
-    def predict(self, points: np.ndarray) -> np.ndarray:
-        """Blendshape weights of faces.
-
-        Parameters
-        ----------
-        points : (n, 68, 2) float
-            Faces in pixels or any other unit, y down, iBUG order.
-
-        Returns
-        -------
-        (n, 52) float64
-            In the order of ``facegen.conventions.BLENDSHAPES``, clipped to [0, 1]; tongueOut is 0. A
-            face with a missing point gives a row of NaN, so nothing downstream takes it for a neutral face.
-        """
-        raw = self.predict_raw(points)
-        weights = np.zeros((len(raw), len(BLENDSHAPES)))
-        weights[:, [BLENDSHAPE_INDEX[name] for name in self.outputs]] = np.clip(raw, 0, 1)
-        weights[np.isnan(raw).any(axis=1)] = np.nan
-        return weights
 
 
 def save_model(model: Model, folder: str | os.PathLike[str]) -> None:
@@ -130,30 +32,44 @@ def save_model(model: Model, folder: str | os.PathLike[str]) -> None:
         Where the place cannot be written, or holds something that is not a model.
     """
     folder = Path(folder)
+    check_place(folder)
     weights = _weights_bytes(model)
     text = json.dumps(_document(model, hashlib.sha256(weights).hexdigest()), indent=1, allow_nan=False) + "\n"
-    if folder.exists() and not (
-        folder.is_dir() and (not any(folder.iterdir()) or (folder / "model.json").exists())
-    ):
-        raise OutputError(f"{folder} exists and is not a model folder; choose another place for the model")
-    temporary = None
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
-        temporary.chmod(0o755)
-        _write_synced(temporary / "weights.npz", weights)
-        _write_synced(temporary / "model.json", text.encode())
-        if folder.exists():
-            # A folder cannot be renamed over a full one: the old model steps aside first.
-            old = folder.rename(temporary.with_name(temporary.name + "-old"))
-            temporary.rename(folder)
-            shutil.rmtree(old)
-        else:
-            temporary.rename(folder)
+        # The temporary folder holds the new model and later the old one; it goes, whatever happens.
+        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
+            new, old = Path(temporary, "new"), Path(temporary, "old")
+            new.mkdir()
+            _write_synced(new / "weights.npz", weights)
+            _write_synced(new / "model.json", text.encode())
+            if folder.exists():
+                folder.rename(old)  # a folder cannot be renamed over a full one
+            new.rename(folder)
     except OSError as error:
-        if temporary is not None:
-            shutil.rmtree(temporary, ignore_errors=True)
         raise OutputError(f"the model cannot be written to {folder}: {error.strerror or error}") from error
+
+
+def check_place(folder: str | os.PathLike[str]) -> None:
+    """Say early that a model cannot be written there: training takes minutes.
+
+    Raises
+    ------
+    OutputError
+        Where the folder holds something else, or nobody may write beside it.
+    """
+    folder = Path(folder)
+    if folder.exists():
+        is_model = folder.is_dir() and ((folder / "model.json").exists() or not any(folder.iterdir()))
+        if not is_model:
+            raise OutputError(
+                f"{folder} exists and is not a model folder; choose another place for the model"
+            )
+    parent = folder.absolute().parent
+    while not parent.exists():
+        parent = parent.parent
+    if not (parent.is_dir() and os.access(parent, os.W_OK)):
+        raise OutputError(f"the model cannot be written to {folder}: {parent} is not a writable folder")
 
 
 def load_model(folder: str | os.PathLike[str]) -> Model:

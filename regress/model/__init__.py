@@ -1,0 +1,6 @@
+"""Trained models: what they hold, what they predict, and their folders on disk."""
+
+from regress.model.folder import check_place, load_model, save_model
+from regress.model.model import Model, Normalisation
+
+__all__ = ["Model", "Normalisation", "check_place", "load_model", "save_model"]
