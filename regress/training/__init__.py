@@ -1,7 +1,6 @@
 """From a facegen dataset to a model: splits, z-scores, 31 networks, baselines, scores."""
 
 from regress.training.dataset import KeypointDataset, read_dataset
-from regress.training.estimator import LevenbergMarquardtRegressor
 from regress.training.recipes import RECIPES, Recipe
 from regress.training.run import train
 from regress.training.scores import Scores, evaluate_model, score
@@ -9,7 +8,6 @@ from regress.training.scores import Scores, evaluate_model, score
 __all__ = [
     "RECIPES",
     "KeypointDataset",
-    "LevenbergMarquardtRegressor",
     "Recipe",
     "Scores",
     "evaluate_model",
