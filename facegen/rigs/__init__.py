@@ -1,4 +1,4 @@
-"""Rigs: heads that are linear in identity and expression, with eyes, lids and landmarks; built, stored, evaluated."""
+"""Rigs: heads linear in identity and expression, with eyes, lids and landmarks; built, stored, evaluated."""
 
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, visual_axis

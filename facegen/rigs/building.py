@@ -1,5 +1,6 @@
 """Which rigs facegen can build, from what, and whether a build is still good."""
 
+import shutil
 from pathlib import Path
 
 from facegen.errors import InputError, MissingAsset
@@ -50,7 +51,12 @@ def build_rig(
     npz = folder / f"{name}.npz"
     if not force and path is None and _up_to_date(name, folder):
         return npz, False
-    return save_rig(_build(name, path=path, wheel=wheel, folder=folder), folder), True
+    save_rig(_build(name, path=path, wheel=wheel, folder=folder), folder)
+    if (
+        path is not None and (path / "LICENSE").is_file()
+    ):  # ICT's terms ask that the notice goes with the shapes
+        shutil.copyfile(path / "LICENSE", folder / f"{name}.LICENSE")
+    return npz, True
 
 
 def _build(name: str, *, path: Path | None, wheel: Path | None, folder: Path) -> Rig:

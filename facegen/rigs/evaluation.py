@@ -10,7 +10,7 @@ from facegen.rigs.rig import Rig
 from facegen.rigs.threads import one_blas_thread
 
 CHUNK = 100
-"""Rows computed at once, always: a matrix product's last bits depend on its shape, a face must not on its neighbours."""
+"""Rows computed at once, always: a product's last bits depend on its shape, a face's must not on others."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -38,8 +38,8 @@ def evaluate(
 ) -> EvaluatedFaces:
     """Shape of n faces.
 
-    A row's result depends on this row alone, to the last bit: neither on the other rows nor on how many there are,
-    and the cage's vertices are the same with and without ``cage_only``.
+    A row's result depends on this row alone, to the last bit: neither on the other rows nor on how many there
+    are, and the cage's vertices are the same with and without ``cage_only``.
 
     Parameters
     ----------
@@ -48,10 +48,11 @@ def evaluate(
     identity
         (n, K) identity coefficients.
     weights
-        (n, 52) blendshape weights in `facegen.conventions.BLENDSHAPES` order, meant to lie in [0, 1]; what recordings
-        hold (-0.02 to 1.4) works too, lids stop where they touch.
+        (n, 52) blendshape weights in `facegen.conventions.BLENDSHAPES` order, meant to lie in [0, 1]; what
+        recordings hold (-0.02 to 1.4) works too, lids stop where they touch.
     gaze
-        (n, 2, 3) optical axes of both eyes in the head frame, the subject's left first; closed lids lie on the cornea.
+        (n, 2, 3) optical axes of both eyes in the head frame, the subject's left first; closed lids lie on
+        the cornea.
     cage_only
         Leave out the vertices that only pictures need.
 

@@ -1,16 +1,20 @@
 """The eye's own shape: a scleral sphere with a corneal cap, the iris inside it, and the line of sight.
 
-The sphere's radius belongs to the rig (MakeHuman's balls are oversized, 16.6 mm on average where people have 12),
-the cornea, the iris and the pupil have human size on every rig, because pictures and pupil labels depend on them.
-Lids (`facegen.rigs.lids`) and eye meshes (`facegen.scene`) rest on the same surface, `lid_support_radius`.
+The sphere's radius belongs to the rig (MakeHuman's balls are oversized, 16.6 mm on average where people have
+12), the cornea, the iris and the pupil have human size on every rig, because pictures and pupil labels depend
+on them. Lids (`facegen.rigs.lids`) and eye meshes (`facegen.scene`) rest on the same surface,
+`lid_support_radius`.
 
 References
 ----------
 .. [1] F. Rüfer et al., "White-to-white corneal diameter", Cornea 24(3), 2005: 11.71 +- 0.42 mm across.
-.. [2] Gullstrand-Le Grand schematic eye, in D. Atchison and G. Smith, "Optics of the Human Eye", 2000: anterior cornea
-   7.8 mm, cornea 0.55 mm thick, anterior chamber 3.05 mm deep, refractive index 1.376 (cornea), 1.336 (aqueous).
-.. [3] A. Watson and J. Yellott, "A unified formula for light-adapted pupil size", J. Vision 12(10), 2012: 2 to 8 mm.
-.. [4] E. Guestrin and M. Eizenman, "General theory of remote gaze estimation", IEEE TBME 53(6), 2006: the visual axis
+.. [2] Gullstrand-Le Grand schematic eye, in D. Atchison and G. Smith, "Optics of the Human Eye", 2000:
+anterior cornea
+   7.8 mm, cornea 0.55 mm thick, anterior chamber 3.05 mm deep, refractive index 1.376 (cornea), 1.336
+   (aqueous).
+.. [3] A. Watson and J. Yellott, "A unified formula for light-adapted pupil size", J. Vision 12(10), 2012: 2
+to 8 mm. .. [4] E. Guestrin and M. Eizenman, "General theory of remote gaze estimation", IEEE TBME 53(6),
+2006: the visual axis
    lies about 5 degrees nasal of and 1.5 degrees above the optical axis.
 """
 
@@ -27,7 +31,7 @@ IRIS_DEPTH_M = 3.6e-3
 PUPIL_RADIUS_RANGE_M = (1.0e-3, 4.0e-3)
 """Smallest and largest pupil radius, bright to dark [3]_."""
 CORNEA_INDEX = 1.336
-"""Refractive index between air and the iris; the aqueous humour's, because the thin cornea barely bends [2]_."""
+"""Refractive index between air and iris; the aqueous humour's, as the thin cornea barely bends [2]_."""
 KAPPA_NASAL_RAD = np.radians(5.0)
 KAPPA_UP_RAD = np.radians(1.5)
 """Visual axis against the optical axis, mean of people [4]_."""
@@ -48,7 +52,8 @@ class EyeGeometry:
     limbus_offset
         Distance of the limbus plane from the centre, along the axis.
     cornea_center_offset, cornea_radius
-        The corneal cap is the part of a sphere of this radius, centred this far along the axis, beyond the limbus.
+        The corneal cap is the part of a sphere of this radius, centred this far along the axis, beyond the
+        limbus.
     iris_plane_offset
         Distance of the iris plane from the centre, along the axis.
     pupil_radius
@@ -109,18 +114,20 @@ def lid_support_radius(direction: np.ndarray, eye_radius: np.ndarray, axis: np.n
     Returns
     -------
     numpy.ndarray
-        (...) distances in metres: ``eye_radius`` outside the limbus, up to about 1.6 mm more on the cornea's apex.
+        (...) distances in metres: ``eye_radius`` outside the limbus, up to about 1.6 mm more on the cornea's
+        apex.
     """
     cosine = np.einsum("...i,...i->...", direction, axis)
     offset = cornea_center_offset(eye_radius)
-    # far crossing of the ray with the cornea's sphere; a ray that misses it (negative root) stays on the sclera
+    # far crossing of the ray with the cornea's sphere; a ray that misses it (negative root) stays on the
+    # sclera
     root = CORNEA_RADIUS_M**2 - np.square(offset) * (1.0 - np.square(cosine))
     cornea = cosine * offset + np.sqrt(np.maximum(root, 0.0))
     return np.where(root > 0.0, np.maximum(eye_radius, cornea), eye_radius)
 
 
 def visual_axis(optical_axis: np.ndarray) -> np.ndarray:
-    """Lines of sight (..., 2, 3) of optical axes (..., 2, 3), the subject's left eye first: nasal and a little up."""
+    """Lines of sight (..., 2, 3) of optical axes (..., 2, 3), the left eye first: nasal and a little up."""
     optical_axis = np.asarray(optical_axis, np.float64)
     nasal = np.array([-1.0, 1.0]) * np.tan(KAPPA_NASAL_RAD)
     leftwards = np.cross(

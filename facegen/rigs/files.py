@@ -1,7 +1,8 @@
 """Rigs on disk: NAME.npz with the arrays, NAME.json with what a person or a program wants to know about them.
 
-Both are written byte for byte the same by every build from the same arrays: entries in a fixed order, no time stamps,
-no compression (its bytes depend on the version of zlib). Datasets name their rig by the SHA-256 kept in the JSON.
+Both are written byte for byte the same by every build from the same arrays: entries in a fixed order, no time
+stamps, no compression (its bytes depend on the version of zlib). Datasets name their rig by the SHA-256 kept
+in the JSON.
 """
 
 import hashlib
@@ -32,7 +33,7 @@ _ARRAYS = (
 
 
 def assets_folder() -> Path:
-    """The source tree's ``blender_assets``; that of the current folder where facegen runs without its source tree."""
+    """The source tree's ``blender_assets``, or the current folder's where there is no source tree."""
     in_source = Path(__file__).resolve().parents[2] / "blender_assets"
     return in_source if in_source.is_dir() else Path("blender_assets")
 
@@ -43,7 +44,7 @@ def rigs_folder() -> Path:
 
 
 def save_rig(rig: Rig, folder: Path | None = None) -> Path:
-    """Write ``NAME.npz`` and ``NAME.json`` into ``folder`` (default `rigs_folder`) and return the first's path.
+    """Write ``NAME.npz`` and ``NAME.json`` into ``folder`` (default `rigs_folder`); return the first's path.
 
     Arrays are cast to float32 and int32 here. Each file appears by one rename, the JSON last.
 
@@ -164,7 +165,7 @@ def _record(rig: Rig, content: bytes) -> dict:
 
 
 def _zip_bytes(arrays: dict[str, np.ndarray]) -> bytes:
-    """An .npz as `numpy.savez` makes it, but with time stamps of 1980 so that equal arrays give equal bytes."""
+    """An .npz as `numpy.savez` makes it, with time stamps of 1980: equal arrays give equal bytes."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
         for name, array in arrays.items():

@@ -1,4 +1,4 @@
-"""Builds the rig ``ict`` from a clone of ICT-FaceKit (light, MIT): a scanned head with its own 100 identity modes.
+"""Builds the rig ``ict`` from a clone of ICT-FaceKit (light, MIT): a head with its own 100 identity modes.
 
 Not subdivided: the mesh is fine enough. Modes are principal components in units of their standard deviation.
 """
@@ -35,7 +35,7 @@ class _Obj:
 
 
 def build_ict(clone: Path, *, components: int = COMPONENTS) -> Rig:
-    """Build the rig ``ict`` from the clone's ``FaceXModel`` folder, with as many modes as it holds up to ``components``.
+    """Build the rig ``ict`` from the clone, with as many identity modes as it holds up to ``components``.
 
     Raises
     ------

