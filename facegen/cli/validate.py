@@ -14,31 +14,66 @@ from facegen.conventions import ExitCode
 
 def validate(
     dataset: Annotated[Path, typer.Argument(help="Folder of a dataset.")],
+    workers: Annotated[
+        int | None, typer.Option("--workers", min=1, help="Processes; default: one per processor.")
+    ] = None,
+    repair: Annotated[
+        bool, typer.Option("--repair", help="Remove what is invalid or extra; generate then makes it again.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the verdict as JSON.")] = False,
 ) -> None:
-    """Check a dataset: checksums, pictures, labels against pixels, and all labels against the spec they come from.
+    """Check a dataset: checksums, pictures, labels against pixels, and all labels against the spec.
+
+    Ends with 0 if all is there and right, 1 if something is wrong, 75 if something is only missing.
 
     Example: facegen validate datasets/out/tiny
     """
     from facegen.store import open_dataset
-    from facegen.validation import things_to_check
+    from facegen.validation import list_dataset
+    from facegen.validation import repair as remove
     from facegen.validation import validate as check
+    from facegen.work import available_cpus
 
     opened = open_dataset(dataset)
-    with progress("shards and rendered samples checked", things_to_check(opened)) as update:
-        verdict = check(opened, on_progress=update)
-    if as_json:
-        print(json.dumps(asdict(verdict)))
-    else:
+    listing = list_dataset(opened)
+    things = len(listing.shards) + len(listing.renders)
+    with progress("shards and rendered samples checked", things) as update:
+        verdict = check(opened, workers=workers or available_cpus(), listing=listing, on_progress=update)
+    if not as_json:
         for finding in verdict.findings:
             print(finding)
-        print(f"{verdict.shards} shards and {verdict.renders} rendered samples checked, {len(verdict.findings)} things wrong")
-    if verdict.findings:
+    repaired = remove(opened, verdict) if repair and verdict.invalid else None
+    if as_json:
+        print(json.dumps(asdict(verdict) | {"repair": None if repaired is None else asdict(repaired)}))
+    else:
+        for place in repaired.removed if repaired else ():
+            print(f"removed {place}")
+        wrong = sum(verdict.wrong.values())
+        print(f"{verdict.shards} shards and {verdict.renders} rendered samples checked, {wrong} things wrong")
+    if verdict.wrong and repaired is None:
         raise typer.Exit(ExitCode.INVALID)
-    if verdict.missing_shards or verdict.missing_renders:
-        print(
-            f"facegen: {verdict.missing_shards} shards and {verdict.missing_renders} rendered samples are still missing; "
-            "facegen generate goes on with them",
-            file=sys.stderr,
-        )
+    if verdict.missing or (repaired is not None and not _only_extras(verdict)):
+        print(f"facegen: {_missing(verdict, repaired)}; facegen generate goes on with them", file=sys.stderr)
         raise typer.Exit(ExitCode.DRAINED)
+
+
+def _only_extras(verdict: object) -> bool:
+    return all(kind.startswith("extra-") for kind in verdict.wrong)
+
+
+def _missing(verdict: object, repaired: object) -> str:
+    said = []
+    if verdict.missing_shards:
+        said.append(f"keypoint shards {_short(verdict.missing_shards)} are missing")
+    if verdict.missing_renders:
+        said.append(f"rendered samples {_short(verdict.missing_renders)} are missing")
+    if repaired is not None and repaired.samples:
+        said.append(f"rendered samples were removed (generate --samples {_short(repaired.samples)})")
+    elif repaired is not None and repaired.removed:
+        said.append("keypoint shards were removed")
+    return ", ".join(said)
+
+
+def _short(ranges: str) -> str:
+    pieces = ranges.split(",")
+    return ranges if len(pieces) <= 8 else ",".join(pieces[:8]) + f",... ({len(pieces)} ranges)"

@@ -2,7 +2,7 @@
 
 from facegen.spec.distribution import Distribution, draw
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
-from facegen.spec.sample_ranges import sample_numbers
+from facegen.spec.sample_ranges import format_ranges, sample_numbers
 from facegen.spec.spec import Spec
 
 __all__ = [
@@ -10,6 +10,7 @@ __all__ = [
     "Distribution",
     "Spec",
     "draw",
+    "format_ranges",
     "load_spec",
     "parse_spec",
     "sample_numbers",

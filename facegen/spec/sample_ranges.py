@@ -29,8 +29,8 @@ def parse_ranges(text: str, *, where: str) -> tuple[range, ...]:
     return tuple(ranges)
 
 
-def sample_numbers(text: str, *, total: int, where: str) -> list[int]:
-    """Sorted sample numbers of a list of ranges, each below ``total``.
+def sample_numbers(text: str, *, total: int, where: str, what: str = "sample") -> list[int]:
+    """Sorted numbers of a list of ranges, each below ``total``; ``what`` they count is said in messages.
 
     Raises
     ------
@@ -40,6 +40,17 @@ def sample_numbers(text: str, *, total: int, where: str) -> list[int]:
     numbers: set[int] = set()
     for piece in parse_ranges(text, where=where):
         if piece[-1] >= total:
-            raise InputError(f"{where}: sample {piece[-1]} does not exist; this dataset has samples 0-{total - 1}")
+            raise InputError(f"{where}: {what} {piece[-1]} does not exist; this dataset has {what}s 0-{total - 1}")
         numbers.update(piece)
     return sorted(numbers)
+
+
+def format_ranges(numbers: list[int]) -> str:
+    """Sorted numbers as people write them, the inverse of `sample_numbers`: ``[0, 1, 2, 7]`` gives ``"0-2,7"``."""
+    pieces: list[list[int]] = []
+    for number in numbers:
+        if pieces and number == pieces[-1][1] + 1:
+            pieces[-1][1] = number
+        else:
+            pieces.append([number, number])
+    return ",".join(f"{first}-{last}" if last > first else str(first) for first, last in pieces)

@@ -1,4 +1,4 @@
-"""Checks of keypoint shards: against themselves, and against labels computed anew from (spec, sample number)."""
+"""Checks of keypoint shards: against themselves, and against labels made anew from (spec, sample number)."""
 
 from collections.abc import Iterator
 
@@ -11,56 +11,80 @@ from facegen.geometry import apply_transform
 from facegen.labels import label_keypoints, project_pinhole
 from facegen.sampling import draw_samples
 from facegen.store import Dataset, column_array, keypoint_schema, keypoint_table, shard_samples
+from facegen.validation.agreement import differing_rows
 from facegen.validation.finding import Finding
+from facegen.validation.ranges import impossible
 
 REPROJECTION_PX = 0.01
 """3D points must project onto their 2D labels this well; float32 rounding is about 1e-4 px at 1,000 px."""
 
 
 def check_shard(dataset: Dataset, number: int) -> Iterator[Finding]:
-    """Findings in one shard."""
+    """Findings in one shard; Parquet's own page checksums are verified on the way."""
     path = dataset.folder.shard(number)
     where = str(path.relative_to(dataset.folder.path))
+
+    def finding(what: str, kind: str, *, at: str = "") -> Finding:
+        return Finding(where + at, what, kind, remove=where)
+
     try:
-        table = pq.read_table(path)
+        table = pq.read_table(path, page_checksum_verification=True)
     except (OSError, pa.ArrowException) as error:
-        yield Finding(where, f"cannot be read as Parquet ({error})")
+        kind = "checksum" if "crc" in str(error).lower() else "unreadable"
+        yield finding(f"cannot be read as Parquet ({error})", kind)
         return
-    if not table.schema.equals(keypoint_schema(dataset.rig.components)):
-        yield Finding(where, "has other columns than this version of facegen writes")
+    if not _has_columns(table.schema, keypoint_schema(dataset.rig.components)):
+        yield finding("has other columns than this version of facegen writes", "label")
         return
     expected = shard_samples(number, total=dataset.plan.samples)
     if not np.array_equal(table.column("sample").to_numpy(), np.arange(expected.start, expected.stop)):
-        yield Finding(where, f"should hold samples {expected.start}-{expected.stop - 1}, one row each, in order")
+        rows = f"{expected.start}-{expected.stop - 1}"
+        yield finding(f"should hold samples {rows}, one row each, in order", "label")
         return
-    yield from _check_projection(table, where)
-    yield from _check_labels(dataset, table, where)
+    for check in (_projections, _ranges, _labels):
+        for sample, what, kind in check(dataset, table):
+            yield finding(what, kind, at=f", sample {sample}")
 
 
-def _check_projection(table: pa.Table, where: str) -> Iterator[Finding]:
-    in_camera = apply_transform(column_array(table, "camera_from_head"), column_array(table, "points_3d").astype(np.float64))
+def _has_columns(found: pa.Schema, expected: pa.Schema) -> bool:
+    """Whether names, types and descriptions are as expected; reading adds metadata of its own."""
+    return found.equals(expected, check_metadata=False) and all(
+        field.metadata.items() <= (found.field(field.name).metadata or {}).items() for field in expected
+    )
+
+
+def _projections(_dataset: Dataset, table: pa.Table) -> Iterator[tuple[int, str, str]]:
+    points = column_array(table, "points_3d").astype(np.float64)
+    in_camera = apply_transform(column_array(table, "camera_from_head"), points)
     error = project_pinhole(in_camera, column_array(table, "intrinsics")) - column_array(table, "points_2d")
     for row, landmark in np.argwhere(~(np.linalg.norm(error, axis=-1) <= REPROJECTION_PX)):
-        distance = np.linalg.norm(error[row, landmark])
-        yield Finding(
-            f"{where}, sample {table['sample'][int(row)]}",
-            f"landmark {landmark} in 3D projects {distance:.3f} px away from its 2D label (allowed {REPROJECTION_PX})",
-        )
+        distance = f"{np.linalg.norm(error[row, landmark]):.3f} px"
+        what = f"landmark {landmark} in 3D projects {distance} from its 2D label (allowed {REPROJECTION_PX})"
+        yield table["sample"][int(row)].as_py(), what, "label"
 
 
-def _check_labels(dataset: Dataset, table: pa.Table, where: str) -> Iterator[Finding]:
+def _ranges(dataset: Dataset, table: pa.Table) -> Iterator[tuple[int, str, str]]:
+    wrong = impossible(
+        weights=column_array(table, "weights"),
+        visibility=column_array(table, "visibility"),
+        gaze=column_array(table, "gaze"),
+        transforms=column_array(table, "camera_from_head"),
+        recorded=dataset.plan.recording is not None,
+    )
+    for name, row, what in wrong:
+        yield table["sample"][row].as_py(), f"{name}: {what}", "range"
+
+
+def _labels(dataset: Dataset, table: pa.Table) -> Iterator[tuple[int, str, str]]:
     spec, first = dataset.spec, table["sample"][0].as_py()
     for start in range(0, len(table), BLOCK):
         stored = table.slice(start, BLOCK)
-        samples = draw_samples(dataset.plan, dataset.rig, (first + start) // BLOCK).rows(slice(0, len(stored)))
+        block = draw_samples(dataset.plan, dataset.rig, (first + start) // BLOCK)
+        samples = block.rows(slice(0, len(stored)))
         size = spec.camera.width_px, spec.camera.height_px
         made = keypoint_table(samples, label_keypoints(spec, dataset.rig, samples), image_size=size)
         for name in stored.column_names:
-            if stored[name].combine_chunks().equals(made[name].combine_chunks()):
-                continue
-            differs = (column_array(stored, name) != column_array(made, name)).reshape(len(stored), -1).any(axis=1)
-            rows = np.flatnonzero(differs)
-            yield Finding(
-                f"{where}, sample {first + start + rows[0]}",
-                f"{name} is not what the spec gives for this sample ({len(rows)} such rows in its block)",
-            )
+            rows = np.flatnonzero(differing_rows(column_array(stored, name), column_array(made, name)))
+            if len(rows):
+                what = f"{name} is not what the spec gives ({len(rows)} such rows in its block)"
+                yield first + start + int(rows[0]), what, "label"

@@ -6,110 +6,179 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, BLOCK, SHARD_ROWS, Visibility
+from facegen.conventions import BLENDSHAPES, BLOCK, LANDMARK_COUNT, SIDES, Part, Visibility
 from facegen.geometry import Camera, project
 from facegen.labels import label_rendered
-from facegen.sampling import draw_samples
+from facegen.sampling import Samples, draw_samples
 from facegen.scene import Layers
-from facegen.store import Dataset, column_array, read_exr, read_png, sample_record
-from facegen.validation.finding import Finding
+from facegen.store import Dataset, read_exr, read_png, sample_record
+from facegen.validation.agreement import disagreements
+from facegen.validation.finding import Finding, Kind
 from facegen.validation.keypoints import REPROJECTION_PX
+from facegen.validation.ranges import impossible
 
 DEPTH_M = 1e-3
 """A visible landmark's depth must be this near to the best of the 3x3 pixels around it."""
 
-_ROW_FIELDS = ("points_2d", "detected_2d", "points_3d", "visibility")
+SIDECAR = "sample.json"
 
 
-def check_render(dataset: Dataset, number: int) -> Iterator[Finding]:
-    """Findings in one rendered sample."""
+def check_renders(dataset: Dataset, numbers: tuple[int, ...]) -> Iterator[Finding]:
+    """Findings in rendered samples of one block, which is drawn once for all of them."""
+    block = draw_samples(dataset.plan, dataset.rig, numbers[0] // BLOCK)
+    for number in numbers:
+        yield from check_render(dataset, number, block.rows(slice(number % BLOCK, number % BLOCK + 1)))
+
+
+def check_render(dataset: Dataset, number: int, samples: Samples) -> Iterator[Finding]:
+    """Findings in one rendered sample, whose drawn row is ``samples``."""
     folder = dataset.folder.render(number)
-    where = str(folder.relative_to(dataset.folder.path))
-    try:
-        record = json.loads((folder / "sample.json").read_text(encoding="utf-8"))
-        checksums, views = record["sha256"], record["views"]
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        yield Finding(f"{where}/sample.json", f"cannot be read ({error!r})")
-        return
-    yield from _check_files(folder, where, checksums, views)
-    yield from _check_labels(dataset, number, record, where)
-    yield from _check_row(dataset, number, record, where)
-    for name, view in views.items():
-        yield from _check_view(folder, f"{where}/{name}", name, view)
+    place = str(folder.relative_to(dataset.folder.path))
+    views = dataset.headset.camera_names
+    files = frozenset(f"{view}.{kind}" for view in views for kind in ("png", "exr"))
+    present = frozenset(entry.name for entry in folder.iterdir())
+    for name in sorted(present - files - {SIDECAR}):
+        inner = f"{place}/{name}"
+        yield Finding(inner, "is no file of a rendered sample", "extra-file", remove=inner)
+    pictures: dict[str, np.ndarray | Layers] = {}
+    for name in sorted((files | {SIDECAR}) - present):
+        yield Finding(f"{place}/{name}", "is missing", "missing-file", remove=place)
+    for check in (
+        _decode(folder, files & present, pictures),
+        _check_sidecar(dataset, folder, files & present, pictures, samples) if SIDECAR in present else (),
+    ):
+        for name, what, kind in check:
+            yield Finding(f"{place}/{name}", what, kind, remove=place)
 
 
-def _check_files(folder: Path, where: str, checksums: dict, views: dict) -> Iterator[Finding]:
-    expected = {f"{name}.{kind}" for name in views for kind in ("png", "exr")}
-    if set(checksums) != expected:
-        yield Finding(f"{where}/sample.json", f"should have checksums of {', '.join(sorted(expected))}")
-    for name, sha256 in checksums.items():
+_Wrong = Iterator[tuple[str, str, Kind]]
+"""Name below the sample's folder, what is wrong, and its kind."""
+
+
+def _decode(folder: Path, names: frozenset[str], pictures: dict[str, np.ndarray | Layers]) -> _Wrong:
+    """Fills ``pictures`` with those that can be read."""
+    for name in sorted(names):
         try:
-            found = hashlib.sha256((folder / name).read_bytes()).hexdigest()
-        except OSError as error:
-            yield Finding(f"{where}/{name}", f"cannot be read ({error.strerror})")
-            continue
-        if found != sha256:
-            yield Finding(f"{where}/{name}", "its content is not what was written (SHA-256 differs)")
+            pictures[name] = (read_png if name.endswith(".png") else read_exr)(folder / name)
+        except Exception as error:  # whatever a decoder raises, the file is bad
+            yield name, f"does not decode ({error})", "unreadable"
 
 
-def _check_labels(dataset: Dataset, number: int, record: dict, where: str) -> Iterator[Finding]:
-    block, row = divmod(number, BLOCK)
-    samples = draw_samples(dataset.plan, dataset.rig, block).rows(slice(row, row + 1))
-    rendered = label_rendered(dataset.spec, dataset.rig, dataset.headset, samples)
+def _check_sidecar(
+    dataset: Dataset,
+    folder: Path,
+    names: frozenset[str],
+    pictures: dict[str, np.ndarray | Layers],
+    samples: Samples,
+) -> _Wrong:
+    try:
+        record = json.loads((folder / SIDECAR).read_text(encoding="utf-8"))
+        checksums = dict(record["sha256"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        yield SIDECAR, f"cannot be read ({error!r})", "unreadable"
+        return
+    for name in sorted(names):
+        if name not in checksums:
+            yield SIDECAR, f"has no checksum of {name}", "checksum"
+        elif _sha256(folder / name) != checksums[name]:
+            yield name, "its content is not what was written (SHA-256 differs)", "checksum"
+    if record.get("spec_hash") != dataset.hash:
+        found = str(record.get("spec_hash"))[:12]
+        wanted = dataset.hash[:12]
+        yield (
+            SIDECAR,
+            f"was made from another spec (its hash is {found}, this dataset's {wanted})",
+            "spec-hash",
+        )
+        return  # its labels are another spec's, every one of them
+    for name, what, kind in _check_labels(dataset, record, samples):
+        yield SIDECAR, f"{name}: {what}", kind
+    for view in dataset.headset.camera_names:
+        if f"{view}.png" in pictures and f"{view}.exr" in pictures:
+            yield from _check_view(record, view, pictures[f"{view}.png"], pictures[f"{view}.exr"])
+
+
+def _sha256(path: Path) -> str:
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _check_labels(dataset: Dataset, record: dict, samples: Samples) -> _Wrong:
     made = sample_record(
-        rendered,
+        label_rendered(dataset.spec, dataset.rig, dataset.headset, samples),
         dataset_hash=dataset.hash,
         rig=dataset.rig.name,
         headset=dataset.headset.name,
         sensor=dataset.headset.sensor,
     )
-    for key, value in made.items():
-        if record.get(key) != json.loads(json.dumps(value)):
-            yield Finding(f"{where}/sample.json", f"{key} is not what the spec gives for this sample")
-
-
-def _check_row(dataset: Dataset, number: int, record: dict, where: str) -> Iterator[Finding]:
-    path = dataset.folder.shard(number // SHARD_ROWS)
-    if not path.is_file():
-        yield Finding(where, f"has no keypoint row: {path.name} is missing")
-        return
-    row = pq.read_table(path).slice(number % SHARD_ROWS, 1)
-    stored = {name: column_array(row, name)[0] for name in (*_ROW_FIELDS, "weights", "identity")}
-    written = {name: record["keypoints"][name] for name in _ROW_FIELDS}
-    written["weights"] = [record["weights"][name] for name in BLENDSHAPES]
-    written["identity"] = record["identity"]
-    for name, values in written.items():
-        if not np.array_equal(np.asarray(values, stored[name].dtype), stored[name]):
-            yield Finding(f"{where}/sample.json", f"{name} differs from row {number % SHARD_ROWS} of {path.name}")
-
-
-def _check_view(folder: Path, where: str, name: str, view: dict) -> Iterator[Finding]:
-    numbers = {key: value for key, value in view["camera"].items() if key != "distortion"}
-    camera = Camera(**numbers, distortion=tuple(view["camera"]["distortion"]))
+    for name, what in disagreements(record, json.loads(json.dumps(made))):
+        yield name, what, "label"
     try:
-        grey, layers = read_png(folder / f"{name}.png"), read_exr(folder / f"{name}.exr")
-    except Exception as error:  # whatever a decoder raises, the file is bad
-        yield Finding(where, f"a picture does not decode ({error})")
+        for name, _, what in _impossible(dataset, record):
+            yield name, what, "range"
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        yield "labels", f"cannot be used ({error!r})", "unreadable"
+
+
+def _impossible(dataset: Dataset, record: dict) -> Iterator[tuple[str, int, str]]:
+    views = record["views"].values()
+    poses = [record["keypoints"]["camera_from_head"], *(view["camera_from_head"] for view in views)]
+    visibility = [record["keypoints"]["visibility"], *(view["visibility"] for view in views)]
+    return impossible(
+        weights=np.array([[record["weights"][name] for name in BLENDSHAPES]], np.float64),
+        visibility=np.array(visibility, np.float64),
+        gaze=np.array([[record["eyes"][side]["optical_axis"] for side in SIDES]], np.float64),
+        transforms=np.array(poses, np.float64),
+        recorded=dataset.plan.recording is not None,
+    )
+
+
+def _check_view(record: dict, name: str, grey: np.ndarray, layers: Layers) -> _Wrong:
+    try:
+        view = record["views"][name]
+        numbers = {key: value for key, value in view["camera"].items() if key != "distortion"}
+        camera = Camera(**numbers, distortion=tuple(view["camera"]["distortion"]))
+        points = np.array(view["points_camera"], np.float64).reshape(LANDMARK_COUNT, 3)
+        labelled = np.array(view["points_2d"], np.float64).reshape(LANDMARK_COUNT, 2)
+        visible = np.array(view["visibility"]).reshape(LANDMARK_COUNT) == Visibility.VISIBLE
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        yield SIDECAR, f"views.{name} cannot be used ({error!r})", "unreadable"
         return
     if grey.shape != (camera.height, camera.width) or layers.depth.shape != grey.shape:
-        yield Finding(where, f"pictures are {grey.shape} and {layers.depth.shape}, the camera says {camera.height, camera.width}")
+        shapes = f"{grey.shape} and {layers.depth.shape}"
+        yield name, f"pictures are {shapes}, the camera says {camera.height, camera.width}", "pixels"
         return
-    points = np.array(view["points_camera"], np.float64)
-    labelled = np.array(view["points_2d"], np.float64)
+    unknown = np.setdiff1d(layers.part, [int(part) for part in Part])
+    if unknown.size:
+        yield f"{name}.exr", f"has pixels of the unknown part {int(unknown[0])}", "range"
+    surface = layers.depth[layers.part != Part.BACKGROUND]
+    if not (np.isfinite(surface) & (surface > 0)).all():
+        yield f"{name}.exr", "has pixels that show a surface without a depth", "range"
     with np.errstate(invalid="ignore"):
         error = np.linalg.norm(project(camera, points) - labelled, axis=-1)
     for landmark in np.flatnonzero(error > REPROJECTION_PX):
-        yield Finding(where, f"landmark {landmark} in 3D projects {error[landmark]:.3f} px away from its 2D label")
-    for landmark in np.flatnonzero(np.array(view["visibility"]) == Visibility.VISIBLE):
+        distance = f"{error[landmark]:.3f} px"
+        yield (
+            SIDECAR,
+            f"views.{name}: landmark {landmark} in 3D projects {distance} from its 2D label",
+            "label",
+        )
+    for landmark in np.flatnonzero(visible):
         difference = depth_difference(layers, labelled[landmark], points[landmark, 2])
         if not difference <= DEPTH_M:
-            yield Finding(where, f"landmark {landmark} is labelled visible, but the picture's depth is {1e3 * difference:.1f} mm off")
+            off = f"{1e3 * difference:.1f} mm off"
+            yield (
+                f"{name}.exr",
+                f"landmark {landmark} is labelled visible, but the depth there is {off}",
+                "pixels",
+            )
 
 
 def depth_difference(layers: Layers, pixel: np.ndarray, depth_m: float) -> float:
     """Smallest difference in metres between a depth and those of the 3x3 pixels around a point (x, y)."""
+    if not np.isfinite(pixel).all():
+        return float("inf")
     x, y = np.round(pixel).astype(int)
-    near = layers.depth[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2]
+    near = layers.depth[max(y - 1, 0) : max(y + 2, 0), max(x - 1, 0) : max(x + 2, 0)]
     return float(np.min(np.abs(near.astype(np.float64) - depth_m), initial=np.inf))

@@ -1,0 +1,93 @@
+"""Do stored labels agree with labels made anew?"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+TOLERANCE = 1e-6
+"""Stored numbers may differ by this much of their size (or of 1, if they are smaller).
+
+Labels are float32: their last bit is 6e-8 of their size, and another processor's sine may move it; 1e-6 m is
+0.001 mm, 1e-6 of 640 px is 0.0006 px.
+"""
+
+
+def differing_rows(found: np.ndarray, made: np.ndarray) -> np.ndarray:
+    """(n,) bool: rows of two arrays (n, ...) that differ by more than `TOLERANCE`; NaN equals NaN."""
+    if found.dtype.kind not in "fiub" or made.dtype.kind not in "fiub":
+        differs = found != made
+    else:
+        found, made = found.astype(np.float64), made.astype(np.float64)
+        with np.errstate(invalid="ignore"):
+            near = np.abs(found - made) <= TOLERANCE * np.maximum(1.0, np.abs(made))
+        differs = ~(near | (found == made) | (np.isnan(found) & np.isnan(made)))
+    return differs.reshape(len(differs), -1).any(axis=1)
+
+
+def disagreements(found: object, made: object, name: str = "") -> Iterator[tuple[str, str]]:
+    """Name and description of every label of a record that differs from the record made anew.
+
+    Lists are compared as arrays, so that one moved landmark is one disagreement that says which and how far.
+    """
+    if isinstance(made, dict):
+        if not isinstance(found, dict):
+            yield name, f"should be a table, and is {_short(found)}"
+            return
+        for key, value in made.items():
+            inner = f"{name}.{key}" if name else key
+            if key not in found:
+                yield inner, "is missing"
+            else:
+                yield from disagreements(found[key], value, inner)
+        for key in sorted(found.keys() - made.keys()) if name else ():
+            yield f"{name}.{key}", "is no label of this version of facegen"
+    elif isinstance(made, list):
+        yield from _list_disagreement(found, made, name)
+    elif not _same(found, made):
+        yield name, f"is {_short(found)}; the spec gives {_short(made)}"
+
+
+def _list_disagreement(found: object, made: list, name: str) -> Iterator[tuple[str, str]]:
+    if made and isinstance(made[0], dict | str):
+        if not isinstance(found, list) or len(found) != len(made):
+            yield name, f"should have {len(made)} entries"
+            return
+        for index, (f, m) in enumerate(zip(found, made, strict=True)):
+            yield from disagreements(f, m, f"{name}[{index}]")
+        return
+    expected = _numbers(made)
+    actual = _numbers(found)
+    if actual is None or actual.shape != expected.shape:
+        yield name, f"should be numbers of shape {expected.shape}"
+        return
+    rows = np.flatnonzero(differing_rows(actual, expected)) if expected.size else []
+    if not len(rows):
+        return
+    first = int(rows[0])
+    more = f" (and {len(rows) - 1} more)" if len(rows) > 1 else ""
+    if name.endswith("_2d"):
+        distance = np.linalg.norm(actual[first] - expected[first])
+        yield name, f"point {first} lies {distance:.2f} px from where the spec puts it{more}"
+    else:
+        is_now, should_be = _short(actual[first].tolist()), _short(expected[first].tolist())
+        yield name, f"row {first} is {is_now}; the spec gives {should_be}{more}"
+
+
+def _numbers(values: object) -> np.ndarray | None:
+    try:
+        return np.array(values, np.float64)  # None, JSON's stand-in for NaN, becomes NaN
+    except (TypeError, ValueError):
+        return None
+
+
+def _same(found: object, made: object) -> bool:
+    if isinstance(made, bool) or not isinstance(made, int | float) or isinstance(found, bool):
+        return type(found) is type(made) and found == made
+    if not isinstance(found, int | float):
+        return False
+    return not differing_rows(np.array([float(found)]), np.array([float(made)]))[0]
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
