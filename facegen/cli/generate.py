@@ -1,6 +1,7 @@
 """``facegen generate``."""
 
 import json
+import signal
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -17,45 +18,79 @@ def generate(
     samples: Annotated[
         str | None, typer.Option("--samples", help="Render these instead of the spec's: 0-99,140,200-300:10.")
     ] = None,
-    workers: Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default: one per processor.")] = None,
-    grace: Annotated[float, typer.Option("--grace", min=0, help="Seconds that running work gets to end after Ctrl-C.")] = 30.0,
+    shards: Annotated[
+        str | None,
+        typer.Option(
+            "--shards", help="Make these keypoint shards (0-9, or none); without --samples no pictures."
+        ),
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option("--workers", min=1, help="Processes; default: one per processor.")
+    ] = None,
+    grace: Annotated[
+        float, typer.Option("--grace", min=0, help="Seconds that running work gets to end after Ctrl-C.")
+    ] = 30.0,
     retry_quarantined: Annotated[
         bool, typer.Option("--retry-quarantined", help="Try again what failed three times in an earlier run.")
     ] = False,
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would be made, and make nothing.")] = False,
+    hang_limit: Annotated[
+        float,
+        typer.Option(
+            "--hang-limit", min=1, help="Seconds after which a worker without a sign of life is replaced."
+        ),
+    ] = 300.0,
+    view_limit: Annotated[
+        float,
+        typer.Option(
+            "--view-limit", min=1, help="Seconds that one picture may take; then it counts as failed."
+        ),
+    ] = 3600.0,
+    progress_style: Annotated[
+        str,
+        typer.Option(
+            "--progress", help="auto (a bar or lines on stderr), or openjd (lines that a render farm reads)."
+        ),
+    ] = "auto",
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Say what would be made, and make nothing.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """Make what a dataset is missing: keypoints of all samples, pictures of some. Run it again and it goes on.
+    """Make what a dataset is missing: keypoints of all, pictures of some. Run it again and it goes on.
 
     Example: facegen generate datasets/tiny.toml --out datasets/out/tiny
     """
+    signal.signal(signal.SIGTERM, _stop_early)  # until workers run there is nothing to drain
     from facegen.spec import load_spec
     from facegen.store import resolve
+    from facegen.work import Limits, plan_work
     from facegen.work import generate as make
-    from facegen.work import plan_work
 
     dataset = resolve(load_spec(spec), out)
-    work = plan_work(dataset, samples, retry_quarantined=retry_quarantined)
+    shards = "" if shards == "none" else shards
+    work = plan_work(dataset, samples, shards=shards, retry_quarantined=retry_quarantined)
     if dry_run:
-        shards = sum(task.kind == "shard" for task in work.missing)
+        missing_shards = sum(task.kind == "shard" for task in work.missing)
         _print(
             {
                 "out": str(out),
                 "spec_hash": dataset.hash,
-                "missing_shards": shards,
-                "missing_renders": len(work.missing) - shards,
+                "missing_shards": missing_shards,
+                "missing_renders": len(work.missing) - missing_shards,
                 "found": work.done,
                 "quarantined": len(work.quarantined),
             },
             as_json=as_json,
         )
         return
-    with progress("shards and rendered samples", len(work.missing)) as update:
+    with progress("shards and rendered samples", len(work.missing), style=progress_style) as update:
         summary = make(
             dataset,
             samples,
+            shards=shards,
             workers=workers,
             grace_s=grace,
+            limits=Limits(silence_s=hang_limit, phase_s=view_limit),
             retry_quarantined=retry_quarantined,
             on_progress=update,
         )
@@ -72,15 +107,29 @@ def generate(
         as_json=as_json,
     )
     if summary.left:
-        print(f"facegen: stopped with {summary.left} things left; run the same command to go on", file=sys.stderr)
+        print(
+            f"facegen: stopped with {summary.left} things left; run the same command to go on",
+            file=sys.stderr,
+        )
         raise typer.Exit(ExitCode.DRAINED)
     if names:
-        print(f"facegen: {len(names)} failed three times; their logs are in {out}/quarantine", file=sys.stderr)
+        print(
+            f"facegen: {len(names)} failed three times; their logs are in {out}/quarantine", file=sys.stderr
+        )
         raise typer.Exit(ExitCode.INVALID)
+
+
+def _stop_early(_signal: int, _frame: object) -> None:
+    sys.exit(int(ExitCode.DRAINED))
 
 
 def _print(summary: dict, *, as_json: bool) -> None:
     if as_json:
         print(json.dumps(summary))
     else:
-        print("\n".join(f"{key.replace('_', ' ')}: {value if value != [] else 'none'}" for key, value in summary.items()))
+        print(
+            "\n".join(
+                f"{key.replace('_', ' ')}: {value if value != [] else 'none'}"
+                for key, value in summary.items()
+            )
+        )

@@ -24,7 +24,9 @@ def parse_ranges(text: str, *, where: str) -> tuple[range, ...]:
         last = int(match[2]) if match[2] else first
         step = int(match[3]) if match[3] else 1
         if last < first or step < 1:
-            raise InputError(f"{where}: {piece!r} counts backwards; write 'first-last' with first <= last, step >= 1")
+            raise InputError(
+                f"{where}: {piece!r} counts backwards; write 'first-last' with first <= last, step >= 1"
+            )
         ranges.append(range(first, last + 1, step))
     return tuple(ranges)
 
@@ -40,13 +42,15 @@ def sample_numbers(text: str, *, total: int, where: str, what: str = "sample") -
     numbers: set[int] = set()
     for piece in parse_ranges(text, where=where):
         if piece[-1] >= total:
-            raise InputError(f"{where}: {what} {piece[-1]} does not exist; this dataset has {what}s 0-{total - 1}")
+            raise InputError(
+                f"{where}: {what} {piece[-1]} does not exist; this dataset has {what}s 0-{total - 1}"
+            )
         numbers.update(piece)
     return sorted(numbers)
 
 
 def format_ranges(numbers: list[int]) -> str:
-    """Sorted numbers as people write them, the inverse of `sample_numbers`: ``[0, 1, 2, 7]`` gives ``"0-2,7"``."""
+    """Sorted numbers as people write them: ``[0, 1, 2, 7]`` gives ``"0-2,7"``, which `sample_numbers` reads."""
     pieces: list[list[int]] = []
     for number in numbers:
         if pieces and number == pieces[-1][1] + 1:

@@ -8,12 +8,12 @@ from facegen.store.folder import (
     output_errors,
     read_json,
     shard_samples,
-    staging,
     write_json,
 )
 from facegen.store.images import exr_bytes, png_bytes, read_exr, read_png
 from facegen.store.keypoint_table import column_array, keypoint_schema, keypoint_table, write_shard
 from facegen.store.record import sample_record
+from facegen.store.stage import is_alive, place, staging, sweep
 
 __all__ = [
     "Dataset",
@@ -23,10 +23,12 @@ __all__ = [
     "commit_file",
     "commit_folder",
     "exr_bytes",
+    "is_alive",
     "keypoint_schema",
     "keypoint_table",
     "open_dataset",
     "output_errors",
+    "place",
     "png_bytes",
     "read_exr",
     "read_json",
@@ -35,6 +37,7 @@ __all__ = [
     "sample_record",
     "shard_samples",
     "staging",
+    "sweep",
     "write_json",
     "write_shard",
 ]

@@ -20,13 +20,14 @@ from facegen.headsets import Headset, load_headset
 from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset
 from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_hash, spec_table
-from facegen.store.folder import DatasetFolder, commit_file, output_errors, read_json, staging, write_json
+from facegen.store.folder import DatasetFolder, commit_file, output_errors, read_json, write_json
 from facegen.store.keypoint_table import column_array
+from facegen.store.stage import staging
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "opencv-contrib-python-headless", "OpenEXR")
 
-_FIRST_THINGS = ("tmp", "logs", "spec.toml", "recording.csv")
-"""What `begin` leaves if it is killed before ``dataset.json``."""
+_FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "recording.csv")
+"""What `begin` leaves if it is killed before ``dataset.json``, and what a farm puts there before it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -93,7 +94,10 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
     """
     plan, rig = plan_dataset(spec), load_rig(spec.rig)
     headset = load_headset(spec.render.headset)
-    assets = {"rig": rig.sha256, "headset": _content_sha256(TypeAdapter(Headset).dump_python(headset, mode="json"))}
+    assets = {
+        "rig": rig.sha256,
+        "headset": _content_sha256(TypeAdapter(Headset).dump_python(headset, mode="json")),
+    }
     if plan.recording is not None:
         assets["recording"] = hashlib.sha256(np.ascontiguousarray(plan.recording).tobytes()).hexdigest()
     return Dataset(
@@ -116,6 +120,9 @@ def begin(dataset: Dataset) -> None:
         If the folder cannot be written.
     """
     folder = dataset.folder
+    with output_errors(folder.path):
+        others = folder.path.is_dir() and any(p.name not in _FIRST_THINGS for p in folder.path.iterdir())
+    # looked at after the listing: another worker may be just beginning, and then this file is there by now
     if folder.dataset_json.is_file():
         found = read_json(folder.dataset_json).get("spec_hash")
         if found != dataset.hash:
@@ -124,9 +131,9 @@ def begin(dataset: Dataset) -> None:
                 f"and headset {dataset.hash[:12]}); choose another folder, or delete this one"
             )
         return
+    if others:
+        raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
     with output_errors(folder.path):
-        if folder.path.is_dir() and any(p.name not in _FIRST_THINGS for p in folder.path.iterdir()):
-            raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
         folder.path.mkdir(parents=True, exist_ok=True)
     table = spec_table(dataset.spec)
     with staging(folder, "begin") as stage:

@@ -4,9 +4,6 @@ import contextlib
 import errno
 import json
 import os
-import shutil
-import socket
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -83,20 +80,6 @@ def sync(path: Path) -> None:
         os.fsync(handle)
     finally:
         os.close(handle)
-
-
-@contextlib.contextmanager
-def staging(folder: DatasetFolder, name: str) -> Iterator[Path]:
-    """A private folder below ``tmp/`` for half-made things; removed at the end, whatever happened."""
-    stamp = f"{socket.gethostname()}-{os.getpid()}-{time.time_ns()}"
-    path = folder.path / "tmp" / f"{name}-{stamp}"
-    with output_errors(path):
-        path.mkdir(parents=True)
-    try:
-        with output_errors(path):
-            yield path
-    finally:
-        shutil.rmtree(path, ignore_errors=True)
 
 
 def commit_file(source: Path, target: Path) -> None:

@@ -1,5 +1,25 @@
 """Making datasets: tasks, workers, and the supervisor that owns them."""
 
-from facegen.work.generate import DEFAULT_GRACE_S, Summary, Work, available_cpus, generate, plan_work
+from facegen.work.allocation import available_cpus, available_memory
+from facegen.work.generate import DEFAULT_GRACE_S, Summary, Work, generate, plan_work
+from facegen.work.journal import Attempt, attempt_logs, read_journals
+from facegen.work.supervisor import Limits
+from facegen.work.tasks import Task, done_tasks, quarantined_tasks, wanted_tasks
 
-__all__ = ["DEFAULT_GRACE_S", "Summary", "Work", "available_cpus", "generate", "plan_work"]
+__all__ = [
+    "DEFAULT_GRACE_S",
+    "Attempt",
+    "Limits",
+    "Summary",
+    "Task",
+    "Work",
+    "attempt_logs",
+    "available_cpus",
+    "available_memory",
+    "done_tasks",
+    "generate",
+    "plan_work",
+    "quarantined_tasks",
+    "read_journals",
+    "wanted_tasks",
+]

@@ -1,19 +1,48 @@
 """The child process of one worker: takes tasks from its supervisor's pipe, makes them, says how it went."""
 
 import ctypes
+import errno
 import os
 import signal
 import sys
+import tempfile
+import time
 import traceback
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Literal
+from typing import Literal, Protocol
 
 from facegen.errors import FacegenError, OutputError
 from facegen.work.tasks import Task
 
 _PR_SET_PDEATHSIG = 1
+
+_NO_ROOM_BYTES = 65536
+"""A file system with less than this free is full: the least sample.json alone has more."""
+
+_PLACE_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ESTALE)
+"""The system's errors that are the fault of the place, wherever in a task they come up."""
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """A task to make, and the file that takes what is printed meanwhile."""
+
+    task: Task
+    log: Path
+
+
+@dataclass(frozen=True)
+class Ready:
+    """The child has opened the dataset."""
+
+
+@dataclass(frozen=True)
+class Phase:
+    """A sign of life: what the child begins to do now."""
+
+    name: str
 
 
 @dataclass(frozen=True)
@@ -23,57 +52,123 @@ class Report:
     task: Task
     outcome: Literal["done", "failed", "unwritable"]
     message: str = ""
+    size: int = 0
 
 
-def die_with_parent() -> None:
-    """Ask Linux to kill this process when its parent dies; elsewhere a closed pipe ends it after its task."""
+class Maker(Protocol):
+    """What makes tasks: `facegen.work.worker.Worker`."""
+
+    def make(self, task: Task, on_phase: object) -> int:
+        """Make one task; returns the bytes written."""
+
+
+def die_with_parent(parent: int) -> None:
+    """Ask Linux to kill this process when its parent dies; elsewhere a closed pipe ends it after its task.
+
+    The parent may have died before the request: then nobody would send the signal.
+    """
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+        if os.getppid() != parent:
+            os._exit(1)
 
 
-def serve(pipe: Connection, out: str, log: str, threads: int) -> None:
+def serve(pipe: Connection, out: str, log: str, threads: int, parent: int) -> None:
     """Make tasks until the pipe says None or closes.
 
     Parameters
     ----------
     pipe
-        Tasks come in, `Report` go out; before the first task ``None`` goes out when the worker is ready.
+        `Assignment` come in; `Ready`, `Phase` and `Report` go out.
     out
         The dataset's folder; it must have been begun.
     log
-        File that takes everything this process prints.
+        File that takes everything this process prints outside tasks.
     threads
         Threads for Blender.
+    parent
+        The supervisor's process.
     """
-    die_with_parent()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the supervisor decides
+    die_with_parent(parent)
+    # Ctrl-C reaches the whole group, and scancel all processes of a job: the supervisor decides, and kills
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
     _redirect_output(Path(log))
     from facegen.store import open_dataset
     from facegen.work.worker import Worker
 
-    worker = Worker(open_dataset(out), threads=threads)
+    serve_with(Worker(open_dataset(out), threads=threads), pipe, Path(out), Path(log))
+
+
+def serve_with(maker: Maker, pipe: Connection, out: Path, log: Path) -> None:
+    """The loop of `serve`, for any maker of tasks."""
     try:
-        while (task := pipe.recv()) is not None:
-            pipe.send(_attempt(worker, task))
-    except (EOFError, BrokenPipeError):
-        pass  # the supervisor is gone
-    sys.stdout.flush()
+        pipe.send(Ready())
+        while (assignment := pipe.recv()) is not None:
+            pipe.send(_attempt(maker, assignment, pipe, out))
+            _redirect_output(log)
+    except (EOFError, BrokenPipeError, OSError):
+        pass  # the supervisor is gone, or the disk full, which it has been told
     os._exit(0)  # Blender's own shutdown prints a traceback about a removed engine
 
 
-def _attempt(worker: object, task: Task) -> Report:
+def _attempt(maker: Maker, assignment: Assignment, pipe: Connection, out: Path) -> Report:
+    task, started = assignment.task, time.monotonic()
+
+    def on_phase(name: str) -> None:
+        _say(f"[{time.monotonic() - started:.1f} s] {name}")
+        pipe.send(Phase(name))
+
     try:
-        worker.make(task)
+        _redirect_output(assignment.log)
+        _say(f"{task.name}: process {os.getpid()}, {time.strftime('%FT%T%z')}")
+        size = maker.make(task, on_phase)
+    except BrokenPipeError:
+        raise
     except OutputError as error:
         return Report(task, "unwritable", str(error))
-    except FacegenError as error:
-        return Report(task, "failed", f"{error}\n\n{traceback.format_exc()}")
-    except Exception:
-        return Report(task, "failed", traceback.format_exc())
-    return Report(task, "done")
+    except Exception as error:
+        reason = place_at_fault(error, out)
+        if reason is not None:
+            return Report(task, "unwritable", reason)
+        told = f"{error}\n\n" if isinstance(error, FacegenError) else ""
+        return Report(task, "failed", f"{told}{traceback.format_exc()}")
+    _say(f"[{time.monotonic() - started:.1f} s] done, {size} bytes")
+    return Report(task, "done", size=size)
+
+
+def place_at_fault(error: BaseException, out: Path) -> str | None:
+    """Why the place is to blame for an error and not the sample; None where it is not.
+
+    Libraries in C++ report a full disk as an error of their own kind, so the disks themselves are asked too.
+    """
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, OSError) and cause.errno in _PLACE_ERRORS:
+            return f"{cause.filename or out}: {os.strerror(cause.errno)}"
+        cause = cause.__cause__ or cause.__context__
+    for folder in (out, Path(tempfile.gettempdir())):
+        state = os.statvfs(folder)
+        if state.f_bavail * state.f_frsize < _NO_ROOM_BYTES:
+            return f"{folder}: no space left; free some and run the same command again"
+    return None
+
+
+def _say(line: str) -> None:
+    try:
+        sys.stdout.write(f"{line}\n")
+        sys.stdout.flush()
+    except OSError:
+        pass  # a full disk: the task itself will meet it, and say so
 
 
 def _redirect_output(log: Path) -> None:
+    try:
+        sys.stdout.flush()
+        sys.stderr.flush()
+    except OSError:
+        pass
+    ctypes.CDLL(None).fflush(None)  # Blender prints through C, whose lines would end up in the next log
     log.parent.mkdir(parents=True, exist_ok=True)
     handle = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
     os.dup2(handle, 1)

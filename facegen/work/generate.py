@@ -1,15 +1,17 @@
 """``generate``: makes what a dataset is missing, and nothing else."""
 
-import os
 import shutil
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from facegen.store import Dataset, begin
-from facegen.work.supervisor import Supervisor
-from facegen.work.tasks import Task, is_done, is_quarantined, wanted_tasks
+from facegen.store import Dataset, begin, staging, sweep
+from facegen.work.allocation import available_cpus, available_memory
+from facegen.work.supervisor import Limits, Supervisor
+from facegen.work.tasks import Task, done_tasks, quarantined_tasks, wanted_tasks
 
 DEFAULT_GRACE_S = 30.0
+MEMORY_SHARE = 0.8
+"""A worker above this share of what it may take is renewed before the system kills it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,7 +25,7 @@ class Work:
 
 @dataclass(frozen=True, kw_only=True)
 class Summary:
-    """What a run did: tasks made now, found made, quarantined before or now, and left because it was stopped."""
+    """What a run did: tasks made now, found made, quarantined before or now, and left by a stop."""
 
     made: int
     found: int
@@ -31,20 +33,18 @@ class Summary:
     left: int
 
 
-def available_cpus() -> int:
-    """Processors that this process may use (a scheduler's allocation, not the machine's)."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def plan_work(dataset: Dataset, ranges: str | None, *, retry_quarantined: bool = False) -> Work:
+def plan_work(
+    dataset: Dataset, ranges: str | None, *, shards: str | None = None, retry_quarantined: bool = False
+) -> Work:
     """What `generate` would do; reads the folder, writes nothing."""
-    open_tasks = [task for task in wanted_tasks(dataset, ranges)]
-    missing = [task for task in open_tasks if not is_done(dataset, task)]
-    quarantined = () if retry_quarantined else tuple(task for task in missing if is_quarantined(dataset, task))
+    wanted = wanted_tasks(dataset, ranges, shards)
+    done = done_tasks(dataset, wanted)
+    missing = [task for task in wanted if task not in done]
+    quarantined = set() if retry_quarantined else quarantined_tasks(dataset, missing)
     return Work(
         missing=tuple(task for task in missing if task not in quarantined),
-        done=len(open_tasks) - len(missing),
-        quarantined=quarantined,
+        done=len(done),
+        quarantined=tuple(task for task in missing if task in quarantined),
     )
 
 
@@ -52,8 +52,10 @@ def generate(
     dataset: Dataset,
     ranges: str | None = None,
     *,
+    shards: str | None = None,
     workers: int | None = None,
     grace_s: float = DEFAULT_GRACE_S,
+    limits: Limits = Limits(),
     retry_quarantined: bool = False,
     on_progress: Callable[[int], None] = lambda done: None,
 ) -> Summary:
@@ -65,10 +67,14 @@ def generate(
         What to make, from `facegen.store.resolve`.
     ranges
         Samples to render (``"0-99,140"``); without, those that the spec names, and all keypoints.
+    shards
+        Make exactly these keypoint shards (``"0-9"``, ``""`` for none), and without ``ranges`` no pictures.
     workers
         Processes; without, one per processor that this process may use.
     grace_s
         Seconds that running tasks get to end after SIGINT or SIGTERM.
+    limits
+        When a worker is replaced, and when the run is given up.
     retry_quarantined
         Try again what failed three times in an earlier run.
     on_progress
@@ -80,11 +86,15 @@ def generate(
         If the folder holds a dataset of another spec, or a sample does not exist.
     OutputError
         If the folder cannot be written.
+    WorkersFailed
+        If processes cannot start, or fail at nearly everything.
     """
-    work = plan_work(dataset, ranges, retry_quarantined=retry_quarantined)
+    work = plan_work(dataset, ranges, shards=shards, retry_quarantined=retry_quarantined)
     begin(dataset)
     if not work.missing:
         return Summary(made=0, found=work.done, quarantined=work.quarantined, left=0)
+    _check_writable(dataset)
+    sweep(dataset.folder)
     if retry_quarantined:
         for task in work.missing:
             shutil.rmtree(dataset.folder.quarantine(task.name), ignore_errors=True)
@@ -95,12 +105,22 @@ def generate(
         workers=min(workers, len(work.missing)),
         threads=max(1, cpus // workers),
         grace_s=grace_s,
+        limits=replace(limits, memory=limits.memory or int(MEMORY_SHARE * available_memory() / workers)),
         on_progress=on_progress,
     )
-    outcome = supervisor.run(list(work.missing))
+    try:
+        outcome = supervisor.run(list(work.missing))
+    finally:
+        sweep(dataset.folder)  # what killed workers had begun
     return Summary(
         made=outcome.made,
-        found=work.done,
+        found=work.done + outcome.found,
         quarantined=(*work.quarantined, *outcome.quarantined),
-        left=len(work.missing) - outcome.made - len(outcome.quarantined),
+        left=len(work.missing) - outcome.made - outcome.found - len(outcome.quarantined),
     )
+
+
+def _check_writable(dataset: Dataset) -> None:
+    """Try to make a stage before any process starts: a read-only folder is known at once."""
+    with staging(dataset.folder, "probe") as stage:
+        (stage / "probe").write_bytes(b"facegen")

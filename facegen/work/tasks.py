@@ -1,9 +1,13 @@
 """What there is to make, and what of it is missing: the folder's listing is the only state."""
 
+import os
+from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 from facegen.conventions import SHARD_ROWS
+from facegen.spec import sample_numbers
 from facegen.store import Dataset
 
 MAX_ATTEMPTS = 3
@@ -23,22 +27,52 @@ class Task:
         return f"{self.kind}-{self.number:06d}"
 
 
-def wanted_tasks(dataset: Dataset, ranges: str | None) -> list[Task]:
+def wanted_tasks(dataset: Dataset, ranges: str | None, shards: str | None = None) -> list[Task]:
     """All tasks of a run: the shards, longest work first, then the pictures.
 
-    With ``ranges`` (``--samples``) these are the pictures of those samples, and the shards that hold them.
+    With ``ranges`` (``--samples``) these are the pictures of those samples, and the shards that hold them;
+    with ``shards`` exactly those shards, and without ``ranges`` no pictures. An empty text means none.
     """
-    numbers = dataset.samples_to_render(ranges)
-    shards = range(dataset.shards) if ranges is None else sorted({number // SHARD_ROWS for number in numbers})
-    return [Task("shard", shard) for shard in shards] + [Task("sample", number) for number in numbers]
+    numbers = [] if shards is not None and ranges is None else dataset.samples_to_render(ranges)
+    if shards is not None:
+        wanted = sample_numbers(shards, total=dataset.shards, where="--shards", what="shard")
+    else:
+        wanted = (
+            range(dataset.shards) if ranges is None else sorted({number // SHARD_ROWS for number in numbers})
+        )
+    return [Task("shard", shard) for shard in wanted] + [Task("sample", number) for number in numbers]
+
+
+def task_path(dataset: Dataset, task: Task) -> Path:
+    """Where a task's result appears."""
+    folder = dataset.folder
+    return folder.shard(task.number) if task.kind == "shard" else folder.render(task.number)
 
 
 def is_done(dataset: Dataset, task: Task) -> bool:
     """Whether a task's result lies under its name, which means that it is complete."""
-    folder = dataset.folder
-    return (folder.shard(task.number) if task.kind == "shard" else folder.render(task.number)).exists()
+    return task_path(dataset, task).exists()
 
 
-def is_quarantined(dataset: Dataset, task: Task) -> bool:
-    """Whether a task failed for good."""
-    return dataset.folder.quarantine(task.name).exists()
+def done_tasks(dataset: Dataset, tasks: Iterable[Task]) -> set[Task]:
+    """Those tasks whose results lie under their names; lists folders instead of asking for each name.
+
+    A thousand names a listing: on a file server every question costs a round trip.
+    """
+    tasks = list(tasks)
+    paths = {task: task_path(dataset, task) for task in tasks}
+    listed = {parent: _names(parent) for parent in {path.parent for path in paths.values()}}
+    return {task for task, path in paths.items() if path.name in listed[path.parent]}
+
+
+def quarantined_tasks(dataset: Dataset, tasks: Iterable[Task]) -> set[Task]:
+    """Those tasks that failed for good."""
+    names = _names(dataset.folder.path / "quarantine")
+    return {task for task in tasks if task.name in names}
+
+
+def _names(folder: Path) -> set[str]:
+    try:
+        return set(os.listdir(folder))
+    except (FileNotFoundError, NotADirectoryError):
+        return set()

@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib.metadata
+from collections.abc import Callable
 
 import pyarrow as pa
 
@@ -43,37 +44,42 @@ class Worker:
         self._renderer = None
         self._block: tuple[int, Samples] | None = None
 
-    def make(self, task: Task) -> None:
-        """Make one task and let it appear under its name."""
-        if task.kind == "shard":
-            self._make_shard(task.number)
-        else:
-            self._make_sample(task.number)
+    def make(self, task: Task, on_phase: Callable[[str], None] = lambda phase: None) -> int:
+        """Make one task and let it appear under its name; returns the bytes written.
+
+        ``on_phase`` is called with a word before each part of the work, as a sign of life.
+        """
+        make = self._make_shard if task.kind == "shard" else self._make_sample
+        return make(task.number, on_phase)
 
     def _samples(self, block: int) -> Samples:
         if self._block is None or self._block[0] != block:
             self._block = block, draw_samples(self.dataset.plan, self.dataset.rig, block)
         return self._block[1]
 
-    def _make_shard(self, number: int) -> None:
+    def _make_shard(self, number: int, on_phase: Callable[[str], None]) -> int:
         dataset, spec = self.dataset, self.dataset.spec
         rows = shard_samples(number, total=dataset.plan.samples)
         tables = []
         for block in range(rows.start // BLOCK, -(-rows.stop // BLOCK)):
-            # a block is always drawn whole; a row's labels follow from the row alone, so only real rows get them
+            on_phase(f"block {block}")
+            # a block is drawn whole; a row's labels follow from the row alone, so only real rows get them
             samples = self._samples(block).rows(slice(0, min(BLOCK, rows.stop - block * BLOCK)))
             keypoints = label_keypoints(spec, dataset.rig, samples)
-            size = spec.camera.width_px, spec.camera.height_px
-            tables.append(keypoint_table(samples, keypoints, image_size=size))
+            image_size = spec.camera.width_px, spec.camera.height_px
+            tables.append(keypoint_table(samples, keypoints, image_size=image_size))
         with staging(dataset.folder, f"shard-{number}") as stage:
             path = stage / "shard.parquet"
             write_shard(pa.concat_tables(tables).combine_chunks(), path)
+            size = path.stat().st_size
             commit_file(path, dataset.folder.shard(number))
+        return size
 
-    def _make_sample(self, number: int) -> None:
+    def _make_sample(self, number: int, on_phase: Callable[[str], None]) -> int:
         dataset = self.dataset
+        on_phase("draw")
         rendered = label_sample(dataset, number, self._samples(number // BLOCK))
-        files = self._pictures(rendered)
+        files = self._pictures(rendered, on_phase)
         record = sample_record(
             rendered,
             dataset_hash=dataset.hash,
@@ -93,20 +99,30 @@ class Worker:
             for name, content in files.items():
                 (stage / name).write_bytes(content)
             write_json(stage / "sample.json", record)
+            size = sum(file.stat().st_size for file in stage.iterdir())
             commit_folder(stage, dataset.folder.render(number))
+        return size
 
-    def _pictures(self, rendered: RenderedSample) -> dict[str, bytes]:
+    def _pictures(self, rendered: RenderedSample, on_phase: Callable[[str], None]) -> dict[str, bytes]:
         from facegen.blender.renderer import Renderer  # half a second and 250 MB that shards do not need
 
         settings = self.dataset.spec.render
         if self._renderer is None:
+            on_phase("start Blender")
             self._renderer = Renderer(threads=self.threads)
         files = {}
         for view in rendered.scene.views:
+            on_phase(f"render {view.name}")
             key = f"render/{view.name}"
-            seed = int(stream(self.dataset.spec.seed, key, int(rendered.samples.sample[0])).integers(1, 2**31 - 1))
+            seed = int(
+                stream(self.dataset.spec.seed, key, int(rendered.samples.sample[0])).integers(1, 2**31 - 1)
+            )
             layers = self._renderer.render(
-                rendered.scene, view.name, samples=settings.samples_per_pixel, seed=seed, denoise=settings.denoise
+                rendered.scene,
+                view.name,
+                samples=settings.samples_per_pixel,
+                seed=seed,
+                denoise=settings.denoise,
             )
             files[f"{view.name}.png"] = png_bytes(develop(layers.radiance, self.dataset.headset.sensor))
             files[f"{view.name}.exr"] = exr_bytes(layers)

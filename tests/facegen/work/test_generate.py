@@ -25,7 +25,11 @@ pytestmark = pytest.mark.usefixtures("anny")
 
 
 def files_of(folder: Path) -> dict[str, bytes]:
-    kept = [p for p in sorted(folder.rglob("*")) if p.is_file() and p.relative_to(folder).parts[0] not in ("logs", "tmp")]
+    kept = [
+        p
+        for p in sorted(folder.rglob("*"))
+        if p.is_file() and p.relative_to(folder).parts[0] not in ("logs", "tmp")
+    ]
     return {str(p.relative_to(folder)): p.read_bytes() for p in kept}
 
 
@@ -44,7 +48,9 @@ def test_bytes_repeat_over_workers_runs_and_slices(tmp_path):
     two, one, part = (files_of(tmp_path / name) for name in ("two", "one", "slice"))
     assert sum(name.endswith(".exr") for name in two) == 6
     assert two == one
-    assert {name for name in two if name not in part} == {n for n in two if n.startswith("renders/000/000000/")}
+    assert {name for name in two if name not in part} == {
+        n for n in two if n.startswith("renders/000/000000/")
+    }
     assert all(two[name] == content for name, content in part.items())
     again = generate(resolve(spec, tmp_path / "slice"), workers=1)
     assert (again.made, again.found) == (1, 2)
@@ -98,18 +104,11 @@ def test_a_start_that_was_killed_is_no_obstacle(tmp_path):
     assert json.loads(dataset.folder.dataset_json.read_text())["spec_hash"] == dataset.hash
 
 
-def test_what_always_fails_is_quarantined_with_its_logs_and_the_rest_goes_on(tmp_path):
-    # a worker that finds another spec than its supervisor's refuses to start, every time
+def test_what_is_in_quarantine_is_left_alone_until_it_is_asked_for(tmp_path):
     dataset = keypoints_dataset(tmp_path / "a", people=30)
     begin(dataset)
-    spec = dataset.folder.spec_toml.read_text()
-    dataset.folder.spec_toml.write_text(spec.replace("people = 30", "people = 31"))
-    summary = generate(dataset, workers=1)
-    assert [task.name for task in summary.quarantined] == ["shard-000000"]
-    logs = sorted(p.name for p in (tmp_path / "a" / "quarantine" / "shard-000000").iterdir())
-    assert logs == [f"shard-000000-attempt-{n}.log" for n in (1, 2, 3)]
-    assert generate(dataset, workers=1).quarantined == summary.quarantined
-    dataset.folder.spec_toml.write_text(spec)
+    dataset.folder.quarantine("shard-000000").mkdir(parents=True)
+    assert [task.name for task in generate(dataset, workers=1).quarantined] == ["shard-000000"]
     healed = generate(dataset, workers=1, retry_quarantined=True)
     assert (healed.made, healed.quarantined) == (1, ())
     assert not (tmp_path / "a" / "quarantine" / "shard-000000").exists()
@@ -149,7 +148,9 @@ def test_workers_die_with_a_supervisor_that_is_killed(tmp_path):
     deadline = time.monotonic() + 60
     while not list(logs.glob("worker-*")) and time.monotonic() < deadline:
         time.sleep(0.05)
-    children = [int(pid) for pid in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()]
+    children = [
+        int(pid) for pid in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+    ]
     assert children
     process.kill()
     process.communicate()

@@ -1,0 +1,66 @@
+"""What this process may use of its machine: a scheduler's allocation, not the whole of it."""
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+_MIB = 1 << 20
+
+
+def available_cpus(environ: Mapping[str, str] = os.environ, cgroups: Path = Path("/sys/fs/cgroup")) -> int:
+    """Processors that this process may use, at least 1.
+
+    The least of the processors it is bound to, its control groups' quota (what ``docker run --cpus`` sets),
+    and in a Slurm job the processors of the task: a cluster that binds no processes says these only in the
+    environment.
+    """
+    bound = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    limits = [bound]
+    if "SLURM_JOB_ID" in environ:
+        # the first is there only where --cpus-per-task was given
+        limits += _numbers(environ, "SLURM_CPUS_PER_TASK", "SLURM_CPUS_ON_NODE")[:1]
+    for folder in _own_cgroups(cgroups):
+        limits += _cpu_quota(folder)
+    return max(1, min(limits))
+
+
+def available_memory(environ: Mapping[str, str] = os.environ, cgroups: Path = Path("/sys/fs/cgroup")) -> int:
+    """Bytes of memory that this process and its children may use."""
+    limits = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
+    if "SLURM_JOB_ID" in environ:
+        limits += [size * _MIB for size in _numbers(environ, "SLURM_MEM_PER_NODE") if size]
+        per_cpu, cpus = _numbers(environ, "SLURM_MEM_PER_CPU"), _numbers(environ, "SLURM_CPUS_ON_NODE")
+        if per_cpu and cpus:
+            limits.append(per_cpu[0] * cpus[0] * _MIB)
+    for folder in _own_cgroups(cgroups):
+        limits += [int(text) for text in _words(folder / "memory.max") if text.isdigit()]
+    return min(limits)
+
+
+def _own_cgroups(root: Path) -> list[Path]:
+    """Folders of this process's control group (version 2) and all above it: each may set a limit."""
+    try:
+        lines = Path("/proc/self/cgroup").read_text().splitlines()
+    except OSError:
+        return []
+    own = next((line[3:].strip("/") for line in lines if line.startswith("0::")), "")
+    path = root / own
+    return [path, *(parent for parent in path.parents if parent == root or root in parent.parents)]
+
+
+def _cpu_quota(folder: Path) -> list[int]:
+    words = _words(folder / "cpu.max")
+    if len(words) == 2 and words[0].isdigit():
+        return [max(1, int(words[0]) // int(words[1]))]
+    return []
+
+
+def _words(path: Path) -> list[str]:
+    try:
+        return path.read_text().split()
+    except OSError:
+        return []
+
+
+def _numbers(environ: Mapping[str, str], *names: str) -> list[int]:
+    return [int(environ[name]) for name in names if environ.get(name, "").isdigit()]

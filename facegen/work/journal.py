@@ -1,0 +1,88 @@
+"""What happened in a run, for `status` and for people: a line per attempt, and a log per attempt.
+
+Nothing reads these files to decide what to make. Each is written by one process only, since appends of
+several machines to one file of a file server get lost.
+"""
+
+import json
+import os
+import time
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from facegen.store import DatasetFolder, output_errors, place
+from facegen.work.tasks import Task
+
+LOGS_PER_FOLDER = 1000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Attempt:
+    """One attempt at a task.
+
+    Attributes
+    ----------
+    task
+        Its name.
+    outcome
+        ``done``, ``failed``, ``unwritable``, or ``stopped`` where a drain did not wait for it.
+    seconds, cpu_seconds
+        By the clock, and of all the worker's threads.
+    size
+        Bytes written.
+    ended
+        Seconds since 1970.
+    """
+
+    task: str
+    outcome: str
+    seconds: float
+    cpu_seconds: float
+    size: int
+    ended: float
+
+
+class Journal:
+    """The run's own file ``logs/run-….jsonl``; begun by its first line."""
+
+    def __init__(self, folder: DatasetFolder) -> None:
+        self.path = folder.path / "logs" / f"run-{place()}-{os.getpid()}-{time.time_ns()}.jsonl"
+
+    def add(self, attempt: Attempt) -> None:
+        """Append one attempt.
+
+        Raises
+        ------
+        OutputError
+            If the file cannot be written.
+        """
+        with output_errors(self.path):
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            handle = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
+            try:
+                os.write(handle, (json.dumps(asdict(attempt)) + "\n").encode())
+            finally:
+                os.close(handle)
+
+
+def read_journals(folder: DatasetFolder) -> Iterator[Attempt]:
+    """All attempts of all runs in this dataset; lines that a kill or a full disk cut short are left out."""
+    for path in sorted((folder.path / "logs").glob("run-*.jsonl")):
+        for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+            try:
+                yield Attempt(**json.loads(line))
+            except (TypeError, ValueError):
+                continue
+
+
+def attempt_log(folder: DatasetFolder, task: Task) -> Path:
+    """Name of a new attempt's log: of this task, at this place and time."""
+    name = f"{task.name}-{place()}-{os.getpid()}-{time.time_ns()}.log"
+    return folder.path / "logs" / f"{task.number // LOGS_PER_FOLDER:03d}" / name
+
+
+def attempt_logs(folder: DatasetFolder, task: Task) -> list[Path]:
+    """Logs of all attempts at a task, oldest first."""
+    found = (folder.path / "logs" / f"{task.number // LOGS_PER_FOLDER:03d}").glob(f"{task.name}-*.log")
+    return sorted(found, key=lambda path: path.stem.rsplit("-", 1)[-1])

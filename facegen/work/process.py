@@ -1,0 +1,136 @@
+"""A worker process as its supervisor sees it: what it does, whether it lives, how much it takes."""
+
+import multiprocessing
+import os
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+
+from facegen.store import DatasetFolder, place
+from facegen.work.child import Assignment, Phase, Ready, Report
+from facegen.work.journal import attempt_log
+from facegen.work.tasks import Task
+
+_BUSY_CPU_S = 0.05
+"""Processor time between two looks that counts as a sign of life; an idle Python process uses none."""
+
+_KILL_WAIT_S = 5.0
+"""A process in an uninterruptible wait (a file server that is away) outlives SIGKILL: it is left behind."""
+
+
+@dataclass(eq=False)
+class WorkerProcess:
+    """One child, started by ``spawn``: a process forked from one with Blender in it hangs in a render."""
+
+    process: BaseProcess
+    pipe: Connection
+    log: Path
+    ready: bool = False
+    task: Task | None = None
+    task_log: Path | None = None
+    ended: int = 0
+    retiring: bool = False
+    task_started: float = 0.0
+    phase_started: float = field(default_factory=time.monotonic)
+    _task_cpu_s: float = 0.0
+    _alive_at: float = field(default_factory=time.monotonic)
+    _alive_cpu_s: float = 0.0
+
+    @classmethod
+    def start(cls, folder: DatasetFolder, target: Callable, *, threads: int) -> "WorkerProcess":
+        """Start a child that serves the dataset in ``folder``."""
+        context = multiprocessing.get_context("spawn")
+        ours, theirs = context.Pipe()
+        log = folder.path / "logs" / f"worker-{place()}-{os.getpid()}-{time.time_ns()}.log"
+        arguments = (theirs, str(folder.path), str(log), threads, os.getpid())
+        process = context.Process(target=target, args=arguments, daemon=True)
+        process.start()
+        theirs.close()
+        return cls(process, ours, log)
+
+    def assign(self, task: Task, folder: DatasetFolder) -> None:
+        """Hand out a task."""
+        self.task, self.task_log = task, attempt_log(folder, task)
+        self.task_started = self.phase_started = self._alive_at = time.monotonic()
+        self._task_cpu_s = self.cpu_s()
+        try:
+            self.pipe.send(Assignment(task, self.task_log))
+        except OSError:
+            pass  # it has died; its sentinel tells in the next round
+
+    def receive(self) -> Report | None:
+        """Take what the child has sent, up to a report on its task; None without one."""
+        try:
+            while self.pipe.poll():
+                message = self.pipe.recv()
+                self.phase_started = self._alive_at = time.monotonic()
+                if isinstance(message, Ready):
+                    self.ready = True
+                elif isinstance(message, Report):
+                    return message
+                else:
+                    assert isinstance(message, Phase)
+        except (EOFError, OSError):
+            pass
+        return None
+
+    def spent(self) -> tuple[float, float]:
+        """Seconds since the task was handed out, and processor seconds it took."""
+        return time.monotonic() - self.task_started, max(0.0, self.cpu_s() - self._task_cpu_s)
+
+    def silent_s(self) -> float:
+        """Seconds since the last sign of life: a message, or processor time used.
+
+        A render that takes an hour is busy; one that waits for a lock or was stopped is not.
+        """
+        cpu_s = self.cpu_s()
+        if cpu_s - self._alive_cpu_s > _BUSY_CPU_S:
+            self._alive_at, self._alive_cpu_s = time.monotonic(), cpu_s
+        return time.monotonic() - self._alive_at
+
+    def excuse(self, seconds: float) -> None:
+        """Do not count a time in which the supervisor itself stood still, as in a suspended job."""
+        self._alive_at += seconds
+        self.phase_started += seconds
+
+    def cpu_s(self) -> float:
+        """Processor seconds of all threads so far; 0 where the system does not tell."""
+        fields = self._proc("stat").rpartition(")")[2].split()
+        return sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK") if fields else 0.0
+
+    def memory(self) -> int:
+        """Resident bytes; 0 where the system does not tell."""
+        fields = self._proc("statm").split()
+        return int(fields[1]) * os.sysconf("SC_PAGE_SIZE") if fields else 0
+
+    def retire(self) -> None:
+        """Ask an idle child to end."""
+        self.retiring = True
+        try:
+            self.pipe.send(None)
+        except OSError:
+            pass
+
+    def end(self, wait_s: float) -> None:
+        """Wait for the child, kill it if that takes too long, and close the pipe."""
+        self.process.join(timeout=wait_s)
+        if self.process.is_alive():
+            self.process.kill()
+            self.process.join(timeout=_KILL_WAIT_S)
+        self.pipe.close()
+
+    def log_tail(self, lines: int = 15) -> str:
+        """Last lines of what the child printed outside tasks."""
+        try:
+            return "\n".join(self.log.read_text(errors="replace").splitlines()[-lines:])
+        except OSError:
+            return "(no log)"
+
+    def _proc(self, name: str) -> str:
+        try:
+            return Path(f"/proc/{self.process.pid}/{name}").read_text()
+        except OSError:
+            return ""

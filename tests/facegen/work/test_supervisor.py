@@ -1,0 +1,106 @@
+"""The supervisor with workers that misbehave: failing, hanging, growing, dying, unable to start."""
+
+import functools
+import json
+import sys
+
+import pytest
+
+from facegen.errors import OutputError, WorkersFailed
+from facegen.spec import parse_spec
+from facegen.store import resolve
+from facegen.work import Limits, attempt_logs, generate, quarantined_tasks, read_journals, wanted_tasks
+from facegen.work.supervisor import Supervisor
+from tests.facegen.work import faults
+
+SPEC = {"version": 1, "kind": "still", "seed": 5, "people": 60, "still": {"neutral": 1, "faces": 0}}
+
+pytestmark = pytest.mark.usefixtures("anny")
+
+
+@pytest.fixture
+def make(tmp_path, monkeypatch):
+    """Makes samples with the worker given; returns the dataset and the summary."""
+    dataset = resolve(parse_spec(SPEC, where="test"), tmp_path / "out")
+
+    def run(target, samples, *, workers=1, **limits):
+        supervisor = functools.partial(Supervisor, target=target)
+        monkeypatch.setattr(sys.modules[generate.__module__], "Supervisor", supervisor)
+        limits = Limits(**({"start_wait_s": 0.05} | limits))
+        return dataset, generate(dataset, samples, shards="", workers=workers, limits=limits, grace_s=10)
+
+    return run
+
+
+def outcomes(dataset) -> list[str]:
+    return sorted(attempt.outcome for attempt in read_journals(dataset.folder))
+
+
+def makers(dataset) -> list[int]:
+    paths = sorted((dataset.folder.path / "renders").glob("*/*/sample.json"))
+    return [json.loads(path.read_text())["process"] for path in paths]
+
+
+def test_three_failures_quarantine_a_sample_with_all_its_logs_and_the_rest_goes_on(make):
+    dataset, summary = make(faults.fails_at_odd, "0-4")
+    assert (summary.made, summary.left) == (3, 0)
+    assert [task.name for task in summary.quarantined] == ["sample-000001", "sample-000003"]
+    logs = sorted((dataset.folder.path / "quarantine" / "sample-000001").iterdir())
+    assert len(logs) == 3
+    assert all("odd numbers are not made" in log.read_text() for log in logs)
+    assert "attempt 1 of 3 failed" in attempt_logs(dataset.folder, summary.quarantined[0])[0].read_text()
+    assert outcomes(dataset) == ["done"] * 3 + ["failed"] * 6
+    _, again = make(faults.sound, "0-4")
+    assert (again.made, again.quarantined) == (0, summary.quarantined)
+    assert quarantined_tasks(dataset, wanted_tasks(dataset, "0-4")) == set(summary.quarantined)
+
+
+def test_a_sample_whose_worker_dies_or_hangs_is_made_by_the_next_one(make):
+    for number, (target, limits) in enumerate(
+        [
+            (faults.dies_once, {}),
+            (faults.stops_once, {"silence_s": 1.0}),
+            (faults.loops_once, {"phase_s": 1.5}),
+        ]
+    ):
+        dataset, summary = make(target, str(number), **limits)
+        assert (summary.made, summary.quarantined) == (1, ()), target
+        log = attempt_logs(dataset.folder, wanted_tasks(dataset, str(number), "")[0])[0].read_text()
+        assert "died with exit code -9" in log
+        assert ("killed by its supervisor" in log) == bool(limits)
+    assert not list((dataset.folder.path / "tmp").iterdir())
+
+
+def test_processes_are_renewed_after_so_many_tasks_and_when_they_have_grown(make):
+    dataset, summary = make(faults.sound, "0-4", renew_after=2)
+    assert summary.made == 5
+    first = makers(dataset)
+    assert [first.count(process) for process in dict.fromkeys(first)] == [2, 2, 1]
+    make(faults.grows, "10-12", memory=250_000_000)
+    assert len(set(makers(dataset)[5:])) == 3
+    make(faults.sound, "20-22", memory=2_000_000_000)
+    assert len(set(makers(dataset)[8:])) == 1
+
+
+def test_no_room_is_nobodys_fault_and_running_work_ends_first(make):
+    with pytest.raises(OutputError, match="no space left"):
+        make(faults.finds_no_room, "0-5", workers=2)
+    dataset, summary = make(faults.sound, "0-5")
+    assert summary.found >= 1, "the sample that the other worker was at is there"
+    assert (summary.made + summary.found, summary.quarantined) == (6, ())
+    assert "failed" not in outcomes(dataset)
+    assert not list((dataset.folder.path / "tmp").iterdir())
+
+
+def test_workers_that_cannot_start_blame_no_sample(make):
+    with pytest.raises(WorkersFailed, match=r"exit code 3; it said:\nlibGL.so.1 is missing"):
+        make(faults.cannot_start, "0-5")
+    _, summary = make(faults.sound, "0-5")
+    assert (summary.made, summary.quarantined) == (6, ())
+
+
+def test_a_run_in_which_everything_fails_is_given_up(make):
+    with pytest.raises(WorkersFailed, match="4 things failed three times and only 0 were made"):
+        make(faults.fails_always, "0-49", failed_tasks=4)
+    _, summary = make(faults.sound, "0-49")
+    assert (summary.made, len(summary.quarantined)) == (46, 4)
