@@ -78,7 +78,10 @@ def read_record(name: str, folder: Path | None = None) -> dict:
     folder = Path(folder) if folder is not None else rigs_folder()
     path = folder / f"{name}.json"
     if not path.is_file() or not path.with_suffix(".npz").is_file():
-        raise MissingAsset(f"There is no rig {name!r} in {folder}; make it with: facegen rig build {name}")
+        built = ", ".join(sorted(file.stem for file in folder.glob("*.npz"))) or "none"
+        raise MissingAsset(
+            f"There is no rig {name!r} in {folder} (built: {built}); make it with: facegen rig build {name}"
+        )
     try:
         record = json.loads(path.read_text())
         if record["format"] != FORMAT:

@@ -77,7 +77,7 @@ def shade(vertices: np.ndarray, triangles: np.ndarray, part: np.ndarray, depth: 
     smooth = normal[triangles].sum(axis=1)
     smooth /= np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
     light = np.array([-0.35, 0.45, 0.82])
-    lit = 0.25 + 0.75 * np.maximum(smooth @ light, 0.0)
+    lit = np.round(24.0 * (0.25 + 0.75 * np.maximum(smooth @ light, 0.0))) / 24.0  # few tones: small files
     palette = np.ones((max(Part) + 1, 3))
     for name, colour in COLOURS.items():
         palette[name] = colour
@@ -153,8 +153,7 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
         for column, (view, yaw) in enumerate(VIEWS_DEG.items()):
             axes = figure.add_axes((column / 3, 1 - (person + 1) / people, 1 / 3, 1 / people))
             drawn = portrait(rig, faces, person, gaze[person], yaw_deg=yaw, step_m=0.2 / 375)
-            # few colours make a small file
-            axes.imshow(np.round(20 * drawn.picture) / 20, interpolation="nearest")
+            axes.imshow(drawn.picture, interpolation="nearest")
             axes.plot(*drawn.landmarks[drawn.seen].T, ".", color="#0040ff", markersize=3)
             axes.plot(*drawn.landmarks[~drawn.seen].T, ".", color="#ffffff", markersize=2)
             for number in np.flatnonzero(drawn.seen):
