@@ -19,8 +19,8 @@ from facegen.rigs.rig import Rig
 
 OVERLAP_M = 0.9e-3
 """How far the upper margin lies below the lower one in the closed eye, mid-lid; 0 to 2 mm are allowed."""
-THICKNESS_M = (0.15e-3, 2.0e-3)
-"""Lids keep the clearance they have when open, within these: triangles of 3 mm sag 0.14 mm on the cornea."""
+THICKNESS_M = (0.35e-3, 2.0e-3)
+"""Lids keep their clearance of the open eye within these: at 0.15 mm a cornea came through large lids."""
 BEHIND_M = 0.3e-3
 """Linings of the lids that lie inside the eyeball when open stay this deep in it, out of the skin's way."""
 FRONT_M = 0.5e-3
