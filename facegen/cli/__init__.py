@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from facegen import __version__
+from facegen.cli.farm import farm_app
 from facegen.cli.generate import generate
 from facegen.cli.headset import headset_app
 from facegen.cli.preview import preview
@@ -26,6 +27,7 @@ app = typer.Typer(
 app.add_typer(rig_app, name="rig")
 app.add_typer(headset_app, name="headset")
 app.add_typer(spec_app, name="spec")
+app.add_typer(farm_app, name="farm")
 app.command()(generate)
 app.command()(validate)
 app.command()(preview)

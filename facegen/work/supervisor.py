@@ -22,6 +22,10 @@ _STOOD_STILL_S = 10.0
 """A round takes a tick and some; in a longer one this process was suspended, and its children with it."""
 
 
+_SAME_REQUEST_S = 2.0
+"""Signals closer than this are one request: scancel reaches this process itself and through its script."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Limits:
     """When a worker is replaced, and when a run is given up.
@@ -290,8 +294,13 @@ class Supervisor:
 
     @contextlib.contextmanager
     def _stop_on_signals(self) -> Iterator[None]:
+        first = None
+
         def stop(_signal: int, _frame: object) -> None:
-            self._stop(0.0 if self._stopping else self.grace_s)  # a second request does not wait
+            nonlocal first
+            first = first or time.monotonic()
+            insisted = time.monotonic() - first > _SAME_REQUEST_S
+            self._stop(0.0 if insisted else self.grace_s)  # a second request does not wait
 
         previous = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
         try:

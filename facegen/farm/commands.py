@@ -1,0 +1,36 @@
+"""The command line of each step: what a task runs, and what anyone can paste to run it by hand."""
+
+from collections.abc import Callable
+
+from facegen.farm.chunks import Chunk
+from facegen.farm.job import Job
+
+STEP_RESULT_OK = {"validate": (0, 75)}
+"""Exit codes that let the next step run, other than 0 alone: 75 says that what is there is valid, and that
+the dataset has parts that this job was not asked for."""
+
+
+def generate_command(job: Job, *, spec: str, out: str, what: tuple[str, ...]) -> list[str]:
+    """``facegen generate`` for ``what``: a chunk's arguments, or the engine's placeholders for them."""
+    resources = job.resources
+    return [
+        *(resources.on_farm(resources.python), "-m", "facegen", "generate", spec, "--out", out, *what),
+        *("--workers", str(resources.cpus), "--grace", f"{resources.grace_s:g}"),
+    ]
+
+
+def later_command(job: Job, step: str, *, out: str, packed: str, model: str) -> list[str]:
+    """The command of a step after ``generate``."""
+    python = job.resources.on_farm(job.resources.python)
+    commands: dict[str, Callable[[], list[str]]] = {
+        "validate": lambda: ["facegen", "validate", out],
+        "pack": lambda: ["facegen", "pack", out, "--out", packed],
+        "train": lambda: ["regress", "train", out, "--out", model],
+        "export": lambda: ["regress", "export", model, "--out", f"{model}/exports"],
+    }
+    return [python, "-m", *commands[step]()]
+
+
+def chunk_lines(chunks: tuple[Chunk, ...]) -> str:
+    """A file with one line of arguments per task, counted from 0."""
+    return "".join(" ".join(chunk.arguments) + "\n" for chunk in chunks)

@@ -1,0 +1,53 @@
+"""What every engine can do; a new engine is one module with these and one line in `facegen.farm.ENGINES`."""
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from facegen.farm.job import Job, Submission
+
+
+@dataclass(frozen=True, kw_only=True)
+class Activity:
+    """What an engine says it does with a job; the disk knows what came of it.
+
+    Attributes
+    ----------
+    chunks
+        State (``RUNNING``, ``PENDING`` and others of the engine) of each chunk that it has, by index.
+    steps
+        State of each later step that it has.
+    reasons
+        Why things wait, and how many do.
+    """
+
+    chunks: dict[int, str] = field(default_factory=dict)
+    steps: dict[str, str] = field(default_factory=dict)
+    reasons: Counter[str] = field(default_factory=Counter)
+
+    @property
+    def anything(self) -> bool:
+        """Whether the engine has any of the job."""
+        return bool(self.chunks or self.steps)
+
+
+class Engine(Protocol):
+    """A scheduler."""
+
+    def files(self, job: Job) -> dict[str, str]:
+        """Scripts or bundle of a job: texts by path below the job's folder. Pure."""
+
+    def instructions(self, job: Job) -> list[str]:
+        """Commands that start the job by hand, for ``--dry-run``."""
+
+    def submit(self, job: Job) -> Submission:
+        """Hand the job over; its files are written."""
+
+    def wait(self, job: Job, submission: Submission) -> None:
+        """Return when the engine has nothing of the job any more."""
+
+    def activity(self, job: Job, submission: Submission) -> Activity | None:
+        """What the engine does with the job; None where it cannot be asked."""
+
+    def cancel(self, job: Job, submission: Submission) -> None:
+        """Stop a job for good."""

@@ -1,0 +1,274 @@
+"""OpenJD: a bundle with a job template, for `openjd run` and for AWS Deadline Cloud and other farms.
+
+The bundle is JSON, which the specification allows beside YAML and needs no further library.
+"""
+
+import json
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from facegen.errors import InputError
+from facegen.farm.chunks import DEFAULT_SAMPLES
+from facegen.farm.commands import generate_command, later_command
+from facegen.farm.engine import Activity
+from facegen.farm.job import Job, Submission
+from facegen.spec import format_ranges, sample_numbers
+
+NOTIFY_S = 10
+"""Added to the grace: the time to end what a drain waited for. The sum may be 600 s at most."""
+
+RETRIES = 5
+"""Tries of a failed task on Deadline Cloud; a drained worker's exit code 75 counts as a failure there."""
+
+_PICTURES, _KEYPOINTS = "Pictures", "Keypoints"
+
+
+def job_template(job: Job) -> dict[str, Any]:
+    """The job template of a job, ``jobtemplate-2023-09``."""
+    parameters, steps, before = _parameters(job), [], []
+    if "generate" in job.steps:
+        for name, kind in ((_KEYPOINTS, "shards"), (_PICTURES, "samples")):
+            if any(getattr(chunk, kind) for chunk in job.chunks):
+                steps.append(_chunked_step(job, name, kind))
+                before.append(name)
+    for step in job.steps:
+        if step != "generate":
+            name = step.capitalize()
+            steps.append(_later_step(job, step, name, needs=before))
+            # all earlier ones: where files travel with jobs, a step receives the output of steps that it names
+            before = [*before, name]
+    return {
+        "specificationVersion": "jobtemplate-2023-09",
+        "extensions": ["TASK_CHUNKING"],
+        "name": f"facegen {Path(job.out).name} {job.name}",
+        "description": "Makes a dataset; what is there is skipped, so every task may run twice, or again.",
+        "parameterDefinitions": parameters,
+        "steps": steps,
+    }
+
+
+def parameter_values(job: Job) -> dict[str, Any]:
+    """Values of the template's parameters that have no default."""
+    on_farm = job.resources.on_farm
+    values: dict[str, Any] = {"OutDir": job.out}
+    if "pack" in job.steps:
+        values["PackedDir"] = job.packed
+    if {"train", "export"} & set(job.steps):
+        values["ModelDir"] = job.model
+    return values | {"Python": on_farm(job.resources.python)}
+
+
+def deadline_values(job: Job) -> dict[str, Any]:
+    """``parameter_values.json`` of a Deadline Cloud job bundle."""
+    values = parameter_values(job) | {"deadline:maxRetriesPerTask": RETRIES}
+    if job.resources.max_parallel:
+        values["deadline:maxWorkerCount"] = job.resources.max_parallel
+    return {"parameterValues": [{"name": name, "value": value} for name, value in values.items()]}
+
+
+def path_mapping(job: Job) -> dict[str, Any]:
+    """Rules for ``openjd run --path-mapping-rules``; a farm makes its own."""
+    return {
+        "version": "pathmapping-1.0",
+        "path_mapping_rules": [
+            {"source_path_format": "POSIX", "source_path": source, "destination_path": target}
+            for source, target in job.resources.path_map
+        ],
+    }
+
+
+def _parameters(job: Job) -> list[dict[str, Any]]:
+    def folder(name: str, flow: str, text: str) -> dict[str, Any]:
+        return {
+            **{"name": name, "type": "PATH", "objectType": "DIRECTORY", "dataFlow": flow},
+            "description": text,
+        }
+
+    found = [
+        {
+            **{"name": "SpecFile", "type": "PATH", "objectType": "FILE", "dataFlow": "IN"},
+            **{"default": "spec.toml", "description": "The resolved spec, in this bundle"},
+        },
+        folder("OutDir", "INOUT", "The dataset"),
+    ]
+    if "pack" in job.steps:
+        found.append(folder("PackedDir", "OUT", "Packed shards"))
+    if {"train", "export"} & set(job.steps):
+        found.append(folder("ModelDir", "INOUT", "The model"))
+    found.append({"name": "Python", "type": "STRING", "description": "Python with facegen, on the workers"})
+    if any(chunk.samples for chunk in job.chunks):
+        found += [
+            {"name": "ChunkSize", "type": "INT", "minValue": 1, "default": _chunk_size(job)},
+            {
+                **{"name": "ChunkSeconds", "type": "INT", "minValue": 0, "default": 0},
+                "description": "Let the scheduler adapt the chunks to this time; 0 keeps ChunkSize",
+            },
+        ]
+    return found
+
+
+def _chunk_size(job: Job) -> int:
+    sizes = [_count(chunk.samples) for chunk in job.chunks if chunk.samples]
+    return max(sizes, default=DEFAULT_SAMPLES)
+
+
+def _count(ranges: str) -> int:
+    return len(sample_numbers(ranges, total=sys.maxsize, where="chunk"))
+
+
+def _numbers(job: Job, kind: str) -> str:
+    texts = [getattr(chunk, kind) for chunk in job.chunks]
+    return format_ranges(sample_numbers(",".join(filter(None, texts)), total=sys.maxsize, where="chunk"))
+
+
+def _chunked_step(job: Job, name: str, kind: str) -> dict[str, Any]:
+    option = (
+        ("--samples", "{{Task.Param.Ids}}", "--shards", "none")
+        if kind == "samples"
+        else ("--shards", "{{Task.Param.Ids}}")
+    )
+    sizes = (
+        {"defaultTaskCount": 1}
+        if kind == "shards"
+        else {
+            "defaultTaskCount": "{{Param.ChunkSize}}",
+            "targetRuntimeSeconds": "{{Param.ChunkSeconds}}",
+        }
+    )
+    command = generate_command(job, spec="{{Param.SpecFile}}", out="{{Param.OutDir}}", what=option)
+    return {
+        "name": name,
+        "parameterSpace": {
+            "taskParameterDefinitions": [
+                {
+                    "name": "Ids",
+                    "type": "CHUNK[INT]",
+                    "range": _numbers(job, kind),
+                    "chunks": sizes | {"rangeConstraint": "CONTIGUOUS"},
+                }
+            ]
+        },
+        "hostRequirements": _host(job),
+        "script": _script(job, [*command, "--progress", "openjd"]),
+    }
+
+
+def _later_step(job: Job, step: str, name: str, *, needs: list[str]) -> dict[str, Any]:
+    command = later_command(
+        job, step, out="{{Param.OutDir}}", packed="{{Param.PackedDir}}", model="{{Param.ModelDir}}"
+    )
+    template = {"name": name, "hostRequirements": _host(job), "script": _script(job, command)}
+    return template | ({"dependencies": [{"dependsOn": need} for need in needs]} if needs else {})
+
+
+def _host(job: Job) -> dict[str, Any]:
+    amounts = [{"name": "amount.worker.vcpu", "min": job.resources.cpus}]
+    if job.resources.mem_mib is not None:
+        amounts.append({"name": "amount.worker.memory", "min": job.resources.mem_mib})
+    return {"amounts": amounts, "attributes": [{"name": "attr.worker.os.family", "anyOf": ["linux"]}]}
+
+
+def _script(job: Job, command: list[str]) -> dict[str, Any]:
+    resources = job.resources
+    command = ["{{Param.Python}}", *command[1:]]
+    action: dict[str, Any] = {
+        "cancelation": {
+            "mode": "NOTIFY_THEN_TERMINATE",
+            "notifyPeriodInSeconds": min(600, round(resources.grace_s) + NOTIFY_S),
+        }
+    }
+    if resources.time_s is not None:
+        action["timeout"] = resources.time_s
+    files = []
+    if resources.env_setup is not None:
+        if "{{" in resources.env_setup:
+            raise InputError(
+                "--env-setup: OpenJD would read '{{' as the start of a parameter; put it into a script"
+            )
+        # a cancel's SIGTERM goes to the first process only, which therefore must become the worker
+        text = f'{resources.env_setup}\nexec "$@"\n'
+        files = [{"name": "launch", "type": "TEXT", "filename": "launch.sh", "data": text}]
+        command = ["bash", "{{Task.File.launch}}", *command]
+    action = {"command": command[0], "args": command[1:], **action}
+    return {"actions": {"onRun": action}} | ({"embeddedFiles": files} if files else {})
+
+
+class OpenJD:
+    """A job bundle; run here one task after another with ``openjd run``, or submitted to a farm."""
+
+    def files(self, job: Job) -> dict[str, str]:
+        """The bundle, and parameters and path mapping for ``openjd run``, which reads no bundles."""
+        described = {
+            "bundle/template.json": job_template(job),
+            "bundle/parameter_values.json": deadline_values(job),
+            "bundle/asset_references.json": {
+                "assetReferences": {
+                    "inputs": {"filenames": [], "directories": []},
+                    "outputs": {"directories": []},
+                    "referencedPaths": [],
+                }
+            },
+            "parameters.json": parameter_values(job),
+        }
+        if job.resources.path_map:
+            described["path_mapping.json"] = path_mapping(job)
+        texts = {name: json.dumps(content, indent=2) + "\n" for name, content in described.items()}
+        for name in ("spec.toml", "recording.csv"):
+            source = Path(job.out) / name
+            if source.is_file():
+                texts[f"bundle/{name}"] = source.read_text(encoding="utf-8")
+        return texts
+
+    def instructions(self, job: Job) -> list[str]:
+        """Commands for this machine, and for Deadline Cloud."""
+        return [
+            shlex.join(self._run_command(job)),
+            shlex.join(["deadline", "bundle", "submit", str(job.folder / "bundle")]),
+        ]
+
+    def submit(self, job: Job) -> Submission:
+        """Nothing to hand over: the bundle is there for any farm's own submitter."""
+        return Submission()
+
+    def wait(self, job: Job, submission: Submission) -> None:
+        """Run the bundle on this machine with ``openjd run``, one task after another."""
+        command = self._run_command(job)
+        if shutil.which(command[0]) is None:
+            raise InputError(
+                f"{command[0]}: there is no such command here; install it with `pip install openjd-cli`"
+            )
+        log = job.folder / "logs" / "openjd.out"
+        with log.open("ab") as handle:
+            # Ctrl-C reaches the command itself, which stops its task; here only its end is waited for
+            process = subprocess.Popen(command, stdout=handle, stderr=subprocess.STDOUT)
+            try:
+                process.wait()
+            except KeyboardInterrupt:
+                process.wait()
+
+    def activity(self, job: Job, submission: Submission) -> Activity | None:
+        """Not known here: each farm has its own monitor."""
+        return None
+
+    def cancel(self, job: Job, submission: Submission) -> None:
+        """Cannot be done here."""
+        raise InputError(
+            f"{job.name} is an OpenJD bundle; cancel it where it runs (Ctrl-C, or `deadline job cancel`)"
+        )
+
+    def _run_command(self, job: Job) -> list[str]:
+        beside = Path(sys.executable).with_name("openjd")
+        mapping = ["--path-mapping-rules", f"file://{job.folder / 'path_mapping.json'}"]
+        return [
+            *(
+                str(beside) if beside.is_file() else "openjd",
+                "run",
+                str(job.folder / "bundle" / "template.json"),
+            ),
+            *("-p", f"file://{job.folder / 'parameters.json'}"),
+            *(mapping if job.resources.path_map else []),
+        ]

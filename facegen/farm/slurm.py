@@ -1,0 +1,227 @@
+"""Slurm: an array job for the samples, one job for each later step.
+
+Needs the client commands only: no accounting, no rights to slurm.conf, no shared files but the dataset's.
+"""
+
+import os
+import re
+import shlex
+import subprocess
+import time
+from collections import Counter
+from pathlib import Path
+
+from facegen.errors import FacegenError, InputError
+from facegen.farm.commands import STEP_RESULT_OK, chunk_lines, generate_command, later_command
+from facegen.farm.engine import Activity
+from facegen.farm.job import Job, Submission
+
+NOTICE_S = 60
+"""Slurm looks at time limits every 30 s and documents its notice as up to 60 s early or late."""
+
+TRIES = 3
+"""Runs of a crashed supervisor inside one task; then it fails, and `farm resume` submits what is missing."""
+
+MAX_RESTARTS = 20
+"""A task that comes near its time limit requeues itself so often."""
+
+_ASK_TIMEOUT_S = 60
+
+_SCRIPT = """\
+#!/bin/bash
+{directives}
+
+# What is done is skipped, so every step may run twice, or again.
+# USR1: the time limit is near; drain, then come back. TERM: scancel, preemption or the limit itself; drain
+# and leave the rest to Slurm (a job that requeued itself on TERM would outlive its scancel).
+stop=0 again=0 pid=
+trap 'stop=1 again=1; [ -z "$pid" ] || kill -TERM "$pid" 2>/dev/null' USR1
+trap 'stop=1 again=0; [ -z "$pid" ] || kill -TERM "$pid" 2>/dev/null' TERM INT
+export PYTHONUNBUFFERED=1
+{setup}
+{prepare}rc=75
+for attempt in {attempts}; do
+  [ "$stop" = 0 ] || break
+  {command} &
+  pid=$!
+  [ "$stop" = 0 ] || kill -TERM "$pid"
+  while :; do wait "$pid"; rc=$?; kill -0 "$pid" 2>/dev/null || break; done
+  pid=
+  case $rc in 0|1|2|74|75|143) break ;; esac
+  echo "attempt $attempt of {tries} ended with $rc" >&2  # killed, most often for its memory
+done
+[ "$rc" = 143 ] && rc=75  # stopped before it had begun
+if [ "$again" = 1 ] && [ "$rc" = 75 ] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {restarts} ]; then
+  scontrol requeue "$SLURM_JOB_ID" && sleep 60  # Slurm ends this script here
+fi
+{finish}exit "$rc"
+"""
+
+_PICK_CHUNK = """\
+what=$(sed -n "$((SLURM_ARRAY_TASK_ID + 1))p" {chunks})
+[ -n "$what" ] || {{ echo "no chunk $SLURM_ARRAY_TASK_ID" >&2; exit 2; }}
+"""
+
+
+def sbatch_script(job: Job, step: str) -> str:
+    """The batch script of a step.
+
+    Parameters
+    ----------
+    job
+        The job; its paths appear as the farm's machines see them.
+    step
+        One of ``job.steps``.
+    """
+    resources, on_farm = job.resources, job.resources.on_farm
+    folder, out = on_farm(job.folder), on_farm(job.out)
+    if step == "generate":
+        command = shlex.join(generate_command(job, spec=f"{out}/spec.toml", out=out, what=())) + " $what"
+        prepare = _PICK_CHUNK.format(chunks=shlex.quote(f"{folder}/chunks.txt"))
+    else:
+        packed, model = on_farm(job.packed), on_farm(job.model)
+        command, prepare = shlex.join(later_command(job, step, out=out, packed=packed, model=model)), ""
+    finish = "".join(
+        f'[ "$stop" = 0 ] && [ "$rc" = {code} ] && rc=0\n' for code in STEP_RESULT_OK.get(step, ()) if code
+    )
+    if step != "generate":
+        finish += f'[ "$rc" = 0 ] && : > {shlex.quote(f"{folder}/{step}.done")}\n'
+    return _SCRIPT.format(
+        directives="\n".join(f"#SBATCH {directive}" for directive in _directives(job, step, folder)),
+        setup=resources.env_setup or ":",
+        prepare=prepare,
+        command=command,
+        attempts=" ".join(map(str, range(1, TRIES + 1))),
+        tries=TRIES,
+        restarts=MAX_RESTARTS,
+        finish=finish,
+    )
+
+
+def _directives(job: Job, step: str, folder: str) -> list[str]:
+    resources = job.resources
+    lines = [f"--job-name=facegen-{job.name}-{step}"]
+    if step == "generate":
+        throttle = f"%{resources.max_parallel}" if resources.max_parallel else ""
+        lines.append(f"--array=0-{len(job.chunks) - 1}{throttle}")
+    lines += ["--nodes=1", "--ntasks=1", f"--cpus-per-task={resources.cpus}"]
+    lines += [f"--mem={resources.mem}"] if resources.mem else []
+    lines += [f"--time={resources.time}"] if resources.time else []
+    log = f"{folder}/logs/{step}{'-%a' if step == 'generate' else ''}.out"
+    if '"' in folder or "\n" in folder:
+        raise InputError(f"{folder!r}: Slurm's scripts cannot name a folder with a quote or a line break")
+    lines += ["--requeue", "--open-mode=append", f"--signal=B:USR1@{round(resources.grace_s) + NOTICE_S}"]
+    return [*lines, f'--output="{_percent(folder)}{log[len(folder) :]}"']
+
+
+def _percent(path: str) -> str:
+    return path.replace("%", "%%")
+
+
+class Slurm:
+    """A cluster that is reached by ``sbatch``, ``squeue`` and ``scancel``."""
+
+    def files(self, job: Job) -> dict[str, str]:
+        """One script a step, and the chunks' list."""
+        scripts = {
+            f"{step}.sh": sbatch_script(job, step) for step in job.steps if step != "generate" or job.chunks
+        }
+        return ({"chunks.txt": chunk_lines(job.chunks)} if job.chunks else {}) | scripts
+
+    def instructions(self, job: Job) -> list[str]:
+        """The sbatch commands, with names for the numbers that Slurm will give."""
+        commands, before = [], None
+        for step in self._steps(job):
+            command = shlex.join(self._sbatch(job, step, None))
+            if before is not None:
+                command = command.replace(" --parsable", f" --parsable --dependency=afterok:${before}", 1)
+            commands.append(f"{step}=$({command})")
+            before = step
+        return commands
+
+    def submit(self, job: Job) -> Submission:
+        """Submit all steps, each to run after the one before has succeeded.
+
+        Raises
+        ------
+        InputError
+            If Slurm refuses; what was submitted before is cancelled.
+        """
+        ids: dict[str, str] = {}
+        before = None
+        try:
+            for step in self._steps(job):
+                before = _run(self._sbatch(job, step, before)).strip().split(";")[0]
+                ids[step] = before
+        except FacegenError:
+            if ids:
+                _run(["scancel", *ids.values()])
+            raise
+        return Submission(ids=ids)
+
+    def wait(self, job: Job, submission: Submission) -> None:
+        """Ask until Slurm has nothing of the job, or only what waits for ever."""
+        while True:
+            activity = self.activity(job, submission)
+            if activity is not None and not activity.anything:
+                return
+            time.sleep(2.0)
+
+    def activity(self, job: Job, submission: Submission) -> Activity | None:
+        """What squeue lists; jobs that have ended are not in it."""
+        command = ["squeue", "-h", "-r", "-u", str(os.getuid()), "-o", "%F|%K|%T|%r"]
+        try:
+            listing = _run(command)
+        except FacegenError:
+            return None
+        return read_squeue(listing, submission)
+
+    def cancel(self, job: Job, submission: Submission) -> None:
+        """``scancel``: running tasks drain, and do not come back."""
+        if submission.ids:
+            _run(["scancel", *submission.ids.values()])
+
+    def _steps(self, job: Job) -> list[str]:
+        return [step for step in job.steps if step != "generate" or job.chunks]
+
+    def _sbatch(self, job: Job, step: str, before: str | None) -> list[str]:
+        # without --kill-on-invalid-dep a step whose need has failed waits for ever
+        after = [f"--dependency=afterok:{before}"] if before else []
+        return [
+            *("sbatch", "--parsable", *after, "--kill-on-invalid-dep=yes", *job.resources.sbatch_args),
+            str(job.folder / f"{step}.sh"),
+        ]
+
+
+def read_squeue(listing: str, submission: Submission) -> Activity:
+    """What ``squeue -h -r -o %F|%K|%T|%r`` says about a submission (array or job number, index, state, reason)."""
+    steps = {number: step for step, number in submission.ids.items()}
+    chunks, others, reasons = {}, {}, Counter()
+    for line in listing.splitlines():
+        number, index, state, reason = line.split("|", 3)
+        if number not in steps:
+            continue
+        if re.fullmatch(r"\d+", index):
+            chunks[int(index)] = state
+        else:
+            others[steps[number]] = state
+        if state == "PENDING":
+            reasons[reason] += 1
+    return Activity(chunks=chunks, steps=others, reasons=reasons)
+
+
+def _run(command: list[str]) -> str:
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=_ASK_TIMEOUT_S, cwd=Path("/"))
+    except FileNotFoundError:
+        raise InputError(
+            f"{command[0]}: there is no such command here; submit from a machine with Slurm's client commands, "
+            "or look at the scripts with --dry-run"
+        ) from None
+    except subprocess.TimeoutExpired:
+        raise InputError(
+            f"{command[0]}: no answer within {_ASK_TIMEOUT_S} s; is the controller up?"
+        ) from None
+    if done.returncode:
+        raise InputError(f"{command[0]} refused: {done.stderr.strip() or f'exit code {done.returncode}'}")
+    return done.stdout

@@ -1,0 +1,133 @@
+"""How a dataset on a farm stands: what is on disk, and what the engines say they do about the rest."""
+
+from collections import Counter
+from dataclasses import dataclass
+
+from facegen.farm.job import Job, list_jobs
+from facegen.farm.submission import activities
+from facegen.spec import sample_numbers
+from facegen.store import Dataset
+from facegen.work import Task, done_tasks, quarantined_tasks, read_journals, wanted_tasks
+
+_AT_WORK = ("RUNNING", "COMPLETING", "CONFIGURING")
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepState:
+    """One later step of the newest job that has it: ``done``, an engine's state, or ``to do``."""
+
+    job: str
+    step: str
+    state: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class FarmState:
+    """A dataset on a farm.
+
+    Attributes
+    ----------
+    wanted, done, missing
+        Shards and rendered samples that jobs were asked for; ``missing`` without the quarantined.
+    quarantined
+        Names of what failed three times.
+    running, waiting
+        The engines' tasks at work, and not yet; None where no engine can be asked.
+    reasons
+        Why tasks wait.
+    retries
+        Attempts that failed, and were or will be made good.
+    core_hours
+        Processor time of all attempts.
+    seconds_left
+        At the mean time of what was made and the processors at work now; None without either.
+    steps
+        Later steps.
+    busy
+        Missing things that an engine has a task for.
+    """
+
+    wanted: int
+    done: int
+    missing: int
+    quarantined: tuple[str, ...]
+    running: int | None
+    waiting: int | None
+    reasons: dict[str, int]
+    retries: int
+    core_hours: float
+    seconds_left: float | None
+    steps: tuple[StepState, ...]
+    busy: frozenset[Task]
+
+
+def farm_state(dataset: Dataset) -> FarmState:
+    """Look at the disk, and ask the engines."""
+    jobs = [job for job, _ in list_jobs(dataset.folder)]
+    requests = {(job.samples, job.shards) for job in jobs} or {(None, None)}
+    wanted = {task for request in requests for task in wanted_tasks(dataset, *request)}
+    done = done_tasks(dataset, wanted)
+    quarantined = quarantined_tasks(dataset, wanted - done)
+    missing = wanted - done - quarantined
+    asked = activities(dataset.folder)
+    known = [(job, activity) for job, activity in asked if activity is not None]
+    chunk_states = [
+        (job, index, state) for job, activity in known for index, state in activity.chunks.items()
+    ]
+    at_work = [(job, state) for job, _, state in chunk_states if state in _AT_WORK]
+    attempts = list(read_journals(dataset.folder))
+    cores = sum(job.resources.cpus for job, _ in at_work)
+    by_name = {job.name: activity for job, activity in known}
+    steps = {
+        step: StepState(job=job.name, step=step, state=_step_state(job, step, by_name.get(job.name)))
+        for job in jobs
+        for step in job.steps
+        if step != "generate"
+    }
+    return FarmState(
+        wanted=len(wanted),
+        done=len(done),
+        missing=len(missing),
+        quarantined=tuple(sorted(task.name for task in quarantined)),
+        running=len(at_work) if known else None,
+        waiting=len(chunk_states) - len(at_work) if known else None,
+        reasons=dict(sum((activity.reasons for _, activity in known), Counter())),
+        retries=sum(attempt.outcome == "failed" for attempt in attempts),
+        core_hours=sum(attempt.cpu_seconds for attempt in attempts) / 3600,
+        seconds_left=_seconds_left(missing, attempts, cores),
+        steps=tuple(steps.values()),
+        busy=frozenset(
+            task
+            for job, index, _ in chunk_states
+            if index < len(job.chunks)
+            for task in _tasks(dataset, job, index)
+        ),
+    )
+
+
+def _step_state(job: Job, step: str, activity: object) -> str:
+    if (job.folder / f"{step}.done").is_file():
+        return "done"
+    if activity is not None and step in activity.steps:
+        return activity.steps[step].lower()
+    return "to do"
+
+
+def _tasks(dataset: Dataset, job: Job, index: int) -> list[Task]:
+    chunk = job.chunks[index]
+    shards = sample_numbers(chunk.shards, total=dataset.shards, where="chunk")
+    samples = sample_numbers(chunk.samples, total=dataset.plan.samples, where="chunk")
+    return [Task("shard", number) for number in shards] + [Task("sample", number) for number in samples]
+
+
+def _seconds_left(missing: set[Task], attempts: list, cores: int) -> float | None:
+    seconds = 0.0
+    for kind in ("shard", "sample"):
+        count = sum(task.kind == kind for task in missing)
+        costs = [a.cpu_seconds for a in attempts if a.outcome == "done" and a.task.startswith(kind)]
+        if count and not costs:
+            return None
+        seconds += count * sum(costs) / max(len(costs), 1)
+    if not seconds:
+        return 0.0
+    return seconds / cores if cores else None

@@ -1,0 +1,138 @@
+"""Submitting a job: what is missing, cut into tasks, written as scripts or a bundle, handed to the engine."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from facegen.farm.chunks import cut_chunks
+from facegen.farm.engine import Activity
+from facegen.farm.engines import ENGINES
+from facegen.farm.job import Job, Resources, Submission, list_jobs, new_job_name, write_record
+from facegen.spec import format_ranges
+from facegen.store import Dataset, DatasetFolder, begin, output_errors
+from facegen.work import Task, plan_work
+
+
+@dataclass(frozen=True, kw_only=True)
+class Remaining:
+    """What a job would make: missing shards and samples that no engine is at."""
+
+    shards: list[int]
+    samples: list[int]
+
+
+def remaining(
+    dataset: Dataset,
+    samples: str | None,
+    *,
+    shards: str | None = None,
+    busy: frozenset[Task] = frozenset(),
+    retry_quarantined: bool = False,
+) -> Remaining:
+    """What is missing of `facegen.work.wanted_tasks`, and is neither quarantined nor among ``busy``."""
+    missing = plan_work(dataset, samples, shards=shards, retry_quarantined=retry_quarantined).missing
+    free = [task for task in missing if task not in busy]
+    return Remaining(
+        shards=[task.number for task in free if task.kind == "shard"],
+        samples=[task.number for task in free if task.kind == "sample"],
+    )
+
+
+def prepare(
+    dataset: Dataset,
+    what: Remaining,
+    *,
+    engine: str,
+    steps: tuple[str, ...],
+    samples: str | None,
+    resources: Resources,
+    shards: str | None = None,
+    chunk: int | None = None,
+    packed: str | None = None,
+    model: str | None = None,
+) -> Job:
+    """Write a job's record and its scripts or bundle below ``OUT/farm``; nothing is handed over.
+
+    Parameters
+    ----------
+    dataset
+        Its folder is begun if it was not.
+    what
+        What the tasks make, from `remaining`.
+    engine
+        Key of `ENGINES`.
+    steps
+        Some of `facegen.farm.STEPS`.
+    samples, shards
+        What was asked for, for the record.
+    resources
+        What each task gets.
+    chunk
+        Samples a task.
+    packed, model
+        Folders for ``pack`` and ``train``; without, beside the dataset.
+
+    Raises
+    ------
+    InputError
+        If ``chunk`` makes too many tasks, or the folder holds another dataset.
+    OutputError
+        If the folder cannot be written.
+    """
+    chunks = cut_chunks(what.shards, what.samples, chunk=chunk) if "generate" in steps else ()
+    begin(dataset)
+    out = dataset.folder.path.resolve()
+    job = Job(
+        name=new_job_name(dataset.folder),
+        engine=engine,
+        out=str(out),
+        packed=str(Path(packed).resolve() if packed else out.with_name(f"{out.name}-packed")),
+        model=str(Path(model).resolve() if model else out.with_name(f"{out.name}-model")),
+        steps=steps,
+        # the spec's own samples are written out: a later version of the spec may name others
+        samples=dataset.spec.render.samples if samples is None else samples,
+        shards=format_ranges(list(range(dataset.shards))) if samples is None else shards,
+        chunks=chunks,
+        resources=resources,
+    )
+    with output_errors(job.folder):
+        (job.folder / "logs").mkdir(exist_ok=True)
+        for name, text in ENGINES[engine].files(job).items():
+            path = job.folder / name
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+    write_record(job.folder / "job.json", job)
+    return job
+
+
+def submit(job: Job) -> Submission:
+    """Hand a prepared job to its engine, and write down under which numbers."""
+    submission = ENGINES[job.engine].submit(job)
+    write_record(job.folder / "submission.json", submission)
+    return submission
+
+
+def cancel(folder: DatasetFolder) -> list[str]:
+    """Cancel all of a dataset's jobs that an engine has; returns their names."""
+    cancelled = []
+    for job, submission in list_jobs(folder):
+        if submission is None:
+            continue
+        activity = ENGINES[job.engine].activity(job, submission)
+        if activity is None or activity.anything:
+            ENGINES[job.engine].cancel(job, submission)
+            cancelled.append(job.name)
+    return cancelled
+
+
+def engine_logs(folder: DatasetFolder) -> list[Path]:
+    """What the engine's tasks printed, newest job last."""
+    return sorted((folder.path / "farm").glob("job-*/logs/*.out"))
+
+
+def activities(folder: DatasetFolder) -> list[tuple[Job, Activity | None]]:
+    """All submitted jobs with what their engines do with them."""
+    return [
+        (job, ENGINES[job.engine].activity(job, submission))
+        for job, submission in list_jobs(folder)
+        if submission is not None
+    ]
