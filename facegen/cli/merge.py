@@ -1,0 +1,29 @@
+"""``facegen merge``."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def merge(
+    datasets: Annotated[list[Path], typer.Argument(help="Folders of datasets of one spec.")],
+    out: Annotated[Path, typer.Option("--out", help="Folder of the joined dataset.")],
+    copy: Annotated[bool, typer.Option("--copy", help="Copy files instead of linking them.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+) -> None:
+    """Join runs of one spec that were made apart: what lies in several must be equal, byte for byte.
+
+    Files become hard links where the file system allows it, and take no space twice.
+
+    Example: facegen merge runs/a runs/b --out datasets/out/all
+    """
+    from facegen.store import merge as join
+
+    merged = join(datasets, out, copy=copy)
+    if as_json:
+        print(json.dumps({"out": str(out)} | asdict(merged)))
+    else:
+        print(f"{out}: {merged.taken} shards and rendered samples taken over, {merged.found} were there")

@@ -1,0 +1,56 @@
+"""Parquet of keypoints alone: chosen columns of all samples, in larger files than the dataset's own."""
+
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from facegen.conventions import SHARD_ROWS
+from facegen.errors import InputError
+from facegen.packing.plan import Format, Options, Part, shards
+from facegen.store import Dataset, keypoint_schema, read_json
+
+SHARD_SAMPLES = 100_000
+"""About 250 MB with all columns."""
+
+
+def chosen_columns(dataset: Dataset, options: Options) -> list[str]:
+    """Names of the columns, in the shards' order; ``sample`` is always one, so that rows can be told apart.
+
+    Raises
+    ------
+    InputError
+        If there is no such column.
+    """
+    names = keypoint_schema(dataset.rig.components).names
+    unknown = sorted(set(options.columns or ()) - set(names))
+    if unknown:
+        raise InputError(f"--columns: {unknown[0]!r} is none of {', '.join(names)}")
+    return [name for name in names if options.columns is None or name in options.columns or name == "sample"]
+
+
+def write_keypoints(dataset: Dataset, part: Part, options: Options, path: Path) -> None:
+    """Write one file; one shard of the dataset is in memory at a time."""
+    columns = chosen_columns(dataset, options)
+    schema = keypoint_schema(dataset.rig.components)
+    about = {"licence": read_json(dataset.folder.dataset_json)["licence"], "spec_hash": dataset.hash}
+    schema = pa.schema([schema.field(name) for name in columns], metadata=about)
+    numbers = np.asarray(part.samples, np.int64)
+    with pq.ParquetWriter(path, schema, compression="zstd", write_page_checksum=True) as writer:
+        for shard in np.unique(numbers // SHARD_ROWS):
+            table = pq.read_table(
+                dataset.folder.shard(int(shard)), columns=columns, page_checksum_verification=True
+            )
+            rows = table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS))
+            writer.write_table(rows.replace_schema_metadata(None).cast(schema), row_group_size=SHARD_ROWS)
+
+
+KEYPOINTS = Format(
+    description="Parquet of the keypoints of all samples, with the columns you choose",
+    rendered=False,
+    options=frozenset({"shard_size", "columns"}),
+    shard_size=SHARD_SAMPLES,
+    parts=shards("shard-{:06d}.parquet"),
+    write=write_keypoints,
+)

@@ -1,0 +1,174 @@
+"""``pack``: a dataset in another form, file by file, each of which appears whole or not at all."""
+
+import contextlib
+import hashlib
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+from facegen.errors import InputError
+from facegen.packing.coco import COCO
+from facegen.packing.keypoints import KEYPOINTS
+from facegen.packing.parquet import PARQUET
+from facegen.packing.plan import Format, Options, Part, chosen_samples
+from facegen.packing.webdataset import WEBDATASET
+from facegen.spec import format_ranges
+from facegen.store import (
+    Dataset,
+    DatasetFolder,
+    commit_file,
+    output_errors,
+    read_json,
+    staging,
+    sweep,
+    write_json,
+)
+
+FORMATS: dict[str, Format] = {
+    "webdataset": WEBDATASET,
+    "parquet": PARQUET,
+    "keypoints": KEYPOINTS,
+    "coco": COCO,
+}
+"""Every format there is; a new one is a module and a line here."""
+
+ABOUT, INDEX = "pack.json", "index.json"
+
+
+@dataclass(frozen=True, kw_only=True)
+class PackPlan:
+    """A pack to write: the format's name, the options in force, the samples and the files."""
+
+    dataset: Dataset
+    name: str
+    options: Options
+    samples: Sequence[int]
+    parts: tuple[Part, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Packed:
+    """What `write_pack` did: samples in the pack, files written now, files found from an earlier run."""
+
+    samples: int
+    written: int
+    found: int
+
+
+def plan_pack(dataset: Dataset, name: str, options: Options | None = None) -> PackPlan:
+    """Decide what goes into a pack, in which files; writes nothing.
+
+    Parameters
+    ----------
+    dataset
+        From `facegen.store.open_dataset`.
+    name
+        One of `FORMATS`.
+    options
+        What goes in, and how.
+
+    Raises
+    ------
+    InputError
+        If samples are missing, or the format does not take an option.
+    """
+    if name not in FORMATS:
+        raise InputError(f"--format: {name!r} is none of {', '.join(FORMATS)}")
+    form = FORMATS[name]
+    checked = _checked(form, name, options or Options())
+    samples = chosen_samples(dataset, checked, rendered=form.rendered)
+    parts = tuple(form.parts(dataset, samples, checked))
+    return PackPlan(dataset=dataset, name=name, options=checked, samples=samples, parts=parts)
+
+
+def write_pack(
+    plan: PackPlan, out: str | Path, *, on_progress: Callable[[int], None] = lambda done: None
+) -> Packed:
+    """Write a pack; run it again after a stop and it goes on.
+
+    The folder gets ``pack.json`` (format, dataset, licence, samples) first and ``index.json`` (files with
+    sizes and checksums) last: a pack with an index is complete.
+
+    Parameters
+    ----------
+    plan
+        From `plan_pack`.
+    out
+        Folder of the pack; new, or a pack of the same samples in the same form.
+    on_progress
+        Takes the number of files there are.
+
+    Raises
+    ------
+    InputError
+        If the folder holds something else.
+    InvalidData
+        If a sample is damaged.
+    OutputError
+        If the folder cannot be written.
+    """
+    folder, form = DatasetFolder(Path(out)), FORMATS[plan.name]
+    _begin(folder, _description(plan))
+    sweep(folder)
+    written = 0
+    for done, part in enumerate(plan.parts):
+        if not (folder.path / part.name).is_file():
+            with staging(folder, "pack") as stage:
+                form.write(plan.dataset, part, plan.options, stage / part.name)
+                commit_file(stage / part.name, folder.path / part.name)
+            written += 1
+        on_progress(done + 1)
+    with staging(folder, "pack") as stage:
+        write_json(stage / INDEX, [_entry(folder.path, part) for part in plan.parts])
+        commit_file(stage / INDEX, folder.path / INDEX)
+    with contextlib.suppress(OSError):  # not empty: another run packs the same
+        (folder.path / "tmp").rmdir()
+    return Packed(samples=len(plan.samples), written=written, found=len(plan.parts) - written)
+
+
+def _checked(form: Format, name: str, options: Options) -> Options:
+    for key, value in asdict(options).items():
+        if value is not None and key not in form.options | {"samples", "split"}:
+            flag = "--" + key.replace("_", "-")
+            raise InputError(f"{flag}: the format {name!r} does not take this; it takes {_flags(form)}")
+    if options.shard_size is None and form.shard_size:
+        options = replace(options, shard_size=form.shard_size)
+    return options
+
+
+def _flags(form: Format) -> str:
+    return ", ".join("--" + key.replace("_", "-") for key in sorted(form.options | {"samples", "split"}))
+
+
+def _description(plan: PackPlan) -> dict:
+    described = read_json(plan.dataset.folder.dataset_json)
+    options = {key: list(v) if isinstance(v, tuple) else v for key, v in asdict(plan.options).items()}
+    return {
+        "format": plan.name,
+        "licence": described["licence"],
+        "options": options,
+        "samples": format_ranges(plan.samples),
+        "dataset": described,
+    }
+
+
+def _begin(folder: DatasetFolder, description: dict) -> None:
+    about = folder.path / ABOUT
+    if about.is_file():
+        if read_json(about) != description:
+            raise InputError(f"{folder.path}: holds another pack; choose another folder, or delete this one")
+        return
+    with output_errors(folder.path):
+        if folder.path.is_dir() and any(entry.name != "tmp" for entry in folder.path.iterdir()):
+            raise InputError(f"{folder.path}: is not empty and holds no pack; choose another folder")
+        folder.path.mkdir(parents=True, exist_ok=True)
+    with staging(folder, "begin") as stage:
+        write_json(stage / ABOUT, description)
+        commit_file(stage / ABOUT, about)
+
+
+def _entry(folder: Path, part: Part) -> dict:
+    with open(folder / part.name, "rb") as file:
+        sha256 = hashlib.file_digest(file, "sha256").hexdigest()
+    size = (folder / part.name).stat().st_size
+    return {"name": part.name, "samples": len(part.samples), "bytes": size, "sha256": sha256}

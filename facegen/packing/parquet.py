@@ -1,0 +1,91 @@
+"""Parquet of rendered samples: one row a sample, its labels and its PNG files.
+
+Pictures are structs of ``bytes`` and ``path``, which Hugging Face's datasets decode to images by themselves;
+other programs take the bytes. ``record`` is ``sample.json`` whole: what has no column stands there.
+"""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from facegen.conventions import BLENDSHAPES
+from facegen.packing.plan import Format, Options, Part, shards
+from facegen.packing.rendered import RenderedFiles, chosen_views, read_rendered
+from facegen.store import Dataset, keypoint_schema
+
+SHARD_SAMPLES = 1000
+ROW_GROUP = 100
+"""Rows written, and held in memory, at a time: about 6 MB of 256 px pictures."""
+
+_LABELS = ("sample", "person", "session", "clip", "frame", "time_s", "split", "neutral", "sex", "age_years")
+_KEYPOINTS = ("points_2d", "detected_2d", "points_3d", "visibility", "camera_from_head", "intrinsics")
+_PICTURE = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
+
+
+def row_schema(dataset: Dataset, views: tuple[str, ...]) -> pa.Schema:
+    """Columns of a pack with these views; labels are typed and described as in the keypoint shards."""
+    keypoints = keypoint_schema(dataset.rig.components)
+    fields = [keypoints.field(name) for name in (*_LABELS, "weights", "identity", *_KEYPOINTS)]
+    for view in views:
+        notes = {
+            "description": f"landmarks in the picture of camera {view}; NaN behind it",
+            "unit": "px",
+            "shape": "68 2",
+        }
+        fields += [
+            pa.field(view, _PICTURE, metadata={"description": f"PNG of camera {view}, 8-bit grey"}),
+            pa.field(f"{view}_points_2d", pa.list_(pa.float32(), 136), nullable=False, metadata=notes),
+            keypoints.field("visibility").with_name(f"{view}_visibility"),
+        ]
+    fields.append(pa.field("record", pa.string(), nullable=False, metadata={"description": "sample.json"}))
+    features = {"info": {"features": {view: {"_type": "Image"} for view in views}}}
+    about = {"licence": _licence(dataset), "spec_hash": dataset.hash, "huggingface": json.dumps(features)}
+    return pa.schema(fields, metadata=about)
+
+
+def write_rows(dataset: Dataset, part: Part, options: Options, path: Path) -> None:
+    """Write one file, a row group in memory at a time."""
+    views = chosen_views(dataset, options)
+    schema = row_schema(dataset, views)
+    with pq.ParquetWriter(path, schema, compression="zstd", write_page_checksum=True) as writer:
+        for start in range(0, len(part.samples), ROW_GROUP):
+            numbers = part.samples[start : start + ROW_GROUP]
+            rows = [
+                _row(s, views) for s in read_rendered(dataset, numbers, [f"{view}.png" for view in views])
+            ]
+            writer.write_table(pa.Table.from_pylist(rows, schema=schema), row_group_size=ROW_GROUP)
+
+
+def _row(sample: RenderedFiles, views: tuple[str, ...]) -> dict:
+    record, row = sample.record, {"record": sample.text.decode()}
+    row |= {name: record[name] for name in _LABELS}
+    row["weights"] = [record["weights"][name] for name in BLENDSHAPES]
+    row["identity"] = record["identity"]
+    row |= {name: _flat(record["keypoints"][name]) for name in _KEYPOINTS}
+    for view in views:
+        row[view] = {"bytes": sample.pictures[f"{view}.png"], "path": f"{sample.number:06d}.{view}.png"}
+        row[f"{view}_points_2d"] = _flat(record["views"][view]["points_2d"])
+        row[f"{view}_visibility"] = record["views"][view]["visibility"]
+    return row
+
+
+def _flat(values: list) -> list:
+    array = np.array(values)
+    return array.astype(np.float64).ravel().tolist() if array.dtype == object else array.ravel().tolist()
+
+
+def _licence(dataset: Dataset) -> str:
+    return json.loads(dataset.folder.dataset_json.read_text(encoding="utf-8"))["licence"]
+
+
+PARQUET = Format(
+    description="Parquet of rendered samples: labels and PNG files, one row a sample",
+    rendered=True,
+    options=frozenset({"shard_size", "views"}),
+    shard_size=SHARD_SAMPLES,
+    parts=shards("shard-{:06d}.parquet"),
+    write=write_rows,
+)

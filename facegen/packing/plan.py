@@ -1,0 +1,144 @@
+"""What goes into a pack: which samples, in which files."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+
+from facegen.conventions import SHARD_ROWS, SPLITS
+from facegen.errors import InputError
+from facegen.store import Dataset
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What a user may choose; None is the format's own choice.
+
+    Attributes
+    ----------
+    samples
+        Sample numbers as ranges, ``"0-99,140"``.
+    split
+        One of `facegen.conventions.SPLITS`.
+    shard_size
+        Samples a file.
+    views
+        Names of cameras.
+    columns
+        Names of columns.
+    exr
+        Whether the EXR files go in.
+    """
+
+    samples: str | None = None
+    split: str | None = None
+    shard_size: int | None = None
+    views: tuple[str, ...] | None = None
+    columns: tuple[str, ...] | None = None
+    exr: bool | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """One file of a pack: its name, its samples and, where a format has a file a view, the view."""
+
+    name: str
+    samples: Sequence[int]
+    view: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Format:
+    """One way to pack.
+
+    Attributes
+    ----------
+    description
+        A sentence for ``--help`` and the docs.
+    rendered
+        Whether it packs rendered samples; otherwise it packs the keypoints of all samples.
+    options
+        Names of the fields of `Options` that it takes, beside ``samples`` and ``split``.
+    shard_size
+        Samples a file, unless the user chooses.
+    parts
+        Cuts sample numbers into files.
+    write
+        Writes one file to a path; equal input gives equal bytes.
+    """
+
+    description: str
+    rendered: bool
+    options: frozenset[str]
+    shard_size: int
+    parts: Callable[[Dataset, Sequence[int], Options], list[Part]]
+    write: Callable[[Dataset, Part, Options, Path], None]
+
+
+def shards(name: str) -> Callable[[Dataset, Sequence[int], Options], list[Part]]:
+    """Cuts samples into files of ``shard_size``, named by ``name`` (``"shard-{:06d}.tar"``)."""
+
+    def cut(_dataset: Dataset, samples: Sequence[int], options: Options) -> list[Part]:
+        size = options.shard_size
+        starts = range(0, len(samples), size)
+        return [
+            Part(name=name.format(i), samples=samples[start : start + size]) for i, start in enumerate(starts)
+        ]
+
+    return cut
+
+
+def chosen_samples(dataset: Dataset, options: Options, *, rendered: bool) -> Sequence[int]:
+    """Sorted numbers of the samples to pack.
+
+    Without ``samples`` these are all that are there, and none that the spec asks for may be missing: a pack
+    cut short by mistake looks like any other.
+
+    Raises
+    ------
+    InputError
+        If samples are missing, or nothing is left to pack.
+    """
+    if rendered:
+        there = dataset.folder.rendered()
+        asked = dataset.samples_to_render(options.samples)
+        numbers: Sequence[int] = asked if options.samples is not None else there
+        missing = sorted(set(asked) - set(there))
+        if missing:
+            raise InputError(
+                f"{dataset.folder.path}: {len(missing)} of the rendered samples to pack are missing, the "
+                f"first is sample {missing[0]}; make them with facegen generate, or choose with --samples"
+            )
+    else:
+        if options.samples is None:
+            numbers, needed = range(dataset.plan.samples), range(dataset.shards)
+        else:
+            numbers = dataset.samples_to_render(options.samples)
+            needed = sorted({number // SHARD_ROWS for number in numbers})
+        absent = [path for path in map(dataset.folder.shard, needed) if not path.is_file()]
+        if absent:
+            raise InputError(f"{absent[0]}: is missing; make it with facegen generate")
+    if options.split is not None:
+        numbers = _of_split(dataset, numbers, options.split)
+    if not len(numbers):
+        raise InputError(f"{dataset.folder.path}: has nothing to pack; generate --samples renders some")
+    return numbers
+
+
+def _of_split(dataset: Dataset, numbers: Sequence[int], split: str) -> list[int]:
+    if split not in SPLITS:
+        raise InputError(f"--split: {split!r} is none of {', '.join(SPLITS)}")
+    kept: list[int] = []
+    wanted = np.asarray(numbers, np.int64)
+    for shard in np.unique(wanted // SHARD_ROWS):
+        path = dataset.folder.shard(int(shard))
+        if not path.is_file():
+            raise InputError(
+                f"{path}: is missing, so the split of its samples is unknown; run facegen generate"
+            )
+        splits = pq.read_table(path, columns=["split"]).column("split").to_numpy(zero_copy_only=False)
+        inside = wanted[wanted // SHARD_ROWS == shard]
+        kept += inside[splits[inside % SHARD_ROWS] == split].tolist()
+    return kept

@@ -1,0 +1,60 @@
+"""Rendered samples as packs read them: one after the other, each checked on the way."""
+
+import hashlib
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from facegen.errors import InputError, InvalidData
+from facegen.packing.plan import Options
+from facegen.store import Dataset
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderedFiles:
+    """A rendered sample: its number, ``sample.json`` as text and read, and pictures by file name."""
+
+    number: int
+    text: bytes
+    record: dict
+    pictures: dict[str, bytes]
+
+
+def chosen_views(dataset: Dataset, options: Options) -> tuple[str, ...]:
+    """Names of the cameras to pack, in the headset's order.
+
+    Raises
+    ------
+    InputError
+        If the headset has no such camera.
+    """
+    names = dataset.headset.camera_names
+    unknown = sorted(set(options.views or ()) - set(names))
+    if unknown:
+        raise InputError(f"--views: {unknown[0]!r} is none of this dataset's cameras {', '.join(names)}")
+    return tuple(name for name in names if options.views is None or name in options.views)
+
+
+def read_rendered(dataset: Dataset, numbers: Sequence[int], names: Sequence[str]) -> Iterator[RenderedFiles]:
+    """Read samples with the named pictures (``"mouth.png"``), one at a time.
+
+    Raises
+    ------
+    InvalidData
+        If a file is missing or is not what was written: damage must not spread into packs.
+    """
+    for number in numbers:
+        folder = dataset.folder.render(number)
+        advice = "run facegen validate --repair, then facegen generate"
+        try:
+            text = (folder / "sample.json").read_bytes()
+            record = json.loads(text)
+            pictures = {name: (folder / name).read_bytes() for name in names}
+        except (OSError, ValueError) as error:
+            raise InvalidData(f"{folder}: cannot be read ({error}); {advice}") from None
+        if record.get("spec_hash") != dataset.hash:
+            raise InvalidData(f"{folder / 'sample.json'}: was made from another spec; {advice}")
+        for name, content in pictures.items():
+            if hashlib.sha256(content).hexdigest() != record["sha256"].get(name):
+                raise InvalidData(f"{folder / name}: is not what was written (SHA-256 differs); {advice}")
+        yield RenderedFiles(number=number, text=text, record=record, pictures=pictures)

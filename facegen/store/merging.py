@@ -1,0 +1,159 @@
+"""``merge``: runs of one spec that were made apart, on other disks or machines, joined to one dataset."""
+
+import filecmp
+import os
+import shutil
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from facegen.errors import InputError, InvalidData
+from facegen.store.dataset import Dataset, open_dataset
+from facegen.store.folder import DatasetFolder, commit_file, commit_folder, output_errors, read_json
+from facegen.store.stage import staging, sweep
+
+_FIRST_THINGS = ("tmp", "spec.toml", "recording.csv")
+"""What a merge leaves if it is killed before ``dataset.json``."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Merged:
+    """What `merge` did: shards and rendered samples taken over, and those found there already, equal."""
+
+    taken: int
+    found: int
+
+
+def merge(
+    sources: Sequence[str | Path],
+    out: str | Path,
+    *,
+    copy: bool = False,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> Merged:
+    """Join datasets of one spec; run it again after a stop and it goes on.
+
+    All that lies in several of them is compared first, byte by byte; only then is anything taken over. Logs
+    and quarantines stay where they are: what failed in one run may be whole in another.
+
+    Parameters
+    ----------
+    sources
+        Folders of datasets.
+    out
+        Folder of the joined dataset; new, or a dataset of the same spec.
+    copy
+        Copy files. Otherwise they become hard links where the file system allows it: they take no space, but
+        a file changed in place changes in both datasets (facegen never does that).
+    on_progress
+        Takes the number of things taken over or found, and how many there are.
+
+    Raises
+    ------
+    InputError
+        If there is no dataset, or one of another spec.
+    InvalidData
+        If two datasets hold different bytes under one name.
+    OutputError
+        If the folder cannot be written.
+    """
+    datasets = [open_dataset(source) for source in sources]
+    if not datasets:
+        raise InputError("merge: there is nothing to merge; give the folders of datasets")
+    first, target = datasets[0], DatasetFolder(Path(out))
+    for dataset in datasets[1:]:
+        _check_spec(first, dataset.folder, dataset.hash)
+    if target.dataset_json.is_file():
+        _check_spec(first, target, read_json(target.dataset_json).get("spec_hash"))
+        datasets.insert(0, open_dataset(out))
+    elif target.path.is_dir() and any(entry.name not in _FIRST_THINGS for entry in target.path.iterdir()):
+        raise InputError(f"{target.path}: is not empty and holds no facegen dataset; choose another folder")
+    origins, doubles = _origins(datasets)
+    for name, one, other in doubles:
+        if not _equal(one.path / name, other.path / name):
+            raise InvalidData(
+                f"{name}: {one.path} and {other.path} hold different bytes; facegen validate says more"
+            )
+    with output_errors(target.path):
+        target.path.mkdir(parents=True, exist_ok=True)
+    sweep(target)
+    _take_description(first.folder, target)
+    taken = 0
+    for done, (name, origin) in enumerate(origins.items()):
+        if origin.path != target.path:
+            _take(origin.path / name, target, name, copy=copy)
+            taken += 1
+        on_progress(done + 1, len(origins))
+    return Merged(taken=taken, found=len(origins) - taken)
+
+
+def _check_spec(first: Dataset, folder: DatasetFolder, found: object) -> None:
+    if found != first.hash:
+        raise InputError(
+            f"{folder.path}: holds a dataset of another spec (its hash is {str(found)[:12]}) than "
+            f"{first.folder.path} ({first.hash[:12]}); only runs of one spec can be merged"
+        )
+
+
+def _origins(
+    datasets: list[Dataset],
+) -> tuple[dict[str, DatasetFolder], list[tuple[str, DatasetFolder, DatasetFolder]]]:
+    """Where each shard and rendered sample comes from, and what lies in two datasets."""
+    origins: dict[str, DatasetFolder] = {}
+    doubles = []
+    for dataset in datasets:
+        for name in _names(dataset.folder):
+            if name in origins:
+                doubles.append((name, origins[name], dataset.folder))
+            origins.setdefault(name, dataset.folder)
+    return origins, doubles
+
+
+def _names(folder: DatasetFolder) -> Iterator[str]:
+    for path in folder.shards():
+        yield path.relative_to(folder.path).as_posix()
+    for number in folder.rendered():
+        yield folder.render(number).relative_to(folder.path).as_posix()
+
+
+def _equal(one: Path, other: Path) -> bool:
+    if one.is_file() or other.is_file():
+        return one.is_file() and other.is_file() and filecmp.cmp(one, other, shallow=False)
+    names = sorted(entry.name for entry in one.iterdir())
+    return names == sorted(entry.name for entry in other.iterdir()) and all(
+        filecmp.cmp(one / name, other / name, shallow=False) for name in names
+    )
+
+
+def _take(source: Path, target: DatasetFolder, name: str, *, copy: bool) -> None:
+    with staging(target, "merge") as stage:
+        if source.is_file():
+            _link(source, stage / source.name, copy=copy)
+            commit_file(stage / source.name, target.path / name)
+        else:
+            folder = stage / source.name
+            folder.mkdir()
+            for entry in source.iterdir():
+                _link(entry, folder / entry.name, copy=copy)
+            commit_folder(folder, target.path / name)
+
+
+def _link(source: Path, target: Path, *, copy: bool) -> None:
+    if not copy:
+        try:
+            os.link(source, target)
+            return
+        except OSError:
+            pass  # another file system, or one without hard links
+    shutil.copyfile(source, target)
+
+
+def _take_description(source: DatasetFolder, target: DatasetFolder) -> None:
+    """The first dataset's description; the versions in it stay those that made the data."""
+    if target.dataset_json.is_file():
+        return
+    with staging(target, "merge") as stage:
+        for path in (source.recording_csv, source.spec_toml, source.dataset_json):
+            if path.is_file():
+                shutil.copyfile(path, stage / path.name)
+                commit_file(stage / path.name, target.path / path.name)

@@ -1,0 +1,224 @@
+"""Packs: every format repeats byte for byte, goes on after a kill, and opens in its users' tools."""
+
+import contextlib
+import gc
+import io
+import json
+import shutil
+import signal
+import subprocess
+import sys
+import tarfile
+import time
+import tracemalloc
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from facegen.conventions import BLENDSHAPES
+from facegen.errors import InputError, InvalidData
+from facegen.packing import FORMATS, Options, Part, plan_pack, write_pack
+from facegen.packing.webdataset import write_tar
+from facegen.store import open_dataset, read_png
+
+pytestmark = [pytest.mark.blender, pytest.mark.slow]
+
+ROOT = Path(__file__).resolve().parents[3]
+VIEWS = ("left_eye", "mouth", "right_eye")
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def make(rendered, out: Path, name: str, **options) -> Path:
+    write_pack(plan_pack(rendered, name, Options(**options)), out)
+    return out
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_equal_input_gives_equal_bytes_and_the_licence_goes_along(rendered, tmp_path, name):
+    one, two = (make(rendered, tmp_path / part, name) for part in "ab")
+    assert files(one) == files(two)
+    about = json.loads((one / "pack.json").read_text())
+    assert "CC0" in about["licence"]
+    assert about["dataset"]["spec_hash"] == rendered.hash
+    index = json.loads((one / "index.json").read_text())
+    assert sorted(entry["name"] for entry in index) == sorted(files(one).keys() - {"pack.json", "index.json"})
+    assert all((one / entry["name"]).stat().st_size == entry["bytes"] for entry in index)
+    again = write_pack(plan_pack(rendered, name), one)
+    assert (again.written, again.found) == (0, len(index))
+
+
+def test_a_copied_dataset_packs_to_the_same_bytes(rendered, tmp_path):
+    copy = shutil.copytree(rendered.folder.path, tmp_path / "copy", copy_function=shutil.copy)  # new times
+    one, two = (
+        make(d, tmp_path / str(i), "webdataset") for i, d in enumerate((rendered, open_dataset(copy)))
+    )
+    assert files(one) == files(two)
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # it leaves shards open
+def test_webdataset_opens_in_its_library(rendered, tmp_path):
+    webdataset = pytest.importorskip("webdataset")
+    out = make(rendered, tmp_path / "pack", "webdataset", shard_size=1)
+    shards = sorted(str(path) for path in out.glob("*.tar"))
+    assert [Path(shard).name for shard in shards] == ["shard-000000.tar", "shard-000001.tar"]
+    samples = list(webdataset.WebDataset(shards, shardshuffle=False))
+    assert [sample["__key__"] for sample in samples] == ["000000", "000001"]
+    for number, sample in enumerate(samples):
+        assert json.loads(sample["json"]) == rendered.sample(number)
+        for view in VIEWS:
+            folder = rendered.folder.render(number)
+            assert sample[f"{view}.png"] == (folder / f"{view}.png").read_bytes()
+            assert sample[f"{view}.exr"] == (folder / f"{view}.exr").read_bytes()
+    gc.collect()  # so that the open shards are this test's, and no later one's
+
+
+def test_webdataset_entries_are_sorted_and_tell_no_time_and_no_owner(rendered, tmp_path):
+    out = make(rendered, tmp_path / "pack", "webdataset", exr=False, views=("mouth", "left_eye"))
+    with tarfile.open(out / "shard-000000.tar") as archive:
+        members = archive.getmembers()
+    fields = ("json", "left_eye.png", "mouth.png")
+    assert [m.name for m in members] == [f"{n:06d}.{field}" for n in (0, 1) for field in fields]
+    assert {(m.mtime, m.uid, m.gid, m.uname, m.gname, m.mode) for m in members} == {(0, 0, 0, "", "", 0o644)}
+
+
+def test_parquet_opens_in_pandas(rendered, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    out = make(rendered, tmp_path / "pack", "parquet")
+    frame = pandas.read_parquet(out / "shard-000000.parquet")
+    assert frame["sample"].tolist() == [0, 1]
+    record = rendered.sample(1)
+    assert json.loads(frame["record"][1]) == record
+    for view in VIEWS:
+        picture = cv2.imdecode(np.frombuffer(frame[view][1]["bytes"], np.uint8), cv2.IMREAD_UNCHANGED)
+        np.testing.assert_array_equal(picture, read_png(rendered.folder.render(1) / f"{view}.png"))
+        points = np.array(frame[f"{view}_points_2d"][1]).reshape(68, 2)
+        np.testing.assert_array_equal(points, np.array(record["views"][view]["points_2d"], np.float32))
+    weights = dict(zip(BLENDSHAPES, frame["weights"][1], strict=True))
+    assert weights["jawOpen"] == np.float32(record["weights"]["jawOpen"])
+    assert "CC0" in pq.read_schema(out / "shard-000000.parquet").metadata[b"licence"].decode()
+
+
+def test_keypoints_with_chosen_columns_in_files_of_a_chosen_size(rendered, tmp_path):
+    out = make(rendered, tmp_path / "pack", "keypoints", columns=("detected_2d", "split"), shard_size=12)
+    tables = [pq.read_table(path) for path in sorted(out.glob("*.parquet"))]
+    assert [len(table) for table in tables] == [12, 12, 6]
+    assert tables[0].column_names == ["sample", "split", "detected_2d"]
+    whole = rendered.keypoints()
+    for name in tables[0].column_names:
+        assert [v for table in tables for v in table[name].to_pylist()] == whole[name].to_pylist()
+
+
+def test_a_split_is_packed_alone(rendered, tmp_path):
+    split = rendered.keypoints()["split"].to_pylist()
+    for name in sorted(set(split)):
+        out = make(rendered, tmp_path / name, "keypoints", split=name, columns=("split",))
+        table = pq.read_table(out / "shard-000000.parquet")
+        assert table["sample"].to_pylist() == [n for n, s in enumerate(split) if s == name]
+    with pytest.raises(InputError, match="none of train, validation, test"):
+        plan_pack(rendered, "keypoints", Options(split="dev"))
+
+
+def test_coco_opens_in_pycocotools(rendered, tmp_path):
+    coco = pytest.importorskip("pycocotools.coco")
+    out = make(rendered, tmp_path / "pack", "coco")
+    with contextlib.redirect_stdout(io.StringIO()):
+        opened = coco.COCO(str(out / "keypoints-mouth.json"))
+    assert sorted(opened.getImgIds()) == [0, 1]
+    (category,) = opened.loadCats(opened.getCatIds())
+    assert len(category["keypoints"]) == 68
+    assert len(set(category["keypoints"])) == 68
+    assert {index for pair in category["skeleton"] for index in pair} == set(range(1, 69))
+    for image in opened.loadImgs([0, 1]):
+        assert (rendered.folder.path / image["file_name"]).is_file()
+        view = rendered.sample(image["id"])["views"]["mouth"]
+        (annotation,) = opened.loadAnns(opened.getAnnIds(imgIds=[image["id"]]))
+        found = np.array(annotation["keypoints"], float).reshape(68, 3)
+        visibility = np.array(view["visibility"])
+        np.testing.assert_array_equal(found[:, 2], visibility)
+        labelled = visibility > 0
+        np.testing.assert_array_equal(found[labelled, :2], np.array(view["points_2d"], float)[labelled])
+        assert not found[~labelled].any()
+        assert annotation["num_keypoints"] == labelled.sum() > 0
+        x, y, width, height = annotation["bbox"]
+        assert (0 <= x) & (x + width <= image["width"]) & (0 <= y) & (y + height <= image["height"])
+
+
+def test_memory_does_not_grow_with_the_number_of_samples(rendered, tmp_path):
+    def peak(samples: list[int]) -> int:
+        tracemalloc.start()
+        write_tar(rendered, Part(name="a", samples=samples), Options(), tmp_path / "a.tar")
+        size = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return size
+
+    peak([0])  # imports
+    # a sample is 500 kB; all 50 more of them may leave a fifth of one behind
+    assert peak([0] * 60) - peak([0] * 10) < 100_000
+
+
+def test_what_cannot_be_packed_is_refused(rendered, tmp_path):
+    with pytest.raises(InputError, match="takes --samples, --split, --views"):
+        plan_pack(rendered, "coco", Options(shard_size=3))
+    with pytest.raises(InputError, match="none of webdataset, parquet, keypoints, coco"):
+        plan_pack(rendered, "zip")
+    with pytest.raises(
+        InputError, match="1 of the rendered samples to pack are missing, the first is sample 2"
+    ):
+        plan_pack(rendered, "webdataset", Options(samples="0-2"))
+    with pytest.raises(InputError, match="'chin' is none of this dataset's cameras"):
+        make(rendered, tmp_path / "views", "coco", views=("chin",))
+    with pytest.raises(InputError, match="'x' is none of sample, person"):
+        make(rendered, tmp_path / "columns", "keypoints", columns=("x",))
+    make(rendered, tmp_path / "a", "keypoints")
+    with pytest.raises(InputError, match="holds another pack"):
+        make(rendered, tmp_path / "a", "webdataset")
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.doc").write_text("mine")
+    with pytest.raises(InputError, match="holds no pack"):
+        make(rendered, tmp_path / "mine", "webdataset")
+
+
+def test_damage_is_not_packed_and_no_half_file_appears(rendered, tmp_path):
+    copy = shutil.copytree(rendered.folder.path, tmp_path / "copy")
+    path = copy / "renders" / "000" / "000001" / "mouth.png"
+    path.write_bytes(path.read_bytes()[:-1])
+    with pytest.raises(InvalidData, match=r"mouth\.png: is not what was written"):
+        make(open_dataset(copy), tmp_path / "pack", "webdataset")
+    assert sorted(p.name for p in (tmp_path / "pack").rglob("*")) == ["pack.json", "tmp"]
+
+
+def test_a_killed_run_leaves_whole_files_only_and_the_next_one_goes_on(rendered, tmp_path):
+    options = {"shard_size": 1}
+    whole = files(make(rendered, tmp_path / "whole", "keypoints", **options))
+    out = tmp_path / "killed"
+    program = "from facegen.cli import main; main()"
+    arguments = [
+        "pack",
+        str(rendered.folder.path),
+        "--out",
+        str(out),
+        "--format",
+        "keypoints",
+        "--shard-size",
+        "1",
+    ]
+    process = subprocess.Popen(
+        [sys.executable, "-c", program, *arguments], cwd=ROOT, stderr=subprocess.DEVNULL
+    )
+    deadline = time.monotonic() + 60
+    while len(list(out.glob("*.parquet"))) < 3 and time.monotonic() < deadline:
+        time.sleep(0.001)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    left = {path.name: path.read_bytes() for path in out.glob("*.parquet")}
+    assert 3 <= len(left) < 30
+    assert left.items() <= whole.items()
+    assert not (out / "index.json").exists()
+    assert write_pack(plan_pack(rendered, "keypoints", Options(**options)), out).found >= len(left)
+    assert files(out) == whole
