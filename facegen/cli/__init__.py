@@ -10,6 +10,8 @@ from facegen import __version__
 from facegen.cli.farm import farm_app
 from facegen.cli.generate import generate
 from facegen.cli.headset import headset_app
+from facegen.cli.merge import merge
+from facegen.cli.pack import pack
 from facegen.cli.preview import preview
 from facegen.cli.rig import rig_app
 from facegen.cli.spec import spec_app
@@ -31,6 +33,8 @@ app.add_typer(farm_app, name="farm")
 app.command()(generate)
 app.command()(validate)
 app.command()(preview)
+app.command()(pack)
+app.command()(merge)
 
 
 def _print_version(wanted: bool) -> None:
@@ -43,7 +47,13 @@ def _print_version(wanted: bool) -> None:
 @app.callback()
 def _options(
     version: Annotated[
-        bool, typer.Option("--version", help="Print the versions that decide pixels and labels.", callback=_print_version, is_eager=True)
+        bool,
+        typer.Option(
+            "--version",
+            help="Print the versions that decide pixels and labels.",
+            callback=_print_version,
+            is_eager=True,
+        ),
     ] = False,
 ) -> None:
     pass

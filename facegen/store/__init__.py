@@ -12,12 +12,14 @@ from facegen.store.folder import (
 )
 from facegen.store.images import exr_bytes, png_bytes, read_exr, read_png
 from facegen.store.keypoint_table import column_array, keypoint_schema, keypoint_table, write_shard
+from facegen.store.merging import Merged, merge
 from facegen.store.record import sample_record
 from facegen.store.stage import is_alive, place, staging, sweep
 
 __all__ = [
     "Dataset",
     "DatasetFolder",
+    "Merged",
     "begin",
     "column_array",
     "commit_file",
@@ -26,6 +28,7 @@ __all__ = [
     "is_alive",
     "keypoint_schema",
     "keypoint_table",
+    "merge",
     "open_dataset",
     "output_errors",
     "place",
