@@ -39,7 +39,7 @@ def job_template(job: Job) -> dict[str, Any]:
         if step != "generate":
             name = step.capitalize()
             steps.append(_later_step(job, step, name, needs=before))
-            # all earlier ones: where files travel with jobs, a step receives the output of steps that it names
+            # all earlier ones: where files travel with jobs, a step receives what the steps it names made
             before = [*before, name]
     return {
         "specificationVersion": "jobtemplate-2023-09",
@@ -91,7 +91,7 @@ def _parameters(job: Job) -> list[dict[str, Any]]:
     found = [
         {
             **{"name": "SpecFile", "type": "PATH", "objectType": "FILE", "dataFlow": "IN"},
-            **{"default": "spec.toml", "description": "The resolved spec, in this bundle"},
+            **{"default": "spec.toml", "description": "The spec, in this bundle"},
         },
         folder("OutDir", "INOUT", "The dataset"),
     ]

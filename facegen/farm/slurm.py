@@ -194,7 +194,7 @@ class Slurm:
 
 
 def read_squeue(listing: str, submission: Submission) -> Activity:
-    """What ``squeue -h -r -o %F|%K|%T|%r`` says about a submission (array or job number, index, state, reason)."""
+    """What squeue says of a submission, as ``%F|%K|%T|%r``: array or job number, index, state, reason."""
     steps = {number: step for step, number in submission.ids.items()}
     chunks, others, reasons = {}, {}, Counter()
     for line in listing.splitlines():
@@ -215,7 +215,7 @@ def _run(command: list[str]) -> str:
         done = subprocess.run(command, capture_output=True, text=True, timeout=_ASK_TIMEOUT_S, cwd=Path("/"))
     except FileNotFoundError:
         raise InputError(
-            f"{command[0]}: there is no such command here; submit from a machine with Slurm's client commands, "
+            f"{command[0]}: there is no such command here; submit where Slurm's client commands are, "
             "or look at the scripts with --dry-run"
         ) from None
     except subprocess.TimeoutExpired:
