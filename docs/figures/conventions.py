@@ -1,6 +1,6 @@
 """Draws docs/pictures/conventions.png: the frames and the pixel convention, on the default rig's mean face.
 
-    python docs/figures/conventions.py
+python docs/figures/conventions.py
 """
 
 from pathlib import Path
@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from facegen.conventions import BLENDSHAPES
+from facegen.preview.portraits import portrait
 from facegen.rigs import evaluate, load_rig
-from facegen.rigs.portraits import portrait
 
 OUT = Path(__file__).resolve().parents[1] / "pictures" / "conventions.png"
 AXES = {"x": "#d62728", "y": "#2ca02c", "z": "#1f77b4"}
@@ -28,7 +28,10 @@ def main() -> None:
     figure = Figure(figsize=(13, 4.9), dpi=110)
     FigureCanvasAgg(figure)
     front, side, pixels = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1, 1, 1.1]})
-    for axis, yaw_deg, title in ((front, 0, "head frame, from the front"), (side, -60, "head frame and a camera")):
+    for axis, yaw_deg, title in (
+        (front, 0, "head frame, from the front"),
+        (side, -60, "head frame and a camera"),
+    ):
         drawn = portrait(rig, faces, 0, gaze[0], yaw_deg=yaw_deg, window_m=WINDOW_M, step_m=STEP_M)
         axis.imshow(drawn.picture)
         axis.set_title(title, fontsize=11)

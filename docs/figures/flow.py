@@ -1,6 +1,6 @@
 """Draws docs/pictures/flow.png: how data flows from a spec to an avatar.
 
-    python docs/figures/flow.py
+python docs/figures/flow.py
 """
 
 from pathlib import Path
@@ -49,14 +49,20 @@ def main() -> None:
     axis = figure.add_axes((0.005, 0.01, 0.99, 0.98))
     for x, y, width, title, text, color in BOXES.values():
         axis.add_patch(
-            FancyBboxPatch((x, y), width, HEIGHT, boxstyle="round,pad=0.03", facecolor=color, edgecolor="#555555")
+            FancyBboxPatch(
+                (x, y), width, HEIGHT, boxstyle="round,pad=0.03", facecolor=color, edgecolor="#555555"
+            )
         )
         axis.text(x + width / 2, y + 0.77, title, ha="center", va="center", fontsize=11, weight="bold")
         axis.text(x + width / 2, y + 0.31, text, ha="center", va="center", fontsize=9)
     for start, end in ARROWS:
         axis.annotate("", *_ends(start, end), arrowprops={"arrowstyle": "-|>", "color": "#333333", "lw": 1.4})
     for x, label, color in ((0.0, "facegen", FACEGEN), (1.5, "regress", REGRESS), (3.0, "files", FILES)):
-        axis.add_patch(FancyBboxPatch((x, 0.95), 0.3, 0.2, boxstyle="round,pad=0.02", facecolor=color, edgecolor="#555555"))
+        axis.add_patch(
+            FancyBboxPatch(
+                (x, 0.95), 0.3, 0.2, boxstyle="round,pad=0.02", facecolor=color, edgecolor="#555555"
+            )
+        )
         axis.text(x + 0.42, 1.05, label, fontsize=10, va="center")
     axis.set_xlim(-0.1, 13.4)
     axis.set_ylim(0.75, 4.75)

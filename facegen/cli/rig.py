@@ -6,9 +6,9 @@ from typing import Annotated
 
 import typer
 
+from facegen.preview.portraits import draw_portraits
 from facegen.rigs.building import build_rig
 from facegen.rigs.files import load_rig, read_record
-from facegen.rigs.portraits import draw_portraits
 
 rig_app = typer.Typer(
     no_args_is_help=True,

@@ -21,7 +21,9 @@ def check(spec: Annotated[Path, typer.Argument(help="A spec, for example dataset
 
     checked = load_spec(spec)
     plan = plan_dataset(checked)
-    rendered = len(sample_numbers(checked.render.samples, total=plan.samples, where=f"{spec}: render.samples"))
+    rendered = len(
+        sample_numbers(checked.render.samples, total=plan.samples, where=f"{spec}: render.samples")
+    )
     print(f"{spec}: good; {checked.people} people, {plan.samples} samples, {rendered} of them rendered")
 
 

@@ -1,6 +1,6 @@
 """Rigid motions, camera models and small solids: pure functions on arrays, float64."""
 
-from facegen.geometry.cameras import Camera, project, pixel_rays, unproject
+from facegen.geometry.cameras import Camera, pixel_rays, project, unproject
 from facegen.geometry.rotations import (
     angles_from_direction,
     apply_transform,
@@ -18,8 +18,8 @@ __all__ = [
     "direction_from_angles",
     "invert_transform",
     "look_at",
-    "project",
     "pixel_rays",
+    "project",
     "rotation_from_angles",
     "transform",
     "unproject",

@@ -88,7 +88,9 @@ def project(camera: Camera, points_camera: np.ndarray) -> np.ndarray:
         radius = np.hypot(x, y)
         theta = np.arctan2(radius, z)
         # sin(theta)/theta tends to 1 on the axis, where radius/z is 0/0
-        scale = np.divide(_fisheye_angle(theta, camera.coefficients), radius, where=radius > 0, out=np.zeros_like(radius))
+        scale = np.divide(
+            _fisheye_angle(theta, camera.coefficients), radius, where=radius > 0, out=np.zeros_like(radius)
+        )
         a, b = x * scale, y * scale
     return np.stack([camera.fx * a + camera.cx, camera.fy * b + camera.cy], axis=-1)
 

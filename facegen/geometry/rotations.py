@@ -20,7 +20,9 @@ def rotation_from_angles(yaw_rad: np.ndarray, pitch_rad: np.ndarray, roll_rad: n
     numpy.ndarray
         (..., 3, 3), ``Ry(yaw) @ Rx(-pitch) @ Rz(-roll)``.
     """
-    yaw, pitch, roll = np.broadcast_arrays(*(np.asarray(a, np.float64) for a in (yaw_rad, pitch_rad, roll_rad)))
+    yaw, pitch, roll = np.broadcast_arrays(
+        *(np.asarray(a, np.float64) for a in (yaw_rad, pitch_rad, roll_rad))
+    )
     cy, sy, cp, sp, cr, sr = (f(a) for a in (yaw, pitch, roll) for f in (np.cos, np.sin))
     zero, one = np.zeros_like(cy), np.ones_like(cy)
 

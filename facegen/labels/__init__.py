@@ -4,4 +4,11 @@ from facegen.labels.keypoints import Keypoints, label_keypoints, project_pinhole
 from facegen.labels.rendered import RenderedSample, label_rendered
 from facegen.labels.views import ViewLabels
 
-__all__ = ["Keypoints", "RenderedSample", "ViewLabels", "label_keypoints", "label_rendered", "project_pinhole"]
+__all__ = [
+    "Keypoints",
+    "RenderedSample",
+    "ViewLabels",
+    "label_keypoints",
+    "label_rendered",
+    "project_pinhole",
+]

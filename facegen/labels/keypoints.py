@@ -7,7 +7,7 @@ import numpy as np
 from facegen.conventions import FACE_WIDTH_LANDMARKS, Visibility
 from facegen.geometry import apply_transform
 from facegen.raster import hidden, triangles_of
-from facegen.rigs import Rig, evaluate
+from facegen.rigs import EvaluatedFaces, Rig, evaluate
 from facegen.sampling import Samples
 from facegen.spec import Spec
 
@@ -47,9 +47,15 @@ def project_pinhole(points_camera: np.ndarray, intrinsics: np.ndarray) -> np.nda
     return points_camera[..., :2] / points_camera[..., 2:] * focal + center
 
 
-def label_keypoints(spec: Spec, rig: Rig, samples: Samples) -> Keypoints:
-    """Keypoint labels of samples; each row follows from its own sample alone."""
-    faces = evaluate(rig, samples.identity, samples.weights, samples.gaze, cage_only=True)
+def label_keypoints(
+    spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFaces | None = None
+) -> Keypoints:
+    """Keypoint labels of samples; each row follows from its own sample alone.
+
+    ``faces`` are the samples' faces where they have been evaluated already; their cage is enough.
+    """
+    if faces is None:
+        faces = evaluate(rig, samples.identity, samples.weights, samples.gaze, cage_only=True)
     in_camera = apply_transform(samples.camera_from_head, faces.landmarks)
     points_2d = project_pinhole(in_camera, samples.intrinsics)
     first, last = FACE_WIDTH_LANDMARKS
@@ -57,7 +63,7 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples) -> Keypoints:
     triangles = triangles_of(rig.cage_faces)
     visibility = np.empty(points_2d.shape[:2], np.uint8)
     for row, camera_from_head in enumerate(samples.camera_from_head):
-        vertices = apply_transform(camera_from_head, faces.vertices[row])
+        vertices = apply_transform(camera_from_head, faces.vertices[row, : rig.cage_vertices])
         covered = hidden(in_camera[row], vertices, triangles, tolerance_m=KEYPOINT_TOLERANCE_M)
         visibility[row] = np.where(covered, Visibility.HIDDEN, Visibility.VISIBLE)
     size = np.array([spec.camera.width_px, spec.camera.height_px])

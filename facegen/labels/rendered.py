@@ -68,7 +68,7 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
     occluder = occluders(scene.meshes)
     return RenderedSample(
         samples=samples,
-        keypoints=label_keypoints(spec, rig, samples),
+        keypoints=label_keypoints(spec, rig, samples, face),
         scene=scene,
         eyes=(left, right),
         head_from_headset=fit,

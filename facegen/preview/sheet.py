@@ -18,7 +18,9 @@ _VISIBLE, _HIDDEN, _INK, _PAPER = "#39d98a", "#ff6b6b", "#e8e8e8", "#141414"
 _CELL_INCHES = 1.7
 
 
-def contact_sheet(dataset: Dataset, numbers: Sequence[int], *, columns: int = 2, landmarks: bool = True) -> Figure:
+def contact_sheet(
+    dataset: Dataset, numbers: Sequence[int], *, columns: int = 2, landmarks: bool = True
+) -> Figure:
     """Sheet of samples.
 
     Parameters
@@ -35,7 +37,9 @@ def contact_sheet(dataset: Dataset, numbers: Sequence[int], *, columns: int = 2,
     rendered = set(dataset.folder.rendered())
     views = dataset.headset.camera_names if rendered.intersection(numbers) else ()
     table = dataset.keypoints()
-    keypoints = {name: column_array(table, name) for name in ("sample", "points_2d", "visibility", "weights", "person")}
+    keypoints = {
+        name: column_array(table, name) for name in ("sample", "points_2d", "visibility", "weights", "person")
+    }
     row_of = {int(sample): row for row, sample in enumerate(keypoints["sample"])}
     cells = len(views) + 2
     lines = -(-len(numbers) // columns)
@@ -57,7 +61,9 @@ def contact_sheet(dataset: Dataset, numbers: Sequence[int], *, columns: int = 2,
                     path = dataset.folder.render(number) / f"{view}.png"
                     _draw_view(axis, read_png(path), record["views"][view] if landmarks else None)
             _draw_keypoints(axes[-2], keypoints["points_2d"][row], keypoints["visibility"][row])
-            _draw_weights(axes[-1], keypoints["weights"][row], f"sample {number}, person {keypoints['person'][row]}")
+            _draw_weights(
+                axes[-1], keypoints["weights"][row], f"sample {number}, person {keypoints['person'][row]}"
+            )
     return figure
 
 

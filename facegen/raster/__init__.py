@@ -1,6 +1,14 @@
-"""A second renderer, in NumPy: what hides what, and depth without Blender."""
+"""A second renderer, in NumPy: what hides what, and what is nearest, without Blender."""
 
-from facegen.raster.depth import depth_image
-from facegen.raster.occlusion import hidden, nearest_depth, triangles_of
+from facegen.raster.occlusion import faces_of_triangles, hidden, nearest_depth, triangles_of
+from facegen.raster.z_buffer import Nearest, nearest_along_z, nearest_triangles
 
-__all__ = ["depth_image", "hidden", "nearest_depth", "triangles_of"]
+__all__ = [
+    "Nearest",
+    "faces_of_triangles",
+    "hidden",
+    "nearest_along_z",
+    "nearest_depth",
+    "nearest_triangles",
+    "triangles_of",
+]

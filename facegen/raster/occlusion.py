@@ -2,11 +2,18 @@
 
 import numpy as np
 
+from facegen.raster.z_buffer import barycentric
+
 
 def triangles_of(faces: np.ndarray) -> np.ndarray:
     """Triangles (T, 3) of faces (F, 4) whose missing fourth corner is -1; quads are cut along their first diagonal."""
     quads = faces[faces[:, 3] >= 0]
     return np.concatenate([faces[:, :3], quads[:, [0, 2, 3]]]).astype(np.int64)
+
+
+def faces_of_triangles(faces: np.ndarray) -> np.ndarray:
+    """The face (T,) that each triangle of `triangles_of` came from."""
+    return np.concatenate([np.arange(len(faces)), np.flatnonzero(faces[:, 3] >= 0)])
 
 
 def nearest_depth(rays_camera: np.ndarray, vertices_camera: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -43,7 +50,11 @@ def nearest_depth(rays_camera: np.ndarray, vertices_camera: np.ndarray, triangle
     inside = (low[face, 1] <= xy[ray, 1]) & (high[face, 1] >= xy[ray, 1])
     ray, face = ray[inside], face[inside]
     depth = np.full(len(rays_camera), np.inf)
-    np.minimum.at(depth, ray, depth_on_triangles(xy[ray], corners[face], 1.0 / z[triangles[face]]))
+    weights = barycentric(xy[ray], corners[face])
+    hit = (weights >= 0.0).all(axis=1)  # NaN (an edge-on triangle) is no hit
+    # 1/z is linear over the image plane
+    found = 1.0 / (weights[hit] / z[triangles[face[hit]]]).sum(axis=1)
+    np.minimum.at(depth, ray[hit], found)
     return depth
 
 
@@ -68,21 +79,3 @@ def hidden(
     """
     z = points_camera[:, 2]
     return (z <= 0) | (nearest_depth(points_camera, vertices_camera, triangles) < z - tolerance_m)
-
-
-def depth_on_triangles(xy: np.ndarray, corners: np.ndarray, inverse_z: np.ndarray) -> np.ndarray:
-    """Depth (m,) of triangles (m, 3, 2) with 1/z (m, 3) at image-plane points (m, 2); +inf outside the triangle."""
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-
-    def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-        return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-
-    area = cross(b - a, c - a)
-    safe = np.where(area == 0, np.nan, area)
-    wa, wb = cross(b - xy, c - xy) / safe, cross(c - xy, a - xy) / safe
-    wc = 1.0 - wa - wb
-    inside = (wa >= 0) & (wb >= 0) & (wc >= 0)  # NaN (an edge-on triangle) is never inside
-    # 1/z is linear on the image plane
-    with np.errstate(divide="ignore"):
-        depth = 1.0 / (wa * inverse_z[:, 0] + wb * inverse_z[:, 1] + wc * inverse_z[:, 2])
-    return np.where(inside, depth, np.inf)

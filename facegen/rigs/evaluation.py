@@ -75,40 +75,23 @@ def evaluate(
         if not np.isfinite(array).all():
             raise InputError(f"{name} holds values that are not finite numbers")
     gaze = gaze / np.sqrt(gaze[..., 0] ** 2 + gaze[..., 1] ** 2 + gaze[..., 2] ** 2)[..., None]
-    count = rig.cage_vertices if cage_only else len(rig.vertices)
-    faces = EvaluatedFaces(
-        vertices=np.empty((people, count, 3)),
-        landmarks=np.empty((people, len(rig.landmark_vertices), 3)),
-        eye_center=np.empty((people, 2, 3)),
-        eye_radius=np.empty((people, 2)),
-    )
+    vertices = np.empty((people, rig.cage_vertices if cage_only else len(rig.vertices), 3))
+    eye_center, eye_radius = np.empty((people, 2, 3)), np.empty((people, 2))
     with one_blas_thread():
         for start in range(0, people, CHUNK):
             rows = slice(start, min(start + CHUNK, people))
-            chunk = _evaluate_chunk(rig, *(_padded(a[rows]) for a in (identity, weights, gaze)), count)
-            for name, values in vars(chunk).items():
-                getattr(faces, name)[rows] = values[: rows.stop - start]
-    return faces
-
-
-def _padded(rows: np.ndarray) -> np.ndarray:
-    """The rows, repeated to `CHUNK` of them."""
-    return np.resize(rows, (CHUNK, *rows.shape[1:]))
-
-
-def _evaluate_chunk(
-    rig: Rig, identity: np.ndarray, weights: np.ndarray, gaze: np.ndarray, count: int
-) -> EvaluatedFaces:
-    vertices = np.empty((CHUNK, count, 3))
-    # two products of fixed shape, so that the cage's bits do not depend on whether the rest is wanted
-    for part in (slice(0, rig.cage_vertices), slice(rig.cage_vertices, count)):
-        if part.start < part.stop:
-            shape = (CHUNK, part.stop - part.start, 3)
-            moved = identity @ rig.identity[:, part].reshape(len(rig.identity), -1)
-            moved += weights @ rig.expression[:, part].reshape(len(rig.expression), -1)
-            vertices[:, part] = moved.reshape(shape) + rig.vertices[part]
-    eye_center = (identity @ rig.eye_center_identity.reshape(-1, 6)).reshape(CHUNK, 2, 3) + rig.eye_center
-    eye_radius = identity @ rig.eye_radius_identity + rig.eye_radius
+            here = rows.stop - start
+            who = np.resize(identity[rows], (CHUNK, rig.components))
+            face = np.resize(weights[rows], (CHUNK, len(rig.expression)))
+            vertices[rows, : rig.cage_vertices] = _linear(rig, who, face, slice(0, rig.cage_vertices))[:here]
+            center = who @ rig.eye_center_identity.reshape(-1, 6)
+            eye_center[rows] = center.reshape(CHUNK, 2, 3)[:here] + rig.eye_center
+            eye_radius[rows] = (who @ rig.eye_radius_identity)[:here] + rig.eye_radius
+        if not cage_only:
+            # one row at a time: only pictures need these vertices, and they need one face
+            for row in range(people):
+                rest = slice(rig.cage_vertices, None)
+                vertices[row, rest] = _linear(rig, identity[row : row + 1], weights[row : row + 1], rest)[0]
     close_lids(rig, vertices, weights=weights, eye_center=eye_center, eye_radius=eye_radius, gaze=gaze)
     return EvaluatedFaces(
         vertices=vertices,
@@ -116,6 +99,13 @@ def _evaluate_chunk(
         eye_center=eye_center,
         eye_radius=eye_radius,
     )
+
+
+def _linear(rig: Rig, identity: np.ndarray, weights: np.ndarray, part: slice) -> np.ndarray:
+    """Some vertices (n, v, 3) of faces with straight lids; fixed shapes of the products fix the last bits."""
+    moved = identity @ rig.identity[:, part].reshape(len(rig.identity), -1)
+    moved += weights @ rig.expression[:, part].reshape(len(rig.expression), -1)
+    return moved.reshape(len(identity), -1, 3) + rig.vertices[part]
 
 
 def _landmarks(rig: Rig, vertices: np.ndarray) -> np.ndarray:

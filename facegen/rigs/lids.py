@@ -174,7 +174,9 @@ def _lay_in_front(eye: _Eye, lid: np.ndarray) -> np.ndarray:
     length = _length(lid)
     # the lower margin where it faces the column in the open eye: at the inner canthus it is steep, and a
     # partner found anew after each move would run away from the column
-    below = length[:, eye.lower] @ eye.partner
+    below = np.zeros((len(lid), len(eye.upper)))
+    for vertex, share in zip(eye.lower, eye.partner, strict=True):
+        below += length[:, vertex, None] * share  # not a matrix product, whose bits depend on its shape
     nearness = np.clip(
         (0.5e-3 - _gap(eye, lid)) / 1e-3, 0.0, 1.0
     )  # from nothing at 0.5 mm apart to all at contact

@@ -22,7 +22,11 @@ TONGUE_NEEDS_JAW = 0.4
 """tongueOut with less jawOpen pushes the tongue through the lips (measured on the default rig)."""
 
 _FROM_GAZE = tuple(index for index, name in enumerate(BLENDSHAPES) if name.startswith("eyeLook"))
-_LEFT = tuple(index for index, name in enumerate(BLENDSHAPES) if name.endswith("Left") and name not in ("jawLeft", "mouthLeft"))
+_LEFT = tuple(
+    index
+    for index, name in enumerate(BLENDSHAPES)
+    if name.endswith("Left") and name not in ("jawLeft", "mouthLeft")
+)
 _RIGHT = tuple(BLENDSHAPE_INDEX[mirrored_name(BLENDSHAPES[index])] for index in _LEFT)
 
 

@@ -15,7 +15,9 @@ _LEFT, _RIGHT = 0, 1
 
 def draw_gaze_target(spec: Spec, rng: np.random.Generator, size: int) -> np.ndarray:
     """Points (size, 3) that are looked at: head frame, metres, seen from midway between the eyes."""
-    yaw, pitch, distance = (draw(d, rng, size) for d in (spec.gaze.yaw_deg, spec.gaze.pitch_deg, spec.gaze.distance_m))
+    yaw, pitch, distance = (
+        draw(d, rng, size) for d in (spec.gaze.yaw_deg, spec.gaze.pitch_deg, spec.gaze.distance_m)
+    )
     return distance[:, None] * direction_from_angles(np.radians(yaw), np.radians(pitch))
 
 
@@ -49,9 +51,11 @@ def axes_from_weights(weights: np.ndarray) -> np.ndarray:
         return weights[:, BLENDSHAPE_INDEX[plus]] - weights[:, BLENDSHAPE_INDEX[minus]]
 
     yaw = np.stack(
-        [difference("eyeLookOutLeft", "eyeLookInLeft"), difference("eyeLookInRight", "eyeLookOutRight")], axis=-1
+        [difference("eyeLookOutLeft", "eyeLookInLeft"), difference("eyeLookInRight", "eyeLookOutRight")],
+        axis=-1,
     )
     pitch = np.stack(
-        [difference("eyeLookUpLeft", "eyeLookDownLeft"), difference("eyeLookUpRight", "eyeLookDownRight")], axis=-1
+        [difference("eyeLookUpLeft", "eyeLookDownLeft"), difference("eyeLookUpRight", "eyeLookDownRight")],
+        axis=-1,
     )
     return direction_from_angles(yaw * FULL_YAW_RAD, pitch * FULL_PITCH_RAD)

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import ndtr, ndtri
 
+from facegen.conventions import BLOCK, SPLITS
 from facegen.randomness import stream
 from facegen.rigs import Rig
-from facegen.conventions import BLOCK, SPLITS
 from facegen.spec import Spec, draw
 
 LARGEST_SCORE = 2.5

@@ -27,7 +27,10 @@ def draw(distribution: Distribution, rng: np.random.Generator, size: int | tuple
     """Values (size) of a distribution: exactly one random number each, so later draws never shift."""
     unit = rng.random(size)
     if distribution.kind == "normal":
-        below, above = (ndtr((edge - distribution.mean) / distribution.sd) for edge in (distribution.low, distribution.high))
+        below, above = (
+            ndtr((edge - distribution.mean) / distribution.sd)
+            for edge in (distribution.low, distribution.high)
+        )
         value = distribution.mean + distribution.sd * ndtri(below + unit * (above - below))
         return np.clip(value, distribution.low, distribution.high)
     return distribution.low + unit * (distribution.high - distribution.low)
@@ -66,7 +69,8 @@ def parse(value: Any) -> Distribution:
         result = _normal(value)
     else:
         raise PydanticCustomError(
-            "distribution", "must be a number, {uniform = [low, high]} or {normal = [mean, sd], within = [low, high]}"
+            "distribution",
+            "must be a number, {uniform = [low, high]} or {normal = [mean, sd], within = [low, high]}",
         )
     if not result.low < result.high:
         raise PydanticCustomError("distribution", "the lower bound must be below the upper one")
@@ -105,7 +109,9 @@ def quantity(low: float, high: float, unit: str) -> Any:
         result = parse(value)
         if not low <= result.low <= result.high <= high:
             raise PydanticCustomError(
-                "quantity", "must lie between {low} and {high} {unit}", {"low": f"{low:g}", "high": f"{high:g}", "unit": unit}
+                "quantity",
+                "must lie between {low} and {high} {unit}",
+                {"low": f"{low:g}", "high": f"{high:g}", "unit": unit},
             )
         return result
 

@@ -12,7 +12,9 @@ from facegen.sampling import Samples
 
 
 def _field(name: str, kind: pa.DataType, description: str, *, shape: str = "", unit: str = "") -> pa.Field:
-    notes = {"description": description} | ({"shape": shape} if shape else {}) | ({"unit": unit} if unit else {})
+    notes = (
+        {"description": description} | ({"shape": shape} if shape else {}) | ({"unit": unit} if unit else {})
+    )
     return pa.field(name, kind, nullable=False, metadata=notes)
 
 
@@ -38,9 +40,17 @@ def keypoint_schema(components: int) -> pa.Schema:
             _field("weights", floats(len(BLENDSHAPES)), "ARKit blendshape weights: " + " ".join(BLENDSHAPES)),
             _field("identity", floats(components), "coefficients of the rig's identity basis"),
             _field("gaze", floats(6), "unit optical axes, head frame, subject's left eye first", shape="2 3"),
-            _field("camera_from_head", pa.list_(pa.float64(), 16), "head pose in the keypoint camera", shape="4 4", unit="m"),
+            _field(
+                "camera_from_head",
+                pa.list_(pa.float64(), 16),
+                "head pose in the keypoint camera",
+                shape="4 4",
+                unit="m",
+            ),
             _field("intrinsics", pa.list_(pa.float64(), 4), "fx fy cx cy of the keypoint camera", unit="px"),
-            _field("image_size", pa.list_(pa.int32(), 2), "width and height of the keypoint camera", unit="px"),
+            _field(
+                "image_size", pa.list_(pa.int32(), 2), "width and height of the keypoint camera", unit="px"
+            ),
             _field("points_2d", floats(136), "exact landmarks", shape="68 2", unit="px"),
             _field("detected_2d", floats(136), "landmarks with detector noise", shape="68 2", unit="px"),
             _field("points_3d", floats(204), "landmarks in the head frame", shape="68 3", unit="m"),
@@ -101,9 +111,14 @@ def _column(values: np.ndarray, kind: pa.DataType) -> pa.Array:
 
 
 def write_shard(table: pa.Table, path: Path) -> None:
-    """Write a shard with a checksum for every page; equal tables give equal bytes with one version of pyarrow."""
+    """Write a shard, every page with a checksum; equal tables give equal bytes with one version of pyarrow."""
     pq.write_table(
-        table, path, compression="zstd", row_group_size=len(table), write_statistics=True, write_page_checksum=True
+        table,
+        path,
+        compression="zstd",
+        row_group_size=len(table),
+        write_statistics=True,
+        write_page_checksum=True,
     )
 
 

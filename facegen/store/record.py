@@ -22,7 +22,9 @@ def numbers(array: np.ndarray) -> Any:
     return np.vectorize(lambda x: None if np.isnan(x) else float(str(x)), otypes=[object])(rounded).tolist()
 
 
-def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str, headset: str, sensor: Sensor) -> dict:
+def sample_record(
+    rendered: RenderedSample, *, dataset_hash: str, rig: str, headset: str, sensor: Sensor
+) -> dict:
     """Labels of a rendered sample that follow from (spec, sample number) alone; pictures' checksums come on top."""
     samples, keypoints = rendered.samples, rendered.keypoints
     return {

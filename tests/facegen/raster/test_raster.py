@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from facegen.raster import depth_image, hidden, triangles_of
+from facegen.raster import hidden, nearest_triangles, triangles_of
 
 SQUARE = np.array([[-1.0, -1.0, 2.0], [1.0, -1.0, 2.0], [1.0, 1.0, 2.0], [-1.0, 1.0, 2.0]])
 QUAD = np.array([[0, 1, 2, 3]])
@@ -33,7 +33,9 @@ def test_tolerance_lets_a_surface_not_hide_its_own_points():
 
 def test_triangles_behind_the_camera_hide_nothing():
     vertices = SQUARE * [1, 1, -1]
-    assert hidden(np.array([[0.0, 0.0, 5.0]]), vertices, triangles_of(QUAD), tolerance_m=0).tolist() == [False]
+    assert hidden(np.array([[0.0, 0.0, 5.0]]), vertices, triangles_of(QUAD), tolerance_m=0).tolist() == [
+        False
+    ]
 
 
 def _sphere(center: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
@@ -43,7 +45,9 @@ def _sphere(center: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
     unit = np.stack([np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)], axis=-1).reshape(-1, 3)
     i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns), indexing="ij")
     k = (j + 1) % columns
-    faces = np.stack([i * columns + j, i * columns + k, (i + 1) * columns + k, (i + 1) * columns + j], axis=-1)
+    faces = np.stack(
+        [i * columns + j, i * columns + k, (i + 1) * columns + k, (i + 1) * columns + j], axis=-1
+    )
     return center + radius * unit, triangles_of(faces.reshape(-1, 4))
 
 
@@ -52,9 +56,13 @@ def test_depth_of_a_sphere_is_its_formula():
     vertices, triangles = _sphere(center, radius)
     focal = 100.0
     plane = vertices[:, :2] / vertices[:, 2:] * focal + (size - 1) / 2
-    depth, triangle = depth_image(plane, 1 / vertices[:, 2], triangles, width=size, height=size)
+    drawn = nearest_triangles(plane, 1 / vertices[:, 2], triangles, shape=(size, size))
+    triangle = drawn.triangle
+    depth = np.where(triangle >= 0, 1 / np.where(triangle >= 0, drawn.value, 1.0), np.inf)
     v, u = np.mgrid[0:size, 0:size]
-    ray = np.stack([(u - (size - 1) / 2) / focal, (v - (size - 1) / 2) / focal, np.ones_like(u, float)], axis=-1)
+    ray = np.stack(
+        [(u - (size - 1) / 2) / focal, (v - (size - 1) / 2) / focal, np.ones_like(u, float)], axis=-1
+    )
     a, b, c = (ray * ray).sum(-1), ray @ center, center @ center - radius**2
     root = b * b - a * c
     expected = np.where(root > 0, (b - np.sqrt(np.maximum(root, 0))) / a, np.inf)
@@ -75,6 +83,7 @@ def test_occlusion_agrees_with_the_z_buffer(seed):
     z = rng.uniform(0.2, 0.4, 40)
     points = np.concatenate([(pixels - (size - 1) / 2) / focal * z[:, None], z[:, None]], axis=1)
     plane = vertices[:, :2] / vertices[:, 2:] * focal + (size - 1) / 2
-    depth, _ = depth_image(plane, 1 / vertices[:, 2], triangles, width=size, height=size)
+    drawn = nearest_triangles(plane, 1 / vertices[:, 2], triangles, shape=(size, size))
+    depth = 1 / np.where(drawn.triangle >= 0, drawn.value, 1e-300)
     expected = depth[pixels[:, 1], pixels[:, 0]] < z - 1e-4
     assert (hidden(points, vertices, triangles, tolerance_m=1e-4) == expected).all()

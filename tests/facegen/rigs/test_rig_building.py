@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from facegen.raster import faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.eyes import CORNEA_RADIUS_M, IRIS_RADIUS_M, eye_geometry, lid_support_radius, visual_axis
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
 from facegen.rigs.subdivision import catmull_clark, subdivide_corners
-from facegen.rigs.zbuffer import nearest_along_z, triangles_of
 
 CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 CUBE_FACES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
@@ -69,11 +69,11 @@ def test_z_buffer_keeps_the_nearest() -> None:
     square = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
     vertices = np.concatenate([square, 0.5 * square + (0.0, 0.0, 1.0)])
     faces = np.array([[0, 1, 2, 3], [4, 5, 6, -1]])
-    triangles, source = triangles_of(faces)
+    triangles, source = triangles_of(faces), faces_of_triangles(faces)
     depth = nearest_along_z(vertices, triangles, origin=np.array([-1.45, 1.45]), step=0.1, shape=(30, 30))
-    assert (depth.z == 0.0).sum() + (depth.z == 1.0).sum() == 400
+    assert (depth.value == 0.0).sum() + (depth.value == 1.0).sum() == 400
     assert set(source[np.unique(depth.triangle[depth.triangle >= 0])]) == {0, 1}
-    assert 40 <= (depth.z == 1.0).sum() <= 60
+    assert 40 <= (depth.value == 1.0).sum() <= 60
 
 
 @pytest.mark.parametrize("radius", [0.012, 0.0166])

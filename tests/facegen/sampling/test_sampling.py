@@ -119,7 +119,9 @@ def test_both_eyes_meet_at_the_target_and_weights_say_the_same(anny):
 
 
 def test_spread_zero_gives_the_mean_of_each_trait(anny):
-    samples = draw_samples(plan_dataset(spec(identity={"spread": 0.0, "female": 1.0, "age_years": 40})), anny, 0)
+    samples = draw_samples(
+        plan_dataset(spec(identity={"spread": 0.0, "female": 1.0, "age_years": 40})), anny, 0
+    )
     assert samples.female.all()
     assert (samples.age_years == 40).all()
     same_ancestry = replace(samples, ancestry=samples.ancestry).ancestry
@@ -130,7 +132,9 @@ def test_spread_zero_gives_the_mean_of_each_trait(anny):
 @pytest.mark.parametrize("share", [0.0, 1.0])
 def test_symmetric_faces_are_symmetric(share):
     weights = draw_expression(spec(expression={"symmetric": share}), np.random.default_rng(0), 400)
-    left = [i for i, n in enumerate(BLENDSHAPES) if n.endswith("Left") and not n.startswith(("jaw", "mouthLeft"))]
+    left = [
+        i for i, n in enumerate(BLENDSHAPES) if n.endswith("Left") and not n.startswith(("jaw", "mouthLeft"))
+    ]
     right = [BLENDSHAPE_INDEX[BLENDSHAPES[i].replace("Left", "Right")] for i in left]
     same = (weights[:, left] == weights[:, right]).all(axis=1).mean()
     assert same == 1.0 if share else same < 0.2

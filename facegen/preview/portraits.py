@@ -8,10 +8,10 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES, Part
 from facegen.errors import OutputError
 from facegen.geometry import rotation_from_angles
+from facegen.raster import Nearest, faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import IRIS_RADIUS_M, lid_support_radius
 from facegen.rigs.rig import Rig
-from facegen.rigs.zbuffer import DepthMap, nearest_along_z, triangles_of
 
 VIEWS_DEG = {"front": 0.0, "three-quarter": 35.0, "side": 75.0}
 COLOURS = {
@@ -57,7 +57,7 @@ def drawn_mesh(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and part per triangle of evaluated face ``index`` with its eyeballs."""
     shown = rig.part != Part.LASHES  # without a texture they would be a solid strip before the eye
-    triangles, source = triangles_of(rig.faces[shown])
+    triangles, source = triangles_of(rig.faces[shown]), faces_of_triangles(rig.faces[shown])
     vertices, all_triangles, parts = [faces.vertices[index]], [triangles], [rig.part[shown][source]]
     for eye in range(2):
         v, t, p = eyeball_mesh(faces.eye_center[index, eye], faces.eye_radius[index, eye], gaze[eye])
@@ -67,7 +67,7 @@ def drawn_mesh(
     return np.concatenate(vertices), np.concatenate(all_triangles), np.concatenate(parts)
 
 
-def shade(vertices: np.ndarray, triangles: np.ndarray, part: np.ndarray, depth: DepthMap) -> np.ndarray:
+def shade(vertices: np.ndarray, triangles: np.ndarray, part: np.ndarray, depth: Nearest) -> np.ndarray:
     """Picture (h, w, 3) in [0, 1] of a z-buffer, lit from the camera's upper left."""
     corner = vertices[triangles]
     flat = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
@@ -127,7 +127,7 @@ def portrait(
     points = faces.landmarks[index] @ turn
     pixels = np.stack([(points[:, 0] - left) / step_m, (top - points[:, 1]) / step_m], axis=-1)
     column, row = np.clip(np.round(pixels).astype(int), 0, np.array(shape[::-1]) - 1).T
-    seen = points[:, 2] > depth.z[row, column] - HIDDEN_M
+    seen = points[:, 2] > depth.value[row, column] - HIDDEN_M
     return Portrait(picture=shade(vertices, triangles, part, depth), landmarks=pixels, seen=seen)
 
 

@@ -7,10 +7,10 @@ import numpy as np
 
 from facegen.conventions import Part
 from facegen.geometry import rotation_from_angles
+from facegen.raster import faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.evaluation import EvaluatedFaces
 from facegen.rigs.eyes import CORNEA_RADIUS_M, cornea_center_offset
 from facegen.rigs.rig import Rig
-from facegen.rigs.zbuffer import nearest_along_z, triangles_of
 
 STEP_M = 0.1e-3
 """Samples lie this far apart: one is 0.01 mm2."""
@@ -48,8 +48,7 @@ def eyeball_seen(
     """
     turn = rotation_from_angles(np.radians(yaw_deg), np.radians(pitch_deg), 0.0)
     vertices = faces.vertices[index] @ turn
-    triangles, source = triangles_of(rig.faces)
-    triangles = triangles[rig.part[source] != Part.LASHES]
+    triangles = triangles_of(rig.faces)[rig.part[faces_of_triangles(rig.faces)] != Part.LASHES]
     area, outside = np.zeros(2), np.zeros(2)
     for eye in range(2):
         centre = faces.eye_center[index, eye] @ turn
@@ -57,7 +56,7 @@ def eyeball_seen(
         shape = (round(2 * _HALF_HEIGHT_M / STEP_M), round(2 * _HALF_WIDTH_M / STEP_M))
         depth = nearest_along_z(vertices, triangles, origin=origin, step=STEP_M, shape=shape)
         surface = _eye_depth(faces.eye_radius[index, eye], gaze[eye] @ turn, shape) + centre[2]
-        seen = surface > depth.z
+        seen = surface > depth.value
         area[eye] = seen.sum() * (1e3 * STEP_M) ** 2
         rows, columns = np.nonzero(seen)
         points = origin + STEP_M * np.stack([columns, -rows], axis=-1)

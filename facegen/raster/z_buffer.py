@@ -1,0 +1,102 @@
+"""A z-buffer in NumPy: which triangle is nearest at each pixel's centre, and how near."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+BATCH_PIXELS = 4_000_000
+"""Pixels of triangles that are computed at once: memory stays near 300 MB."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Nearest:
+    """``value`` (h, w), the largest of all triangles at a pixel, -inf where there is none; ``triangle`` (h, w), else -1."""
+
+    value: np.ndarray
+    triangle: np.ndarray
+
+
+def nearest_triangles(
+    vertices_px: np.ndarray, value: np.ndarray, triangles: np.ndarray, *, shape: tuple[int, int]
+) -> Nearest:
+    """Draw both sides of triangles; at each pixel the largest value wins.
+
+    Parameters
+    ----------
+    vertices_px
+        (V, 2) column and row of the vertices, pixel centres at whole numbers; NaN leaves a triangle out.
+    value
+        (V,) what is compared. It must be linear over the picture: 1/z for a pinhole, z towards the viewer for a
+        parallel projection.
+    triangles
+        (T, 3) vertex indices.
+    shape
+        Height and width of the picture.
+    """
+    best = np.full(shape[0] * shape[1], -np.inf)
+    hit = np.full(shape[0] * shape[1], -1, np.int64)
+    corners, values = vertices_px[triangles], value[triangles]
+    limit = np.array([shape[1] - 1, shape[0] - 1], np.float64)
+    first = np.maximum(np.ceil(corners.min(axis=1)), 0.0)
+    size = np.nan_to_num(np.minimum(np.floor(corners.max(axis=1)), limit) - first + 1.0, nan=0.0)
+    size = np.maximum(size, 0.0).astype(np.int64)
+    first = np.nan_to_num(first).astype(np.int64)
+    for some in _batches(size.prod(axis=1)):
+        triangle = np.repeat(some, size[some].prod(axis=1))
+        local = _counted(size[some].prod(axis=1))
+        column = first[triangle, 0] + local % size[triangle, 0]
+        row = first[triangle, 1] + local // size[triangle, 0]
+        weights = barycentric(np.stack([column, row], axis=-1), corners[triangle])
+        inside = (weights >= 0.0).all(axis=-1)
+        triangle, pixel = triangle[inside], row[inside] * shape[1] + column[inside]
+        base, wb, wc = values[triangle, 0], weights[inside, 1], weights[inside, 2]
+        here = base + wb * (values[triangle, 1] - base) + wc * (values[triangle, 2] - base)  # exact on level faces
+        np.maximum.at(best, pixel, here)
+        front = here == best[pixel]
+        hit[pixel[front]] = triangle[front]
+    return Nearest(value=best.reshape(shape), triangle=hit.reshape(shape))
+
+
+def nearest_along_z(
+    vertices: np.ndarray, triangles: np.ndarray, *, origin: np.ndarray, step: float, shape: tuple[int, int]
+) -> Nearest:
+    """Parallel view of vertices (V, 3) from +z, x to the right and y up; the values are z.
+
+    Parameters
+    ----------
+    origin
+        (2,) x and y of the top-left sample.
+    step
+        Distance of samples.
+    shape
+        Height and width in samples.
+    """
+    pixels = (vertices[:, :2] - origin) * np.array([1.0, -1.0]) / step
+    return nearest_triangles(pixels, vertices[:, 2], triangles, shape=shape)
+
+
+def barycentric(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Weights (m, 3) of the corners (m, 3, 2) at points (m, 2); NaN for triangles seen edge on."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    area = _cross(b - a, c - a)
+    safe = np.where(area == 0.0, np.nan, area)
+    wa, wb = _cross(b - points, c - points) / safe, _cross(c - points, a - points) / safe
+    return np.stack([wa, wb, 1.0 - wa - wb], axis=-1)
+
+
+def _cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+
+def _batches(pixels: np.ndarray) -> list[np.ndarray]:
+    """Triangles with pixels at all, in groups of about `BATCH_PIXELS`."""
+    drawn = np.flatnonzero(pixels)
+    if not len(drawn):
+        return []
+    return np.split(drawn, np.flatnonzero(np.diff(np.cumsum(pixels[drawn]) // BATCH_PIXELS)) + 1)
+
+
+def _counted(lengths: np.ndarray) -> np.ndarray:
+    """0 .. length - 1 for each length, one after the other."""
+    ends = np.cumsum(lengths)
+    return np.arange(ends[-1]) - np.repeat(ends - lengths, lengths)
