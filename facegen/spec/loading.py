@@ -32,7 +32,9 @@ def load_spec(path: str | Path) -> Spec:
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise InputError(f"{path}: there is no such spec; the ones that come with facegen are datasets/*.toml") from None
+        raise InputError(
+            f"{path}: there is no such spec; the ones that come with facegen are datasets/*.toml"
+        ) from None
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: cannot be read as a spec ({error})") from None
     except tomllib.TOMLDecodeError as error:
@@ -41,8 +43,12 @@ def load_spec(path: str | Path) -> Spec:
     if spec.playback is not None:
         recording = path.parent / spec.playback.recording
         if not recording.is_file():
-            raise InputError(f"{path}: playback.recording = {spec.playback.recording!r}: there is no file {recording}")
-        spec = dataclasses.replace(spec, playback=dataclasses.replace(spec.playback, recording=str(recording.resolve())))
+            raise InputError(
+                f"{path}: playback.recording = {spec.playback.recording!r}: there is no file {recording}"
+            )
+        spec = dataclasses.replace(
+            spec, playback=dataclasses.replace(spec.playback, recording=str(recording.resolve()))
+        )
     return spec
 
 
@@ -54,13 +60,17 @@ def parse_spec(table: dict[str, Any], *, where: str) -> Spec:
     except ValidationError as error:
         raise InputError(f"{where}: {_sentence(error.errors()[0])}") from None
     if abs(sum(spec.split_shares) - 1) > 1e-9:
-        raise InputError(f"{where}: split_shares = {list(spec.split_shares)} must add up to 1 (train, validation, test)")
+        raise InputError(
+            f"{where}: split_shares = {list(spec.split_shares)} must add up to 1 (train, validation, test)"
+        )
     if spec.expression.sparse_shapes[0] > spec.expression.sparse_shapes[1]:
         raise InputError(f"{where}: expression.sparse_shapes must be [fewest, most] with fewest <= most")
     if spec.kind == "playback" and spec.playback is None:
         raise InputError(f'{where}: kind = "playback" needs a [playback] table with recording and fps')
     if spec.kind == "still" and spec.still.neutral + spec.still.faces == 0:
-        raise InputError(f"{where}: still.neutral and still.faces are both 0; at least one face a person is needed")
+        raise InputError(
+            f"{where}: still.neutral and still.faces are both 0; at least one face a person is needed"
+        )
     parse_ranges(spec.render.samples, where=f"{where}: render.samples")
     return spec
 
@@ -109,6 +119,10 @@ def _sentence(error: dict[str, Any]) -> str:
         return f"unknown key {path!r}; {hint}Known keys here: {', '.join(known)}"
     if error["type"] in ("missing", "missing_argument"):
         return f"key {path!r} is missing"
-    message = error["msg"].replace("Input should", "must").replace("must be a valid integer", "must be a whole number")
+    message = (
+        error["msg"]
+        .replace("Input should", "must")
+        .replace("must be a valid integer", "must be a whole number")
+    )
     message = message.replace("must be a valid", "must be a").replace("must be an object", "must be a table")
     return f"{path} = {json.dumps(error['input'], default=str)}: {message}"
