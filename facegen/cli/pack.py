@@ -13,7 +13,13 @@ from facegen.cli.progress import progress
 def pack(
     dataset: Annotated[Path, typer.Argument(help="Folder of a dataset.")],
     out: Annotated[Path, typer.Option("--out", help="Folder of the pack; made if it is not there.")],
-    name: Annotated[str, typer.Option("--format", help="webdataset, parquet, keypoints or coco.")],
+    name: Annotated[
+        str | None,
+        typer.Option(
+            "--format",
+            help="webdataset (default if there are pictures), parquet, keypoints (default if not) or coco.",
+        ),
+    ] = None,
     samples: Annotated[
         str | None, typer.Option("--samples", help="Pack these: 0-99,140. Default: all there are.")
     ] = None,
@@ -48,6 +54,7 @@ def pack(
         exr=exr,
     )
     opened = open_dataset(dataset)
+    name = name or ("webdataset" if opened.folder.rendered() else "keypoints")
     plan = plan_pack(opened, name, options)
     with progress("files packed", len(plan.parts)) as update:
         packed = write_pack(plan, out, on_progress=update)
