@@ -108,7 +108,7 @@ class Render:
     headset: str = "tracking3"
     samples: str = ""
     size_px: Annotated[int, Field(ge=16, le=4096)] = 256
-    samples_per_pixel: Annotated[int, Field(ge=1, le=65536)] = 16
+    samples_per_pixel: Annotated[int, Field(ge=1, le=65536)] = 8
     denoise: bool = True
 
 
