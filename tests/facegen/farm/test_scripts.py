@@ -1,0 +1,143 @@
+"""Scripts and bundles as texts: golden files, quoting, chunks, what squeue says, limits as people write them."""
+
+import dataclasses
+import json
+import shlex
+import subprocess
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from facegen.errors import InputError
+from facegen.farm import ENGINES, Chunk, Job, Resources, Submission, cut_chunks
+from facegen.farm.openjd import deadline_values, job_template, path_mapping
+from facegen.farm.slurm import read_squeue, sbatch_script
+
+GOLDEN = Path(__file__).with_name("golden")
+
+JOB = Job(
+    name="job-003",
+    engine="slurm",
+    out="/shared/faces",
+    packed="/shared/faces-packed",
+    model="/shared/faces-model",
+    steps=("generate", "validate", "pack", "train", "export"),
+    samples="0-249",
+    shards="0",
+    chunks=cut_chunks([0], list(range(250)), chunk=100),
+    resources=Resources(
+        cpus=4,
+        mem="4G",
+        time="2:00:00",
+        max_parallel=8,
+        env_setup="module load python/3.11",
+        python="/shared/env/bin/python",
+        path_map=(("/shared", "/cluster/shared"),),
+    ),
+)
+
+
+def check_golden(name: str, text: str, request: pytest.FixtureRequest) -> None:
+    """Compare with a golden file; it is written only when --update-golden asks for it."""
+    path = GOLDEN / name
+    if request.config.getoption("--update-golden"):
+        path.write_text(text)
+    assert path.is_file(), f"{path} is missing; look at the new text and write it with --update-golden"
+    assert text == path.read_text()
+
+
+@pytest.mark.parametrize("step", JOB.steps)
+def test_batch_scripts_are_as_read_over(step, request):
+    check_golden(f"{step}.sh", sbatch_script(JOB, step), request)
+
+
+def test_the_template_is_as_read_over(request):
+    check_golden("template.json", json.dumps(job_template(JOB), indent=2) + "\n", request)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_files_are_the_same_every_time_and_say_how_to_start(engine):
+    job = dataclasses.replace(JOB, engine=engine)
+    assert ENGINES[engine].files(job) == ENGINES[engine].files(job)
+    assert ENGINES[engine].instructions(job)
+
+
+@pytest.mark.parametrize("step", JOB.steps)
+def test_bash_reads_the_scripts(step):
+    assert subprocess.run(["bash", "-n"], input=sbatch_script(JOB, step), text=True).returncode == 0
+
+
+def test_names_with_blanks_and_percents_survive():
+    job = dataclasses.replace(JOB, out="/shared/my faces 50%", resources=Resources(python="/opt/my python"))
+    script = sbatch_script(job, "generate")
+    assert '#SBATCH --output="/shared/my faces 50%%/farm/job-003/logs/generate-%a.out"' in script
+    line = next(line for line in script.splitlines() if "facegen generate" in line)
+    words = shlex.split(line.removesuffix("&"))
+    assert words[:5] == ["/opt/my python", "-m", "facegen", "generate", "/shared/my faces 50%/spec.toml"]
+    with pytest.raises(InputError, match="cannot name a folder with a quote"):
+        sbatch_script(dataclasses.replace(JOB, out='/shared/"faces"'), "generate")
+
+
+def test_chunks_hold_everything_once_and_fit_an_array():
+    assert cut_chunks([0, 1], list(range(5)), chunk=2) == (
+        *(Chunk(shards="0"), Chunk(shards="1")),
+        *(Chunk(samples="0-1"), Chunk(samples="2-3"), Chunk(samples="4")),
+    )
+    assert cut_chunks([], [7, 9, 10]) == (Chunk(samples="7,9-10"),)
+    assert cut_chunks([], []) == ()
+    million = cut_chunks(list(range(100)), list(range(1_000_000)))
+    assert len(million) <= 1000
+    with pytest.raises(InputError, match="at least --chunk 1000"):
+        cut_chunks([], list(range(1_000_000)), chunk=10)
+
+
+def test_an_array_and_its_steps_are_found_in_the_queue():
+    listing = "\n".join(
+        ["41|0|RUNNING|None", "41|3|PENDING|Resources", "42|N/A|PENDING|Dependency", "7|0|RUNNING|None", ""]
+    )
+    activity = read_squeue(listing, Submission(ids={"generate": "41", "validate": "42"}))
+    assert activity.chunks == {0: "RUNNING", 3: "PENDING"}
+    assert activity.steps == {"validate": "PENDING"}
+    assert activity.reasons == Counter(Resources=1, Dependency=1)
+    assert not read_squeue("", Submission(ids={"generate": "41"})).anything
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"), [("90", 5400), ("1:30", 90), ("2:00:00", 7200), ("1-0", 86400), ("1-12:30", 131400)]
+)
+def test_times_are_slurms(text, seconds):
+    assert Resources(time=text).time_s == seconds
+
+
+@pytest.mark.parametrize(("text", "mebibytes"), [("900M", 900), ("4G", 4096), ("1T", 1 << 20), ("2048K", 2)])
+def test_memory_is_slurms(text, mebibytes):
+    assert Resources(mem=text).mem_mib == mebibytes
+
+
+@pytest.mark.parametrize("resources", [Resources(time="soon"), Resources(mem="much")])
+def test_what_cannot_be_read_is_refused(resources):
+    with pytest.raises(InputError, match="write"):
+        _ = (resources.time_s, resources.mem_mib)
+
+
+def test_folders_are_mapped_by_whole_names():
+    resources = Resources(path_map=(("/shared/", "/mnt/s"),))
+    assert resources.on_farm("/shared/faces") == "/mnt/s/faces"
+    assert resources.on_farm("/shared") == "/mnt/s"
+    assert resources.on_farm("/shared2/faces") == "/shared2/faces"
+    assert path_mapping(JOB)["path_mapping_rules"][0]["destination_path"] == "/cluster/shared"
+
+
+def test_deadline_gets_its_own_parameters():
+    names = {value["name"] for value in deadline_values(JOB)["parameterValues"]}
+    assert names == {
+        *("OutDir", "PackedDir", "ModelDir", "Python"),
+        *("deadline:maxRetriesPerTask", "deadline:maxWorkerCount"),
+    }
+
+
+def test_braces_in_a_setup_are_refused_for_openjd():
+    job = dataclasses.replace(JOB, resources=Resources(env_setup="echo {{x}}"))
+    with pytest.raises(InputError, match="--env-setup"):
+        job_template(job)
