@@ -63,7 +63,7 @@ NodeName=n1 NodeHostname={host} NodeAddr=127.0.0.1 Port={node_port} CPUs=2 RealM
 PartitionName=main Nodes=ALL Default=YES MaxTime=1:00:00 PriorityTier=1 PreemptMode=REQUEUE State=UP
 PartitionName=urgent Nodes=ALL MaxTime=1:00:00 PriorityTier=2 PreemptMode=OFF State=UP
 """
-# cred_expire is also how long a requeued job waits; the default of 120 s makes tests slow, and less than 5 is refused
+# cred_expire is also how long a requeued job waits; the default is 120 s, and less than 5 is refused
 
 
 def missing_programs() -> list[str]:

@@ -1,4 +1,4 @@
-"""Scripts and bundles as texts: golden files, quoting, chunks, what squeue says, limits as people write them."""
+"""Scripts and bundles as texts: golden files, quoting, chunks, the queue, limits as people write them."""
 
 import dataclasses
 import json

@@ -1,0 +1,113 @@
+"""What scheduling costs: many samples without pictures in one process, by workers and by a Slurm array; and how
+rendering grows with workers.
+
+Run on an idle machine from the repository: python benchmarks/bench_scheduling.py [--samples 100000] [--repeat 3]
+It prints its figures under a header with the machine and the versions. The array runs on a Slurm of its own
+(Debian: slurmctld slurmd slurm-client munge) and is left out where there is none.
+"""
+
+import argparse
+import json
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from importlib.metadata import version
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+
+from tests.real_tools.slurm_sandbox import SlurmSandbox, missing_programs  # noqa: E402
+
+KEYPOINTS = 'version = 1\nkind = "still"\nseed = 3\npeople = {people}\n[still]\nneutral = 1\nfaces = 4\n'
+PICTURES = (
+    KEYPOINTS.format(people=20)
+    + '[render]\nheadset = "tracking3"\nsamples = "0-{last}"\nsize_px = {size}\nsamples_per_pixel = 4\n'
+)
+
+
+def facegen(*arguments: object, cpus: set[int] | None = None, environ: dict | None = None) -> float:
+    """Seconds of a facegen command, on some processors only."""
+    environ = dict(os.environ if environ is None else environ) | {"PYTHONPATH": str(ROOT)}
+    started = time.perf_counter()
+    subprocess.run(
+        [sys.executable, "-m", "facegen", *map(str, arguments)],
+        check=True,
+        env=environ,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=(lambda: os.sched_setaffinity(0, cpus)) if cpus else None,
+    )
+    return time.perf_counter() - started
+
+
+def header() -> str:
+    """The machine and the versions that the figures belong to."""
+    info = Path("/proc/cpuinfo").read_text().splitlines()
+    cpu = next((line.split(":")[1].strip() for line in info if line.startswith("model name")), "unknown")
+    packages = ", ".join(f"{name} {version(name)}" for name in ("bpy", "numpy", "pyarrow"))
+    return (
+        f"# {len(os.sched_getaffinity(0))} processors ({cpu}), {platform.platform()}, Python "
+        f"{platform.python_version()}, {packages}; load before: {os.getloadavg()[0]:.1f}"
+    )
+
+
+def keypoints(folder: Path, samples: int) -> dict[str, float]:
+    """Seconds for samples without pictures: one worker, two, and an array of eight tasks."""
+    spec = folder / "keypoints.toml"
+    spec.write_text(KEYPOINTS.format(people=samples // 5))
+    seconds = {}
+    for workers in (1, 2):
+        cpus = {min(os.sched_getaffinity(0))} if workers == 1 else None
+        seconds[f"{workers} workers"] = facegen(
+            "generate", spec, "--out", folder / f"w{workers}", "--workers", workers, cpus=cpus
+        )
+    if not missing_programs():
+        with SlurmSandbox() as slurm:
+            command = ("farm", "submit", spec, "--out", folder / "array", "--engine", "slurm", "--wait")
+            setup = ("--env-setup", f"export PYTHONPATH={ROOT}")
+            seconds["Slurm array"] = facegen(*command, *setup, environ=slurm.environ)
+    return seconds
+
+
+def pictures(folder: Path, repeat: int, count: int, size: int) -> dict[str, list[float]]:
+    """Seconds for rendered samples: one single-threaded worker, and two."""
+    spec = folder / "pictures.toml"
+    spec.write_text(PICTURES.format(last=count - 1, size=size))
+    seconds: dict[str, list[float]] = {"1 worker": [], "2 workers": []}
+    for round_ in range(repeat):
+        for workers, name in ((1, "1 worker"), (2, "2 workers")):
+            cpus = {min(os.sched_getaffinity(0))} if workers == 1 else None
+            out = folder / f"p{workers}-{round_}"
+            seconds[name].append(facegen("generate", spec, "--out", out, "--workers", workers, cpus=cpus))
+    return seconds
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--samples", type=int, default=100_000, help="samples without pictures")
+    parser.add_argument("--pictures", type=int, default=40, help="rendered samples")
+    parser.add_argument("--size", type=int, default=128, help="pixels of a picture's side")
+    parser.add_argument("--repeat", type=int, default=3)
+    arguments = parser.parse_args()
+    print(header())
+    with tempfile.TemporaryDirectory() as folder:
+        alone = None
+        for name, seconds in keypoints(Path(folder), arguments.samples).items():
+            alone = alone or seconds
+            rate = arguments.samples / seconds
+            print(f"{arguments.samples} samples, {name}: {seconds:.1f} s, {rate:.0f}/s, {alone / seconds:.2f}x")
+        found = pictures(Path(folder), arguments.repeat, arguments.pictures, arguments.size)
+        medians = {name: statistics.median(seconds) for name, seconds in found.items()}
+        for name, seconds in medians.items():
+            gain = medians["1 worker"] / seconds
+            print(f"{arguments.pictures} rendered samples, {name}: {seconds:.1f} s (median), {gain:.2f}x")
+        print(json.dumps(found))
+
+
+if __name__ == "__main__":
+    main()
