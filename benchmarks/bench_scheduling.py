@@ -1,7 +1,7 @@
-"""What scheduling costs: many samples without pictures in one process, by workers and by a Slurm array; and how
-rendering grows with workers.
+"""What scheduling costs: samples without pictures in one process, by workers and by a Slurm array; and
+how rendering grows with workers.
 
-Run on an idle machine from the repository: python benchmarks/bench_scheduling.py [--samples 100000] [--repeat 3]
+Run on an idle machine, from the repository: python benchmarks/bench_scheduling.py --samples 100000 --repeat 3
 It prints its figures under a header with the machine and the versions. The array runs on a Slurm of its own
 (Debian: slurmctld slurmd slurm-client munge) and is left out where there is none.
 """
@@ -100,7 +100,9 @@ def main() -> None:
         for name, seconds in keypoints(Path(folder), arguments.samples).items():
             alone = alone or seconds
             rate = arguments.samples / seconds
-            print(f"{arguments.samples} samples, {name}: {seconds:.1f} s, {rate:.0f}/s, {alone / seconds:.2f}x")
+            print(
+                f"{arguments.samples} samples, {name}: {seconds:.1f} s, {rate:.0f}/s, {alone / seconds:.2f}x"
+            )
         found = pictures(Path(folder), arguments.repeat, arguments.pictures, arguments.size)
         medians = {name: statistics.median(seconds) for name, seconds in found.items()}
         for name, seconds in medians.items():

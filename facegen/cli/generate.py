@@ -60,7 +60,8 @@ def generate(
 
     Example: facegen generate datasets/tiny.toml --out datasets/out/tiny
     """
-    signal.signal(signal.SIGTERM, _stop_early)  # until workers run there is nothing to drain
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, _stop_early)  # until workers run there is nothing to drain
     from facegen.spec import load_spec
     from facegen.store import resolve
     from facegen.work import Limits, plan_work
