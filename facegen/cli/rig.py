@@ -63,3 +63,24 @@ def preview(
     """
     draw_portraits(load_rig(name), out)
     typer.echo(str(out))
+
+
+@rig_app.command()
+def landmarks(
+    name: Annotated[str, typer.Argument(help="Name of a built rig")] = "anny",
+    out: Annotated[Path, typer.Option(help="File to write, .npy")] = Path("landmarks.npy"),
+) -> None:
+    """Write the mean face's 68 landmarks: (68, 3), head frame, metres. `regress edges` makes its edges of them.
+
+    Example: facegen rig landmarks anny --out anny.npy
+    """
+    import numpy as np
+
+    from facegen.rigs import neutral_landmarks
+    from facegen.store import output_errors
+
+    rig = load_rig(name)
+    points = neutral_landmarks(rig, np.zeros((1, rig.components)))[0]
+    with output_errors(out), open(out, "wb") as file:
+        np.save(file, points)
+    typer.echo(str(out))

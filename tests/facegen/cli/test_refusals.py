@@ -1,0 +1,84 @@
+"""The command line refuses bad input in one sentence, with the exit code of the contract, and writes nothing."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+GOOD = 'version = 1\nkind = "still"\nseed = 1\npeople = 3\n'
+
+
+def facegen(*arguments: object, **environment: str) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [sys.executable, "-m", "facegen", *map(str, arguments)],
+        cwd=ROOT,
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+    )
+
+
+def refused(result: subprocess.CompletedProcess, code: int, *words: str) -> None:
+    assert result.returncode == code, result.stderr
+    said = result.stderr.strip()
+    assert "\n" not in said, said
+    assert said.startswith("facegen: ")
+    for word in words:
+        assert word in said
+    assert result.stdout == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (GOOD + "peple = 3\n", ["unknown key 'peple'", "'people'"]),
+        (GOOD + "[camera]\ndistance_m = 600\n", ["camera.distance_m = 600", "0.2 and 10 metres"]),
+        (GOOD + '[head]\nyaw_deg = "0.3 rad"\n', ["head.yaw_deg", "must be a number"]),
+        (GOOD + 'rig = "nobody"\n', ["no rig 'nobody'", "facegen rig build nobody"]),
+        (GOOD + '[render]\nheadset = "goggles"\n', ["no headset 'goggles'", "tracking3"]),
+        (GOOD + '[render]\nsamples = "0-99"\n', ["sample 99 does not exist", "0-29"]),
+        ('version = 1\nkind = "playback"\nseed = 1\npeople = 3\n[playback]\nrecording = "no.csv"\nfps = 30\n', ["no.csv"]),
+    ],
+    ids=["unknown-key", "unit", "unit-text", "rig", "headset", "samples", "recording"],
+)
+def test_bad_specs(tmp_path, anny, text, words):
+    spec = tmp_path / "spec.toml"
+    spec.write_text(text)
+    refused(facegen("generate", spec, "--out", tmp_path / "out"), 2, *words)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_missing_spec_and_a_missing_rig(tmp_path, anny):
+    refused(facegen("generate", tmp_path / "no.toml", "--out", tmp_path / "out"), 2, "there is no such spec")
+    result = facegen("generate", "datasets/tiny.toml", "--out", tmp_path / "out", FACEGEN_RIGS=str(tmp_path / "empty"))
+    refused(result, 2, "facegen rig build anny")
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_output_folder_that_cannot_be_written(tmp_path, anny):
+    (tmp_path / "file").write_text("not a folder")
+    refused(facegen("generate", "datasets/tiny.toml", "--out", tmp_path / "file" / "out"), 74, "file/out", "cannot be written")
+    refused(facegen("preview", tmp_path), 2, "not a facegen dataset")
+    refused(facegen("validate", tmp_path), 2, "not a facegen dataset")
+    refused(facegen("rig", "landmarks", "anny", "--out", tmp_path / "file" / "x.npy"), 74, "cannot be written")
+
+
+def test_mean_landmarks_are_written(tmp_path, anny):
+    result = facegen("rig", "landmarks", "anny", "--out", tmp_path / "anny.npy")
+    assert result.returncode == 0, result.stderr
+    points = np.load(tmp_path / "anny.npy")
+    assert points.shape == (68, 3)
+    assert points[36, 0] < 0 < points[45, 0], "the subject's right eye is at x < 0"
+
+
+def test_usage_and_version():
+    assert facegen("generate").returncode == 2
+    assert facegen("fly").returncode == 2
+    version = facegen("--version")
+    assert version.returncode == 0
+    assert "bpy 4.5" in version.stdout
+    assert "Example:" in facegen("generate", "--help").stdout
