@@ -2,7 +2,8 @@
 
     python benchmarks/bench_store.py [--samples 12] [--size 256] [--json]
 
-Everything runs in this process on one thread, so that processor seconds are core-seconds, whatever else runs.
+Everything runs in this process. Processor seconds are those of all its threads: Blender has two even for one
+worker, and threads that wait for each other on a busy machine count, which makes figures up to twice as large.
 docs/planning-a-farm-job.md holds the figures of one run.
 """
 
@@ -99,7 +100,7 @@ def main() -> None:
     if arguments.json:
         print(json.dumps(figures))
         return
-    print(f"{arguments.samples} samples of {arguments.size} px, one thread; a million samples on the right")
+    print(f"{arguments.samples} samples of {arguments.size} px, one worker; a million samples on the right")
     for name, value in figures.items():
         if "bytes" in name:
             print(f"{name:34} {value:12,.0f} B  {value * MILLION / 1e12:9.4f} TB")
