@@ -3,7 +3,7 @@
     python benchmarks/bench_store.py [--samples 12] [--size 256] [--json]
 
 Everything runs in this process. Processor seconds are those of all its threads: Blender has two even for one
-worker, and threads that wait for each other on a busy machine count, which makes figures up to twice as large.
+worker, and threads that wait for each other on a busy machine count: figures get up to twice as large.
 docs/planning-a-farm-job.md holds the figures of one run.
 """
 
