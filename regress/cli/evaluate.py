@@ -21,13 +21,18 @@ def evaluate(
     model: Annotated[Path, typer.Argument(help="Model folder.")],
     dataset: Annotated[Path, typer.Argument(help="Folder that `facegen generate` made.")],
     split: Annotated[SplitName, typer.Option("--split", help="Whose faces to score.")] = SplitName.test,
+    calibrated: Annotated[
+        bool, typer.Option("--calibrated", help="Give the networks each person's neutral frame.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Unrounded figures for programs.")] = False,
 ) -> None:
     """Print R2, mean absolute error and correlation of every shape on one split.
 
     Example: regress evaluate models/default datasets/out/default
     """
-    scores = evaluate_model(load_model(model), read_dataset(dataset), split=split.value)
+    scores = evaluate_model(
+        load_model(model), read_dataset(dataset), split=split.value, calibrated=calibrated
+    )
     visible = tuple(name for name in VISIBLE_SHAPES if name in scores)
     summary = {
         "mean_r2": mean_r2(scores, tuple(scores)),
@@ -35,7 +40,9 @@ def evaluate(
     }
     if as_json:
         shapes = {name: dataclasses.asdict(figures) for name, figures in scores.items()}
-        typer.echo(json.dumps({"split": split.value, "summary": summary, "scores": shapes}))
+        typer.echo(
+            json.dumps({"split": split.value, "calibrated": calibrated, "summary": summary, "scores": shapes})
+        )
         return
     typer.echo(f"{'shape':<20} {'R2':>7} {'MAE':>7} {'r':>7}")
     for name in OUTPUTS:

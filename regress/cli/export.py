@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from regress.exporters import EXPORTERS, export_model
+from regress.inputs import read_frames
 from regress.model import load_model
 
 Format = StrEnum("Format", ["all", *EXPORTERS])
@@ -17,11 +18,18 @@ def export(
     chosen: Annotated[Format, typer.Option("--format", help="What to write")] = Format.all,
     out: Annotated[Path, typer.Option(help="Folder for the files")] = Path(),
     name: Annotated[str, typer.Option(help="What the files, and C functions, are called")] = "face",
+    neutral: Annotated[
+        Path | None,
+        typer.Option(help="Landmarks of a person's neutral face: the export is then calibrated to them"),
+    ] = None,
 ) -> None:
     """Write a model for other programs: landmarks in, 52 weights out, alignment included.
 
     Every file agrees with `regress predict` to 1e-4. Example: regress export models/default --format onnx
     """
     formats = list(EXPORTERS) if chosen is Format.all else [chosen.value]
-    for path in export_model(load_model(model), out, name=name, formats=formats):
+    loaded = load_model(model)
+    if neutral is not None:
+        loaded = loaded.calibrate(read_frames(neutral).points)
+    for path in export_model(loaded, out, name=name, formats=formats):
         typer.echo(f"{path} ({path.stat().st_size:,} bytes)")

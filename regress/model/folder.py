@@ -14,11 +14,14 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError, OutputError
 from regress.features import Features
-from regress.model.model import Model, Normalisation
+from regress.model.model import Calibrated, Model, Normalisation
 from regress.networks import FoldedNetworks
 from regress.targets import Network, observability
 
 SCHEMA = 1
+
+_CALIBRATED = "calibrated_"
+"""Begins the names of the arrays that compare with a neutral frame."""
 
 
 def save_model(model: Model, folder: str | os.PathLike[str]) -> None:
@@ -117,18 +120,23 @@ def _document(model: Model, weights_sha256: str) -> dict[str, Any]:
             "reference_sha256": model.features.reference_sha256,
         },
         "inference": "clip(w2 tanh(w1 features + b1) + b2, 0, 1); features are raw, z-scores are folded in",
+        "calibrated": model.calibrated is not None
+        and "the same with the arrays calibrated_*, on features less the neutral frame's",
         "weights_sha256": weights_sha256,
         "record": model.record,
     }
 
 
 def _arrays(model: Model) -> dict[str, np.ndarray]:
-    networks, normalisation = model.networks, model.normalisation
-    return {
-        **{field.name: getattr(networks, field.name) for field in dataclasses.fields(networks)},
-        **{field.name: getattr(normalisation, field.name) for field in dataclasses.fields(normalisation)},
-        "mean_shape": model.features.mean_shape,
-    }
+    arrays = {**_fields(model.networks), **_fields(model.normalisation)}
+    if model.calibrated is not None:
+        calibrated = {**_fields(model.calibrated.networks), **_fields(model.calibrated.normalisation)}
+        arrays |= {_CALIBRATED + name: array for name, array in calibrated.items()}
+    return {**arrays, "mean_shape": model.features.mean_shape}
+
+
+def _fields(record: FoldedNetworks | Normalisation) -> dict[str, np.ndarray]:
+    return {field.name: getattr(record, field.name) for field in dataclasses.fields(record)}
 
 
 def _weights_bytes(model: Model) -> bytes:
@@ -153,14 +161,28 @@ def _model(document: dict[str, Any], arrays: dict[str, np.ndarray], path: Path) 
                 reference_name=described["reference_name"],
                 reference_sha256=described["reference_sha256"],
             ),
-            normalisation=Normalisation(
-                **{f.name: arrays[f.name] for f in dataclasses.fields(Normalisation)}
-            ),
-            networks=FoldedNetworks(**{f.name: arrays[f.name] for f in dataclasses.fields(FoldedNetworks)}),
+            normalisation=_taken(Normalisation, arrays),
+            networks=_taken(FoldedNetworks, arrays),
             record=document["record"],
+            calibrated=_calibrated(arrays),
         )
     except (KeyError, TypeError, ValueError) as error:
         raise ModelError(f"{path} lacks a part of the model: {error}") from error
+
+
+def _calibrated(arrays: dict[str, np.ndarray]) -> Calibrated | None:
+    named = {
+        name.removeprefix(_CALIBRATED): array
+        for name, array in arrays.items()
+        if name.startswith(_CALIBRATED)
+    }
+    if not named:
+        return None
+    return Calibrated(normalisation=_taken(Normalisation, named), networks=_taken(FoldedNetworks, named))
+
+
+def _taken(kind: type, arrays: dict[str, np.ndarray]) -> Any:
+    return kind(**{field.name: arrays[field.name] for field in dataclasses.fields(kind)})
 
 
 def _write_synced(path: Path, content: bytes) -> None:

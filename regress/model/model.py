@@ -1,6 +1,6 @@
 """A trained model as values, and what it predicts."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -8,7 +8,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_COUNT
 from regress.errors import InputError
 from regress.features import Features, extract
-from regress.networks import FoldedNetworks, evaluate
+from regress.networks import FoldedNetworks, evaluate, shifted
 from regress.targets import Network
 
 _BLOCK_ROWS = 4096
@@ -34,6 +34,22 @@ class Normalisation:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Calibrated:
+    """Networks that compare a frame with the person's neutral frame.
+
+    Parameters
+    ----------
+    normalisation
+        Z-scores of the features' differences.
+    networks
+        Folded weights that act on a frame's features less the neutral frame's.
+    """
+
+    normalisation: Normalisation
+    networks: FoldedNetworks
+
+
+@dataclass(frozen=True, kw_only=True)
 class Model:
     """Everything needed to predict, and the record of how it came about.
 
@@ -48,9 +64,11 @@ class Model:
     normalisation
         Z-scores, for reading only.
     networks
-        The folded weights.
+        The folded weights, for a frame by itself.
     record
         Training record: JSON data, every figure unrounded (see ``regress.training``).
+    calibrated
+        Networks for a frame whose person's neutral frame is known; None where a model has none.
     """
 
     recipe: str
@@ -59,11 +77,51 @@ class Model:
     normalisation: Normalisation
     networks: FoldedNetworks
     record: dict[str, Any]
+    calibrated: Calibrated | None = None
 
     @property
     def outputs(self) -> tuple[str, ...]:
         """Predicted shapes in the networks' order (51; tongueOut is not among them)."""
         return tuple(output for network in self.table for output in network.outputs)
+
+    def calibrate(self, neutral: np.ndarray) -> "Model":
+        """The model of one person and detector: its networks compare every frame with the neutral one.
+
+        Differences cancel what a face is like and where a detector puts its points. The neutral features go
+        into the first layer's biases, so the result is a model like any other: it predicts, is saved and is
+        exported without knowing of calibration.
+
+        Parameters
+        ----------
+        neutral : (m, 68, 2) float
+            Neutral frames of the person, by the detector that will be used; the median of their features
+            counts, so a blink among them does no harm. Frames with missing points are left out.
+
+        Raises
+        ------
+        InputError
+            Where the model has no calibrated networks, or no frame is usable.
+        """
+        if self.calibrated is None:
+            raise InputError(
+                "the model has no calibrated networks: its dataset had no neutral faces, or its recipe "
+                f"({self.recipe}) leaves them out"
+            )
+        points = np.asarray(neutral, dtype=np.float64)
+        if points.ndim != 3 or points.shape[1:] != (LANDMARK_COUNT, 2):
+            raise InputError(f"neutral points have shape {points.shape}; (m, 68, 2) is needed")
+        features = extract(self.features, points[np.isfinite(points).all(axis=(1, 2))])
+        features = features[np.isfinite(features).all(axis=1)]
+        if not len(features):
+            raise InputError("no neutral frame is usable: each has missing landmarks")
+        origin = np.median(features, axis=0)
+        normalisation = self.calibrated.normalisation
+        return replace(
+            self,
+            normalisation=replace(normalisation, feature_mean=normalisation.feature_mean + origin),
+            networks=shifted(self.calibrated.networks, origin),
+            calibrated=None,
+        )
 
     def predict_raw(self, points: np.ndarray) -> np.ndarray:
         """What the networks say, unclipped, in their own order (see ``outputs``).

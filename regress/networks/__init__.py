@@ -1,6 +1,6 @@
 """Many small networks side by side: how they train, start and run."""
 
-from regress.networks.folded import FoldedNetworks, block_w2, evaluate
+from regress.networks.folded import FoldedNetworks, block_w2, evaluate, shifted
 from regress.networks.folding import fold
 from regress.networks.initial import nguyen_widrow, ridge_knots
 from regress.networks.least_squares import Layout, NetworkProblem, Rows
@@ -19,4 +19,5 @@ __all__ = [
     "nguyen_widrow",
     "ridge_coefficients",
     "ridge_knots",
+    "shifted",
 ]

@@ -1,6 +1,6 @@
 """Many small networks side by side: inference in one go, with everything linear folded into the weights."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,6 +33,11 @@ class FoldedNetworks:
     def hidden(self) -> int:
         """Hidden units of one network, H."""
         return self.w2.shape[1]
+
+
+def shifted(networks: FoldedNetworks, origin: np.ndarray) -> FoldedNetworks:
+    """The networks that act on features (E,) as these act on features less an origin."""
+    return replace(networks, b1=networks.b1 - networks.w1 @ origin)
 
 
 def block_w2(networks: FoldedNetworks) -> np.ndarray:

@@ -32,6 +32,8 @@ class KeypointDataset:
     split : (n,) str
         ``train``, ``validation`` or ``test``.
     person : (n,) int64
+    neutral : (n,) bool
+        Rows that show their person without an expression.
     description
         Content of dataset.json.
     sha256
@@ -43,12 +45,28 @@ class KeypointDataset:
     weights: np.ndarray
     split: np.ndarray
     person: np.ndarray
+    neutral: np.ndarray
     description: dict[str, Any]
     sha256: str
 
     def rows(self, split: str) -> np.ndarray:
         """Row numbers of a split."""
         return np.flatnonzero(self.split == split)
+
+    @property
+    def has_neutral_frames(self) -> bool:
+        """Whether every split has a face beside its person's neutral one."""
+        known = (self.neutral_rows() >= 0) & ~self.neutral
+        return all(bool(np.any(known[self.rows(split)])) for split in SPLITS)
+
+    def neutral_rows(self) -> np.ndarray:
+        """(n,) int64: for each row the first neutral row of its person, -1 where there is none."""
+        candidates = np.flatnonzero(self.neutral)
+        people, first = np.unique(self.person[candidates], return_index=True)
+        if not len(people):
+            return np.full(len(self.person), -1)
+        place = np.minimum(np.searchsorted(people, self.person), len(people) - 1)
+        return np.where(people[place] == self.person, candidates[first][place], -1)
 
 
 def read_dataset(folder: str | os.PathLike[str]) -> KeypointDataset:
@@ -87,6 +105,7 @@ def read_dataset(folder: str | os.PathLike[str]) -> KeypointDataset:
         weights=weights,
         split=split,
         person=table.column("person").to_numpy(),
+        neutral=table.column("neutral").to_numpy().astype(bool),
         description=description,
         sha256=digest.hexdigest(),
     )
@@ -105,7 +124,7 @@ def _description(path: Path) -> dict[str, Any]:
 
 
 def _table(shard: Path, content: bytes) -> pa.Table:
-    columns = ["person", "split", *_WIDTHS]
+    columns = ["person", "neutral", "split", *_WIDTHS]
     try:
         file = pq.ParquetFile(pa.BufferReader(content))
         missing = [name for name in columns if name not in file.schema_arrow.names]

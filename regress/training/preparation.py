@@ -1,6 +1,6 @@
 """Training data in the form the networks want: z-scored, in principal axes, padded to one shape."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from regress.model import Normalisation
 from regress.networks import Rows
 from regress.targets import NETWORKS, OUTPUTS
 from regress.training.dataset import KeypointDataset
+from regress.training.noise import DetectorNoise, displace, draw_displacements
 
 OUTPUT_COLUMNS = [BLENDSHAPE_INDEX[name] for name in OUTPUTS]
 """Where the predicted shapes stand among the 52."""
@@ -81,25 +82,86 @@ def used_outputs() -> np.ndarray:
     return used
 
 
+@dataclass(frozen=True, kw_only=True)
+class Faces:
+    """Faces of one split before features are taken.
+
+    Parameters
+    ----------
+    points : (n, 68, 2) float64
+    neutral : (n, 68, 2) float64 or None
+        A neutral frame of each face's person, where networks are to see one.
+    weights : (n, 52) float64
+    """
+
+    points: np.ndarray
+    neutral: np.ndarray | None
+    weights: np.ndarray
+
+    def features(self, features: Features) -> np.ndarray:
+        """Raw features (n, E), less the neutral frame's where there is one."""
+        values = extract(features, self.points)
+        return values if self.neutral is None else values - extract(features, self.neutral)
+
+
 def mirrored(points: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The mirror images of faces (n, 68, 2) and their weights (n, 52)."""
     return points[:, list(MIRRORED_LANDMARKS)] * [-1, 1], weights[:, list(MIRRORED_BLENDSHAPES)]
 
 
-def prepare(dataset: KeypointDataset, features: Features, *, mirror: bool) -> Prepared:
-    """Standardise all splits by the training split; the held-out splits are never mirrored.
+def faces_of(dataset: KeypointDataset, split: str, *, calibrated: bool) -> Faces:
+    """Faces of a split; calibrated ones leave out who has no neutral frame, and neutral frames held out.
+
+    A held-out neutral frame would be compared with itself, which is no test.
+    """
+    rows = dataset.rows(split)
+    if not calibrated:
+        return Faces(points=dataset.points[rows], neutral=None, weights=dataset.weights[rows])
+    neutral = dataset.neutral_rows()
+    keep = neutral[rows] >= 0
+    if split != "train":
+        keep &= ~dataset.neutral[rows]
+    rows = rows[keep]
+    return Faces(
+        points=dataset.points[rows], neutral=dataset.points[neutral[rows]], weights=dataset.weights[rows]
+    )
+
+
+def as_detected(faces: Faces, noise: DetectorNoise, rng: np.random.Generator) -> Faces:
+    """Faces as a detector would give them, with a bias of its own for each."""
+    frame, neutral = draw_displacements(noise, rng, len(faces.points))
+    return replace(
+        faces,
+        points=displace(faces.points, frame),
+        neutral=None if faces.neutral is None else displace(faces.neutral, neutral),
+    )
+
+
+def prepare(
+    dataset: KeypointDataset,
+    features: Features,
+    *,
+    mirror: bool,
+    noise: DetectorNoise | None = None,
+    calibrated: bool = False,
+    seed: int = 0,
+) -> Prepared:
+    """Standardise all splits by the training split.
+
+    Held-out splits are never mirrored. Noise goes to training and validation, which must choose strengths
+    for what networks will meet; the test split stays as the dataset has it.
 
     The rotation into principal axes changes no cost (``|W1 V| = |W1|``) and makes X'X diagonal for the
     preconditioner. Nothing is cut off: low-variance axes carry signal.
     """
     raw: dict[str, tuple[np.ndarray, np.ndarray]] = {}
-    for split in ("train", "validation", "test"):
-        rows = dataset.rows(split)
-        points, weights = dataset.points[rows], dataset.weights[rows]
+    for number, split in enumerate(("train", "validation", "test")):
+        faces = faces_of(dataset, split, calibrated=calibrated)
         if mirror and split == "train":
-            reflected = mirrored(points, weights)
-            points, weights = np.concatenate([points, reflected[0]]), np.concatenate([weights, reflected[1]])
-        raw[split] = extract(features, points), weights[:, OUTPUT_COLUMNS]
+            faces = _with_mirror_images(faces)
+        if noise is not None and split != "test":
+            faces = as_detected(faces, noise, np.random.default_rng([seed, number]))
+        raw[split] = faces.features(features), faces.weights[:, OUTPUT_COLUMNS]
     inputs, targets = raw["train"]
     normalisation = Normalisation(
         feature_mean=inputs.mean(axis=0),
@@ -118,6 +180,18 @@ def prepare(dataset: KeypointDataset, features: Features, *, mirror: bool) -> Pr
         for split, (inputs, targets) in raw.items()
     }
     return Prepared(splits=splits, normalisation=normalisation, rotation=rotation)
+
+
+def _with_mirror_images(faces: Faces) -> Faces:
+    points, weights = mirrored(faces.points, faces.weights)
+    neutral = faces.neutral
+    if neutral is not None:
+        neutral = np.concatenate([neutral, mirrored(neutral, faces.weights)[0]])
+    return Faces(
+        points=np.concatenate([faces.points, points]),
+        neutral=neutral,
+        weights=np.concatenate([faces.weights, weights]),
+    )
 
 
 def _spread(values: np.ndarray) -> np.ndarray:

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from regress.training.noise import DetectorNoise
+
 
 @dataclass(frozen=True, kw_only=True)
 class Recipe:
@@ -27,6 +29,13 @@ class Recipe:
         Training rows on which alphas are compared; the best one then sees all rows.
     smooth_frames
         Moving average that the recipe wants for video.
+    noise
+        How training faces are displaced for the networks that see one frame alone; None leaves them as the
+        dataset has them.
+    calibrated_noise
+        The same for the networks that also see a neutral frame of the person.
+    calibrated
+        Whether to train those: they serve where a recording has a neutral frame.
     """
 
     name: str
@@ -40,10 +49,17 @@ class Recipe:
     alphas: tuple[float, ...] = (0.3, 1.0, 3.0, 10.0, 30.0)
     search_rows: int = 3000
     smooth_frames: int = 1
+    noise: DetectorNoise | None = None
+    calibrated_noise: DetectorNoise | None = None
+    calibrated: bool = True
 
 
 RECIPES: dict[str, Recipe] = {
-    "default": Recipe(name="default"),
+    "default": Recipe(
+        name="default",
+        noise=DetectorNoise(bias=0.5),
+        calibrated_noise=DetectorNoise(bias=1.0, clean=0.3),
+    ),
     "paper": Recipe(
         name="paper",
         start="nguyen_widrow",
@@ -51,6 +67,8 @@ RECIPES: dict[str, Recipe] = {
         steps=1000,
         improvement=1e-4,
         smooth_frames=10,
+        calibrated=False,
     ),
 }
-"""``paper`` follows the paper; ``default`` adds mirrored faces and starts from ridge regression."""
+"""``paper`` follows the paper; ``default`` adds mirrored faces, starts from ridge regression, adds detectors'
+noise and a second set of networks that compare a frame with the person's neutral one."""

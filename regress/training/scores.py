@@ -5,8 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
+from regress.errors import InputError
 from regress.model import Model
+from regress.networks import evaluate
 from regress.training.dataset import KeypointDataset
+from regress.training.preparation import Faces, faces_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,12 +54,23 @@ def score(predicted: np.ndarray, true: np.ndarray) -> tuple[Scores, ...]:
     return tuple(scores)
 
 
-def evaluate_model(model: Model, dataset: KeypointDataset, *, split: str = "test") -> dict[str, Scores]:
-    """Scores of a model's outputs on one split of a dataset."""
-    rows = dataset.rows(split)
+def evaluate_model(
+    model: Model, dataset: KeypointDataset, *, split: str = "test", calibrated: bool = False
+) -> dict[str, Scores]:
+    """Scores of a model's outputs on one split of a dataset, where asked with each person's neutral frame."""
+    return score_faces(model, faces_of(dataset, split, calibrated=calibrated))
+
+
+def score_faces(model: Model, faces: Faces) -> dict[str, Scores]:
+    """Scores of a model's outputs on faces, by its calibrated networks where they have neutral frames."""
     columns = [BLENDSHAPE_INDEX[name] for name in model.outputs]
-    scores = score(model.predict(dataset.points[rows])[:, columns], dataset.weights[rows][:, columns])
-    return dict(zip(model.outputs, scores, strict=True))
+    if faces.neutral is None:
+        predicted = model.predict(faces.points)[:, columns]
+    elif model.calibrated is None:
+        raise InputError("the model has no calibrated networks, so neutral frames are of no use to it")
+    else:
+        predicted = np.clip(evaluate(model.calibrated.networks, faces.features(model.features)), 0, 1)
+    return dict(zip(model.outputs, score(predicted, faces.weights[:, columns]), strict=True))
 
 
 def mean_r2(scores: dict[str, Scores], shapes: tuple[str, ...]) -> float | None:

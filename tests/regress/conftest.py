@@ -2,6 +2,7 @@
 
 import json
 import os
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+import regress.cli
 from regress.model import Model, save_model
 from regress.training import KeypointDataset, Recipe, train
 from tests.regress.drawn import drawn_dataset
@@ -49,6 +51,20 @@ def quick_model_folder(quick_model: Model, tmp_path_factory: pytest.TempPathFact
     return folder
 
 
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+    """Run the program as its console script would; gives exit code, standard output and standard error."""
+
+    def call(*arguments: object) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["regress", *map(str, arguments)])
+        with pytest.raises(SystemExit) as left:
+            regress.cli.main()
+        said = capsys.readouterr()
+        return int(left.value.code or 0), said.out, said.err
+
+    return call
+
+
 def write_dataset(dataset: KeypointDataset, folder: Path, *, without: tuple[str, ...] = ()) -> None:
     """Write what regress reads of a facegen dataset, in two shards."""
 
@@ -59,6 +75,7 @@ def write_dataset(dataset: KeypointDataset, folder: Path, *, without: tuple[str,
     columns = {
         "sample": np.arange(len(dataset.split)),
         "person": dataset.person,
+        "neutral": dataset.neutral,
         "split": pa.array(dataset.split.tolist()),
         "weights": lists(dataset.weights),
         "detected_2d": lists(dataset.points),

@@ -56,6 +56,7 @@ def drawn_dataset(rng: np.random.Generator, *, people: int, faces_each: int = 4)
         rng.uniform(size=(count, len(BLENDSHAPES))) < 0.3
     )
     weights[:, BLENDSHAPES.index("browInnerUp")] = 0
+    weights[::faces_each] = 0  # each person's first face is neutral
     faces = drawn_face() + np.einsum("nk,kpd->npd", weights, modes)
     person = np.repeat(np.arange(people), faces_each)
     split = np.array(["train", "train", "train", "validation", "test"])[person % 5]
@@ -65,6 +66,7 @@ def drawn_dataset(rng: np.random.Generator, *, people: int, faces_each: int = 4)
         weights=weights,
         split=split,
         person=person,
+        neutral=np.arange(count) % faces_each == 0,
         description={"spec_hash": "5" * 64, "rig": "pencil", "licence": "CC0-1.0"},
         sha256="d" * 64,
     )

@@ -11,27 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import regress.cli
 from facegen.conventions import BLENDSHAPES
 from regress.training import RECIPES, KeypointDataset
 from tests.regress.conftest import QUICK
 from tests.regress.test_inputs import bad_inputs
 
 ROOT = Path(__file__).parents[2]
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
-    """Run the program as its console script would; gives exit code, standard output and standard error."""
-
-    def call(*arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["regress", *map(str, arguments)])
-        with pytest.raises(SystemExit) as left:
-            regress.cli.main()
-        said = capsys.readouterr()
-        return int(left.value.code or 0), said.out, said.err
-
-    return call
 
 
 @pytest.fixture

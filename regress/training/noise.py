@@ -1,0 +1,103 @@
+"""Landmarks as detectors give them: bias that stays, drift from frame to frame, jitter.
+
+Two detectors disagree by a constant, because they mean different points: jaw points slide along the contour,
+brows are drawn wider or higher. On one face that constant stays, and one neutral frame shows it. Jitter is
+what smoothing removes. The two are kept apart here.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import LANDMARK_COUNT, LANDMARK_GROUPS
+
+OUTER_EYES = (36, 45)
+"""Landmarks whose distance is the unit of noise, and whose direction is a face's x axis."""
+
+_DISAGREEMENT = {
+    "jaw": 0.083,
+    "right_brow": 0.060,
+    "left_brow": 0.060,
+    "nose_bridge": 0.031,
+    "nose_base": 0.031,
+    "right_eye": 0.024,
+    "left_eye": 0.024,
+    "outer_lip": 0.032,
+    "inner_lip": 0.032,
+}
+"""How far apart two detectors put a point, in outer-eye distances (measured on a tracked face)."""
+
+_TOGETHER, _SMOOTH, _ALONE = 0.5, 0.35, 0.15
+"""Shares of a bias's variance: the group as a whole, bends along the contour, each point for itself."""
+
+_BENDS = 3
+"""Half waves along a contour at most."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DetectorNoise:
+    """How training faces are displaced.
+
+    Parameters
+    ----------
+    bias
+        Standard deviation of what stays on one face, in units of what two detectors disagree by.
+    drift
+        The same of what comes and goes from frame to frame, shaped like a bias.
+    jitter
+        Of each coordinate by itself, in outer-eye distances.
+    clean
+        Share of the faces that stay as they are.
+    """
+
+    bias: float
+    drift: float = 0.1
+    jitter: float = 0.003
+    clean: float = 0.5
+
+
+def draw_bias(rng: np.random.Generator, count: int) -> np.ndarray:
+    """What ``count`` detectors put their points beside the truth by.
+
+    Returns
+    -------
+    (count, 68, 2) float64
+        Outer-eye distances; x along the eyes, towards the subject's left.
+    """
+    offsets = np.empty((count, LANDMARK_COUNT, 2))
+    for group, numbers in LANDMARK_GROUPS.items():
+        along = np.linspace(0, 1, len(numbers))
+        bends = np.sqrt(2) * np.cos(np.pi * np.outer(np.arange(1, _BENDS + 1), along))
+        together = rng.standard_normal((count, 1, 2)) * np.sqrt(_TOGETHER)
+        smooth = np.einsum("ckd,kn->cnd", rng.standard_normal((count, _BENDS, 2)), bends)
+        alone = rng.standard_normal((count, len(numbers), 2)) * np.sqrt(_ALONE)
+        shape = together + smooth * np.sqrt(_SMOOTH / _BENDS) + alone
+        offsets[:, list(numbers)] = shape * (_DISAGREEMENT[group] / np.sqrt(2))
+    return offsets
+
+
+def draw_displacements(
+    noise: DetectorNoise, rng: np.random.Generator, count: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Displacements of ``count`` frames and of the same faces' neutral frames: one bias, two drifts.
+
+    Returns
+    -------
+    frame, neutral : (count, 68, 2) float64
+        Outer-eye distances.
+    """
+    moved = (rng.random(count) >= noise.clean)[:, None, None]
+    bias = noise.bias * draw_bias(rng, count)
+
+    def passing() -> np.ndarray:
+        return noise.drift * draw_bias(rng, count) + noise.jitter * rng.standard_normal(bias.shape)
+
+    return moved * (bias + passing()), moved * (bias + passing())
+
+
+def displace(points: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """Faces (n, 68, 2) in any unit, moved by offsets (n, 68, 2) that follow each face's size and roll."""
+    right, left = OUTER_EYES
+    across = points[:, left] - points[:, right]
+    down = np.stack([-across[:, 1], across[:, 0]], axis=1)
+    return points + offsets[..., :1] * across[:, None] + offsets[..., 1:] * down[:, None]

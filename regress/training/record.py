@@ -1,0 +1,155 @@
+"""A model's training record: figures on unseen people, baselines, and how each network's training went."""
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import scipy
+
+from facegen.conventions import SPLITS
+from regress import __version__
+from regress.features import Features
+from regress.model import Model
+from regress.networks import fit_ridge
+from regress.targets import NETWORKS, OUTPUTS, VISIBLE_SHAPES
+from regress.training.dataset import KeypointDataset
+from regress.training.fitting import Fit
+from regress.training.noise import DetectorNoise
+from regress.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of, prepare
+from regress.training.recipes import Recipe
+from regress.training.regression import regress_split
+from regress.training.scores import Scores, evaluate_model, mean_r2, score, score_faces
+
+DETECTOR = DetectorNoise(bias=1.0, drift=0.0, jitter=0.001, clean=0.0)
+"""What the figures ``as_detected`` are measured with: the bias and the jitter of a tracked face."""
+
+_NOISE_SEED = 68
+"""Of the displaced test faces: every model is judged on the same ones."""
+
+
+def training_record(
+    model: Model,
+    dataset: KeypointDataset,
+    recipe: Recipe,
+    *,
+    seed: int,
+    fits: dict[str, Fit],
+    training_rows: int,
+) -> dict[str, Any]:
+    """JSON data about a model; every figure unrounded.
+
+    ``scores`` and ``summary`` are of the test split as the dataset has it: ``network`` and ``ridge`` see a
+    frame alone, ``calibrated`` and ``calibrated_ridge`` a neutral frame as well. Ridge is trained on faces as
+    the dataset has them, whatever noise the networks were trained with. ``as_detected`` is of the same faces
+    with detectors' bias and jitter.
+    """
+    sets = [False] if model.calibrated is None else [False, True]
+    scores = {
+        "network": evaluate_model(model, dataset),
+        **_baselines(dataset, model.features, recipe, calibrated=False),
+    }
+    if model.calibrated is not None:
+        baselines = _baselines(dataset, model.features, recipe, calibrated=True)
+        scores["calibrated"] = evaluate_model(model, dataset, calibrated=True)
+        scores["calibrated_ridge"] = baselines["ridge"]
+    networks = {name: _network_records(recipe, fit) for name, fit in fits.items()}
+    return {
+        "recipe": {**dataclasses.asdict(recipe), "alphas": list(recipe.alphas)},
+        "seed": seed,
+        "dataset": {
+            "name": dataset.name,
+            "spec_hash": dataset.description.get("spec_hash"),
+            "keypoints_sha256": dataset.sha256,
+            "rig": dataset.description.get("rig"),
+            "licence": dataset.description.get("licence"),
+            "samples": {split: len(dataset.rows(split)) for split in SPLITS},
+            "people": len(np.unique(dataset.person)),
+        },
+        "training_rows": training_rows,
+        "licence": "Apache-2.0",
+        "versions": {
+            "regress": __version__,
+            "numpy": np.__version__,
+            "scipy": scipy.__version__,
+        },
+        "summary": {name: _summary(shapes) for name, shapes in scores.items()},
+        "as_detected": {
+            "calibrated" if calibrated else "network": _summary(
+                _scores_as_detected(model, dataset, calibrated=calibrated)
+            )
+            for calibrated in sets
+        },
+        "scores": {
+            shape: {name: dataclasses.asdict(shapes[shape]) for name, shapes in scores.items()}
+            for shape in OUTPUTS
+        },
+        "regression": {
+            split: dataclasses.asdict(regress_split(model, dataset, split=split)) for split in SPLITS
+        },
+        "networks": networks["alone"],
+        **({"calibrated_networks": networks["calibrated"]} if "calibrated" in networks else {}),
+    }
+
+
+def _summary(shapes: dict[str, Scores]) -> dict[str, float | None]:
+    return {
+        "mean_r2": mean_r2(shapes, OUTPUTS),
+        "mean_r2_visible": mean_r2(shapes, VISIBLE_SHAPES),
+        "mean_r2_networks": _mean_over_networks(shapes),
+    }
+
+
+def _scores_as_detected(model: Model, dataset: KeypointDataset, *, calibrated: bool) -> dict[str, Scores]:
+    faces = faces_of(dataset, "test", calibrated=calibrated)
+    return score_faces(model, as_detected(faces, DETECTOR, np.random.default_rng(_NOISE_SEED)))
+
+
+def _baselines(
+    dataset: KeypointDataset, features: Features, recipe: Recipe, *, calibrated: bool
+) -> dict[str, dict[str, Scores]]:
+    """Ridge on the same features, its strength chosen per shape, and the training mean; clipped."""
+    prepared = prepare(dataset, features, mirror=recipe.mirror, calibrated=calibrated)
+    train, validation, test = (prepared.splits[name] for name in SPLITS)
+    normalisation = prepared.normalisation
+    ridge = fit_ridge(train.inputs, train.targets, validation.inputs, validation.targets)
+    predicted = test.inputs @ ridge.coefficients * normalisation.target_std + normalisation.target_mean
+    true = faces_of(dataset, "test", calibrated=calibrated).weights[:, OUTPUT_COLUMNS]
+    mean = np.broadcast_to(normalisation.target_mean, true.shape)
+    return {
+        "ridge": dict(zip(OUTPUTS, score(np.clip(predicted, 0, 1), true), strict=True)),
+        "mean": dict(zip(OUTPUTS, score(mean, true), strict=True)),
+    }
+
+
+def _mean_over_networks(scores: dict[str, Scores]) -> float | None:
+    """Mean over the networks of the mean R2 of their outputs: two-sided shapes count once."""
+    means = [mean_r2(scores, network.outputs) for network in NETWORKS]
+    known = [mean for mean in means if mean is not None]
+    return float(np.mean(known)) if known else None
+
+
+def _network_records(recipe: Recipe, fit: Fit) -> dict[str, Any]:
+    """How each network's training went; errors are mean squares of z-scored targets."""
+    records: dict[int, Any] = {}
+    for group, result in zip(fit.groups, fit.results, strict=True):
+        for row, number in enumerate(group):
+            steps = int(result.steps[row])
+            errors = result.monitored[: steps + 1, row]
+            # Padding of one-output networks counts as zeros in the mean over K: undo it.
+            padding = fit.layout.outputs / len(NETWORKS[number].outputs)
+            records[int(number)] = {
+                "alpha": float(fit.alphas[number]),
+                "search": dict(
+                    zip(map(str, recipe.alphas), fit.search_errors[:, number].tolist(), strict=True)
+                ),
+                "outcome": result.outcomes[row].name,
+                "reason": result.outcomes[row].value,
+                "steps": steps,
+                "best_step": int(result.best_step[row]),
+                "curves": {
+                    "train": (result.residual_square[: steps + 1, row] * padding).tolist(),
+                    "validation": errors[:, 0].tolist(),
+                    "test": errors[:, 1].tolist(),
+                },
+            }
+    return {network.key: records[number] for number, network in enumerate(NETWORKS)}

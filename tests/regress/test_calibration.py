@@ -1,0 +1,219 @@
+"""Neutral frames: what calibrating a model does to predictions, exports and commands."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_GROUPS
+from regress.errors import InputError
+from regress.exporters import export_model
+from regress.features import extract
+from regress.model import Model, load_model, save_model
+from regress.networks import evaluate
+from regress.neutral import estimate_neutral
+from regress.training import KeypointDataset, evaluate_model, train
+from regress.training.noise import DetectorNoise, displace, draw_bias, draw_displacements
+from regress.training.preparation import faces_of
+from tests.regress.conftest import QUICK
+from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
+from tests.regress.exporters.readers import READERS
+
+FACES = drawn_faces(np.random.default_rng(2), 40)
+
+
+def test_a_calibrated_model_sees_differences_from_the_neutral_frame(quick_model: Model):
+    neutral = FACES[:1]
+    calibrated = quick_model.calibrate(neutral)
+    differences = extract(quick_model.features, FACES) - extract(quick_model.features, neutral)
+    expected = evaluate(quick_model.calibrated.networks, differences)
+    assert np.allclose(calibrated.predict_raw(FACES), expected)
+    assert calibrated.calibrated is None
+    assert calibrated.outputs == quick_model.outputs
+
+
+def test_the_median_of_neutral_frames_counts_and_missing_ones_do_not(quick_model: Model):
+    frames = np.concatenate([np.repeat(FACES[:1], 5, axis=0), FACES[1:3], np.full((1, 68, 2), np.nan)])
+    assert np.allclose(
+        quick_model.calibrate(frames).predict(FACES), quick_model.calibrate(FACES[:1]).predict(FACES)
+    )
+    with pytest.raises(InputError, match="no neutral frame is usable"):
+        quick_model.calibrate(frames[-1:])
+    with pytest.raises(InputError, match=r"\(m, 68, 2\) is needed"):
+        quick_model.calibrate(FACES[0])
+
+
+def test_a_model_without_calibrated_networks_says_so(quick_model: Model, dataset: KeypointDataset):
+    bare = dataclasses.replace(quick_model, calibrated=None)
+    for act in (
+        lambda: bare.calibrate(FACES[:1]),
+        lambda: estimate_neutral(bare, FACES),
+        lambda: evaluate_model(bare, dataset, calibrated=True),
+    ):
+        with pytest.raises(InputError, match="no calibrated networks"):
+            act()
+
+
+def test_both_sets_are_saved_and_old_folders_serve_without(quick_model: Model, tmp_path):
+    save_model(quick_model, tmp_path / "both")
+    loaded = load_model(tmp_path / "both")
+    assert np.array_equal(
+        loaded.calibrate(FACES[:1]).predict(FACES), quick_model.calibrate(FACES[:1]).predict(FACES)
+    )
+    save_model(quick_model.calibrate(FACES[:1]), tmp_path / "person")
+    person = load_model(tmp_path / "person")
+    assert person.calibrated is None
+    assert np.array_equal(person.predict(FACES), quick_model.calibrate(FACES[:1]).predict(FACES))
+
+
+@pytest.mark.parametrize("chosen", ["json", "npz", "onnx"])
+def test_exports_of_a_calibrated_model_agree_with_it(chosen: str, quick_model: Model, tmp_path):
+    calibrated = quick_model.calibrate(FACES[:3])
+    predict, _ = READERS[chosen](export_model(calibrated, tmp_path, name="face", formats=[chosen]))
+    faces = FACES.astype(np.float32)
+    np.testing.assert_allclose(predict(faces), calibrated.predict(faces), atol=1e-4, rtol=0)
+
+
+def test_datasets_without_neutral_faces_train_one_set(dataset: KeypointDataset):
+    quick = dataclasses.replace(QUICK, steps=2, alphas=(1.0,))
+    model = train(dataclasses.replace(dataset, neutral=np.zeros(len(dataset.split), dtype=bool)), quick)
+    assert model.calibrated is None
+    assert "calibrated" not in model.record["summary"]
+
+
+def test_every_row_has_its_persons_neutral_row(dataset: KeypointDataset):
+    rows = dataset.neutral_rows()
+    assert np.array_equal(dataset.person[rows], dataset.person)
+    assert dataset.neutral[rows].all()
+    few = dataclasses.replace(dataset, neutral=dataset.neutral & (dataset.person > 0))
+    assert (few.neutral_rows()[few.person == 0] == -1).all()
+    assert not faces_of(few, "test", calibrated=True).weights.sum(axis=1).min() == 0
+
+
+def test_calibration_removes_a_bias(quick_model: Model, dataset: KeypointDataset):
+    """A constant displacement changes calibrated weights far less than weights of a frame alone."""
+    rows = dataset.rows("test")
+    neutral = dataset.points[dataset.neutral_rows()[rows]]
+    offset = 0.5 * np.repeat(draw_bias(np.random.default_rng(1), 1), len(rows), axis=0)
+    moved, moved_neutral = displace(dataset.points[rows], offset), displace(neutral, offset)
+    alone = np.abs(quick_model.predict(moved) - quick_model.predict(dataset.points[rows])).mean()
+    networks = quick_model.calibrated.networks
+
+    def compared(points: np.ndarray, neutral: np.ndarray) -> np.ndarray:
+        features = extract(quick_model.features, points) - extract(quick_model.features, neutral)
+        return np.clip(evaluate(networks, features), 0, 1)
+
+    change = np.abs(compared(moved, moved_neutral) - compared(dataset.points[rows], neutral)).mean()
+    assert change < alone / 2
+
+
+def test_bias_is_as_large_as_measured_and_follows_size_and_roll():
+    bias = draw_bias(np.random.default_rng(0), 4000)
+    distance = np.sqrt((bias**2).sum(axis=2).mean(axis=0))
+    assert distance[list(LANDMARK_GROUPS["jaw"])] == pytest.approx(0.083, rel=0.25)
+    assert distance[list(LANDMARK_GROUPS["left_eye"])] == pytest.approx(0.024, rel=0.25)
+    face = drawn_face()[None]
+    moved = displace(face, bias[:1]) - face
+    turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
+    assert np.allclose(displace(3 * face @ turn, bias[:1]) - 3 * face @ turn, 3 * moved @ turn)
+    across = np.linalg.norm(face[0, 45] - face[0, 36])
+    assert np.allclose(moved, bias[:1] * across, atol=1e-9)
+
+
+def test_a_frame_and_its_neutral_share_the_bias_and_nothing_else():
+    noise = DetectorNoise(bias=1.0, drift=0.0, jitter=0.0, clean=0.25)
+    frame, neutral = draw_displacements(noise, np.random.default_rng(0), 400)
+    assert np.array_equal(frame, neutral)
+    assert np.mean(np.abs(frame).max(axis=(1, 2)) == 0) == pytest.approx(0.25, abs=0.06)
+    frame, neutral = draw_displacements(
+        dataclasses.replace(noise, bias=0, jitter=0.01), np.random.default_rng(0), 400
+    )
+    moved = np.abs(frame).max(axis=(1, 2)) > 0
+    assert abs(np.corrcoef(frame[moved].ravel(), neutral[moved].ravel())[0, 1]) < 0.02
+
+
+def _recording(dataset: KeypointDataset, *, calm: int, moving: int) -> tuple[np.ndarray, np.ndarray]:
+    """One person's frames, neutral ones at the end, with some jitter; and which are neutral."""
+    rng = np.random.default_rng(3)
+    faces = np.stack([drawn_face()] * calm)
+    drawn = dataset.points[~dataset.neutral][:moving]
+    frames = np.concatenate([drawn, in_pictures(rng, faces)])
+    across = np.linalg.norm(frames[:, 45] - frames[:, 36], axis=1)[:, None, None]
+    return frames + rng.normal(size=frames.shape) * 3e-4 * across, np.arange(len(frames)) >= moving
+
+
+def test_auto_finds_the_calm_frames_and_says_when_they_are_too_few(
+    quick_model: Model, dataset: KeypointDataset
+):
+    frames, calm = _recording(dataset, calm=40, moving=40)
+    frames[70] = np.nan
+    estimate = estimate_neutral(quick_model, frames)
+    assert estimate.sure, estimate.reason
+    assert calm[estimate.frames].all()
+    assert 70 not in estimate.frames
+    few = estimate_neutral(quick_model, frames[30:50])
+    assert not few.sure
+    assert "are needed" in few.reason
+    restless = estimate_neutral(quick_model, dataset.points[~dataset.neutral][:40])
+    assert not restless.sure
+    assert "differ by weights" in restless.reason
+
+
+@pytest.fixture
+def recording(dataset: KeypointDataset, tmp_path):
+    frames, _ = _recording(dataset, calm=40, moving=40)
+    np.save(tmp_path / "take.npy", frames)
+    return tmp_path / "take.npy"
+
+
+def test_predict_takes_a_frame_a_range_a_file_or_auto(run, quick_model_folder, quick_model, recording):
+    frames = np.load(recording)
+    np.save(recording.with_name("neutral.npy"), frames[50:52])
+    expected = {
+        "none": quick_model.predict(frames),
+        "50": quick_model.calibrate(frames[50:51]).predict(frames),
+        "50-51": quick_model.calibrate(frames[50:52]).predict(frames),
+        str(recording.with_name("neutral.npy")): quick_model.calibrate(frames[50:52]).predict(frames),
+        "auto": quick_model.calibrate(frames[estimate_neutral(quick_model, frames).frames]).predict(frames),
+    }
+    for neutral, weights in expected.items():
+        code, out, err = run("predict", quick_model_folder, recording, "--neutral", neutral)
+        assert code == 0, err
+        lines = [line.split(",") for line in out.splitlines()]
+        assert np.allclose(np.array([line[1:] for line in lines[1:]], dtype=float), weights, atol=1e-6)
+        assert ("neutral face found" in err) == (neutral == "auto")
+    code, _, err = run("predict", quick_model_folder, recording, "--neutral", "500")
+    assert code == 2
+    assert "neither a frame" in err
+
+
+def test_auto_that_is_not_sure_serves_without_and_says_so(run, quick_model_folder, quick_model, recording):
+    frames = np.load(recording)[:20]
+    np.save(recording, frames)
+    code, out, err = run("predict", quick_model_folder, recording, "--neutral", "auto")
+    assert code == 0
+    assert "not calibrated" in err
+    jaw = [float(line.split(",")[1 + BLENDSHAPES.index("jawOpen")]) for line in out.splitlines()[1:]]
+    assert np.allclose(jaw, quick_model.predict(frames)[:, BLENDSHAPE_INDEX["jawOpen"]], atol=1e-6)
+
+
+def test_export_takes_a_neutral_file(run, quick_model_folder, quick_model, recording):
+    neutral = recording.with_name("neutral.npy")
+    np.save(neutral, np.load(recording)[50:52])
+    code, _, err = run(
+        "export", quick_model_folder, "--format", "json", "--out", recording.parent, "--neutral", neutral
+    )
+    assert code == 0, err
+    document = json.loads((recording.parent / "face.json").read_text())
+    calibrated = quick_model.calibrate(np.load(neutral))
+    assert np.allclose(document["feature_mean"], calibrated.normalisation.feature_mean)
+
+
+def test_evaluate_counts_calibrated_weights(run, quick_model_folder, quick_model, dataset_folder):
+    code, out, _ = run("evaluate", quick_model_folder, dataset_folder, "--calibrated", "--json")
+    assert code == 0
+    figures = json.loads(out)
+    assert figures["calibrated"]
+    recorded = quick_model.record["scores"]["jawOpen"]["calibrated"]["r2"]
+    assert figures["scores"]["jawOpen"]["r2"] == pytest.approx(recorded, abs=1e-4)

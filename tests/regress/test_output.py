@@ -1,0 +1,206 @@
+"""After the networks: smoothing by time, adjustment, sides, and frames from a pipe."""
+
+import io
+import json
+import sys
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
+from regress.adjustment import ShapeAdjustment, adjust, blend_sides, mirror, read_adjustments
+from regress.errors import InputError
+from regress.inputs import Frames
+from regress.model import Model
+from regress.predict import Output, predict_frames
+from regress.smoothing import OneEuro, OneEuroStream, by_region, one_euro
+from regress.stream import stream_csv
+from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
+
+WEIGHTS = np.random.default_rng(0).uniform(size=(20, 52))
+TIMES = np.arange(20) / 30
+
+
+def test_one_euro_calms_a_still_face_and_follows_a_quick_one():
+    rng = np.random.default_rng(1)
+    times = np.arange(300) / 60
+    still = 0.3 + rng.normal(size=(300, 52)) * 0.02
+    smooth = one_euro(still, times, OneEuro())
+    mouth = BLENDSHAPE_INDEX["mouthPucker"]
+    assert smooth[60:, mouth].std() < still[60:, mouth].std() / 2
+    step = np.where(times < 2, 0.0, 1.0)[:, None] * np.ones(52)
+    followed = one_euro(step, times, OneEuro())
+    late = int(np.flatnonzero(times >= 2.2)[0])
+    assert followed[late, mouth] > 0.8
+    assert followed[late, BLENDSHAPE_INDEX["eyeBlinkLeft"]] > followed[late, mouth]
+
+
+def test_one_euro_is_one_low_pass_for_the_textbooks_signal():
+    """Without beta it is a first-order low pass of the cutoff, whatever the rate of frames."""
+    for rate in (30, 120):
+        times = np.arange(rate) / rate
+        answer = one_euro(np.where(times[:, None] > 0, 1.0, np.zeros(52)), times, OneEuro(beta=0.0))
+        expected = 1 - (1 / (1 + 2 * np.pi / rate)) ** (rate - 1)
+        assert answer[-1, BLENDSHAPE_INDEX["jawOpen"]] == pytest.approx(expected)
+
+
+def test_one_euro_knows_gaps_empty_rows_and_disorder():
+    weights = WEIGHTS.copy()
+    weights[5] = np.nan
+    times = TIMES.copy()
+    times[10:] += 2
+    smooth = one_euro(weights, times, OneEuro())
+    assert np.isnan(smooth[5]).all()
+    assert np.isfinite(np.delete(smooth, 5, axis=0)).all()
+    assert np.array_equal(smooth[10], weights[10])  # two seconds later nothing is carried over
+    times[12] = times[11]
+    with pytest.raises(InputError, match=r"row 13: .* in order"):
+        one_euro(weights, times, OneEuro())
+    with pytest.raises(InputError, match="row 1 has no time"):
+        one_euro(weights, np.full(20, np.nan), OneEuro())
+
+
+def test_one_euro_steps_as_it_runs():
+    stream = OneEuroStream(OneEuro())
+    rows = [stream.step(float(time), row) for time, row in zip(TIMES, WEIGHTS, strict=True)]
+    assert np.array_equal(rows, one_euro(WEIGHTS, TIMES, OneEuro()))
+    assert by_region(OneEuro(cutoff_hz=2))[BLENDSHAPE_INDEX["eyeBlinkLeft"]] == 6
+
+
+def test_blending_sides_levels_a_face_and_keeps_its_direction():
+    levelled = blend_sides(WEIGHTS, 1.0)
+    left, right = BLENDSHAPE_INDEX["mouthSmileLeft"], BLENDSHAPE_INDEX["mouthSmileRight"]
+    assert np.allclose(levelled[:, left], WEIGHTS[:, [left, right]].mean(axis=1))
+    assert np.allclose(levelled[:, left], levelled[:, right])
+    for name in ("jawLeft", "mouthRight", "eyeLookInLeft", "eyeLookOutRight", "jawOpen"):
+        assert np.array_equal(levelled[:, BLENDSHAPE_INDEX[name]], WEIGHTS[:, BLENDSHAPE_INDEX[name]])
+    assert np.array_equal(blend_sides(WEIGHTS, 0.0), WEIGHTS)
+    assert np.allclose(blend_sides(WEIGHTS, 0.5), (levelled + WEIGHTS) / 2)
+
+
+def test_mirroring_exchanges_sides():
+    assert np.array_equal(mirror(WEIGHTS), WEIGHTS[:, list(MIRRORED_BLENDSHAPES)])
+    assert np.array_equal(mirror(mirror(WEIGHTS)), WEIGHTS)
+
+
+def test_adjusting_goes_offset_dead_zone_gain_limits():
+    entry = ShapeAdjustment(gain=2.0, offset=0.1, dead_zone=0.2, low=0.0, high=0.9)
+    weights = np.full((1, 52), 0.5)
+    adjusted = adjust(weights, {"jawOpen": entry, "*": ShapeAdjustment(gain=0.5)})
+    assert adjusted[0, BLENDSHAPE_INDEX["jawOpen"]] == pytest.approx(0.9)
+    weights[:] = 0.3
+    adjusted = adjust(weights, {"jawOpen": entry, "*": ShapeAdjustment(gain=0.5)})
+    assert adjusted[0, BLENDSHAPE_INDEX["jawOpen"]] == pytest.approx(2 * (0.4 - 0.2) / 0.8)
+    assert adjusted[0, BLENDSHAPE_INDEX["cheekPuff"]] == pytest.approx(0.15)
+    assert np.isnan(adjust(np.full((1, 52), np.nan), {"*": entry})).all()
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("{", "not a readable JSON"),
+        ("[]", '"format" must be'),
+        ('{"format": "regress-adjustment", "shapes": {"jawOpened": {}}}', "not one of the 52"),
+        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"gian": 1}}}', "known are gain, offset"),
+        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"gain": "1"}}}', "a number is needed"),
+        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"dead_zone": 1}}}', "0 to below 1"),
+        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"low": 2}}}', "above high"),
+    ],
+)
+def test_a_bad_adjustment_file_is_refused(content: str, said: str, tmp_path):
+    path = tmp_path / "mine.json"
+    path.write_text(content)
+    with pytest.raises(InputError) as caught:
+        read_adjustments(path)
+    assert said in str(caught.value)
+
+
+def test_the_command_does_it_in_order(run, quick_model: Model, quick_model_folder, tmp_path):
+    frames = drawn_faces(np.random.default_rng(4), 12)
+    np.save(tmp_path / "take.npy", frames)
+    mine = {"format": "regress-adjustment", "shapes": {"jawOpen": {"gain": 0.5}}}
+    (tmp_path / "mine.json").write_text(json.dumps(mine))
+    options = ("--one-euro", 2, "--fps", 30, "--adjust", tmp_path / "mine.json", "--left-right-blend", 0.3)
+    code, out, err = run("predict", quick_model_folder, tmp_path / "take.npy", *options, "--mirror")
+    assert code == 0, err
+    rows = np.array([line.split(",") for line in out.splitlines()[1:]], dtype=float)
+    output = Output(
+        one_euro=OneEuro(cutoff_hz=2),
+        adjustments=read_adjustments(tmp_path / "mine.json"),
+        left_right_blend=0.3,
+        mirror=True,
+    )
+    timed = Frames(
+        points=frames, labels=tuple(map(str, range(12))), time_s=np.arange(12) / 30, source="take.npy"
+    )
+    expected = predict_frames(quick_model, timed, output=output).weights
+    assert np.allclose(rows[:, 2:], expected, atol=1e-6)
+    assert np.allclose(rows[:, 1], timed.time_s, atol=1e-6)
+    code, _, err = run("predict", quick_model_folder, tmp_path / "take.npy", "--one-euro", 2)
+    assert code == 2
+    assert "--fps" in err
+
+
+def _lines(frames: np.ndarray, times: np.ndarray | None = None) -> list[str]:
+    lines = []
+    for row, frame in enumerate(frames):
+        numbers = [] if times is None else [times[row]]
+        lines.append(" ".join(repr(float(value)) for value in [*numbers, *frame.ravel()]) + "\n")
+    return lines
+
+
+def test_a_pipe_gives_what_a_file_gives(run, quick_model: Model, quick_model_folder, monkeypatch):
+    frames = drawn_faces(np.random.default_rng(4), 6)
+    lines = _lines(frames)
+    lines[2] = "\n"
+    monkeypatch.setattr(sys, "stdin", io.StringIO("".join(lines)))
+    code, out, err = run("predict", quick_model_folder, "-", "--smooth", 3)
+    assert code == 0, err
+    with_gap = frames.copy()
+    with_gap[2] = np.nan
+    source = Frames(points=with_gap, labels=tuple("123456"), time_s=None, source="-")
+    expected = predict_frames(quick_model, source, output=Output(smooth=3)).weights
+    header, *rows = out.splitlines()
+    assert header.split(",") == ["frame", *BLENDSHAPES]
+    assert rows[2] == "3" + "," * 52
+    for row, weights in zip(rows, expected, strict=True):
+        if not row.endswith(",,"):
+            assert np.allclose([float(cell) for cell in row.split(",")[1:]], weights, atol=1e-6)
+
+
+def test_each_line_leaves_before_the_next_arrives(quick_model: Model):
+    taken = []
+
+    def lines():
+        for number, line in enumerate(_lines(drawn_faces(np.random.default_rng(4), 3))):
+            taken.append(number)
+            yield line
+
+    stream = stream_csv(lines(), quick_model, Output())
+    assert next(stream).startswith("frame,")
+    assert next(stream).startswith("1,")
+    assert taken == [0]
+
+
+def test_a_pipe_finds_the_neutral_face_while_it_runs(quick_model: Model):
+    rng = np.random.default_rng(5)
+    frames = in_pictures(rng, np.stack([drawn_face()] * 70))
+    said: list[str] = []
+    rows = list(
+        stream_csv(_lines(frames, np.arange(70) / 30), quick_model, Output(), auto=True, say=said.append)
+    )
+    assert len(said) == 1
+    assert "neutral face found" in said[0]
+    last = np.array(rows[-1].split(",")[2:], dtype=float)
+    assert np.allclose(last, quick_model.calibrate(frames).predict(frames)[-1], atol=1e-4)
+    first = np.array(rows[1].split(",")[2:], dtype=float)
+    assert np.allclose(first, quick_model.predict(frames)[0], atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [("1 2 3\n", "line 1 has 3 numbers"), ("a\n", "not a number"), ("nan" + " 1" * 136, "nan for")],
+)
+def test_a_bad_line_is_named(line: str, said: str, quick_model: Model):
+    with pytest.raises(InputError, match=said):
+        list(stream_csv([line], quick_model, Output()))
