@@ -1,0 +1,32 @@
+"""Makes docs/pictures/contact-sheet.png of what `facegen preview` draws, smaller and in few colours.
+
+    facegen generate datasets/paper.toml --out datasets/out/paper --samples 0-11
+    facegen preview datasets/out/paper --samples 1,2,3,4,7,8 --out sheet.png
+    python docs/figures/contact_sheet.py sheet.png
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+OUT = Path(__file__).resolve().parents[1] / "pictures" / "contact-sheet.png"
+WIDTH = 1800
+
+
+def main() -> None:
+    """Shrink to `WIDTH`, keep 160 greys for the views and 90 colours for points and bars."""
+    sheet = Image.open(sys.argv[1]).convert("RGB")
+    sheet = sheet.resize((WIDTH, round(WIDTH * sheet.height / sheet.width)), Image.LANCZOS)
+    pixels = np.asarray(sheet).reshape(-1, 3)
+    coloured = pixels[np.ptp(pixels, axis=1) > 24]
+    colours = Image.fromarray(coloured[None]).quantize(90, method=Image.Quantize.MEDIANCUT).getpalette()[:270]
+    greys = np.repeat(np.linspace(8, 255, 160).round().astype(int), 3).tolist()
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(greys + colours)
+    sheet.quantize(palette=palette, dither=Image.Dither.NONE).save(OUT, optimize=True)
+
+
+if __name__ == "__main__":
+    main()
