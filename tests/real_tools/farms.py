@@ -26,6 +26,7 @@ headset = "tracking3"
 samples = "0-59"
 size_px = 24
 samples_per_pixel = 1
+denoise = false
 """
 
 
