@@ -217,7 +217,7 @@ class OpenJD:
         if job.resources.path_map:
             described["path_mapping.json"] = path_mapping(job)
         texts = {name: json.dumps(content, indent=2) + "\n" for name, content in described.items()}
-        for name in ("spec.toml", "recording.csv"):
+        for name in ("spec.toml", "headset.toml", "recording.csv"):
             source = Path(job.out) / name
             if source.is_file():
                 texts[f"bundle/{name}"] = source.read_text(encoding="utf-8")

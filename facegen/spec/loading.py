@@ -41,15 +41,20 @@ def load_spec(path: str | Path) -> Spec:
         raise InputError(f"{path}: is not valid TOML: {error}") from None
     spec = parse_spec(table, where=str(path))
     if spec.playback is not None:
-        recording = path.parent / spec.playback.recording
-        if not recording.is_file():
-            raise InputError(
-                f"{path}: playback.recording = {spec.playback.recording!r}: there is no file {recording}"
-            )
-        spec = dataclasses.replace(
-            spec, playback=dataclasses.replace(spec.playback, recording=str(recording.resolve()))
-        )
+        recording = _beside(path, "playback.recording", spec.playback.recording)
+        spec = dataclasses.replace(spec, playback=dataclasses.replace(spec.playback, recording=recording))
+    if spec.render.headset.endswith(".toml"):
+        headset = _beside(path, "render.headset", spec.render.headset)
+        spec = dataclasses.replace(spec, render=dataclasses.replace(spec.render, headset=headset))
     return spec
+
+
+def _beside(spec: Path, key: str, name: str) -> str:
+    """Absolute path of a file that a spec names, relative to the spec."""
+    path = spec.parent / name
+    if not path.is_file():
+        raise InputError(f"{spec}: {key} = {name!r}: there is no file {path}")
+    return str(path.resolve())
 
 
 def parse_spec(table: dict[str, Any], *, where: str) -> Spec:
@@ -92,8 +97,9 @@ def spec_hash(spec: Spec, *, asset_sha256: dict[str, str]) -> str:
     """
     table = spec_table(spec)
     table["render"].pop("samples")
+    table["render"].pop("headset")  # what it says is among the assets; where it lies does not matter
     if spec.playback is not None:
-        table["playback"].pop("recording")  # its content is among the assets; where it lies does not matter
+        table["playback"].pop("recording")  # likewise
     content = {"spec": table, "assets": asset_sha256, "label_version": LABEL_VERSION}
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 

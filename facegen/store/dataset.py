@@ -16,7 +16,7 @@ from pydantic import TypeAdapter
 from facegen import __version__
 from facegen.conventions import BLENDSHAPES, SHARD_ROWS
 from facegen.errors import InputError
-from facegen.headsets import Headset, load_headset
+from facegen.headsets import Headset, headset_path, load_headset
 from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset
 from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_hash, spec_table
@@ -26,7 +26,7 @@ from facegen.store.stage import staging
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "opencv-contrib-python-headless", "OpenEXR")
 
-_FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "recording.csv")
+_FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "headset.toml", "recording.csv")
 """What `begin` leaves if it is killed before ``dataset.json``, and what a farm puts there before it."""
 
 
@@ -141,6 +141,9 @@ def begin(dataset: Dataset) -> None:
             shutil.copyfile(dataset.spec.playback.recording, stage / "recording.csv")
             commit_file(stage / "recording.csv", folder.recording_csv)
             table["playback"]["recording"] = folder.recording_csv.name
+        shutil.copyfile(headset_path(dataset.spec.render.headset), stage / "headset.toml")
+        commit_file(stage / "headset.toml", folder.headset_toml)
+        table["render"]["headset"] = folder.headset_toml.name
         (stage / "spec.toml").write_text(tomli_w.dumps(_without_none(table)), encoding="utf-8")
         commit_file(stage / "spec.toml", folder.spec_toml)
         write_json(stage / "dataset.json", _description(dataset))
@@ -153,7 +156,7 @@ def open_dataset(path: str | Path) -> Dataset:
     Raises
     ------
     InputError
-        If there is none, or its rig or headset is no longer the one it was made with.
+        If there is none, or its rig is no longer the one it was made with.
     """
     folder = DatasetFolder(Path(path))
     described = read_json(folder.dataset_json)
@@ -161,8 +164,8 @@ def open_dataset(path: str | Path) -> Dataset:
     dataset = resolve(spec, path)
     if dataset.hash != described.get("spec_hash"):
         raise InputError(
-            f"{path}: was made with another version of rig {spec.rig!r}, headset {spec.render.headset!r} or of facegen's "
-            f"labels ({described.get('label_version')}, now {LABEL_VERSION}); build those again, or make the dataset anew"
+            f"{path}: was made with another version of rig {spec.rig!r}, of its headset.toml or of facegen's labels "
+            f"({described.get('label_version')}, now {LABEL_VERSION}); build that again, or make the dataset anew"
         )
     return dataset
 

@@ -35,6 +35,11 @@ class DatasetFolder:
         """Copy of the recording of a playback."""
         return self.path / "recording.csv"
 
+    @property
+    def headset_toml(self) -> Path:
+        """Copy of the headset's file."""
+        return self.path / "headset.toml"
+
     def shard(self, index: int) -> Path:
         """Keypoints of samples ``index * 10,000`` and on."""
         return self.path / "keypoints" / f"shard-{index:05d}.parquet"

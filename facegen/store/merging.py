@@ -12,7 +12,7 @@ from facegen.store.dataset import Dataset, open_dataset
 from facegen.store.folder import DatasetFolder, commit_file, commit_folder, output_errors, read_json
 from facegen.store.stage import staging, sweep
 
-_FIRST_THINGS = ("tmp", "spec.toml", "recording.csv")
+_FIRST_THINGS = ("tmp", "spec.toml", "headset.toml", "recording.csv")
 """What a merge leaves if it is killed before ``dataset.json``."""
 
 
@@ -153,7 +153,7 @@ def _take_description(source: DatasetFolder, target: DatasetFolder) -> None:
     if target.dataset_json.is_file():
         return
     with staging(target, "merge") as stage:
-        for path in (source.recording_csv, source.spec_toml, source.dataset_json):
+        for path in (source.recording_csv, source.headset_toml, source.spec_toml, source.dataset_json):
             if path.is_file():
                 shutil.copyfile(path, stage / path.name)
                 commit_file(stage / path.name, target.path / path.name)
