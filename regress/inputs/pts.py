@@ -1,4 +1,4 @@
-"""iBUG ``.pts`` files: one face each, alone or a folder of them in the order of their names."""
+"""iBUG ``.pts`` files: one face each, alone or folders of them in the order of their names."""
 
 import re
 from pathlib import Path
@@ -22,12 +22,16 @@ def read_one(path: Path) -> Frames:
 
 
 def read_folder(path: Path) -> Frames:
-    """All ``.pts`` files of a folder; ``frame_2`` stands before ``frame_10``."""
-    files = sorted((file for file in path.iterdir() if is_pts(file)), key=_natural)
+    """All ``.pts`` files of a folder and those below it, as 300-W has them; ``frame_2`` before ``frame_10``.
+
+    A face is called by its file's name, with the folders between where there are some.
+    """
+    files = sorted((file for file in path.rglob("*") if is_pts(file)), key=lambda file: _natural(path, file))
     if not files:
         raise InputError(f"{path} holds no .pts file")
     points = np.stack([_face(file) for file in files])
-    return Frames(points=points, labels=tuple(file.stem for file in files), time_s=None, source=str(path))
+    labels = tuple(file.relative_to(path).with_suffix("").as_posix() for file in files)
+    return Frames(points=points, labels=labels, time_s=None, source=str(path))
 
 
 def _face(path: Path) -> np.ndarray:
@@ -37,6 +41,6 @@ def _face(path: Path) -> np.ndarray:
     return points
 
 
-def _natural(path: Path) -> list[tuple[int, str]]:
-    pieces = re.split(r"(\d+)", path.name)
+def _natural(folder: Path, file: Path) -> list[tuple[int, str]]:
+    pieces = re.split(r"(\d+)", file.relative_to(folder).as_posix())
     return [(int(piece), "") if piece.isdigit() else (-1, piece) for piece in pieces]

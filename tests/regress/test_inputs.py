@@ -1,5 +1,6 @@
 """Readers of landmark files, on real files and on broken ones."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +38,38 @@ def _pyfeat(path: Path, *, empty: tuple[int, ...] = ()) -> Path:
     return path
 
 
+def _dlib(path: Path) -> Path:
+    """Two faces in the first picture, one in the second; a box without parts has no face."""
+
+    def box(face: np.ndarray) -> str:
+        parts = [f"<part name='{i:02d}' x='{x!r}' y='{y!r}'/>" for i, (x, y) in enumerate(face.tolist())]
+        return f"<box top='1' left='1' width='9' height='9'>{''.join(reversed(parts))}</box>"
+
+    first, second, third = map(box, FACES)
+    images = f"<image file='1.jpg'>{first}{second}</image><image file='2.jpg'>{third}</image>"
+    path.write_text(f"<?xml version='1.0'?><dataset><images>{images}</images></dataset>")
+    return path
+
+
+def _coco(path: Path, *, key: str = "keypoints", hidden: tuple[int, ...] = ()) -> Path:
+    annotations = []
+    for number, face in enumerate(FACES):
+        seen = np.full((LANDMARK_COUNT, 1), 0 if number in hidden else 2)
+        triples = np.concatenate([face, seen], axis=1)
+        annotations.append({"id": 9 - number, "image_id": 5 + number, key: triples.ravel().tolist()})
+    images = [{"id": 5 + number, "file_name": f"{number}.png"} for number in range(len(FACES))]
+    path.write_text(json.dumps({"images": images, "annotations": annotations[::-1]}))
+    return path
+
+
+def _ck_plus(folder: Path) -> Path:
+    for number, face in enumerate(FACES):
+        place = folder / "S005" / "001"
+        place.mkdir(parents=True, exist_ok=True)
+        np.savetxt(place / f"S005_001_{number:08d}_landmarks.txt", face, fmt="  %.9e")
+    return folder
+
+
 def _example(name: str, folder: Path) -> Path:
     """A file of three faces (one for ``pts``) in a format of the table."""
     if name == "pts_folder":
@@ -52,6 +85,12 @@ def _example(name: str, folder: Path) -> Path:
         return folder / "a.npy"
     if name == "csv":
         return _openface(folder / "a.csv")
+    if name == "dlib_xml":
+        return _dlib(folder / "a.xml")
+    if name == "coco":
+        return _coco(folder / "a.json")
+    if name == "ck_plus":
+        return _ck_plus(folder / "Landmarks")
     raise AssertionError(f"the format {name!r} has no example here: write one")
 
 
@@ -67,6 +106,35 @@ def test_every_format_of_the_table_gives_the_points_back(name: str, tmp_path: Pa
 
 def test_a_folder_goes_by_number_not_by_letter(tmp_path: Path):
     assert read_frames(_example("pts_folder", tmp_path)).labels == ("frame_2", "frame_10", "frame_100")
+
+
+def test_300w_folders_are_read_below_the_folder(tmp_path: Path):
+    for place, face in zip(("01_Indoor", "02_Outdoor"), FACES, strict=False):
+        (tmp_path / place).mkdir()
+        write_pts(tmp_path / place / "indoor_001.pts", face)
+    frames = read_frames(tmp_path)
+    assert frames.labels == ("01_Indoor/indoor_001", "02_Outdoor/indoor_001")
+    assert np.allclose(frames.points, FACES[:2], atol=1e-4)
+
+
+def test_dlib_faces_are_called_by_picture_and_number(tmp_path: Path):
+    path = _dlib(tmp_path / "a.xml")
+    path.write_text(path.read_text().replace("</image></images>", "<box top='1'/></image></images>"))
+    frames = read_frames(path)
+    assert frames.labels == ("1.jpg", "1.jpg/2", "2.jpg", "2.jpg/2")
+    assert frames.usable.tolist() == [True, True, True, False]
+
+
+def test_coco_points_that_are_not_labelled_are_missing(tmp_path: Path):
+    frames = read_frames(_coco(tmp_path / "a.json", key="face_kpts", hidden=(1,)))
+    assert frames.labels == ("0.png", "1.png", "2.png")
+    assert frames.usable.tolist() == [True, False, True]
+    assert np.allclose(frames.points[2], FACES[2])
+
+
+def test_ck_plus_frames_are_called_by_subject_sequence_and_number(tmp_path: Path):
+    frames = read_frames(_ck_plus(tmp_path))
+    assert frames.labels == ("S005_001_00000000", "S005_001_00000001", "S005_001_00000002")
 
 
 def test_openface_frames_without_success_have_no_face(tmp_path: Path):
@@ -98,6 +166,7 @@ def _subjects_right_is_at_the_images_left(frames: Frames) -> None:
         ("openface_sequence.csv", 100, True),
         ("pyfeat_clip_001.csv", 20, False),
         ("pyfeat_clip_007.csv", 14, False),
+        ("dlib_faces.xml", 18, False),
     ],
 )
 def test_real_files(real: Path, name: str, rows: int, timed: bool):
@@ -127,6 +196,15 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
     (folder / "header.csv").write_text(",".join(COLUMNS) + "\n")
     (folder / "cut.csv").write_text(",".join(COLUMNS) + "\n1,2,3\n")
     (folder / "words.csv").write_text(",".join(COLUMNS) + "\n" + ",".join(["x"] * len(COLUMNS)) + "\n")
+    (folder / "not.xml").write_text("<a")
+    (folder / "other.xml").write_text("<a/>")
+    (folder / "high.xml").write_text(
+        "<a><image file='b'><box><part name='68' x='1' y='1'/></box></image></a>"
+    )
+    (folder / "other.json").write_text("[1]")
+    (folder / "none.json").write_text('{"annotations": []}')
+    (folder / "body.json").write_text('{"annotations": [{"id": 1, "image_id": 1, "keypoints": [1, 2, 2]}]}')
+    (folder / "S1_landmarks.txt").write_text("1 2 3\n")
     (folder / "take.mp4").write_bytes(b"")
     (folder / "bare").mkdir(exist_ok=True)
     _openface(folder / "unseen.csv", success=(0, 0, 0))
@@ -141,6 +219,13 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
         "header.csv": "a header and no rows",
         "cut.csv": "row 2 has 3 cells",
         "words.csv": "not a number",
+        "not.xml": "is not XML",
+        "other.xml": "no image with a box",
+        "high.xml": "a part 68",
+        "other.json": "not a COCO keypoints file",
+        "none.json": "no annotation",
+        "body.json": "no 204 numbers",
+        "S1_landmarks.txt": "1 lines of 3",
         "take.mp4": "no known format",
         "bare": "holds no .pts file",
         "unseen.csv": "no usable frame",
