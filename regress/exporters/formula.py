@@ -158,6 +158,8 @@ def _about(model: Model) -> dict[str, str]:
         "recipe": model.recipe,
         "dataset": str(dataset.get("name", "unknown")),
         "dataset_sha256": str(dataset.get("keypoints_sha256", "unknown")),
-        "licence": str(model.record.get("licence", "unknown")),
+        # what the numbers derive from comes first: a rig's terms may bind whoever ships them
+        "licence": f"{dataset.get('licence', 'licence of the data unknown')}; weights: "
+        f"{model.record.get('licence', 'unknown')}",
         "program": f"regress {__version__}",
     }
