@@ -8,6 +8,7 @@ from regress.errors import InputError
 from regress.features import extract
 from regress.model import Model
 from regress.networks import evaluate
+from regress.targets import VISIBLE_SHAPES
 
 _CALM_SHARE = 0.25
 """Frames taken for neutral: the quarter that shows least, as people's faces rest most of the time."""
@@ -16,7 +17,7 @@ _FEWEST_CALM = 8
 """Calm frames below which nothing is certain; ten are what the literature averages."""
 
 _AGREEMENT = 0.1
-"""Largest weight by which an early and a late half of the calm frames may differ."""
+"""Largest weight of a visible shape by which an early and a late half of the calm frames may differ."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +75,8 @@ def estimate_neutral(model: Model, points: np.ndarray) -> NeutralEstimate:
     features = extract(model.features, points[frames])
     early, late = (np.median(half, axis=0) for half in np.array_split(features, 2))
     between = np.stack([early - late, late - early])
-    difference = float(np.clip(evaluate(model.calibrated.networks, between), 0, 1).max())
+    visible = [name in VISIBLE_SHAPES for name in model.outputs]
+    difference = float(np.clip(evaluate(model.calibrated.networks, between)[:, visible], 0, 1).max())
     if difference > _AGREEMENT:
         reason = f"calm frames differ by weights of up to {difference:.2f}, and {_AGREEMENT} is allowed"
         return NeutralEstimate(frames=frames, sure=False, reason=reason)

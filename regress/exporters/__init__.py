@@ -11,6 +11,7 @@ from pathlib import Path
 from regress.errors import InputError, OutputError
 from regress.exporters.c_source import export_c
 from regress.exporters.formula import Formula, formula_of
+from regress.exporters.javascript import export_javascript
 from regress.exporters.json_text import export_json
 from regress.exporters.npz_archive import export_npz
 from regress.exporters.onnx_graph import export_onnx
@@ -26,6 +27,7 @@ EXPORTERS: dict[str, Exporter] = {
     "c": export_c,
     "json": export_json,
     "npz": export_npz,
+    "javascript": export_javascript,
 }
 
 

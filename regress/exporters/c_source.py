@@ -42,16 +42,16 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
 
 def _values(formula: Formula, name: str) -> dict[str, object]:
     stacked = formula.stacked()
-    runs = [_run(row) for row in stacked.output_weights]  # (first hidden unit, weights) of each of the 52
+    runs = [run_of(row) for row in stacked.output_weights]  # (first hidden unit, weights) of each of the 52
     connection_counts = [len(weights) for _, weights in runs]
     connections = np.concatenate([weights for _, weights in runs])
     return {
         "name": name,
         "GUARD": name.upper(),
         "title": f"{name}: {LANDMARK_COUNT} facial landmarks to {len(BLENDSHAPES)} avatar weights.",
-        "licence": _comment(formula.about["licence"]),
-        "dataset": _comment(f"{formula.about['dataset']} (SHA-256 {formula.about['dataset_sha256']})"),
-        "recipe": _comment(formula.about["recipe"]),
+        "licence": comment(formula.about["licence"]),
+        "dataset": comment(f"{formula.about['dataset']} (SHA-256 {formula.about['dataset_sha256']})"),
+        "recipe": comment(formula.about["recipe"]),
         "aligned": int(formula.alignment == "affine"),
         "point_count": LANDMARK_COUNT,
         "weight_count": len(BLENDSHAPES),
@@ -73,7 +73,7 @@ def _values(formula: Formula, name: str) -> dict[str, object]:
     }
 
 
-def _run(row: np.ndarray) -> tuple[int, np.ndarray]:
+def run_of(row: np.ndarray) -> tuple[int, np.ndarray]:
     """First index and values of the shortest run that holds all of a row that is not zero."""
     used = np.flatnonzero(row)
     if len(used) == 0:
@@ -103,6 +103,6 @@ def _wrapped(items) -> str:
     return "\n".join([*lines, line])
 
 
-def _comment(text: str) -> str:
+def comment(text: str) -> str:
     """A text that cannot end the comment it stands in."""
     return " ".join(text.replace("*/", "* /").split())

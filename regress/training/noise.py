@@ -48,12 +48,15 @@ class DetectorNoise:
         Of each coordinate by itself, in outer-eye distances.
     clean
         Share of the faces that stay as they are.
+    copies
+        How often each face is trained on, displaced anew each time.
     """
 
     bias: float
     drift: float = 0.1
-    jitter: float = 0.003
+    jitter: float = 0.001
     clean: float = 0.5
+    copies: int = 1
 
 
 def draw_bias(rng: np.random.Generator, count: int) -> np.ndarray:

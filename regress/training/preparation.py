@@ -98,6 +98,14 @@ class Faces:
     neutral: np.ndarray | None
     weights: np.ndarray
 
+    def repeated(self, times: int) -> "Faces":
+        """The faces several times over."""
+        return Faces(
+            points=np.tile(self.points, (times, 1, 1)),
+            neutral=None if self.neutral is None else np.tile(self.neutral, (times, 1, 1)),
+            weights=np.tile(self.weights, (times, 1)),
+        )
+
     def features(self, features: Features) -> np.ndarray:
         """Raw features (n, E), less the neutral frame's where there is one."""
         values = extract(features, self.points)
@@ -160,7 +168,7 @@ def prepare(
         if mirror and split == "train":
             faces = _with_mirror_images(faces)
         if noise is not None and split != "test":
-            faces = as_detected(faces, noise, np.random.default_rng([seed, number]))
+            faces = as_detected(faces.repeated(noise.copies), noise, np.random.default_rng([seed, number]))
         raw[split] = faces.features(features), faces.weights[:, OUTPUT_COLUMNS]
     inputs, targets = raw["train"]
     normalisation = Normalisation(

@@ -46,7 +46,7 @@ class Recipe:
     steps: int = 30
     patience: int = 6
     improvement: float = 1e-3
-    alphas: tuple[float, ...] = (0.3, 1.0, 3.0, 10.0, 30.0)
+    alphas: tuple[float, ...] = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
     search_rows: int = 3000
     smooth_frames: int = 1
     noise: DetectorNoise | None = None
@@ -57,7 +57,7 @@ class Recipe:
 RECIPES: dict[str, Recipe] = {
     "default": Recipe(
         name="default",
-        noise=DetectorNoise(bias=0.5),
+        noise=DetectorNoise(bias=0.5, copies=2),
         calibrated_noise=DetectorNoise(bias=1.0, clean=0.3),
     ),
     "paper": Recipe(

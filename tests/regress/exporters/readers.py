@@ -1,5 +1,6 @@
 """Evaluators of exported files, written from the files' own documentation and from nothing in ``regress``."""
 
+import atexit
 import ctypes
 import json
 import subprocess
@@ -96,4 +97,31 @@ def read_c(paths: tuple[Path, ...]):
     return predict, tuple(name.decode() for name in names)
 
 
-READERS = {"json": read_json, "npz": read_npz, "onnx": read_onnx, "c": read_c}
+def read_javascript(paths: tuple[Path, ...]):
+    """Node, started once: a line of faces in, a line of weights out; numbers that are not finite are null."""
+    program = (
+        f"import {{ names, predict }} from {json.dumps(paths[0].as_uri())};"
+        "import { createInterface } from 'node:readline';"
+        "const known = (face) => face.map((point) => point.map((value) => value ?? NaN));"
+        "console.log(JSON.stringify(names));"
+        "for await (const line of createInterface({ input: process.stdin })) {"
+        "  const faces = JSON.parse(line).map(known);"
+        "  const weights = faces.map((face, i) => predict(i % 2 ? face : face.flat()));"
+        "  console.log(JSON.stringify(weights.map((row) => Array.from(row))));"
+        "}"
+    )
+    command = ["node", "--input-type=module", "--eval", program]
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    atexit.register(process.communicate)
+    names = tuple(json.loads(process.stdout.readline()))
+
+    def predict(points: np.ndarray) -> np.ndarray:
+        faces = np.where(np.isfinite(points), points.astype(np.float64), None).tolist()
+        process.stdin.write(json.dumps(faces) + "\n")
+        process.stdin.flush()
+        return np.array(json.loads(process.stdout.readline()), dtype=np.float64)
+
+    return predict, names
+
+
+READERS = {"json": read_json, "npz": read_npz, "onnx": read_onnx, "c": read_c, "javascript": read_javascript}

@@ -33,7 +33,15 @@ def run(monkeypatch):
 def test_export_writes_all_formats_and_names_them(run, folder, tmp_path, capsys):
     assert run("export", folder, "--out", tmp_path / "out", "--name", "avatar") == 0
     written = {path.name for path in (tmp_path / "out").iterdir()}
-    assert written == {"avatar.onnx", "avatar.h", "avatar.c", "avatar.json", "avatar.npz"}
+    assert written == {
+        "avatar.onnx",
+        "avatar.h",
+        "avatar.c",
+        "avatar.json",
+        "avatar.npz",
+        "avatar.js",
+        "avatar.d.ts",
+    }
     printed = capsys.readouterr().out
     assert all(name in printed for name in written)
 

@@ -22,7 +22,15 @@ AGREEMENT = 1e-4
 """What the project promises. float32 networks give about 1e-6 (measured); the rest is for other runtimes."""
 
 FORMATS = [pytest.param(name, marks=[pytest.mark.compiler] if name == "c" else []) for name in EXPORTERS]
+TOOLS = {"c": "cc", "javascript": "node"}
 """Straight from the table: a new exporter is tested the day it appears, and fails until it has a reader."""
+
+
+def skip_without_tool(chosen: str) -> None:
+    """Skip where the program that runs a format is missing."""
+    tool = TOOLS.get(chosen)
+    if tool is not None and shutil.which(tool) is None:
+        pytest.skip(f"no {tool} on this machine")
 
 
 @pytest.fixture(scope="session")
@@ -32,8 +40,7 @@ def exported(model, tmp_path_factory):
     made = {}
 
     def get(chosen):
-        if chosen == "c" and shutil.which("cc") is None:
-            pytest.skip("no C compiler (cc) on this machine")
+        skip_without_tool(chosen)
         if chosen not in made:
             made[chosen] = READERS[chosen](export_model(model, folder, name="face", formats=[chosen]))
         return made[chosen]
@@ -77,7 +84,9 @@ def test_agrees_far_from_the_origin_and_at_any_scale(
     np.testing.assert_allclose(predict(faces), model.predict(faces), atol=AGREEMENT, rtol=0)
 
 
-@pytest.mark.parametrize("chosen", [param for param in FORMATS if param.values[0] in ("onnx", "c")])
+@pytest.mark.parametrize(
+    "chosen", [param for param in FORMATS if param.values[0] in ("onnx", "c", "javascript")]
+)
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("landmark", [0, 8, 30, 50, 67])
 def test_a_missing_point_gives_nan_for_its_face_alone(chosen, exported, faces, bad, landmark):
@@ -89,7 +98,9 @@ def test_a_missing_point_gives_nan_for_its_face_alone(chosen, exported, faces, b
     np.testing.assert_array_equal(weights[[0, 2]], predict(faces[:3])[[0, 2]])
 
 
-@pytest.mark.parametrize("chosen", [param for param in FORMATS if param.values[0] in ("onnx", "c")])
+@pytest.mark.parametrize(
+    "chosen", [param for param in FORMATS if param.values[0] in ("onnx", "c", "javascript")]
+)
 def test_a_face_in_one_point_gives_nan(chosen, exported):
     predict, _ = exported(chosen)
     assert np.isnan(predict(np.zeros((1, 68, 2), dtype=np.float32))).all()
@@ -108,12 +119,16 @@ def test_equal_models_give_equal_bytes_and_no_leavings(chosen, tmp_path):
     assert sorted((tmp_path / "a").iterdir()) == sorted(first)
 
 
-@pytest.mark.parametrize("chosen", FORMATS)
-def test_agrees_on_the_test_split_after_training(chosen, tmp_path):
-    if chosen == "c" and shutil.which("cc") is None:
-        pytest.skip("no C compiler (cc) on this machine")
+@pytest.fixture(scope="module")
+def trained():
     dataset = drawn_dataset(np.random.default_rng(3), people=60)
-    model = train(dataset, Recipe(name="quick", steps=3, alphas=(1.0,)))
+    return dataset, train(dataset, Recipe(name="quick", steps=3, alphas=(1.0,)))
+
+
+@pytest.mark.parametrize("chosen", FORMATS)
+def test_agrees_on_the_test_split_after_training(chosen, trained, tmp_path):
+    skip_without_tool(chosen)
+    dataset, model = trained
     predict, _ = READERS[chosen](export_model(model, tmp_path, name="face", formats=[chosen]))
     faces = dataset.points[dataset.rows("test")].astype(np.float32)
     np.testing.assert_allclose(predict(faces), model.predict(faces), atol=AGREEMENT, rtol=0)
@@ -121,8 +136,7 @@ def test_agrees_on_the_test_split_after_training(chosen, tmp_path):
 
 @pytest.mark.parametrize("chosen", FORMATS)
 def test_the_shipped_model_agrees(chosen, shipped_model, tmp_path):
-    if chosen == "c" and shutil.which("cc") is None:
-        pytest.skip("no C compiler (cc) on this machine")
+    skip_without_tool(chosen)
     predict, _ = READERS[chosen](export_model(shipped_model, tmp_path, name="face", formats=[chosen]))
     rng = np.random.default_rng(8)
     noise = rng.normal(size=(300, 68, 2)) * 0.01
@@ -176,7 +190,7 @@ def test_c_refuses_names_that_c_cannot_say(model, tmp_path):
 
 
 def test_unknown_formats_and_names_with_folders_are_refused(model, tmp_path):
-    with pytest.raises(InputError, match="known are onnx, c, json, npz"):
+    with pytest.raises(InputError, match="known are onnx, c, json, npz, javascript"):
         export_model(model, tmp_path, name="face", formats=["xml"])
     with pytest.raises(InputError, match="without a folder"):
         export_model(model, tmp_path, name="a/b")
