@@ -1,9 +1,16 @@
 """Fixtures that tests of several packages share."""
 
+import signal
+
 import pytest
 
 from facegen.rigs import Rig, load_rig
 from facegen.rigs.building import build_rig
+
+
+def pytest_configure() -> None:
+    """A stop from outside ends as Ctrl-C does: fixtures still take down what they put up."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -61,9 +61,9 @@ def undisturbed(tmp_path_factory) -> tuple[Path, dict[str, bytes]]:
 def check_same(found: dict[str, bytes], wanted: dict[str, bytes], folder: Path) -> None:
     """Every byte is the same, but for a fault of rendering that is not yet understood.
 
-    On a busy machine Blender now and then changes the last digit of a pixel's normal, and with it its radiance
+    On a busy machine Blender now and then changes the last digit of a pixel's normal and of its radiance
     (measured: 1 or 2 of 1,728 numbers in 1 to 8 of 180 views, with and without denoising, from the same scene
-    to the bit). Until that is mended these two may differ by so much, and their checksums; nothing else may.
+    to the bit). Until that is mended these two may differ by so much, and their checksums, and nothing else.
     """
     assert found.keys() == wanted.keys()
     differ = {name for name in wanted if found[name] != wanted[name]}
