@@ -97,6 +97,23 @@ class RegressionPlot:
 
 
 @dataclass(frozen=True, kw_only=True)
+class CalibrationRow:
+    """What a neutral frame of the person brings: mean R2 without and with one.
+
+    Parameters
+    ----------
+    landmarks, shapes : str
+        On which landmarks, over which shapes.
+    alone, calibrated : float
+    """
+
+    landmarks: str
+    shapes: str
+    alone: float
+    calibrated: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Headline:
     """One large figure with what it means below it."""
 
@@ -121,6 +138,8 @@ class ReportContent:
     curves : tuple of LearningCurve
         Each network.
     regressions : tuple of RegressionPlot
+    calibration : tuple of CalibrationRow
+        Empty where a model has no calibrated networks.
     provenance : tuple of (str, str)
         How the model came about: what, and its value.
     """
@@ -133,6 +152,7 @@ class ReportContent:
     curve: LearningCurve
     curves: tuple[LearningCurve, ...]
     regressions: tuple[RegressionPlot, ...]
+    calibration: tuple[CalibrationRow, ...]
     provenance: tuple[tuple[str, str], ...]
 
 

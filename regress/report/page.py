@@ -36,6 +36,7 @@ def render_page(content: ReportContent) -> str:
         curve=Markup(learning_curves(content.curve)),
         small_curves=[Markup(small_curves(curve, low=low, high=high)) for curve in content.curves],
         cells=_cells,
+        figure=figure,
     )
 
 

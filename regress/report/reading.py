@@ -10,6 +10,7 @@ from regress.errors import ModelError
 from regress.model import Model
 from regress.report.content import (
     SEEN_R2,
+    CalibrationRow,
     Figures,
     Headline,
     LearningCurve,
@@ -46,6 +47,7 @@ def content_of(model: Model) -> ReportContent:
             curve=mean_curve(curves),
             curves=curves,
             regressions=tuple(_regression(split, record["regression"][split]) for split in SPLITS),
+            calibration=_calibration(record),
             provenance=_provenance(model),
         )
     except KeyError as error:
@@ -114,6 +116,24 @@ def _headlines(scores: tuple[ShapeScores, ...]) -> tuple[Headline, ...]:
     )
 
 
+def _calibration(record: dict[str, Any]) -> tuple[CalibrationRow, ...]:
+    if "calibrated" not in record["summary"]:
+        return ()
+    return tuple(
+        CalibrationRow(
+            landmarks=landmarks,
+            shapes=shapes,
+            alone=_number(figures["network"][key]),
+            calibrated=_number(figures["calibrated"][key]),
+        )
+        for landmarks, figures in (
+            ("as in the dataset", record["summary"]),
+            ("as a detector puts them", record["as_detected"]),
+        )
+        for shapes, key in (("visible shapes", "mean_r2_visible"), ("all shapes", "mean_r2"))
+    )
+
+
 def _provenance(model: Model) -> tuple[tuple[str, str], ...]:
     record, dataset = model.record, model.record["dataset"]
     samples = ", ".join(f"{count:,} {split}" for split, count in dataset["samples"].items())
@@ -157,6 +177,8 @@ def _said(value: Any) -> str:
         return "not stated"
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, dict):
+        return " ".join(f"{key} {_said(entry)}" for key, entry in value.items())
     if isinstance(value, list | tuple):
         return " / ".join(map(_said, value))
     return str(value)

@@ -71,6 +71,21 @@ def test_page_holds_every_shape_with_its_figures(model, page):
                 assert float(text.replace("\N{MINUS SIGN}", "-")) == pytest.approx(figure, abs=6e-4)
 
 
+def test_page_says_what_a_neutral_frame_brings(model, page):
+    start = page.index("What a neutral frame brings")
+    shown = re.findall(r"<td>([^<]+)</td>\s*</tr>", page[start : page.index("<h2>", start)])
+    recorded = [
+        model.record[landmarks]["calibrated"][key]
+        for landmarks in ("summary", "as_detected")
+        for key in ("mean_r2_visible", "mean_r2")
+    ]
+    assert [float(text.replace("\N{MINUS SIGN}", "-")) for text in shown] == pytest.approx(recorded, abs=6e-4)
+    without = dataclasses.replace(model, calibrated=None)
+    summary = {key: value for key, value in model.record["summary"].items() if key != "calibrated"}
+    without = dataclasses.replace(without, record={**model.record, "summary": summary})
+    assert "neutral frame" not in render_page(content_of(without))
+
+
 def test_page_says_plainly_what_cannot_be_seen(model, page):
     start = page.index("What 68 points cannot show")
     section = page[start : page.index("<h2>", start)]
