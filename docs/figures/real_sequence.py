@@ -1,4 +1,4 @@
-"""Draws docs/pictures/real-sequence.png: weights of real recordings over time, with and without neutral frames.
+"""Draws docs/pictures/real-sequence.png: weights of real recordings over time, calibrated and not.
 
     cd RECORDINGS; python .../docs/figures/real_sequence.py .../models/default \\
         openface_sequence.csv pyfeat_clip_007.csv pyfeat_clip_001.csv

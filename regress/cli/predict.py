@@ -55,7 +55,7 @@ def predict(
         float, typer.Option("--beta", min=0, help="One-Euro: Hz more for each unit of weight a second.")
     ] = OneEuro.beta,
     fps: Annotated[
-        float | None, typer.Option("--fps", min=1e-3, help="Frames a second, where INPUT has no times.")
+        float | None, typer.Option("--fps", min=1e-3, help="Frames a second; goes before times in INPUT.")
     ] = None,
     adjust: Annotated[
         Path | None,
@@ -86,7 +86,7 @@ def predict(
         _predict_stream(loaded, neutral, output, fps, out)
         return
     frames = read_frames(landmarks)
-    if frames.time_s is None and fps is not None:
+    if fps is not None:
         frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
     prediction = predict_frames(_calibrated(loaded, frames, neutral), frames, output=output)
     empty = prediction.empty_rows

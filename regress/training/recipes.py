@@ -71,6 +71,6 @@ RECIPES: dict[str, Recipe] = {
         calibrated=False,
     ),
 }
-"""``paper`` follows the paper. ``exact`` adds mirrored faces, starts from ridge regression and has a second set
-of networks that compare a frame with the person's neutral one. ``default`` adds detectors' noise to that: real
-landmarks are not where the dataset's are."""
+"""``paper`` follows the paper. ``exact`` adds mirrored faces, starts from ridge regression and has a second
+set of networks that compare a frame with the person's neutral one. ``default`` adds detectors' noise to that:
+real landmarks are not where the dataset's are."""
