@@ -10,6 +10,7 @@ import typer
 from facegen.conventions import ExitCode
 from facegen.formats import FormatError
 from regress import __version__
+from regress.cli.bench import bench
 from regress.cli.edges import edges
 from regress.cli.evaluate import evaluate
 from regress.cli.export import export
@@ -31,6 +32,7 @@ app.command()(evaluate)
 app.command()(predict)
 app.command()(export)
 app.command()(report)
+app.command()(bench)
 app.command()(edges)
 
 

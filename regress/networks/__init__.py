@@ -1,6 +1,6 @@
 """Many small networks side by side: how they train, start and run."""
 
-from regress.networks.folded import FoldedNetworks, block_w2, evaluate, shifted
+from regress.networks.folded import FoldedNetworks, evaluate, shifted
 from regress.networks.folding import fold
 from regress.networks.initial import nguyen_widrow, ridge_knots
 from regress.networks.least_squares import Layout, NetworkProblem, Rows
@@ -12,7 +12,6 @@ __all__ = [
     "NetworkProblem",
     "Ridge",
     "Rows",
-    "block_w2",
     "evaluate",
     "fit_ridge",
     "fold",

@@ -1,6 +1,7 @@
 """Many small networks side by side: inference in one go, with everything linear folded into the weights."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -34,19 +35,18 @@ class FoldedNetworks:
         """Hidden units of one network, H."""
         return self.w2.shape[1]
 
+    @cached_property
+    def block_w2(self) -> np.ndarray:
+        """Output weights as one (O, M*H) matrix, zero outside each network's block: one product for all."""
+        dense = np.zeros((len(self.b2), len(self.b1)))
+        columns = self.network_of_output[:, None] * self.hidden + np.arange(self.hidden)
+        np.put_along_axis(dense, columns, self.w2, axis=1)
+        return dense
+
 
 def shifted(networks: FoldedNetworks, origin: np.ndarray) -> FoldedNetworks:
     """The networks that act on features (E,) as these act on features less an origin."""
     return replace(networks, b1=networks.b1 - networks.w1 @ origin)
-
-
-def block_w2(networks: FoldedNetworks) -> np.ndarray:
-    """Output weights as one (O, M*H) matrix with zeros outside each network's block: one product for all."""
-    hidden = networks.hidden
-    dense = np.zeros((len(networks.b2), len(networks.b1)))
-    columns = networks.network_of_output[:, None] * hidden + np.arange(hidden)
-    np.put_along_axis(dense, columns, networks.w2, axis=1)
-    return dense
 
 
 def evaluate(networks: FoldedNetworks, features: np.ndarray) -> np.ndarray:
@@ -64,4 +64,4 @@ def evaluate(networks: FoldedNetworks, features: np.ndarray) -> np.ndarray:
     hidden = features @ networks.w1.T
     hidden += networks.b1
     np.tanh(hidden, out=hidden)
-    return hidden @ block_w2(networks).T + networks.b2
+    return hidden @ networks.block_w2.T + networks.b2

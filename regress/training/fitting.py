@@ -76,25 +76,30 @@ def fit_networks(prepared: Prepared, recipe: Recipe, *, seed: int, progress: Pro
     searched = train.take(np.sort(order[: recipe.search_rows]))
     held, watched = validation.network_rows(), test.network_rows()
 
-    def fit(split: Split, held_out: tuple[Rows, ...], alphas: np.ndarray, stage: str) -> tuple[Result, ...]:
+    def fit(
+        split: Split, held_out: tuple[Rows, ...], alphas: np.ndarray, steps: int, stage: str
+    ) -> tuple[Result, ...]:
         start = _start(split, prepared.rotation, layout, recipe, alphas, seed)
+        settings = Settings(steps=steps, patience=recipe.patience, improvement=recipe.improvement)
         problem = split.network_rows()
-        return _fit_groups(
-            layout, problem, held_out, start, alphas, recipe, _Stage(progress, stage, recipe.steps)
-        )
+        return _fit_groups(layout, problem, held_out, start, alphas, settings, _Stage(progress, stage, steps))
+
+    search_steps = min(recipe.search_steps, recipe.steps)
 
     with threadpool_limits(limits=1, user_api="blas"):
         errors = np.stack(
             [
                 _gathered(
-                    result.error for result in fit(searched, (held,), np.full(len(NETWORKS), alpha), stage)
+                    result.error
+                    for result in fit(
+                        searched, (held,), np.full(len(NETWORKS), alpha), search_steps, f"alpha {alpha:g}"
+                    )
                 )
                 for alpha in recipe.alphas
-                for stage in [f"alpha {alpha:g}"]
             ]
         )
         alphas = np.array(recipe.alphas)[errors.argmin(axis=0)]
-        results = fit(train, (held, watched), alphas, "all rows")
+        results = fit(train, (held, watched), alphas, recipe.steps, "all rows")
     return Fit(
         layout=layout,
         parameters=_gathered(result.parameters for result in results),
@@ -138,10 +143,9 @@ def _fit_groups(
     held_out: tuple[Rows, ...],
     start: np.ndarray,
     alphas: np.ndarray,
-    recipe: Recipe,
+    settings: Settings,
     stage: "_Stage",
 ) -> tuple[Result, ...]:
-    settings = Settings(steps=recipe.steps, patience=recipe.patience, improvement=recipe.improvement)
     used = used_outputs()
 
     def fit(group: np.ndarray) -> Result:

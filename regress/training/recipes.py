@@ -27,6 +27,8 @@ class Recipe:
         L2 strengths to choose from for each network, in units of half the sum of squares of z-scored targets.
     search_rows
         Training rows on which alphas are compared; the best one then sees all rows.
+    search_steps
+        Steps at most while alphas are compared: their order shows long before they are done.
     smooth_frames
         Moving average that the recipe wants for video.
     noise
@@ -48,6 +50,7 @@ class Recipe:
     improvement: float = 1e-3
     alphas: tuple[float, ...] = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
     search_rows: int = 3000
+    search_steps: int = 30
     smooth_frames: int = 1
     noise: DetectorNoise | None = None
     calibrated_noise: DetectorNoise | None = None
@@ -66,7 +69,9 @@ RECIPES: dict[str, Recipe] = {
         start="nguyen_widrow",
         mirror=False,
         steps=1000,
-        improvement=1e-4,
+        improvement=3e-3,
+        alphas=(1.0, 3.0, 10.0, 30.0),
+        search_steps=15,
         smooth_frames=10,
         calibrated=False,
     ),

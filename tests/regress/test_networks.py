@@ -8,7 +8,6 @@ from regress.networks import (
     Layout,
     NetworkProblem,
     Rows,
-    block_w2,
     evaluate,
     fit_ridge,
     fold,
@@ -81,7 +80,7 @@ def test_the_fused_product_is_a_loop_over_networks():
         hidden = np.tanh(features @ folded.w1[units].T + folded.b1[units])
         looped[:, output] = hidden @ folded.w2[output] + folded.b2[output]
     assert np.allclose(evaluate(folded, features), looped)
-    assert np.count_nonzero(block_w2(folded)) == folded.w2.size
+    assert np.count_nonzero(folded.block_w2) == folded.w2.size
 
 
 def test_ridge_picks_each_targets_strength_on_held_out_rows():

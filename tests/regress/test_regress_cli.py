@@ -132,7 +132,7 @@ def test_version_and_help(run):
     code, out, _ = run("--version")
     assert code == 0
     assert out.startswith("regress 0.")
-    for command in ("train", "evaluate", "predict", "edges"):
+    for command in ("train", "evaluate", "predict", "bench", "edges"):
         code, out, _ = run(command, "--help")
         assert code == 0
         assert "Example" in out

@@ -1,0 +1,31 @@
+"""``regress bench``: how long a frame takes on this machine."""
+
+import dataclasses
+import json
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from regress.model import load_model
+from regress.timing import time_model
+
+
+def bench(
+    model: Annotated[Path, typer.Argument(help="Model folder, as `regress train` writes it")],
+    as_json: Annotated[bool, typer.Option("--json", help="Unrounded figures for programs.")] = False,
+) -> None:
+    """Time a model in NumPy and in each export that can run here, preprocessing included.
+
+    Example: regress bench models/default
+    """
+    loaded = load_model(model)
+    noise = np.random.default_rng(0).normal(size=(100, 68, 2)) * 0.01
+    timings = time_model(loaded, (loaded.features.mean_shape + noise) * 300 + 900)
+    if as_json:
+        typer.echo(json.dumps([dataclasses.asdict(timing) for timing in timings]))
+        return
+    for timing in timings:
+        taken = "-" if timing.microseconds is None else f"{timing.microseconds:.1f}"
+        typer.echo(f"{timing.name:<22} {taken:>8} \N{MICRO SIGN}s  {timing.note}")

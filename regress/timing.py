@@ -1,0 +1,150 @@
+"""How long a frame takes: NumPy, and each export run by what runs it here."""
+
+import json
+import shutil
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from regress.exporters import export_model
+from regress.model import Model
+
+BATCH_FRAMES = 20_000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Timing:
+    """One way to run a model.
+
+    Parameters
+    ----------
+    name
+        For people.
+    microseconds
+        A frame, the best of several runs: others share the machine; None where it cannot run here.
+    note
+        What ran it, or why nothing did.
+    """
+
+    name: str
+    microseconds: float | None
+    note: str
+
+
+def time_model(model: Model, faces: np.ndarray) -> tuple[Timing, ...]:
+    """Time a model on faces (n, 68, 2), one frame at a time and in a batch; one thread each."""
+    from threadpoolctl import threadpool_limits
+
+    with tempfile.TemporaryDirectory() as temporary, threadpool_limits(limits=1):
+        folder = Path(temporary)
+        export_model(model, folder, name="face", formats=("onnx", "c", "javascript"))
+        batch = faces[np.arange(BATCH_FRAMES) % len(faces)]
+        return (
+            Timing(
+                name="NumPy, one frame",
+                microseconds=_best(lambda: model.predict(faces[:1]), repeat=200),
+                note="Model.predict",
+            ),
+            Timing(
+                name=f"NumPy, {BATCH_FRAMES:,} frames",
+                microseconds=_best(lambda: model.predict(batch), repeat=1) / BATCH_FRAMES,
+                note="Model.predict, a frame's share",
+            ),
+            _time_onnx(folder, faces),
+            _time_c(folder, faces),
+            _time_javascript(folder, faces),
+        )
+
+
+def _time_onnx(folder: Path, faces: np.ndarray) -> Timing:
+    import onnxruntime
+
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = 1
+    session = onnxruntime.InferenceSession(folder / "face.onnx", options, providers=["CPUExecutionProvider"])
+    feed = {"points": faces[:1].astype(np.float32)}
+    return Timing(
+        name="ONNX, one frame",
+        microseconds=_best(lambda: session.run(None, feed), repeat=200),
+        note=f"onnxruntime {onnxruntime.__version__}",
+    )
+
+
+_C_PROGRAM = """
+#include <stdio.h>
+#include <time.h>
+#include "face.h"
+static const float points[FACE_POINTS][2] = {%s};
+int main(void) {
+    float weights[FACE_WEIGHTS], sum = 0;
+    double best = 1e30;
+    for (int run = 0; run < 7; run++) {
+        const clock_t began = clock();
+        for (int i = 0; i < 2000; i++) { face_predict(points, weights); sum += weights[17]; }
+        const double taken = (double)(clock() - began) / CLOCKS_PER_SEC / 2000 * 1e6;
+        if (taken < best) best = taken;
+    }
+    printf("%%g %%g\\n", best, (double)sum);
+    return 0;
+}
+"""
+
+
+def _time_c(folder: Path, faces: np.ndarray) -> Timing:
+    name = "C, one frame"
+    if shutil.which("cc") is None:
+        return Timing(name=name, microseconds=None, note="no cc on this machine")
+    points = ", ".join(f"{{{x:.9g}, {y:.9g}}}" for x, y in faces[0])
+    (folder / "main.c").write_text(_C_PROGRAM % points)
+    command = ["cc", "-std=c99", "-O2", "main.c", "face.c", "-o", "face", "-lm"]
+    try:
+        subprocess.run(command, cwd=folder, check=True, capture_output=True)
+        done = subprocess.run([str(folder / "face")], check=True, capture_output=True, text=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        return Timing(name=name, microseconds=None, note=f"cc failed: {error}")
+    return Timing(name=name, microseconds=float(done.stdout.split()[0]), note="cc -O2")
+
+
+_JAVASCRIPT_PROGRAM = """
+import {{ predict }} from {module};
+const points = Float64Array.from({points}), weights = new Float32Array(52);
+let best = Infinity;
+for (let run = 0; run < 7; run++) {{
+  const began = performance.now();
+  for (let i = 0; i < 1000; i++) predict(points, weights);
+  best = Math.min(best, performance.now() - began);
+}}
+console.log(best);
+"""
+
+
+def _time_javascript(folder: Path, faces: np.ndarray) -> Timing:
+    name = "JavaScript, one frame"
+    if shutil.which("node") is None:
+        return Timing(name=name, microseconds=None, note="no node on this machine")
+    module = json.dumps((folder / "face.js").as_uri())
+    program = _JAVASCRIPT_PROGRAM.format(module=module, points=json.dumps(faces[0].ravel().tolist()))
+    command = ["node", "--input-type=module", "--eval", program]
+    try:
+        done = subprocess.run(command, check=True, capture_output=True, text=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        return Timing(name=name, microseconds=None, note=f"node failed: {error}")
+    # 1000 calls in milliseconds are microseconds a call
+    return Timing(name=name, microseconds=float(done.stdout), note="node")
+
+
+def _best(call: Callable[[], object], *, repeat: int, runs: int = 7) -> float:
+    """Microseconds of a call: the best of several runs of ``repeat`` calls."""
+    call()
+    taken = []
+    for _ in range(runs):
+        began = time.perf_counter()
+        for _ in range(repeat):
+            call()
+        taken.append((time.perf_counter() - began) / repeat)
+    return min(taken) * 1e6
