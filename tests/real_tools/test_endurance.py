@@ -1,6 +1,5 @@
 """Datasets made in spite of everything: random kills, a full disk, two supervisors on one folder."""
 
-import json
 import os
 import random
 import signal
@@ -9,10 +8,8 @@ import sys
 import time
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from facegen.store import read_exr
 from tests.real_tools.farms import (
     ROOT,
     children_of,
@@ -58,36 +55,10 @@ def undisturbed(tmp_path_factory) -> tuple[Path, dict[str, bytes]]:
     return spec, files
 
 
-def check_same(found: dict[str, bytes], wanted: dict[str, bytes], folder: Path) -> None:
-    """Every byte is the same, but for a fault of rendering that is not yet understood.
-
-    On a busy machine Blender now and then changes the last digit of a pixel's normal and of its radiance
-    (measured: 1 or 2 of 1,728 numbers in 1 to 8 of 180 views, with and without denoising, from the same scene
-    to the bit). Until that is mended these two may differ by so much, and their checksums, and nothing else.
-    """
+def check_same(found: dict[str, bytes], wanted: dict[str, bytes]) -> None:
+    """Every byte is the same."""
     assert found.keys() == wanted.keys()
-    differ = {name for name in wanted if found[name] != wanted[name]}
-    views = [name for name in differ if name.endswith(".exr")]
-    assert len(views) <= 0.1 * sum(name.endswith(".exr") for name in wanted), views
-    layers = []
-    for label, files in (("found", found), ("wanted", wanted)):
-        path = folder / f"{label}.exr"
-        layers.append([])
-        for name in views:
-            path.write_bytes(files[name])
-            layers[-1].append(read_exr(path))
-    for one, other in zip(*layers, strict=True):
-        for part in ("depth", "part", "uv"):
-            np.testing.assert_array_equal(getattr(one, part), getattr(other, part))
-        for part in ("normal", "radiance"):
-            assert (getattr(one, part) != getattr(other, part)).mean() < 0.02
-            np.testing.assert_allclose(getattr(one, part), getattr(other, part), rtol=2e-3, atol=1e-4)
-    changed = {name.rsplit("/", 1)[0] for name in views}
-    for name in differ - set(views):
-        assert name.rsplit("/", 1)[0] in changed, name
-        if name.endswith(".json"):
-            records = [json.loads(files[name]) for files in (found, wanted)]
-            assert records[0] | {"sha256": None} == records[1] | {"sha256": None}
+    assert [name for name in wanted if found[name] != wanted[name]] == []
 
 
 def test_twenty_random_kills_change_nothing_and_leave_nothing(tmp_path, undisturbed):
@@ -114,7 +85,7 @@ def test_twenty_random_kills_change_nothing_and_leave_nothing(tmp_path, undistur
     facegen("generate", spec, "--out", out, "--workers", 2, "--retry-quarantined")
     assert sum(kills.values()) == KILLS
     assert min(kills.values()) >= 4, kills
-    check_same(files_of(out), files, tmp_path)
+    check_same(files_of(out), files)
     assert no_leftovers(out)
     assert not processes_with(str(out))
 
@@ -127,7 +98,7 @@ def test_two_supervisors_on_one_folder_do_no_harm(tmp_path, undisturbed):
     wanted = {name for name in files if not name.startswith("renders")} | {
         name for name in files if name.startswith("renders") and int(name.split("/")[2]) < 10
     }
-    check_same(files_of(out), {name: files[name] for name in wanted}, tmp_path)
+    check_same(files_of(out), {name: files[name] for name in wanted})
     assert set(outcomes(out)) == {"done"}
     assert no_leftovers(out)
 
@@ -166,7 +137,7 @@ def test_a_full_disk_stops_the_run_and_loses_nothing(tmp_path, undisturbed):
         facegen("generate", spec, "--out", out, "--samples", "0-14")
         assert rendered(out) == list(range(15))
         found = files_of(out)
-        check_same(found, {name: files[name] for name in found}, tmp_path)
+        check_same(found, {name: files[name] for name in found})
         assert no_leftovers(out)
     finally:
         wait_for(lambda: not processes_with(str(disk)), what="no process on the small disk")
