@@ -100,6 +100,19 @@ static double aligned_length(const float points[${GUARD}_POINTS][2], double map[
     return sqrt(u * u + v * v);
 }
 
+/* The hyperbolic tangent to 1e-6, as a quotient of polynomials: compilers compute four side by side, where the
+ * library's function is called 620 times. Beyond 7.9 it is 1 in float. NaN stays NaN. */
+static float tangent(float x)
+{
+    const float y = x > 7.9053111f ? 7.9053111f : x < -7.9053111f ? -7.9053111f : x;
+    const float s = y * y;
+    const float over = -2.76076847742355e-16f * s + 2.00018790482477e-13f;
+    const float under = (1.19825839466702e-6f * s + 1.18534705686654e-4f) * s + 2.26843463243900e-3f;
+    const float high = ((over * s - 8.60467152213735e-11f) * s + 5.12229709037114e-8f) * s + 1.48572235717979e-5f;
+
+    return y * ((high * s + 6.37261928875436e-4f) * s + 4.89352455891786e-3f) / (under * s + 4.89352518554385e-3f);
+}
+
 void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])
 {
     double map[2][2], width, missing = 0;
@@ -118,7 +131,7 @@ void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUA
         for (j = 0; j < HIDDEN; j++)
             hidden[j] += hidden_weight[i][j] * feature[i];
     for (j = 0; j < HIDDEN; j++)
-        hidden[j] = tanhf(hidden[j]);
+        hidden[j] = tangent(hidden[j]);
     for (i = 0; i < ${GUARD}_WEIGHTS; i++) {
         const int count = first_connection[i + 1] - first_connection[i];
         float sum = output_bias[i];
