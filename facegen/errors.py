@@ -11,7 +11,8 @@
     ├── OutputError        74   no space, or a place that cannot be written
     └── Drained            75   stopped on request; work remains
 
-A message says what was found, where, what is allowed and what to do, in one sentence. Libraries raise; only ``cli`` prints.
+A message says what was found, where, what is allowed and what to do, in one sentence. Libraries raise; only ``cli``
+prints.
 """
 
 

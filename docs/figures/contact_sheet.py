@@ -1,8 +1,8 @@
 """Makes docs/pictures/contact-sheet.png of what `facegen preview` draws, smaller and in few colours.
 
-    facegen generate datasets/paper.toml --out datasets/out/paper --samples 0-11
-    facegen preview datasets/out/paper --samples 1,2,3,4,7,8 --out sheet.png
-    python docs/figures/contact_sheet.py sheet.png
+facegen generate datasets/paper.toml --out datasets/out/paper --samples 0-11
+facegen preview datasets/out/paper --samples 1,2,3,4,7,8 --out sheet.png
+python docs/figures/contact_sheet.py sheet.png
 """
 
 import sys

@@ -77,7 +77,7 @@ def draw_camera(axis, yaw_deg: float) -> None:
     axis.plot(*start, "s", color="black", ms=9)
     for name, direction in (("y", down), ("z", forward)):
         arrow(axis, start, to_picture(position + 0.045 * direction, yaw_deg)[0], AXES[name], name)
-    axis.text(*(start + [0, -16]), "camera", fontsize=9, ha="center")
+    axis.text(*(start + np.array([0, -16])), "camera", fontsize=9, ha="center")
 
 
 def draw_pixels(axis) -> None:

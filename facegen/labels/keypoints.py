@@ -47,9 +47,7 @@ def project_pinhole(points_camera: np.ndarray, intrinsics: np.ndarray) -> np.nda
     return points_camera[..., :2] / points_camera[..., 2:] * focal + center
 
 
-def label_keypoints(
-    spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFaces | None = None
-) -> Keypoints:
+def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFaces | None = None) -> Keypoints:
     """Keypoint labels of samples; each row follows from its own sample alone.
 
     ``faces`` are the samples' faces where they have been evaluated already; their cage is enough.

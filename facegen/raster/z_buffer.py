@@ -10,7 +10,7 @@ BATCH_PIXELS = 4_000_000
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Nearest:
-    """``value`` (h, w), the largest of all triangles at a pixel, -inf where there is none; ``triangle`` (h, w), else -1."""
+    """``value`` (h, w), the largest at a pixel, -inf where there is none; ``triangle`` (h, w) that has it, else -1."""
 
     value: np.ndarray
     triangle: np.ndarray
@@ -50,7 +50,9 @@ def nearest_triangles(
         inside = (weights >= 0.0).all(axis=-1)
         triangle, pixel = triangle[inside], row[inside] * shape[1] + column[inside]
         base, wb, wc = values[triangle, 0], weights[inside, 1], weights[inside, 2]
-        here = base + wb * (values[triangle, 1] - base) + wc * (values[triangle, 2] - base)  # exact on level faces
+        here = (
+            base + wb * (values[triangle, 1] - base) + wc * (values[triangle, 2] - base)
+        )  # exact on level faces
         np.maximum.at(best, pixel, here)
         front = here == best[pixel]
         hit[pixel[front]] = triangle[front]

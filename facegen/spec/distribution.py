@@ -1,4 +1,4 @@
-"""Numbers that vary, written as data: ``12``, ``{uniform = [-20, 20]}`` or ``{normal = [0, 6], within = [-20, 20]}``."""
+"""Numbers that vary, as data: ``12``, ``{uniform = [-20, 20]}`` or ``{normal = [0, 6], within = [-20, 20]}``."""
 
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal

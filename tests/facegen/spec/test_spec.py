@@ -115,5 +115,5 @@ def test_sample_numbers(text, numbers):
 
 @pytest.mark.parametrize("text", ["-1", "3-1", "1:2", "a", "1-2-3", "10"])
 def test_sample_numbers_refuses(text):
-    with pytest.raises(InputError, match="^here: "):
+    with pytest.raises(InputError, match=r"^here: "):
         sample_numbers(text, total=10, where="here")

@@ -50,6 +50,8 @@ def test_a_headset_that_is_not_there_is_named(folder):
 def test_a_damaged_description_is_refused(folder):
     dataset = resolve(load_spec(folder / "spec.toml"), folder / "out")
     begin(dataset)
-    dataset.folder.headset_toml.write_text(headset_path("tracking3").read_text().replace("fx = 229.0", "fx = 228.0", 1))
+    dataset.folder.headset_toml.write_text(
+        headset_path("tracking3").read_text().replace("fx = 229.0", "fx = 228.0", 1)
+    )
     with pytest.raises(InputError, match="another version"):
         open_dataset(folder / "out")
