@@ -104,12 +104,12 @@ class Worker:
         return size
 
     def _pictures(self, rendered: RenderedSample, on_phase: Callable[[str], None]) -> dict[str, bytes]:
-        from facegen.blender.renderer import Renderer  # half a second and 250 MB that shards do not need
+        from facegen.blender import open_renderer  # starting Blender costs 250 MB that shards do not need
 
         settings = self.dataset.spec.render
         if self._renderer is None:
             on_phase("start Blender")
-            self._renderer = Renderer(threads=self.threads)
+            self._renderer = open_renderer(threads=self.threads)
         files = {}
         for view in rendered.scene.views:
             on_phase(f"render {view.name}")
