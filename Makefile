@@ -13,7 +13,7 @@ READY   := $(VENV)/.ready
 MADE    := $(OUT)/.made
 
 .DEFAULT_GOAL := help
-.PHONY: help setup rig dataset train export test test-quick lint format clean distclean
+.PHONY: help setup rig dataset train export test test-farm test-quick lint format clean distclean
 .DELETE_ON_ERROR:
 
 help:  ## Say what the targets are
@@ -36,11 +36,14 @@ train: $(MODEL)/report.html $(MODEL)/exports/.made  ## Dataset, 31 networks, rep
 
 export: $(MODEL)/exports/.made  ## Weights for game engines, C programs and others
 
-test: $(READY) $(RIG)  ## All tests
-	$(BIN)/python -m pytest
+test: $(READY) $(RIG)  ## All tests but those of farms
+	$(BIN)/python -m pytest --ignore tests/real_tools
+
+test-farm: $(READY) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
+	$(BIN)/python -m pytest tests/real_tools
 
 test-quick: $(READY) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)
-	$(BIN)/python -m pytest -m "not slow and not blender"
+	$(BIN)/python -m pytest --ignore tests/real_tools -m "not slow and not blender"
 
 lint: $(READY)  ## Style, and the direction of imports
 	$(BIN)/ruff check .
