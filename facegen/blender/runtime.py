@@ -39,11 +39,22 @@ def import_bpy() -> ModuleType:
     MissingAsset
         Where it, or a system library it links to, is not installed; names the package that brings it.
     """
+    if "bpy" not in sys.modules:
+        sys.path[:] = without_blender_scripts(sys.path)
     try:
         import bpy
     except ImportError as error:
         raise MissingAsset(missing_library_sentence(error)) from error
     return bpy
+
+
+def without_blender_scripts(paths: list[str]) -> list[str]:
+    """Import paths without those that a running Blender added.
+
+    A process spawned by one with Blender in it inherits them, and finds the half of ``bpy`` that lies in
+    ``bpy/4.5/scripts/modules`` before the whole one ("No module named '_bpy'").
+    """
+    return [path for path in paths if not {"bpy", "scripts"} <= set(Path(path).parts)]
 
 
 def missing_library_sentence(error: ImportError) -> str:

@@ -1,10 +1,15 @@
-"""What Blender's absence is called; no Blender is started here."""
+"""What Blender's absence is called, and that spawned processes find it."""
 
 import os
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
 from facegen.blender.runtime import missing_library_sentence, quiet_stdout
+
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.mark.parametrize(
@@ -34,3 +39,25 @@ def test_stdout_is_quiet_and_comes_back(capfd):
         os.write(1, b"hidden\n")
     os.write(1, b"after\n")
     assert capfd.readouterr().out == "before\nafter\n"
+
+
+@pytest.mark.blender
+def test_a_process_spawned_by_one_with_blender_finds_all_of_bpy(tmp_path):
+    program = """
+import multiprocessing, sys
+from facegen.blender.runtime import import_bpy
+
+def child():
+    sys.exit(0 if import_bpy().app.version[0] == 4 else 3)
+
+if __name__ == "__main__":
+    import_bpy()
+    process = multiprocessing.get_context("spawn").Process(target=child)
+    process.start()
+    process.join()
+    sys.exit(process.exitcode)
+"""
+    (tmp_path / "parent.py").write_text(program)
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    result = subprocess.run([sys.executable, tmp_path / "parent.py"], cwd=ROOT, env=environment)
+    assert result.returncode == 0
