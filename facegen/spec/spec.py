@@ -55,7 +55,6 @@ class Expression:
     dense_active: Share = 0.35
     dense_scale: Share = 0.7
     symmetric: Share = 0.6
-    neutral_noise: Annotated[float, Field(ge=0, le=0.2)] = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
