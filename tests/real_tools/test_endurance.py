@@ -41,7 +41,11 @@ def start(spec: Path, out: Path, *arguments: str) -> subprocess.Popen:
         "2",
         *arguments,
     ]
-    return subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    temporary = spec.parent / "temporary"
+    temporary.mkdir(exist_ok=True)
+    environ = os.environ | {"TMPDIR": str(temporary)}
+    quiet = subprocess.DEVNULL
+    return subprocess.Popen(command, cwd=ROOT, env=environ, stdout=quiet, stderr=quiet)
 
 
 @pytest.fixture(scope="module")
@@ -87,6 +91,7 @@ def test_twenty_random_kills_change_nothing_and_leave_nothing(tmp_path, undistur
     assert min(kills.values()) >= 4, kills
     check_same(files_of(out), files)
     assert no_leftovers(out)
+    assert list((spec.parent / "temporary").iterdir()) == []
     assert not processes_with(str(out))
 
 
