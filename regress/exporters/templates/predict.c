@@ -127,7 +127,11 @@ void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUA
         missing += 0 * (double)feature[i]; /* NaN as soon as one point is not finite */
     for (j = 0; j < HIDDEN; j++)
         hidden[j] = hidden_bias[j];
-    for (i = 0; i < FEATURES; i++)
+    for (i = 0; i + 4 <= FEATURES; i += 4) /* four at a time: a quarter of the loads and stores of hidden */
+        for (j = 0; j < HIDDEN; j++)
+            hidden[j] += hidden_weight[i][j] * feature[i] + hidden_weight[i + 1][j] * feature[i + 1]
+                       + (hidden_weight[i + 2][j] * feature[i + 2] + hidden_weight[i + 3][j] * feature[i + 3]);
+    for (; i < FEATURES; i++)
         for (j = 0; j < HIDDEN; j++)
             hidden[j] += hidden_weight[i][j] * feature[i];
     for (j = 0; j < HIDDEN; j++)
