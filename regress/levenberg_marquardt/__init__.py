@@ -1,7 +1,18 @@
-"""Levenberg-Marquardt for many small least-squares problems at once, without ever forming a Jacobian."""
+"""Levenberg-Marquardt for many small least-squares problems at once."""
 
+from regress.levenberg_marquardt.evidence import minimise_with_evidence
 from regress.levenberg_marquardt.minimise import Outcome, Result, Settings, minimise
 from regress.levenberg_marquardt.problem import LeastSquares, State
-from regress.levenberg_marquardt.steps import dual_step, pcg_step
+from regress.levenberg_marquardt.steps import exact_step, pcg_step
 
-__all__ = ["LeastSquares", "Outcome", "Result", "Settings", "State", "dual_step", "minimise", "pcg_step"]
+__all__ = [
+    "LeastSquares",
+    "Outcome",
+    "Result",
+    "Settings",
+    "State",
+    "exact_step",
+    "minimise",
+    "minimise_with_evidence",
+    "pcg_step",
+]

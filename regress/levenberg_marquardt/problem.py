@@ -30,6 +30,18 @@ class State(Protocol):
         """``J' r``: (m, R) to (m, P)."""
         ...
 
+    def gram(self) -> np.ndarray:
+        """``J'J``: (m, P, P). Asked for only where P is small."""
+        ...
+
+    def kernel(self) -> np.ndarray:
+        """``J J'``: (m, R, R). Asked for only where R is small."""
+        ...
+
+    def effective_parameters(self, alpha: np.ndarray) -> np.ndarray:
+        """About how many parameters (m,) the data determine: ``trace((J'J + alpha I)^-1 J'J)``, at no cost."""
+        ...
+
     def preconditioner(self, shift: np.ndarray) -> Preconditioner:
         """Symmetric positive approximation of ``(J'J + shift I)^-1``, shift (m,), as a function on (m, P)."""
         ...
@@ -48,6 +60,10 @@ class LeastSquares(Protocol):
 
     def at(self, parameters: np.ndarray, members: np.ndarray) -> State:
         """Linearise problems ``members`` (m,) at ``parameters`` (m, P)."""
+        ...
+
+    def observations(self, members: np.ndarray) -> np.ndarray:
+        """How many residuals (m,) are data; padding is not."""
         ...
 
     def monitor(self, parameters: np.ndarray, members: np.ndarray) -> np.ndarray:

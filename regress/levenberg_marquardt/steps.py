@@ -1,4 +1,4 @@
-"""One damped Gauss-Newton step: by conjugate gradients for use, by a dense dual solve for reference.
+"""One damped Gauss-Newton step: exact where one side of the Jacobian is short, else by conjugate gradients.
 
 Both solve ``(J'J + (alpha + mu) I) s = -(J'r + alpha theta)``, the step of the cost
 ``F = |r|^2 / 2 + alpha |theta|^2 / 2`` with Levenberg's damping mu (K. Levenberg 1944; D. Marquardt 1963).
@@ -7,6 +7,7 @@ Both solve ``(J'J + (alpha + mu) I) s = -(J'r + alpha theta)``, the step of the 
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import cho_factor, cho_solve
 
 from regress.levenberg_marquardt.problem import State
 
@@ -85,25 +86,47 @@ def pcg_step(state: State, alpha: np.ndarray, damping: np.ndarray, *, tolerance:
     )
 
 
-def dual_step(
-    jacobian: np.ndarray, residual: np.ndarray, parameters: np.ndarray, *, alpha: float, damping: float
-) -> np.ndarray:
-    """Exact step of one problem through its R x R kernel; dense: small problems, the tests' reference.
+def exact_step(state: State, alpha: np.ndarray, damping: np.ndarray) -> Step:
+    """Step by Cholesky, each problem by itself, in float64.
 
-    With ``c = alpha + mu``: ``u = (J J' + c I)^-1 (c r - alpha J theta)``, ``s = -(J'u + alpha theta) / c``.
+    Where parameters are fewer than residuals, from the P x P normal equations; else from the R x R kernel:
+    with ``c = alpha + mu``, ``w = (J J' + c I)^-1 (r - alpha / c J theta)``, ``s = -(J'w + alpha / c theta)``.
 
     Parameters
     ----------
-    jacobian : (R, P)
-    residual : (R,)
-    parameters : (P,)
-
-    Returns
-    -------
-    (P,) float64
+    state
+        Linearisation of m problems.
+    alpha, damping : (m,)
+        L2 strength and Levenberg's mu; their sum must be above 0.
     """
-    c = alpha + damping
-    kernel = jacobian @ jacobian.T
-    kernel[np.diag_indices_from(kernel)] += c
-    dual = np.linalg.solve(kernel, c * residual - alpha * (jacobian @ parameters))
-    return -(jacobian.T @ dual + alpha * parameters) / c
+    kind = state.parameters.dtype
+    c = (alpha + damping)[:, None]
+    alpha_ = alpha[:, None]
+    gradient = state.transposed_product(state.residual) + alpha_.astype(kind) * state.parameters
+    if state.parameters.shape[1] <= state.residual.shape[1]:
+        step = -_solved(state.gram(), c, gradient)
+    else:
+        share = (alpha_ / c).astype(kind) * state.parameters
+        dual = _solved(state.kernel(), c, state.residual - state.product(share))
+        step = -(state.transposed_product(dual.astype(kind)) + share)
+    # (J'J + alpha) s = -g - mu s.
+    along = inner(step, gradient)
+    return Step(
+        direction=step.astype(kind),
+        predicted=-along / 2 + damping * inner(step, step) / 2,
+        gradient_norm=np.abs(gradient).max(axis=1).astype(np.float64),
+        products=0,
+    )
+
+
+def _solved(matrices: np.ndarray, shift: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """``(A + shift I)^-1 b`` for symmetric A (m, n, n), shift (m, 1) and b (m, n), in float64."""
+    solutions = np.empty(right.shape)
+    # A float32 product has negative eigenvalues of about this size, and Cholesky wants none.
+    rounding = np.finfo(matrices.dtype).eps * np.trace(matrices, axis1=1, axis2=2)
+    for row, matrix in enumerate(matrices):
+        shifted = matrix.astype(np.float64)
+        shifted[np.diag_indices_from(shifted)] += max(float(shift[row, 0]), float(rounding[row]))
+        factor = cho_factor(shifted, lower=True, overwrite_a=True, check_finite=False)
+        solutions[row] = cho_solve(factor, right[row].astype(np.float64), check_finite=False)
+    return solutions

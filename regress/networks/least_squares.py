@@ -101,28 +101,75 @@ class NetworkState:
         )
         return self.problem.layout.join(w1.reshape(count, hidden, -1), w2)
 
-    def preconditioner(self, shift: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-        """Inverse of J'J + shift, taken as one Kronecker product for W1 and one for W2.
+    def gram(self) -> np.ndarray:
+        """``J'J`` from explicit rows of J."""
+        jacobian = self._jacobian()
+        return jacobian.transpose(0, 2, 1) @ jacobian
+
+    def kernel(self) -> np.ndarray:
+        """``J J'`` without J: slopes and output weights times X'X, which all networks and steps share."""
+        count, _, rows = self.hidden.shape
+        outputs = self.problem.layout.outputs
+        back = self._output_weights[:, :, :, None] * self._slope[:, None]  # (m, K, H, n): dy / d(W1 x)
+        back = back.transpose(0, 2, 1, 3).reshape(count, -1, outputs * rows)
+        kernel = (back.transpose(0, 2, 1) @ back).reshape(count, outputs, rows, outputs, rows)
+        kernel *= self.problem.input_kernel[:, None]
+        own = self.hidden.transpose(0, 2, 1) @ self.hidden + 1
+        for output in range(outputs):
+            kernel[:, output, :, output] += own * self.problem.used[self.members, output, None, None]
+        return kernel.reshape(count, outputs * rows, outputs * rows)
+
+    def _jacobian(self) -> np.ndarray:
+        """J (m, K n, P)."""
+        count, hidden, rows = self.hidden.shape
+        outputs = self.problem.layout.outputs
+        used = self.problem.used[self.members]
+        back = self._output_weights[:, :, None] * self._slope.transpose(0, 2, 1)[:, None]  # (m, K, n, H)
+        first = back[..., None] * self.problem.train.inputs.T[:, None]  # (m, K, n, H, E+1)
+        second = np.zeros((count, outputs, rows, outputs, hidden + 1), dtype=self.parameters.dtype)
+        for output in range(outputs):
+            wide = used[:, output, None, None]
+            second[:, output, :, output, :-1] = self.hidden.transpose(0, 2, 1) * wide
+            second[:, output, :, output, -1:] = wide
+        flat = (count, outputs * rows, -1)
+        return np.concatenate([first.reshape(flat), second.reshape(flat)], axis=2)
+
+    def effective_parameters(self, alpha: np.ndarray) -> np.ndarray:
+        """Parameters that the data determine, by the preconditioner's eigenvalues: 10 to 20 % off the exact."""
+        first, second, _, _ = self._spectra
+        alpha = alpha[:, None]
+        outputs = self.problem.used[self.members].sum(axis=1)
+        of_w1 = (first / (first + alpha[..., None])).sum(axis=(1, 2))
+        return of_w1 + outputs * (second / (second + alpha)).sum(axis=1)
+
+    @cached_property
+    def _spectra(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Eigenvalues (m, H, E+1) and (m, H+1) of the preconditioner's two blocks, and their eigenvectors.
 
         For W1, ``J'J`` is about ``Q (x) X'X`` with ``Q = (W2'W2) * (D'D) / n``, D the slopes h(1 - h); in the
-        inputs' principal axes X'X is diagonal. The blocks between W1 and W2 are left
-        out. 3 to 15 products reach a tolerance of 0.1.
+        inputs' principal axes X'X is diagonal.
         """
-        kind = self.parameters.dtype
         slope, output_weights = self._slope, self._output_weights
         gram = (output_weights.transpose(0, 2, 1) @ output_weights) * (slope @ slope.transpose(0, 2, 1))
         gram /= slope.shape[2]
         values, vectors = _eigh(gram)
-        shift = shift[:, None, None]
-        first = 1 / (values[:, :, None] * self.problem.input_squares[None, None, :] + shift)
         sums = self.hidden.sum(axis=2, keepdims=True)
+        corner = np.full((len(sums), 1, 1), slope.shape[2], dtype=sums.dtype)
         square = np.block(
-            [[self.hidden @ self.hidden.transpose(0, 2, 1), sums], [sums.transpose(0, 2, 1), 0 * shift]]
+            [[self.hidden @ self.hidden.transpose(0, 2, 1), sums], [sums.transpose(0, 2, 1), corner]]
         )
-        square[:, -1, -1] = slope.shape[2]
         square_values, square_vectors = _eigh(square)
-        second = 1 / (square_values[:, None, :] + shift)
-        first, second = first.astype(kind), second.astype(kind)
+        return values[:, :, None] * self.problem.input_squares, square_values, vectors, square_vectors
+
+    def preconditioner(self, shift: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+        """Inverse of J'J + shift, taken as one Kronecker product for W1 and one for W2.
+
+        The blocks between W1 and W2 are left out. 3 to 15 products reach a tolerance of 0.1.
+        """
+        kind = self.parameters.dtype
+        first, second, vectors, square_vectors = self._spectra
+        first = (1 / (first + shift[:, None, None])).astype(kind)
+        second = (1 / (second + shift[:, None])).astype(kind)[:, None, :]
 
         def apply(rows: np.ndarray) -> np.ndarray:
             r1, r2 = self.problem.layout.split(rows)
@@ -177,6 +224,11 @@ class NetworkProblem:
         self.held_out = held_out
         self.input_squares = np.einsum("en,en->e", train.inputs, train.inputs)
 
+    @cached_property
+    def input_kernel(self) -> np.ndarray:
+        """``X X'`` (n, n) of the training rows, the bias among the inputs."""
+        return self.train.inputs.T @ self.train.inputs
+
     def at(self, parameters: np.ndarray, members: np.ndarray) -> NetworkState:
         """Run the networks forward on the training rows."""
         hidden, outputs = self.forward(parameters, members, self.train.inputs)
@@ -188,6 +240,10 @@ class NetworkProblem:
             hidden=hidden,
             residual=outputs.reshape(len(outputs), -1),
         )
+
+    def observations(self, members: np.ndarray) -> np.ndarray:
+        """Outputs that a network has, times rows."""
+        return self.used[members].sum(axis=1, dtype=np.float64) * self.train.inputs.shape[1]
 
     def monitor(self, parameters: np.ndarray, members: np.ndarray) -> np.ndarray:
         """Mean squared errors (m, splits) in z-scored targets, over the outputs that a network has."""

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import regress
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.errors import InputError, Interrupted
 from regress.model import Model
@@ -137,16 +136,3 @@ def test_the_paper_recipe_is_the_papers():
     paper = RECIPES["paper"]
     assert (paper.alignment, paper.hidden, paper.start) == ("affine", 20, "nguyen_widrow")
     assert (paper.steps, paper.smooth_frames, paper.mirror) == (1000, 10, False)
-
-
-def test_the_estimator_is_scikit_learns():
-    rng = np.random.default_rng(0)
-    x = rng.normal(size=(300, 4))
-    y = np.tanh(x @ rng.normal(size=(4, 2)))
-    network = regress.LevenbergMarquardtRegressor(hidden=8, alpha=0.1)
-    from sklearn.base import clone
-    from sklearn.model_selection import cross_val_score
-
-    assert cross_val_score(clone(network), x, y, cv=2).min() > 0.9
-    assert network.fit(x, y[:, 0]).predict(x).shape == (300,)
-    assert network.result_.outcomes[0].value.endswith(".")
