@@ -92,7 +92,8 @@ def _sclera(graph: Graph, subsurface: bool) -> Socket:
         "MapRange", v, 0.95, 1.0, 0.0, p["limbus"], settings={"interpolation_type": "SMOOTHSTEP"}
     )
     albedo = graph.math("MULTIPLY", albedo, graph.math("SUBTRACT", 1.0, edge))
-    return _surface(graph, albedo, subsurface=subsurface)
+    # no gloss: the tear film's images of lamps are added afterwards (`facegen.labels.glints`)
+    return _surface(graph, albedo, subsurface=subsurface, Specular_IOR_Level=0.0)
 
 
 def _around(graph: Graph, u: Socket, frequency: float, along: Socket) -> Socket:
@@ -127,20 +128,17 @@ def _matte(graph: Graph, subsurface: bool) -> Socket:
 
 
 def _cornea(graph: Graph, subsurface: bool) -> Socket:
-    """Refracts the camera's rays and is clear for shadow and diffuse ones: no caustics, no noise."""
-    p = graph.parameters
-    refraction = graph.node("BsdfRefraction", IOR=p["index"], Roughness=0.0)
-    # a mirror finds an LED in 1 of 40 samples; from about 0.06 on, light sampling finds it in all
-    gloss = graph.node("BsdfAnisotropic", Roughness=p["roughness"])
-    front = graph.math("SUBTRACT", 1.0, graph.node("NewGeometry", output="Backfacing"))
-    share = graph.math("MULTIPLY", graph.node("Fresnel", IOR=p["index"]), front)
-    seen = graph.mix(share, refraction, gloss)
+    """Refracts the camera's rays and is clear for shadow and diffuse ones: no caustics, no noise.
+
+    It mirrors nothing: images of lamps are added afterwards (`facegen.labels.glints`), and the rest is dark.
+    """
+    refraction = graph.node("BsdfRefraction", IOR=graph.parameters["index"], Roughness=0.0)
     straight = graph.math(
         "MAXIMUM",
         graph.node("LightPath", output="Is Shadow Ray"),
         graph.node("LightPath", output="Is Diffuse Ray"),
     )
-    return graph.mix(straight, seen, graph.node("BsdfTransparent", (0.95, 0.95, 0.95, 1.0)))
+    return graph.mix(straight, refraction, graph.node("BsdfTransparent", (0.95, 0.95, 0.95, 1.0)))
 
 
 def _lash_mask(graph: Graph) -> Socket:

@@ -1,6 +1,7 @@
 """Rigid motions, camera models and small solids: pure functions on arrays, float64."""
 
 from facegen.geometry.cameras import Camera, pixel_rays, project, unproject
+from facegen.geometry.mirrors import Reflection, reflect_in_sphere
 from facegen.geometry.rotations import (
     angles_from_direction,
     apply_transform,
@@ -13,6 +14,7 @@ from facegen.geometry.rotations import (
 
 __all__ = [
     "Camera",
+    "Reflection",
     "angles_from_direction",
     "apply_transform",
     "direction_from_angles",
@@ -20,6 +22,7 @@ __all__ = [
     "look_at",
     "pixel_rays",
     "project",
+    "reflect_in_sphere",
     "rotation_from_angles",
     "transform",
     "unproject",

@@ -1,14 +1,17 @@
 """Labels: what is known of a sample because it was made, not looked at."""
 
+from facegen.labels.glints import Glints, with_glints
 from facegen.labels.keypoints import Keypoints, label_keypoints, project_pinhole
 from facegen.labels.rendered import RenderedSample, label_rendered
 from facegen.labels.views import ViewLabels
 
 __all__ = [
+    "Glints",
     "Keypoints",
     "RenderedSample",
     "ViewLabels",
     "label_keypoints",
     "label_rendered",
     "project_pinhole",
+    "with_glints",
 ]

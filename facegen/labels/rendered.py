@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from facegen.conventions import Part
 from facegen.headsets import Headset, head_from_headset
+from facegen.labels.glints import label_glints
 from facegen.labels.keypoints import Keypoints, label_keypoints
 from facegen.labels.views import ViewLabels, label_view, occluders
 from facegen.rigs import EyeGeometry, Rig, evaluate, eye_geometry, neutral_landmarks
@@ -66,13 +68,22 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
     fit = head_from_headset(headset, nose_bridge, realised_donning(headset, samples))
     scene = assemble(rig, face.vertices[0], (left, right), headset, fit)
     occluder = occluders(scene.meshes)
+    glint_occluder = occluders(scene.meshes, transparent=(Part.CORNEA,))
+    eyes = left, right
     return RenderedSample(
         samples=samples,
         keypoints=label_keypoints(spec, rig, samples, face),
         scene=scene,
-        eyes=(left, right),
+        eyes=eyes,
         head_from_headset=fit,
         views={
-            view.name: label_view(view, face.landmarks[0], (left, right), occluder) for view in scene.views
+            view.name: label_view(
+                view,
+                face.landmarks[0],
+                eyes,
+                occluder,
+                label_glints(view, scene.lamps, eyes, glint_occluder),
+            )
+            for view in scene.views
         },
     )

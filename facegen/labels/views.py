@@ -6,6 +6,7 @@ import numpy as np
 
 from facegen.conventions import Part, Visibility
 from facegen.geometry import apply_transform, project, unproject
+from facegen.labels.glints import Glints
 from facegen.raster import hidden, nearest_depth, triangles_of
 from facegen.rigs.eyes import EyeGeometry
 from facegen.scene import Mesh, View
@@ -17,7 +18,7 @@ RESOLVED_M = 9e-4
 landmark's depth. Skin seen at grazing angles runs several millimetres per pixel. `validate` allows 1 mm."""
 
 TRANSPARENT = (Part.CORNEA, Part.LASHES)
-"""Parts that hide nothing behind them: the cornea is clear, lashes are strands."""
+"""Parts that hide no landmark behind them: the cornea is clear, lashes are strands."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,6 +35,8 @@ class ViewLabels:
         (2, 3) centres of the pupils.
     gaze_camera
         (2, 3) unit optical axes in the camera frame.
+    glints
+        Mirror images of the LEDs.
     """
 
     points_2d: np.ndarray
@@ -43,13 +46,16 @@ class ViewLabels:
     pupil_center_2d: np.ndarray
     pupil_center_camera: np.ndarray
     gaze_camera: np.ndarray
+    glints: Glints
 
 
-def occluders(meshes: tuple[Mesh, ...]) -> tuple[np.ndarray, np.ndarray]:
+def occluders(
+    meshes: tuple[Mesh, ...], *, transparent: tuple[Part, ...] = TRANSPARENT
+) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (V, 3) and triangles (T, 3) of everything opaque in a scene, as one mesh in the head frame."""
     vertices, triangles, start = [], [], 0
     for mesh in meshes:
-        opaque = ~np.isin(mesh.part, TRANSPARENT)
+        opaque = ~np.isin(mesh.part, transparent)
         vertices.append(mesh.vertices)
         triangles.append(triangles_of(mesh.faces[opaque]) + start)
         start += len(mesh.vertices)
@@ -61,6 +67,7 @@ def label_view(
     landmarks: np.ndarray,
     eyes: tuple[EyeGeometry, EyeGeometry],
     occluder: tuple[np.ndarray, np.ndarray],
+    glints: Glints,
 ) -> ViewLabels:
     """Labels of one view.
 
@@ -74,6 +81,8 @@ def label_view(
         The subject's left and right eye.
     occluder
         What `occluders` gives for the scene.
+    glints
+        The view's, from `facegen.labels.glints.label_glints`.
     """
     in_camera = apply_transform(view.camera_from_head, landmarks)
     points_2d = project(view.camera, in_camera)
@@ -95,6 +104,7 @@ def label_view(
         pupil_center_2d=project(view.camera, pupils),
         pupil_center_camera=pupils,
         gaze_camera=np.stack([eye.axis for eye in eyes]) @ view.camera_from_head[:3, :3].T,
+        glints=glints,
     )
 
 

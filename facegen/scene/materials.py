@@ -34,7 +34,7 @@ MATERIALS: dict[str, dict[str, float]] = {
     "sclera": {"albedo": 0.37, "roughness": 0.25, "scatter_m": 1.5e-3, "mottle": 0.1, "limbus": 0.35},
     "iris": {"albedo": 0.215, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
     "pupil": {"albedo": 0.12},
-    "cornea": {"index": 1.336, "roughness": 0.07},
+    "cornea": {"index": 1.336},
     "teeth": {"albedo": 0.62, "roughness": 0.2, "scatter_m": 1.0e-3},
     "gums": {"albedo": 0.45, "roughness": 0.3, "scatter_m": 2.0e-3},
     "tongue": {"albedo": 0.42, "roughness": 0.4, "scatter_m": 2.0e-3},

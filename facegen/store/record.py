@@ -7,7 +7,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES, SIDES, SPLITS
 from facegen.geometry import Camera
 from facegen.headsets import Sensor
-from facegen.labels import RenderedSample, ViewLabels
+from facegen.labels import Glints, RenderedSample, ViewLabels
 from facegen.rigs import EyeGeometry, visual_axis
 from facegen.scene import Lamp, View
 
@@ -38,6 +38,7 @@ def sample_record(
         "time_s": float(samples.time_s[0]),
         "split": SPLITS[samples.split[0]],
         "neutral": bool(samples.neutral[0]),
+        "component": COMPONENT_NAMES[samples.component[0]],
         "sex": "female" if samples.female[0] else "male",
         "age_years": numbers(samples.age_years[0]),
         "weights": dict(zip(BLENDSHAPES, numbers(samples.weights[0]), strict=True)),
@@ -112,4 +113,27 @@ def _view(view: View, labels: ViewLabels) -> dict:
         "pupil_center_2d": dict(zip(SIDES, numbers(labels.pupil_center_2d), strict=True)),
         "pupil_center_camera": dict(zip(SIDES, numbers(labels.pupil_center_camera), strict=True)),
         "gaze_camera": dict(zip(SIDES, numbers(labels.gaze_camera), strict=True)),
+        "glints": _glints(labels.glints),
     }
+
+
+def _glints(glints: Glints) -> list[dict]:
+    return [
+        {
+            "lamp": lamp,
+            "eye": eye,
+            "surface": surface,
+            "point_2d": point_2d,
+            "point_camera": point_camera,
+            "seen": seen,
+        }
+        for lamp, eye, surface, point_2d, point_camera, seen in zip(
+            glints.lamps,
+            glints.eyes,
+            glints.surfaces,
+            numbers(glints.points_2d),
+            numbers(glints.points_camera),
+            glints.seen.tolist(),
+            strict=True,
+        )
+    ]

@@ -1,5 +1,6 @@
 """One worker: makes shards and rendered samples, each committed by one rename."""
 
+import dataclasses
 import hashlib
 import importlib.metadata
 from collections.abc import Callable
@@ -7,7 +8,7 @@ from collections.abc import Callable
 import pyarrow as pa
 
 from facegen.conventions import BLOCK
-from facegen.labels import RenderedSample, label_keypoints, label_rendered
+from facegen.labels import RenderedSample, label_keypoints, label_rendered, with_glints
 from facegen.randomness import stream
 from facegen.sampling import Samples, draw_samples
 from facegen.sensor import develop
@@ -124,6 +125,8 @@ class Worker:
                 seed=seed,
                 denoise=settings.denoise,
             )
+            glints = rendered.views[view.name].glints
+            layers = dataclasses.replace(layers, radiance=with_glints(layers.radiance, glints))
             files[f"{view.name}.png"] = png_bytes(develop(layers.radiance, self.dataset.headset.sensor))
             files[f"{view.name}.exr"] = exr_bytes(layers)
         return files

@@ -1,0 +1,125 @@
+"""Glints: where they are, what hides them, and what they add to a picture."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from facegen.conventions import Part
+from facegen.geometry import apply_transform, invert_transform, pixel_rays, project
+from facegen.labels import with_glints
+from facegen.labels.glints import fresnel, label_glints, radiant_intensity
+from facegen.labels.views import occluders
+from facegen.rigs import eye_geometry
+from facegen.scene import Mesh
+from tests.facegen.blender.scenes import eye_scene
+
+EYE = eye_geometry(np.zeros(3), 0.012, np.array([0.0, 0.0, 1.0]))
+FAR = eye_geometry(np.array([0.0, 0.0, 5.0]), 0.012, np.array([0.0, 0.0, 1.0]))
+
+
+def _glints(scene, *more: Mesh):
+    meshes = (*scene.meshes, *more)
+    return label_glints(
+        scene.views[0], scene.lamps, (EYE, FAR), occluders(meshes, transparent=(Part.CORNEA,))
+    )
+
+
+def _plate(middle, half_m: float, part: Part) -> Mesh:
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * half_m + middle
+    return Mesh(
+        name="plate",
+        vertices=corners,
+        faces=np.array([[0, 1, 2, 3]], np.int32),
+        part=np.full(1, part, np.uint8),
+        materials=("skin",),
+        face_material=np.zeros(1, np.int32),
+    )
+
+
+def _scene(size: int = 96):
+    return eye_scene(size, yaw_rad=0.0)
+
+
+def test_every_lamp_has_its_glint_on_the_cornea_and_its_centroid_is_the_solution():
+    scene = _scene()
+    glints = _glints(scene)
+    assert [(n, e, s) for n, e, s in zip(glints.lamps, glints.eyes, glints.surfaces, strict=True)] == [
+        ("lamp_-1", "left", "cornea"),
+        ("lamp_1", "left", "cornea"),
+    ]
+    assert glints.seen.all()
+    for i in range(2):
+        one = dataclasses.replace(glints, seen=np.arange(2) == i)
+        added = with_glints(np.zeros((96, 96), np.float32), one).astype(np.float64)
+        v, u = np.mgrid[:96, :96]
+        centroid = np.array([(added * u).sum(), (added * v).sum()]) / added.sum()
+        assert np.abs(centroid - glints.points_2d[i]).max() < 0.1
+        assert added.sum() == pytest.approx(glints.volume[i], rel=2e-3)
+    assert glints.points_2d[0, 0] == pytest.approx(95 - glints.points_2d[1, 0], abs=1e-9)
+
+
+@pytest.mark.parametrize("part", [Part.SKIN, Part.LASHES])
+def test_a_lid_or_a_lash_before_the_cornea_hides_its_glint_from_the_camera_or_from_the_lamp(part):
+    scene = _scene()
+    free = _glints(scene)
+    mirror = apply_transform(invert_transform(scene.views[0].camera_from_head), free.points_camera)
+    camera_m = invert_transform(scene.views[0].camera_from_head)[:3, 3]
+    for origin in (camera_m, scene.lamps[0].position):
+        plate = _plate(mirror[0] + 0.1 * (origin - mirror[0]), 2e-4, part)
+        assert _glints(scene, plate).seen.tolist() == [False, True]
+    hidden = _glints(scene, _plate(np.array([0.0, 0.0, 0.016]), 0.01, part))
+    assert not hidden.seen.any()
+    assert np.array_equal(hidden.points_2d, free.points_2d)
+    assert not with_glints(np.zeros((96, 96), np.float32), hidden).any()
+
+
+def test_a_lamp_beside_the_eye_has_its_image_on_the_sclera_only():
+    scene = _scene(200)
+    lamp = dataclasses.replace(
+        scene.lamps[0], position=np.array([0.08, 0.0, -0.05]), direction=np.array([-1.0, 0.0, 0.0])
+    )
+    glints = _glints(dataclasses.replace(scene, lamps=(lamp,)))
+    assert glints.surfaces == ("sclera",)
+
+
+def test_an_led_beams_as_its_renderer_does_and_all_of_its_power():
+    lamp = _scene().lamps[0]
+    for spread in (np.pi, 2.0, 1.0):
+        lamp = dataclasses.replace(
+            lamp, spread_rad=spread, position=np.zeros(3), direction=np.array([0, 0, 1.0])
+        )
+        angle = (np.arange(2000) + 0.5) / 2000 * np.pi / 2
+        sent = [radiant_intensity(lamp, np.array([np.sin(a), 0.0, np.cos(a)])) for a in angle]
+        total = 2.0 * np.pi * np.sum(sent * np.sin(angle)) * (angle[1] - angle[0])
+        assert total == pytest.approx(lamp.power_w, rel=1e-4)
+
+
+def test_fresnel_at_normal_and_grazing_incidence():
+    assert fresnel(np.array(1.0)) == pytest.approx((0.336 / 2.336) ** 2)
+    assert fresnel(np.array(0.0)) == pytest.approx(1.0)
+
+
+@pytest.mark.blender
+def test_the_rendered_cornea_mirrors_the_lamp_where_the_label_says():
+    from facegen.blender import open_renderer
+
+    scene = _scene(240)
+    view = scene.views[0]
+    layers = open_renderer(threads=2).render(scene, "eye", samples=1, seed=0)
+    glints = _glints(scene)
+    rays = pixel_rays(view.camera)
+    points = rays * (layers.depth / rays[..., 2])[..., None]
+    out = rays - 2.0 * (rays * layers.normal).sum(axis=-1, keepdims=True) * layers.normal
+    for lamp, point_2d in zip(scene.lamps, glints.points_2d, strict=True):
+        u, v = np.rint(point_2d).astype(int)
+        near = np.s_[v - 4 : v + 5, u - 4 : u + 5]
+        to_lamp = apply_transform(view.camera_from_head, lamp.position[None])[0] - points[near]
+        miss = (np.cross(out[near], to_lamp)).reshape(-1, 3)  # 0 where the mirrored ray meets the lamp
+        y, x = np.mgrid[near]
+        design = np.stack([x.ravel(), y.ravel(), np.ones(x.size)], axis=-1)
+        slopes, *_ = np.linalg.lstsq(design, miss, rcond=None)
+        found, *_ = np.linalg.lstsq(slopes[:2].T, -slopes[2], rcond=None)
+        assert np.abs(found - point_2d).max() < 0.5
+        assert layers.part[v, u] in (Part.IRIS, Part.PUPIL)
+    assert np.allclose(project(view.camera, glints.points_camera), glints.points_2d)
