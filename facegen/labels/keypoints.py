@@ -6,7 +6,7 @@ import numpy as np
 
 from facegen.conventions import FACE_WIDTH_LANDMARKS, Visibility
 from facegen.geometry import apply_transform
-from facegen.raster import hidden, triangles_of
+from facegen.raster import hidden_by_own
 from facegen.rigs import EvaluatedFaces, Rig, evaluate
 from facegen.sampling import Samples
 from facegen.spec import Spec
@@ -58,12 +58,14 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFace
     points_2d = project_pinhole(in_camera, samples.intrinsics)
     first, last = FACE_WIDTH_LANDMARKS
     face_width = np.linalg.norm(points_2d[:, first] - points_2d[:, last], axis=-1)
-    triangles = triangles_of(rig.cage_faces)
-    visibility = np.empty(points_2d.shape[:2], np.uint8)
-    for row, camera_from_head in enumerate(samples.camera_from_head):
-        vertices = apply_transform(camera_from_head, faces.vertices[row, : rig.cage_vertices])
-        covered = hidden(in_camera[row], vertices, triangles, tolerance_m=KEYPOINT_TOLERANCE_M)
-        visibility[row] = np.where(covered, Visibility.HIDDEN, Visibility.VISIBLE)
+    covered = hidden_by_own(
+        in_camera,
+        faces.vertices[:, : rig.cage_vertices],
+        samples.camera_from_head,
+        rig.cage_faces,
+        tolerance_m=KEYPOINT_TOLERANCE_M,
+    )
+    visibility = np.where(covered, Visibility.HIDDEN, Visibility.VISIBLE)
     size = np.array([spec.camera.width_px, spec.camera.height_px])
     inside = ((points_2d >= -0.5) & (points_2d < size - 0.5)).all(axis=-1) & (in_camera[..., 2] > 0)
     return Keypoints(

@@ -2,8 +2,6 @@
 
 import numpy as np
 
-from facegen.raster.z_buffer import barycentric
-
 
 def triangles_of(faces: np.ndarray) -> np.ndarray:
     """Triangles (T, 3) of faces (F, 4) whose missing fourth corner is -1; quads are cut along their first diagonal."""
@@ -16,58 +14,37 @@ def faces_of_triangles(faces: np.ndarray) -> np.ndarray:
     return np.concatenate([np.arange(len(faces)), np.flatnonzero(faces[:, 3] >= 0)])
 
 
-def nearest_depth(rays_camera: np.ndarray, vertices_camera: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+def nearest_depth(rays_camera: np.ndarray, vertices_camera: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Depth at which rays from the camera's centre first meet a mesh.
 
     Parameters
     ----------
     rays_camera
-        (n, 3) points or directions in the camera frame, of any length.
+        (p, 3) points or directions in the camera frame, of any length.
     vertices_camera
         (V, 3) vertices in the camera frame, metres.
-    triangles
-        (T, 3) vertex indices; both sides count, triangles with a vertex at z <= 0 do not.
+    faces
+        (F, 3) triangles, or (F, 4) quads, cut along their first diagonal, and triangles padded with -1; both sides
+        count, triangles with a vertex at z <= 0 do not.
 
     Returns
     -------
     numpy.ndarray
-        (n,) metres along z; +inf where a ray meets nothing, and for rays with z <= 0.
+        (p,) metres along z; +inf where a ray meets nothing, and for rays with z <= 0.
     """
-    z = vertices_camera[:, 2]
-    corners = (vertices_camera[:, :2] / np.where(z > 0, z, np.nan)[:, None])[triangles]
-    low = np.minimum(np.minimum(corners[:, 0], corners[:, 1]), corners[:, 2])
-    high = np.maximum(np.maximum(corners[:, 0], corners[:, 1]), corners[:, 2])
-    xy = rays_camera[:, :2] / np.where(rays_camera[:, 2] > 0, rays_camera[:, 2], np.nan)[:, None]
-    # which rays pass each triangle's box: by bisection in x, then by comparison in y. NaN (behind the camera) sorts
-    # last, so it is within no box
-    order = np.argsort(xy[:, 0], kind="stable")
-    first = np.searchsorted(xy[order, 0], low[:, 0], side="left")
-    count = np.searchsorted(xy[order, 0], high[:, 0], side="right") - first
-    count = np.where(np.isnan(low[:, 0]), 0, np.maximum(count, 0))
-    face = np.repeat(np.arange(len(triangles)), count)
-    within = np.arange(len(face)) - np.repeat(np.cumsum(count) - count, count)
-    ray = order[first[face] + within]
-    inside = (low[face, 1] <= xy[ray, 1]) & (high[face, 1] >= xy[ray, 1])
-    ray, face = ray[inside], face[inside]
-    depth = np.full(len(rays_camera), np.inf)
-    weights = barycentric(xy[ray], corners[face])
-    hit = (weights >= 0.0).all(axis=1)  # NaN (an edge-on triangle) is no hit
-    # 1/z is linear over the image plane
-    found = 1.0 / (weights[hit] / z[triangles[face[hit]]]).sum(axis=1)
-    np.minimum.at(depth, ray[hit], found)
-    return depth
+    return _nearest_depth(rays_camera[None], vertices_camera[None], np.eye(4)[None], faces)[0]
 
 
 def hidden(
-    points_camera: np.ndarray, vertices_camera: np.ndarray, triangles: np.ndarray, *, tolerance_m: float
+    points_camera: np.ndarray, vertices_camera: np.ndarray, faces: np.ndarray, *, tolerance_m: float
 ) -> np.ndarray:
     """Whether a mesh stands between the camera's centre and each point.
 
     Parameters
     ----------
     points_camera
-        (n, 3) points in the camera frame, metres; those at z <= 0 count as hidden.
-    vertices_camera, triangles
+        (p, 3) points in the camera frame, metres; those at z <= 0 count as hidden.
+    vertices_camera, faces
         The mesh, as for `nearest_depth`.
     tolerance_m
         The mesh hides a point only if it is nearer by more than this (a point of a surface is not hidden by it).
@@ -75,7 +52,45 @@ def hidden(
     Returns
     -------
     numpy.ndarray
-        (n,) bool.
+        (p,) bool.
     """
-    z = points_camera[:, 2]
-    return (z <= 0) | (nearest_depth(points_camera, vertices_camera, triangles) < z - tolerance_m)
+    return hidden_by_own(
+        points_camera[None], vertices_camera[None], np.eye(4)[None], faces, tolerance_m=tolerance_m
+    )[0]
+
+
+def hidden_by_own(
+    points_camera: np.ndarray,
+    vertices: np.ndarray,
+    camera_from_mesh: np.ndarray,
+    faces: np.ndarray,
+    *,
+    tolerance_m: float,
+) -> np.ndarray:
+    """`hidden` for n sets of points (n, p, 3), each with its own mesh and camera: (n, p) bool.
+
+    ``vertices`` (n, V, 3), which share ``faces``, are in the frames that ``camera_from_mesh`` (n, 4, 4) leads from.
+    """
+    z = points_camera[..., 2]
+    return (z <= 0) | (_nearest_depth(points_camera, vertices, camera_from_mesh, faces) < z - tolerance_m)
+
+
+def _nearest_depth(
+    rays_camera: np.ndarray, vertices: np.ndarray, camera_from_mesh: np.ndarray, faces: np.ndarray
+) -> np.ndarray:
+    from facegen.raster.ray_casting import cast_rays  # imports Numba
+
+    if faces.shape[1] == 3:
+        faces = np.pad(faces, ((0, 0), (0, 1)), constant_values=-1)
+    z = rays_camera[..., 2:]
+    rays = rays_camera[..., :2] / np.where(z > 0, z, np.nan)
+    inverse_depth = np.empty(rays.shape[:2])
+    # one type and layout of each array, so that the loop is compiled once
+    cast_rays(
+        np.ascontiguousarray(rays, np.float64),
+        np.ascontiguousarray(vertices, np.float64),
+        np.ascontiguousarray(camera_from_mesh, np.float64),
+        np.ascontiguousarray(faces, np.int32),
+        inverse_depth,
+    )
+    return np.divide(1.0, inverse_depth, out=np.full(inverse_depth.shape, np.inf), where=inverse_depth > 0)
