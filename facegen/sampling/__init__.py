@@ -1,6 +1,7 @@
 """Draws: from (spec, sample number) to everything that differs between samples."""
 
+from facegen.sampling.expression import COMPONENT_NAMES
 from facegen.sampling.plan import Plan, plan_dataset
 from facegen.sampling.samples import Samples, draw_samples
 
-__all__ = ["Plan", "Samples", "draw_samples", "plan_dataset"]
+__all__ = ["COMPONENT_NAMES", "Plan", "Samples", "draw_samples", "plan_dataset"]

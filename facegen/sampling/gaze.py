@@ -1,4 +1,4 @@
-"""Where the eyes look: both at one point, and the eyeLook* weights that say the same."""
+"""Where the eyes look: both at one point or, rarely, apart, and the eyeLook* weights that say the same."""
 
 import numpy as np
 
@@ -11,14 +11,49 @@ FULL_PITCH_RAD = np.radians(25.0)
 """Eye rotations at which an eyeLook* weight reaches 1."""
 
 _LEFT, _RIGHT = 0, 1
+_LOOKS = [index for name, index in BLENDSHAPE_INDEX.items() if name.startswith("eyeLook")]
 
 
-def draw_gaze_target(spec: Spec, rng: np.random.Generator, size: int) -> np.ndarray:
-    """Points (size, 3) that are looked at: head frame, metres, seen from midway between the eyes."""
+WISH_DISTANCE_M = 10.0
+"""Distance of points looked at through the whole range of the eyes: both eyes' weights reach 0.99 or more."""
+
+DEVIATION_YAW_RAD, DEVIATION_PITCH_RAD = np.radians([3.0, 25.0]), np.radians([0.0, 8.0])
+"""Least and largest angles between eyes that look apart (squints are mostly horizontal, 5 to 25 degrees)."""
+
+
+def draw_gaze_target(spec: Spec, rng: np.random.Generator, size: int, *, wish: np.ndarray) -> np.ndarray:
+    """Points (size, 3) that are looked at: head frame, metres, seen from midway between the eyes.
+
+    Where any eyeLook* weight of ``wish`` (size, 52) is above 0, the point lies in that direction, far away.
+    """
     yaw, pitch, distance = (
         draw(d, rng, size) for d in (spec.gaze.yaw_deg, spec.gaze.pitch_deg, spec.gaze.distance_m)
     )
-    return distance[:, None] * direction_from_angles(np.radians(yaw), np.radians(pitch))
+    sideways, up = _shares(wish)
+    wished = (wish[:, _LOOKS] > 0).any(axis=1)
+    yaw = np.where(wished, np.clip(sideways.sum(axis=-1), -1, 1) * FULL_YAW_RAD, np.radians(yaw))
+    pitch = np.where(wished, np.clip(up.sum(axis=-1), -1, 1) * FULL_PITCH_RAD, np.radians(pitch))
+    distance = np.where(wished, WISH_DISTANCE_M, distance)
+    return distance[:, None] * direction_from_angles(yaw, pitch)
+
+
+def draw_deviation(rng: np.random.Generator, size: int) -> np.ndarray:
+    """Angles (size, 2, 2) in radians, yaw and pitch of each eye off the point looked at; one of the eyes is 0."""
+    unit, sign = rng.random((size, 2)), np.where(rng.random((size, 2)) < 0.5, -1.0, 1.0)
+    low, high = np.stack([DEVIATION_YAW_RAD, DEVIATION_PITCH_RAD], axis=-1)
+    side = rng.integers(0, 2, size)
+    deviation = np.zeros((size, 2, 2))
+    deviation[np.arange(size), side] = sign * (low + unit * (high - low))
+    return deviation
+
+
+def diverge(axes: np.ndarray, deviation: np.ndarray) -> np.ndarray:
+    """Unit optical axes (n, 2, 3) turned by yaw and pitch (n, 2, 2), no further than eyes go."""
+    yaw, pitch = angles_from_direction(axes)
+    return direction_from_angles(
+        np.clip(yaw + deviation[..., 0], -FULL_YAW_RAD, FULL_YAW_RAD),
+        np.clip(pitch + deviation[..., 1], -FULL_PITCH_RAD, FULL_PITCH_RAD),
+    )
 
 
 def axes_from_target(target: np.ndarray, eye_center: np.ndarray) -> np.ndarray:
@@ -46,16 +81,22 @@ def weights_from_axes(axes: np.ndarray) -> dict[int, np.ndarray]:
 
 def axes_from_weights(weights: np.ndarray) -> np.ndarray:
     """Unit optical axes (n, 2, 3) that eyeLook* weights (n, 52) stand for; the inverse of `weights_from_axes`."""
+    sideways, up = _shares(weights)
+    return direction_from_angles(sideways * FULL_YAW_RAD, up * FULL_PITCH_RAD)
+
+
+def _shares(weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Shares (n, 2) of the full angles to the subject's left and upwards, left eye first, of weights (n, 52)."""
 
     def difference(plus: str, minus: str) -> np.ndarray:
         return weights[:, BLENDSHAPE_INDEX[plus]] - weights[:, BLENDSHAPE_INDEX[minus]]
 
-    yaw = np.stack(
+    sideways = np.stack(
         [difference("eyeLookOutLeft", "eyeLookInLeft"), difference("eyeLookInRight", "eyeLookOutRight")],
         axis=-1,
     )
-    pitch = np.stack(
+    up = np.stack(
         [difference("eyeLookUpLeft", "eyeLookDownLeft"), difference("eyeLookUpRight", "eyeLookDownRight")],
         axis=-1,
     )
-    return direction_from_angles(yaw * FULL_YAW_RAD, pitch * FULL_PITCH_RAD)
+    return sideways, up

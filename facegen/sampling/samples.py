@@ -8,8 +8,8 @@ from facegen.conventions import BLOCK
 from facegen.randomness import stream
 from facegen.rigs import Rig, eye_centers
 from facegen.sampling.cameras import camera_from_head, draw_head_rotation, draw_keypoint_camera
-from facegen.sampling.expression import draw_expression
-from facegen.sampling.gaze import axes_from_target, axes_from_weights, draw_gaze_target, weights_from_axes
+from facegen.sampling.expression import COMPONENT_NAMES, draw_faces
+from facegen.sampling.gaze import axes_from_weights
 from facegen.sampling.people import people_of, split_of
 from facegen.sampling.plan import Plan, block_places
 from facegen.spec import draw
@@ -40,6 +40,8 @@ class Samples:
         (n, 52) blendshape weights.
     gaze
         (n, 2, 3) unit optical axes in the head frame, subject's left eye first.
+    component
+        (n,) int8, index into `facegen.sampling.COMPONENT_NAMES`: what made the expression.
     camera_from_head
         (n, 4, 4) of the keypoint camera.
     intrinsics
@@ -66,6 +68,7 @@ class Samples:
     identity: np.ndarray
     weights: np.ndarray
     gaze: np.ndarray
+    component: np.ndarray
     camera_from_head: np.ndarray
     intrinsics: np.ndarray
     detector_noise: np.ndarray
@@ -93,16 +96,15 @@ def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:
         return stream(spec.seed, component, block)
 
     if plan.recording is None:
-        weights = draw_expression(spec, rng("expression"), BLOCK)
-        target = draw_gaze_target(spec, rng("gaze"), BLOCK)
-        gaze = axes_from_target(target, eye_centers(rig, people.identity))
-        for index, value in weights_from_axes(gaze).items():
-            weights[:, index] = value
+        faces = draw_faces(spec, rng, eye_centers(rig, people.identity))
+        weights, gaze, component = faces.weights, faces.gaze, faces.component
         weights[places.neutral] = 0.0
         gaze[places.neutral] = (0.0, 0.0, 1.0)
+        component[places.neutral] = COMPONENT_NAMES.index("neutral")
     else:
         weights = plan.recording[places.frame % plan.frames]
         gaze = axes_from_weights(weights)
+        component = np.full(BLOCK, COMPONENT_NAMES.index("recording"), np.int8)
     intrinsics, position = draw_keypoint_camera(spec, rng("camera"), BLOCK)
     rotation = draw_head_rotation(spec, rng("head"), BLOCK)
     pupil = draw(spec.eyes.pupil_radius_mm, rng("pupil"), BLOCK) * 1e-3
@@ -121,6 +123,7 @@ def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:
         identity=people.identity,
         weights=weights,
         gaze=gaze,
+        component=component,
         camera_from_head=camera_from_head(rotation, position),
         intrinsics=intrinsics,
         detector_noise=rng("detector").standard_normal((BLOCK, 68, 2)) * spec.landmarks.noise_face_widths,

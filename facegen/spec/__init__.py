@@ -3,11 +3,12 @@
 from facegen.spec.distribution import Distribution, draw
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
 from facegen.spec.sample_ranges import format_ranges, sample_numbers
-from facegen.spec.spec import Spec
+from facegen.spec.spec import Expression, Spec
 
 __all__ = [
     "LABEL_VERSION",
     "Distribution",
+    "Expression",
     "Spec",
     "draw",
     "format_ranges",

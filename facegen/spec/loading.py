@@ -14,7 +14,7 @@ from facegen.errors import InputError
 from facegen.spec.sample_ranges import parse_ranges
 from facegen.spec.spec import Spec
 
-LABEL_VERSION = 1
+LABEL_VERSION = 2
 """Raised with every change that alters labels or pixels for the same spec; part of every hash (see CHANGELOG.md)."""
 
 _ADAPTER = TypeAdapter(Spec)
@@ -68,8 +68,11 @@ def parse_spec(table: dict[str, Any], *, where: str) -> Spec:
         raise InputError(
             f"{where}: split_shares = {list(spec.split_shares)} must add up to 1 (train, validation, test)"
         )
-    if spec.expression.sparse_shapes[0] > spec.expression.sparse_shapes[1]:
-        raise InputError(f"{where}: expression.sparse_shapes must be [fewest, most] with fewest <= most")
+    if not any(dataclasses.astuple(spec.expression.mixture)):
+        names = ", ".join(f.name for f in dataclasses.fields(spec.expression.mixture))
+        raise InputError(
+            f"{where}: expression.mixture gives no component a weight above 0; there are {names}"
+        )
     if spec.kind == "playback" and spec.playback is None:
         raise InputError(f'{where}: kind = "playback" needs a [playback] table with recording and fps')
     if spec.kind == "still" and spec.still.neutral + spec.still.faces == 0:

@@ -8,10 +8,12 @@ from pydantic.dataclasses import dataclass
 
 from facegen.spec.distribution import Distribution, parse, quantity
 
-_STRICT = ConfigDict(extra="forbid", strict=True)
+_STRICT = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True)
+# every key's docstring is its line in docs/spec.md and in the JSON schema
 
 Share = Annotated[float, Field(ge=0, le=1)]
 Count = Annotated[int, Field(ge=1)]
+Weight = Annotated[float, Field(ge=0, le=1000)]
 
 
 def _default(value: object) -> Distribution:
@@ -23,7 +25,9 @@ class Still:
     """``kind = "still"``: every person shows some neutral faces, then some expressions."""
 
     neutral: Annotated[int, Field(ge=0)] = 1
+    """Neutral faces of each person; they come first."""
     faces: Annotated[int, Field(ge=0)] = 9
+    """Faces with an expression, after the neutral ones."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -31,9 +35,13 @@ class Playback:
     """``kind = "playback"``: every person plays the same recording (a Live Link Face CSV), frame by frame."""
 
     recording: str
+    """Path of the CSV, relative to the spec."""
     fps: Annotated[float, Field(gt=0, le=1000)]
+    """Frames a second; frame n is shown at n / fps."""
     first_frame: Annotated[int, Field(ge=0)] = 0
+    """First frame of the recording that is played."""
     frames: Count | None = None
+    """Frames that are played; none means to the end."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -41,20 +49,69 @@ class Identity:
     """Who the people are, as far as the rig knows such traits."""
 
     female: Share = 0.5
+    """Share of women."""
     age_years: quantity(18, 90, "years") = _default({"uniform": [18, 80]})
+    """Age; the rig changes between 25 and 90."""
     ancestry_concentration: Annotated[float, Field(gt=0, le=100)] = 0.7
+    """Of the Dirichlet distribution of African, Asian and Caucasian ancestry: small values give unmixed people."""
     spread: Annotated[float, Field(ge=0, le=2)] = 1.0
+    """Factor on how much people differ beyond sex, age and ancestry; 0 gives one face for each of these."""
+
+
+@dataclass(frozen=True, kw_only=True, config=_STRICT)
+class Mixture:
+    """How often each component of the expression model makes a face: relative weights, of which the sum is 1 whole.
+
+    Where the table stands in a spec, components that it does not name are left out.
+    """
+
+    rest: Weight = 0.0
+    """A resting face: little but ``resting`` activity."""
+    single: Weight = 0.0
+    """One shape, or a pair, through its whole range; mouthClose and tongueOut bring the jaw along."""
+    emotion: Weight = 0.0
+    """One of 23 emotions as FACS action units, from faint to full."""
+    speech: Weight = 0.0
+    """Between two of 15 visemes, with what brows, lids and feelings do meanwhile."""
+    movement: Weight = 0.0
+    """Voluntary movements of mouth, jaw, cheeks, brows and lids, as in range-of-motion takes."""
+    one_sided: Weight = 0.0
+    """Winks, smirks and every other movement on one side."""
+    sparse: Weight = 0.0
+    """One to six shapes, independent of each other, through their whole range."""
+    dense: Weight = 0.0
+    """About a third of all shapes, independent of each other, up to 0.7."""
+    extreme: Weight = 0.0
+    """Three shapes at 0.75 or more, the eyes turned as far now and then."""
+    divergent: Weight = 0.0
+    """A sparse face whose eyes do not look the same way."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
 class Expression:
-    """How faces move: a mixture of sparse faces (few shapes, whole range) and dense ones (many shapes, weaker)."""
+    """How faces move: a mixture of named components, held to what a face can do."""
 
-    sparse: Share = 0.5
-    sparse_shapes: tuple[Count, Count] = (1, 6)
-    dense_active: Share = 0.35
-    dense_scale: Share = 0.7
-    symmetric: Share = 0.6
+    model: Literal[1] = 1
+    """Version of the expression model."""
+    left_right_correlation: Share = 0.9
+    """Correlation of the strengths of left and right; 1 gives symmetric faces but for ``one_sided``."""
+    subtle: Share = 0.3
+    """Share of faces that are scaled down, log-uniformly to between 2 and 100 %."""
+    resting: Share = 0.3
+    """Largest weight that a shape has at rest, in components that show living faces (not in single, sparse, dense,
+    extreme and divergent)."""
+    mixture: Mixture = Mixture(
+        rest=0.05,
+        single=0.12,
+        emotion=0.10,
+        speech=0.28,
+        movement=0.16,
+        one_sided=0.05,
+        sparse=0.12,
+        dense=0.05,
+        extreme=0.05,
+        divergent=0.02,
+    )
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -62,8 +119,11 @@ class Gaze:
     """Where both eyes look; they look at one point, ``distance_m`` away."""
 
     yaw_deg: quantity(-35, 35, "degrees") = _default({"normal": [0, 10], "within": [-30, 30]})
+    """To the subject's left."""
     pitch_deg: quantity(-30, 30, "degrees") = _default({"normal": [0, 8], "within": [-25, 25]})
+    """Upwards."""
     distance_m: quantity(0.1, 100, "metres") = _default({"uniform": [0.3, 3.0]})
+    """Distance of the point that is looked at; near ones turn the eyes inwards."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -71,8 +131,11 @@ class Head:
     """How the head is turned before the keypoint camera."""
 
     yaw_deg: quantity(-60, 60, "degrees") = _default({"normal": [0, 6], "within": [-20, 20]})
+    """To the subject's left."""
     pitch_deg: quantity(-45, 45, "degrees") = _default({"normal": [0, 6], "within": [-20, 20]})
+    """Upwards."""
     roll_deg: quantity(-90, 90, "degrees") = _default({"normal": [0, 5], "within": [-20, 20]})
+    """Towards the subject's left shoulder."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -80,10 +143,15 @@ class KeypointCamera:
     """The camera that sees the keypoints: a pinhole before the face."""
 
     width_px: Annotated[int, Field(ge=16, le=16384)] = 640
+    """Width of the picture."""
     height_px: Annotated[int, Field(ge=16, le=16384)] = 480
+    """Height of the picture."""
     fov_deg: quantity(5, 120, "degrees") = _default(60)
+    """Horizontal field of view."""
     distance_m: quantity(0.2, 10, "metres") = _default({"uniform": [0.5, 0.9]})
+    """From the camera to the head, along its axis."""
     offset_px: quantity(-8192, 8192, "pixels") = _default({"normal": [0, 20], "within": [-60, 60]})
+    """Of the head from the middle of the picture, in x and in y."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -91,6 +159,7 @@ class Landmarks:
     """What a detector would say: the exact points plus noise, as a share of the face's width in the picture."""
 
     noise_face_widths: Annotated[float, Field(ge=0, le=0.1)] = 0.001
+    """Standard deviation of the noise in x and in y."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -98,6 +167,7 @@ class Eyes:
     """Size of the pupils."""
 
     pupil_radius_mm: quantity(0.8, 4.5, "millimetres") = _default({"uniform": [1.3, 3.2]})
+    """Radius of both pupils."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -105,10 +175,15 @@ class Render:
     """Which samples are rendered, by which headset, and how."""
 
     headset: str = "tracking3"
+    """Name of a headset that comes with facegen, or path of a TOML file relative to the spec."""
     samples: str = ""
+    """Samples that are rendered, for example "0-99,140,200-240:10"."""
     size_px: Annotated[int, Field(ge=16, le=4096)] = 256
+    """Width and height of each picture."""
     samples_per_pixel: Annotated[int, Field(ge=1, le=65536)] = 8
+    """Light paths per pixel."""
     denoise: bool = True
+    """Whether the renderer's denoiser is used."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -116,12 +191,19 @@ class Spec:
     """A dataset. ``(Spec, sample number)`` decides every label and every pixel of a sample."""
 
     version: Literal[1]
+    """Version of the spec's keys."""
     kind: Literal["still", "playback"]
+    """Single faces, or a recording played by every person."""
     seed: Annotated[int, Field(ge=0)]
+    """Everything drawn follows from it."""
     people: Annotated[int, Field(ge=1, le=100_000_000)]
+    """Number of people."""
     rig: str = "anny"
+    """Name of a rig in blender_assets/build."""
     split: Literal["person"] = "person"
+    """What stays together in the split."""
     split_shares: tuple[Share, Share, Share] = (0.70, 0.15, 0.15)
+    """Shares of training, validation and test; they add up to 1."""
     still: Still = Still()
     playback: Playback | None = None
     identity: Identity = Identity()

@@ -8,7 +8,7 @@ import pyarrow.parquet as pq
 
 from facegen.conventions import BLENDSHAPES, SPLITS
 from facegen.labels import Keypoints
-from facegen.sampling import Samples
+from facegen.sampling import COMPONENT_NAMES, Samples
 
 
 def _field(name: str, kind: pa.DataType, description: str, *, shape: str = "", unit: str = "") -> pa.Field:
@@ -34,6 +34,7 @@ def keypoint_schema(components: int) -> pa.Schema:
             _field("time_s", pa.float64(), "time from the start of the clip", unit="s"),
             _field("split", pa.string(), "train, validation or test"),
             _field("neutral", pa.bool_(), "a neutral face"),
+            _field("component", pa.string(), "what made the expression: " + " ".join(COMPONENT_NAMES)),
             _field("sex", pa.string(), "female or male"),
             _field("age_years", pa.float32(), "age", unit="years"),
             _field("ancestry", floats(3), "shares of African, Asian and Caucasian ancestry"),
@@ -73,6 +74,7 @@ def keypoint_table(samples: Samples, keypoints: Keypoints, *, image_size: tuple[
         "time_s": samples.time_s,
         "split": np.array(SPLITS, dtype=object)[samples.split],
         "neutral": samples.neutral,
+        "component": np.array(COMPONENT_NAMES, dtype=object)[samples.component],
         "sex": np.where(samples.female, "female", "male").astype(object),
         "age_years": samples.age_years,
         "ancestry": samples.ancestry,

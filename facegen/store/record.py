@@ -9,6 +9,7 @@ from facegen.geometry import Camera
 from facegen.headsets import Sensor
 from facegen.labels import Glints, RenderedSample, ViewLabels
 from facegen.rigs import EyeGeometry, visual_axis
+from facegen.sampling import COMPONENT_NAMES
 from facegen.scene import Lamp, View
 
 

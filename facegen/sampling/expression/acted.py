@@ -1,0 +1,148 @@
+"""Components that do what faces do: rest, feel, speak, move on purpose, on both sides or on one."""
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.sampling.expression.sides import draw_shapes, draw_sides, over_shapes
+from facegen.sampling.expression.templates import CLOSING, Templates, emotions, templates
+
+SOMETIMES = 0.4
+"""Chance of an action unit that some people show with an emotion (20 to 67 % in the table's source)."""
+UNEVEN = (0.3, 1.7)
+"""Factors between which each weight of a template varies from face to face."""
+SPEECH_EMOTION, SPEECH_EYES, SPEECH_CLOSED = 0.3, 0.6, 0.25
+"""Shares of speaking faces that feel something, whose brows or lids move, and whose lips are just closed."""
+MOVEMENTS_TWO, MOVEMENTS_EYES, MOVEMENTS_EYES_ONLY = 0.4, 0.6, 0.2
+"""Shares of voluntary movements that join two of the mouth's, that move brows or lids, and that move these only."""
+MOVEMENTS_SEAL = 0.2
+"""Share of them that are the lips' closing over a dropped jaw: 8 % of frames of the range-of-motion take have it
+(mouthClose above 0.15, half of jawOpen or more), and networks that had not seen it learnt mouthClose with the wrong
+sign."""
+OTHER_SIDE = 0.25
+"""Strongest that the weaker side of a one-sided face is, as a share of the stronger one."""
+LIPS_FOLLOW = (
+    (("mouthLowerDownLeft", "mouthLowerDownRight"), 0.9),
+    (("mouthStretchLeft", "mouthStretchRight"), 0.8),
+    (("mouthShrugUpper",), 0.3),
+)
+"""Shapes that rise as the mouth opens, and the most that they rise per jawOpen left open. A tracker's jawOpen carries
+them along (r = 0.79 and 0.88 with the first two in the range-of-motion take); the share is drawn anew each face."""
+
+_JAW = BLENDSHAPE_INDEX["jawOpen"]
+_TONGUE = BLENDSHAPE_INDEX["tongueOut"]
+
+
+def draw_rest(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """Nothing but closed lips over a jaw that hangs a little; resting activity comes on top of it."""
+    weights = np.zeros((size, len(BLENDSHAPES)))
+    weights[:, _JAW] = 0.3 * rng.random(size) ** 3
+    weights[:, CLOSING] = 1.0
+    return weights
+
+
+def draw_emotion(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """An emotion from faint to full; which optional action units show, and how strongly each, is drawn."""
+    table = emotions()
+    kind = rng.integers(0, len(table.names), size)
+    chance = np.where(table.always, 1.0, np.where(table.sometimes, SOMETIMES, 0.0))
+    shown = rng.random((size, len(table.units))) < chance[kind]
+    strength = np.where(shown, 0.4 + 0.6 * rng.random(shown.shape), 0.0)
+    # units that share a shape add up; einsum sums in one order on every machine, a BLAS product does not
+    full = np.minimum(np.einsum("nu,us->ns", strength, table.units.weights), 1.0)
+    # the unit that parts the lips most decides
+    full[:, CLOSING] = np.where(shown, table.units.weights[:, CLOSING], 1.0).min(axis=1)
+    sides = draw_sides(rng, size, correlation=correlation)
+    return draw_uneven(rng, full, sides, correlation=correlation)
+
+
+def draw_speech(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """Somewhere between two visemes, quiet or loud, with what brows, lids and feelings do meanwhile."""
+    visemes = templates("visemes").weights
+    first, second = rng.integers(0, len(visemes), (2, size))
+    share = rng.random((size, 1))
+    blend = (1 - share) * visemes[first] + share * visemes[second]
+    # loudness moves the jaw more than the lips: drawn apart
+    sides = 1.5 * draw_sides(rng, size, correlation=correlation)
+    weights = draw_uneven(rng, blend, sides, correlation=correlation)
+    weights[:, _JAW] = np.minimum(blend[:, _JAW] * 1.6 * rng.random(size), 1.0)
+    closed = rng.random(size) < SPEECH_CLOSED
+    weights[closed, CLOSING] = 1.0
+    draw_lips_follow(rng, weights)
+    feels = np.flatnonzero(rng.random(size) < SPEECH_EMOTION)
+    emotion = 0.6 * draw_emotion(rng, len(feels), correlation=correlation)
+    emotion[:, (CLOSING, _JAW)] = 0.0
+    weights[feels] = together(weights[feels], emotion)
+    return _draw_eyes_too(rng, weights, rng.random(size) < SPEECH_EYES, correlation=correlation)
+
+
+def draw_movement(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """One or two voluntary movements of mouth and jaw, of brows and lids, or both, as in range-of-motion takes."""
+    mouth = templates("mouth")
+    kind = rng.integers(0, len(mouth), size)
+    kind[rng.random(size) < MOVEMENTS_SEAL] = mouth.names.index("seal")
+    weights = _draw_performed(rng, mouth.weights[kind], correlation=correlation)
+    second = np.flatnonzero(rng.random(size) < MOVEMENTS_TWO)
+    kind = rng.integers(0, len(mouth), len(second))
+    more = 0.7 * _draw_performed(rng, mouth.weights[kind], correlation=correlation)
+    more[:, CLOSING] = 0.0
+    weights[second] = together(weights[second], more)
+    draw_lips_follow(rng, weights)
+    what = rng.random(size)
+    weights[what < MOVEMENTS_EYES_ONLY] = np.arange(len(BLENDSHAPES)) == CLOSING
+    return _draw_eyes_too(rng, weights, what < MOVEMENTS_EYES, correlation=correlation)
+
+
+def draw_one_sided(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """A wink, smirk, raised brow or any other movement on one side, the other one following a little or not."""
+    mouth, eyes = templates("mouth"), templates("eyes")
+    every = Templates(names=mouth.names + eyes.names, weights=np.concatenate([mouth.weights, eyes.weights]))
+    kind = rng.integers(0, len(every), size)
+    kind[rng.random(size) < 0.3] = every.names.index("wink")
+    strong = rng.random(size)
+    weak = strong * np.maximum(rng.random(size) * 2 * OTHER_SIDE - OTHER_SIDE, 0.0)
+    left = rng.random(size) < 0.5
+    sides = np.stack([np.where(left, strong, weak), np.where(left, weak, strong)], axis=-1)
+    return draw_uneven(rng, every.weights[kind], sides, correlation=correlation)
+
+
+def draw_uneven(
+    rng: np.random.Generator, full: np.ndarray, sides: np.ndarray, *, correlation: float
+) -> np.ndarray:
+    """Weights (n, 52) of templates (n, 52) at strengths (n, 2) left and right, each a little off its template."""
+    low, high = UNEVEN
+    factor = low + (high - low) * draw_shapes(rng, len(full), correlation=correlation)
+    weights = np.minimum(full * over_shapes(sides) * factor, 1.0)
+    # how far the lips close over the jaw is no matter of strength; closed lips are closed three times in four
+    weights[:, CLOSING] = np.minimum(full[:, CLOSING] * (0.8 + 0.8 * rng.random(len(full))), 1.0)
+    return weights
+
+
+def draw_lips_follow(rng: np.random.Generator, weights: np.ndarray) -> None:
+    """Let the lips follow the jaw where they are apart, in place (`LIPS_FOLLOW`)."""
+    opening = weights[:, _JAW] * (1 - weights[:, CLOSING])
+    for names, most in LIPS_FOLLOW:
+        columns = [BLENDSHAPE_INDEX[name] for name in names]
+        rise = most * rng.random(len(weights)) * opening
+        weights[:, columns] = 1 - (1 - weights[:, columns]) * (1 - rise[:, None])
+
+
+def together(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Both at once, never above 1: ``1 - (1 - a) (1 - b)``."""
+    return 1 - (1 - first) * (1 - second)
+
+
+def _draw_performed(rng: np.random.Generator, full: np.ndarray, *, correlation: float) -> np.ndarray:
+    sides = draw_sides(rng, len(full), correlation=correlation)
+    return draw_uneven(rng, full, sides, correlation=correlation)
+
+
+def _draw_eyes_too(
+    rng: np.random.Generator, weights: np.ndarray, where: np.ndarray, *, correlation: float
+) -> np.ndarray:
+    """Weights (n, 52) with a movement of brows or lids added where (n,) bool says so; in place."""
+    rows = np.flatnonzero(where)
+    table = templates("eyes").weights
+    eyes = _draw_performed(rng, table[rng.integers(0, len(table), len(rows))], correlation=correlation)
+    eyes[:, CLOSING] = 0.0
+    weights[rows] = together(weights[rows], eyes)
+    return weights

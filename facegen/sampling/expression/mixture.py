@@ -1,0 +1,114 @@
+"""The expression model, version 1: which component makes a face, and what all faces share."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.sampling.expression.components import COMPONENT_NAMES, COMPONENTS
+from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, close_lips, follow_gaze, restrain
+from facegen.sampling.expression.sides import draw_shapes
+from facegen.sampling.expression.templates import CLOSING
+from facegen.sampling.gaze import (
+    axes_from_target,
+    diverge,
+    draw_deviation,
+    draw_gaze_target,
+    weights_from_axes,
+)
+from facegen.spec import Expression, Spec
+
+FAINTEST = 0.02
+"""Subtle faces are scaled by a factor from this to 1, every order of magnitude as often as the next."""
+
+LIDS_FOLLOW_DOWN, LIDS_FOLLOW_UP = 0.8, 0.8
+"""Largest share of eyeLookDown in eyeBlink, and of eyeLookUp in eyeWide; drawn anew for every face."""
+
+_RESTLESS = np.ones(len(BLENDSHAPES))
+_RESTLESS[[index for index, name in enumerate(BLENDSHAPES) if name.startswith("eyeLook")]] = 0.0
+_RESTLESS[[CLOSING, BLENDSHAPE_INDEX["tongueOut"]]] = 0.0
+_RESTLESS[[BLENDSHAPE_INDEX[n] for n in ("jawOpen", "jawLeft", "jawRight", "mouthLeft", "mouthRight")]] = 0.3
+_RESTLESS[[BLENDSHAPE_INDEX[n] for n in ("eyeWideLeft", "eyeWideRight")]] = 0.3
+"""How much of the resting activity each shape has."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Faces:
+    """Expressions of n faces.
+
+    Attributes
+    ----------
+    weights
+        (n, 52) blendshape weights in [0, 1].
+    gaze
+        (n, 2, 3) unit optical axes in the head frame, subject's left eye first.
+    component
+        (n,) int8, index into `COMPONENT_NAMES`.
+    """
+
+    weights: np.ndarray
+    gaze: np.ndarray
+    component: np.ndarray
+
+
+def draw_faces(spec: Spec, streams: Callable[[str], np.random.Generator], eye_center: np.ndarray) -> Faces:
+    """Expressions and gaze of n faces.
+
+    Parameters
+    ----------
+    spec
+        The spec.
+    streams
+        Gives the random stream of a part by its name, so that parts do not depend on each other's draws.
+    eye_center
+        (n, 2, 3) centres of the eyeballs, head frame, metres, subject's left eye first.
+    """
+    settings, size = spec.expression, len(eye_center)
+    component = draw_components(settings, streams("expression"), size)
+    weights = np.empty((size, len(BLENDSHAPES)))
+    for index, (name, part) in enumerate(COMPONENTS.items()):
+        rows = np.flatnonzero(component == index)
+        if len(rows):
+            rng = streams(f"expression {name}")
+            weights[rows] = part.draw(rng, len(rows), correlation=settings.left_right_correlation)
+    living, conjugate = (
+        np.array([getattr(part, trait) for part in COMPONENTS.values()])[component]
+        for trait in ("living", "conjugate")
+    )
+    rng = streams("expression rest")
+    closing = weights[:, CLOSING].copy()
+    weights *= draw_subtlety(settings, rng, size)[:, None]
+    weights[:, CLOSING] = closing
+    weights = 1 - (1 - weights) * (1 - draw_resting(settings, rng, size) * living[:, None])
+    # closed lips are mostly just closed: the fourth power keeps the median at 0.004 (0.002 in the range-of-motion take)
+    close_lips(weights, beyond=CLOSE_BEYOND_JAW * rng.random(size) ** 4)
+    target = draw_gaze_target(spec, streams("gaze"), size, wish=weights)
+    gaze = axes_from_target(target, eye_center)
+    apart = np.flatnonzero(~conjugate)
+    gaze[apart] = diverge(gaze[apart], draw_deviation(streams("gaze apart"), len(apart)))
+    for column, value in weights_from_axes(gaze).items():
+        weights[:, column] = value
+    down, up = rng.random((2, size)) * living
+    follow_gaze(weights, down=LIDS_FOLLOW_DOWN * down, up=LIDS_FOLLOW_UP * up)
+    first = len(COMPONENT_NAMES) - len(COMPONENTS)
+    return Faces(weights=restrain(weights), gaze=gaze, component=(component + first).astype(np.int8))
+
+
+def draw_components(settings: Expression, rng: np.random.Generator, size: int) -> np.ndarray:
+    """Which of `COMPONENTS` (size,) makes each face, by the shares of ``[expression.mixture]``."""
+    shares = np.array([getattr(settings.mixture, name) for name in COMPONENTS])
+    edges = np.cumsum(shares)
+    return np.searchsorted(edges, rng.random(size) * edges[-1], side="right")
+
+
+def draw_subtlety(settings: Expression, rng: np.random.Generator, size: int) -> np.ndarray:
+    """Factors (size,) on the weights: 1, or for subtle faces log-uniform from `FAINTEST` to 1."""
+    chosen, unit = rng.random((2, size))
+    return np.where(chosen < settings.subtle, FAINTEST**unit, 1.0)
+
+
+def draw_resting(settings: Expression, rng: np.random.Generator, size: int) -> np.ndarray:
+    """Activity (size, 52) that faces have at rest: mostly faint, at most ``settings.resting``."""
+    unit = draw_shapes(rng, size, correlation=settings.left_right_correlation)
+    return settings.resting * _RESTLESS * unit**2

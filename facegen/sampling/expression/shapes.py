@@ -1,0 +1,98 @@
+"""Components that combine shapes blindly, whatever faces do: every combination is shown some time.
+
+Where a draw sets eyeLook* weights, they are a wish: the gaze turns both eyes there (see `mixture`).
+"""
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
+from facegen.sampling.expression.couplings import TONGUE_NEEDS_JAW
+from facegen.sampling.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
+from facegen.sampling.expression.templates import CLOSING
+
+SPARSE_SHAPES = (1, 6)
+"""Fewest and most shapes of a sparse face; a pair counts once."""
+DENSE_SHARE, DENSE_STRENGTH = 0.35, 0.7
+"""Share of the shapes that move in a dense face, and the strongest weight there."""
+EXTREME_SHAPES, EXTREME_FROM, EXTREME_GAZE = 3, 0.75, 0.25
+"""Shapes of an extreme face, the weakest weight there, and the share of faces with eyes turned as far."""
+
+_JAW, _TONGUE = BLENDSHAPE_INDEX["jawOpen"], BLENDSHAPE_INDEX["tongueOut"]
+_LOOKS = tuple(index for index, name in enumerate(BLENDSHAPES) if name.startswith("eyeLook"))
+_FIRST = np.setdiff1d(np.arange(len(BLENDSHAPES)), (*RIGHT, *_LOOKS))
+"""Every pair once, and the shapes without a side; eyes are turned by the gaze."""
+
+
+def draw_single(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """One shape, or a pair, through its whole range; with it only what it cannot do without."""
+    shape = rng.integers(0, len(BLENDSHAPES), size)
+    is_pair = rng.random(size) < correlation
+    strength = draw_sides(rng, size, correlation=correlation)
+    jaw = rng.random(size)
+    weights = np.zeros((size, len(BLENDSHAPES)))
+    row = np.arange(size)
+    weights[row, shape] = strength[:, 0]
+    pair = np.flatnonzero(is_pair & np.isin(shape, (*LEFT, *RIGHT)))
+    weights[pair, np.array(MIRRORED_BLENDSHAPES)[shape[pair]]] = strength[pair, 1]
+    # mouthClose alone sweeps jawOpen under closed lips; the tongue needs an open mouth
+    closing = shape == CLOSING
+    weights[closing, _JAW] = weights[closing, CLOSING]
+    weights[closing, CLOSING] = 1.0
+    tongue = shape == _TONGUE
+    weights[tongue, _JAW] = TONGUE_NEEDS_JAW + 0.01 + (0.99 - TONGUE_NEEDS_JAW) * jaw[tongue]
+    return weights
+
+
+def draw_sparse(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """Few shapes, independent of each other, through their whole range."""
+    fewest, most = SPARSE_SHAPES
+    count = rng.integers(fewest, most + 1, size)
+    # the count-th smallest of random numbers bounds the chosen ones
+    key = rng.random((size, len(_FIRST)))
+    bound = np.take_along_axis(np.partition(key, range(most), axis=1), count[:, None] - 1, axis=1)
+    return _draw_active(rng, key <= bound, correlation=correlation)
+
+
+def draw_dense(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """Many shapes, weaker, independent of each other."""
+    weights = _draw_active(rng, rng.random((size, len(_FIRST))) < DENSE_SHARE, correlation=correlation)
+    closing = weights[:, CLOSING].copy()
+    weights *= DENSE_STRENGTH
+    weights[:, CLOSING] = closing
+    return weights
+
+
+def draw_extreme(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """A few shapes together at or near their full strength."""
+    key = rng.random((size, len(_FIRST)))
+    bound = np.partition(key, EXTREME_SHAPES - 1, axis=1)[:, EXTREME_SHAPES - 1 : EXTREME_SHAPES]
+    weights = _draw_active(rng, key <= bound, correlation=correlation)
+    looking = np.flatnonzero(rng.random(size) < EXTREME_GAZE)
+    weights[looking, rng.choice(_LOOKS, len(looking))] = rng.random(len(looking))
+    return np.where(weights > 0, EXTREME_FROM + (1 - EXTREME_FROM) * weights, 0.0)
+
+
+def draw_divergent(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """A sparse face; that its eyes look apart is drawn with the gaze."""
+    return draw_sparse(rng, size, correlation=correlation)
+
+
+def _draw_active(rng: np.random.Generator, first: np.ndarray, *, correlation: float) -> np.ndarray:
+    """Weights (n, 52) of the active shapes; ``first`` (n, len(_FIRST)) bool says which.
+
+    A partner joins with a probability of the correlation, so that at 0 most shapes move on one side alone. Where
+    the lips close or the tongue comes out, the jaw opens.
+    """
+    active = np.zeros((len(first), len(BLENDSHAPES)), bool)
+    active[:, _FIRST] = first
+    chosen = active[:, LEFT]
+    joined = rng.random((len(first), 2))
+    other_side = joined[:, :1] < 0.5
+    both = joined[:, 1:] < correlation
+    active[:, RIGHT] = chosen & (both | other_side)
+    active[:, LEFT] = chosen & (both | ~other_side)
+    active[:, _JAW] |= active[:, CLOSING] | active[:, _TONGUE]
+    weights = np.where(active, draw_shapes(rng, len(first), correlation=correlation), 0.0)
+    tongue = active[:, _TONGUE]
+    weights[tongue, _JAW] = TONGUE_NEEDS_JAW + 0.01 + (0.99 - TONGUE_NEEDS_JAW) * weights[tongue, _JAW]
+    return weights

@@ -1,0 +1,206 @@
+"""The expression model on 100,000 faces: couplings, marginals, gaze, mixture, left and right."""
+
+from dataclasses import asdict, fields
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
+from facegen.randomness import stream
+from facegen.sampling.expression import (
+    COMPONENT_NAMES,
+    COMPONENTS,
+    Faces,
+    draw_faces,
+    emotions,
+    restrain,
+    templates,
+)
+from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, EXCLUSIVE, MEETING, TONGUE_NEEDS_JAW
+from facegen.sampling.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
+from facegen.sampling.gaze import axes_from_weights
+from facegen.spec import Spec, parse_spec
+
+EYES = np.tile([[0.031, 0.0, 0.0], [-0.031, 0.0, 0.0]], (1000, 1, 1))
+"""Eyeball centres of a thousand equal people; the model knows no more of the rig."""
+
+
+def spec(**expression) -> Spec:
+    table = {"version": 1, "kind": "still", "seed": 7, "people": 1, "expression": expression}
+    return parse_spec(table, where="test")
+
+
+def block(of: Spec, number: int) -> Faces:
+    return draw_faces(of, lambda part: stream(of.seed, part, number), EYES)
+
+
+def drawn(of: Spec, blocks: int) -> Faces:
+    made = [block(of, number) for number in range(blocks)]
+    return Faces(**{f.name: np.concatenate([getattr(one, f.name) for one in made]) for f in fields(Faces)})
+
+
+@pytest.fixture(scope="module")
+def faces() -> Faces:
+    """A hundred thousand faces of the default spec."""
+    return drawn(spec(), 100)
+
+
+def column(faces: Faces, name: str) -> np.ndarray:
+    return faces.weights[:, BLENDSHAPE_INDEX[name]]
+
+
+def is_from(faces: Faces, name: str) -> np.ndarray:
+    return faces.component == COMPONENT_NAMES.index(name)
+
+
+def test_every_component_has_a_key_in_the_spec_and_no_key_lacks_one():
+    assert list(asdict(spec().expression.mixture)) == list(COMPONENTS)
+
+
+def test_couplings_hold_on_every_face(faces):
+    assert faces.weights.min() >= 0
+    assert faces.weights.max() <= 1
+    for first, second in EXCLUSIVE:
+        assert not np.minimum(column(faces, first), column(faces, second)).any(), (first, second)
+    jaw, close = column(faces, "jawOpen"), column(faces, "mouthClose")
+    assert (close <= jaw + CLOSE_BEYOND_JAW).all()
+    assert not column(faces, "tongueOut")[jaw <= TONGUE_NEEDS_JAW].any()
+    for name in MEETING:  # lips 0.6 apart neither press nor roll in by more than a quarter
+        assert column(faces, name)[jaw - close > 0.6].max() <= 0.25 + 1e-12, name
+    for name, away in (("mouthRollUpper", "mouthUpperUpLeft"), ("mouthRollLower", "mouthLowerDownRight")):
+        assert (column(faces, name) + column(faces, away)).max() <= 1 + 1e-12
+
+
+def test_lips_close_over_the_jaw_as_often_as_in_people(faces):
+    talking = is_from(faces, "speech") | is_from(faces, "movement") | is_from(faces, "rest")
+    jaw, close = column(faces, "jawOpen")[talking], column(faces, "mouthClose")[talking]
+    # more than half of recorded frames have mouthClose above jawOpen, where the mouth is closed
+    assert 0.3 < (close > jaw).mean() < 0.7
+    assert ((close > 0.3) & (close > jaw - 0.05)).mean() > 0.02
+
+
+@given(arrays(np.float64, (3, len(BLENDSHAPES)), elements=st.floats(0, 1)))
+@settings(max_examples=100, deadline=None)
+def test_restraining_once_is_enough_and_only_lowers(weights):
+    once = restrain(weights)
+    np.testing.assert_array_equal(restrain(once), once)
+    assert (once <= weights).all()
+    assert (once >= 0).all()
+    np.testing.assert_array_equal(restrain(weights[:, MIRRORED_BLENDSHAPES])[:, MIRRORED_BLENDSHAPES], once)
+
+
+def test_every_shape_covers_its_range(faces):
+    for index, name in enumerate(BLENDSHAPES):
+        counts, _ = np.histogram(faces.weights[:, index], 20, (0, 1))
+        assert (counts >= 50).all(), name
+        assert faces.weights[:, index].max() > 0.98, name
+
+
+def test_small_weights_are_at_least_as_dense_as_large_ones(faces):
+    for index, name in enumerate(BLENDSHAPES):
+        if name != "tongueOut":  # the jaw must be open for it: it is out, or it is not
+            counts, _ = np.histogram(faces.weights[:, index], (0.01, 0.03, 0.05, 0.48, 0.50, 0.93, 0.95))
+            assert counts[:2].min() >= max(counts[3], counts[5]), name
+
+
+def miss(axes: np.ndarray) -> np.ndarray:
+    """Least distance (n,) between the lines of sight of both eyes, metres, and whether they meet in front."""
+    normal = np.cross(axes[:, 0], axes[:, 1])
+    across = EYES[0, 0] - EYES[0, 1]
+    return np.abs(normal @ across) / np.maximum(np.linalg.norm(normal, axis=-1), 1e-12)
+
+
+def test_both_eyes_look_at_one_point_outside_the_component_named_for_the_opposite(faces):
+    apart = is_from(faces, "divergent")
+    assert 0.01 < apart.mean() < 0.03
+    assert miss(faces.gaze[~apart]).max() < 1e-9
+    x = faces.gaze[..., 0] / faces.gaze[..., 2]
+    assert (x[~apart, 0] < x[~apart, 1]).all()  # in front of the face
+    angle = np.degrees(np.arccos(np.clip((faces.gaze[:, 0] * faces.gaze[:, 1]).sum(axis=-1), -1, 1)))
+    # a point 0.3 m away, the nearest drawn, turns the eyes towards each other by 12 degrees
+    assert angle[~apart].max() < 12
+    assert np.median(angle[apart]) > 10
+
+
+def test_weights_say_where_the_eyes_look(faces):
+    turned = axes_from_weights(faces.weights)
+    looks = [index for index, name in enumerate(BLENDSHAPES) if name.startswith("eyeLook")]
+    within = (faces.weights[:, looks] < 1).all(axis=1)
+    assert within.mean() > 0.95
+    np.testing.assert_allclose(turned[within], faces.gaze[within], atol=1e-12)
+
+
+def test_the_mixture_is_what_the_spec_says(faces):
+    shares = np.array(list(asdict(spec().expression.mixture).values()))
+    counts = np.bincount(faces.component, minlength=len(COMPONENT_NAMES))[-len(shares) :]
+    expected = shares / shares.sum() * len(faces.component)
+    assert (np.abs(counts - expected) < 4 * np.sqrt(expected)).all()
+    some = drawn(spec(mixture={"speech": 3, "single": 1}), 4)
+    assert set(some.component) == {COMPONENT_NAMES.index("speech"), COMPONENT_NAMES.index("single")}
+    assert is_from(some, "speech").mean() == pytest.approx(0.75, abs=0.03)
+
+
+def test_a_single_face_is_one_shape_and_what_it_needs():
+    faces = drawn(spec(mixture={"single": 1}, subtle=0.0), 5)
+    looks = [name.startswith("eyeLook") for name in BLENDSHAPES]
+    moving = np.where(looks, 0.0, faces.weights) > CLOSE_BEYOND_JAW
+    alone = moving.sum(axis=1) - (moving[:, LEFT] & moving[:, RIGHT]).sum(axis=1)
+    needs_jaw = moving[:, BLENDSHAPE_INDEX["mouthClose"]] | moving[:, BLENDSHAPE_INDEX["tongueOut"]]
+    assert (alone - needs_jaw <= 1).all()
+
+
+@pytest.mark.parametrize("correlation", [0.0, 0.5, 0.9, 1.0])
+def test_left_and_right_correlate_as_the_spec_says(correlation):
+    sides = draw_sides(np.random.default_rng(1), 100_000, correlation=correlation)
+    shapes = draw_shapes(np.random.default_rng(2), 20_000, correlation=correlation)
+    for left, right in (sides.T, (shapes[:, LEFT[3]], shapes[:, RIGHT[3]])):
+        assert np.corrcoef(left, right)[0, 1] == pytest.approx(correlation, abs=0.02)
+        assert np.histogram(right, 10, (0, 1))[0] == pytest.approx(len(right) / 10, rel=0.08)
+    others = {name: 1.0 for name, part in COMPONENTS.items() if name != "one_sided" and part.conjugate}
+    faces = drawn(spec(left_right_correlation=correlation, mixture=others), 2)
+    # lids follow the gaze, and the two eyes turn by angles that differ a little
+    lids = [BLENDSHAPES[index].startswith(("eyeBlink", "eyeWide")) for index in LEFT]
+    equal = (faces.weights[:, LEFT] == faces.weights[:, RIGHT]) | lids
+    same = equal.all(axis=1).mean()
+    assert same == 1.0 if correlation == 1 else same < 0.6
+
+
+def test_one_sided_faces_move_on_one_side():
+    faces = drawn(spec(mixture={"one_sided": 1}, resting=0.0, subtle=0.0), 2)
+    left, right = column(faces, "mouthSmileLeft"), column(faces, "mouthSmileRight")
+    moving = np.maximum(left, right) > 0.2
+    assert (np.minimum(left, right)[moving] < 0.5 * np.maximum(left, right)[moving]).mean() > 0.95
+    blink = np.stack([column(faces, "eyeBlinkLeft"), column(faces, "eyeBlinkRight")])
+    assert ((blink.max(axis=0) > 0.7) & (blink.min(axis=0) < 0.3)).mean() > 0.05
+
+
+def test_a_component_does_not_depend_on_what_others_draw():
+    """Speech faces are the same, in order, whatever makes the others: parts have streams of their own."""
+    plain, changed = (block(spec(mixture={"speech": 1, other: 1}), 3) for other in ("sparse", "dense"))
+    speech = is_from(plain, "speech")
+    np.testing.assert_array_equal(speech, is_from(changed, "speech"))
+    np.testing.assert_array_equal(plain.weights[speech], changed.weights[speech])
+    assert not np.array_equal(plain.weights[~speech], changed.weights[~speech])
+
+
+@pytest.mark.parametrize("family", ["action_units", "visemes", "mouth", "eyes"])
+def test_templates_are_possible_faces(family):
+    table = templates(family)
+    assert len(set(table.names)) == len(table) > 5
+    assert table.weights.min() >= 0
+    assert table.weights.max() <= 1
+    closed = table.weights.copy()
+    closed[:, BLENDSHAPE_INDEX["mouthClose"]] *= closed[:, BLENDSHAPE_INDEX["jawOpen"]]
+    # what couplings take away from a template it would never show
+    np.testing.assert_allclose(restrain(closed), closed, atol=0.35)
+
+
+def test_emotions_name_units_that_there_are():
+    table = emotions()
+    assert len(table.names) == 23
+    assert not (table.always & table.sometimes).any()
+    assert (table.always | table.sometimes).any(axis=0).all()  # no unit without an emotion
+    assert table.always.any(axis=1).all()
