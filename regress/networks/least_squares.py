@@ -103,7 +103,7 @@ class NetworkState:
 
     def gram(self) -> np.ndarray:
         """``J'J`` from explicit rows of J."""
-        jacobian = self._jacobian()
+        jacobian = self.jacobian()
         return jacobian.transpose(0, 2, 1) @ jacobian
 
     def kernel(self) -> np.ndarray:
@@ -119,7 +119,7 @@ class NetworkState:
             kernel[:, output, :, output] += own * self.problem.used[self.members, output, None, None]
         return kernel.reshape(count, outputs * rows, outputs * rows)
 
-    def _jacobian(self) -> np.ndarray:
+    def jacobian(self) -> np.ndarray:
         """J (m, K n, P)."""
         count, hidden, rows = self.hidden.shape
         outputs = self.problem.layout.outputs

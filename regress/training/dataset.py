@@ -3,7 +3,7 @@
 import hashlib
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +52,17 @@ class KeypointDataset:
     def rows(self, split: str) -> np.ndarray:
         """Row numbers of a split."""
         return np.flatnonzero(self.split == split)
+
+    def take(self, rows: np.ndarray) -> "KeypointDataset":
+        """The dataset of these rows alone; its description stays that of the whole."""
+        return replace(
+            self,
+            points=self.points[rows],
+            weights=self.weights[rows],
+            split=self.split[rows],
+            person=self.person[rows],
+            neutral=self.neutral[rows],
+        )
 
     @property
     def has_neutral_frames(self) -> bool:

@@ -4,7 +4,7 @@ import os
 import threading
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -65,41 +65,39 @@ class Fit:
 
 
 def fit_networks(prepared: Prepared, recipe: Recipe, *, seed: int, progress: Progress | None = None) -> Fit:
-    """Choose an alpha for each network on some rows, then fit it on all.
+    """Choose an alpha for each network on some rows, then go on with it on all.
 
-    Networks want alphas up to 40 times apart: one for all would overfit some and blur others. Every fit
-    starts afresh: warm starts from one alpha to the next end 10 to 20 % worse.
+    Networks want alphas up to 40 times apart: one for all would overfit some and blur others. Every alpha
+    starts afresh: warm starts from one alpha to the next end 10 to 20 % worse. From some rows to all rows at the same
+    alpha, the search's networks are the start: half the steps, the same errors.
     """
     train, validation, test = (prepared.splits[name] for name in ("train", "validation", "test"))
     layout = Layout(inputs=train.inputs.shape[1], hidden=recipe.hidden, outputs=WIDEST)
     order = np.random.default_rng(seed).permutation(len(train.inputs))
     searched = train.take(np.sort(order[: recipe.search_rows]))
-    held, watched = validation.network_rows(), test.network_rows()
+    few, held, watched = searched.network_rows(), validation.network_rows(), test.network_rows()
+    settings = Settings(steps=recipe.steps, patience=recipe.patience, improvement=recipe.improvement)
+    brief = replace(settings, steps=min(recipe.search_steps, recipe.steps))
 
-    def fit(
-        split: Split, held_out: tuple[Rows, ...], alphas: np.ndarray, steps: int, stage: str
-    ) -> tuple[Result, ...]:
-        start = _start(split, prepared.rotation, layout, recipe, alphas, seed)
-        settings = Settings(steps=steps, patience=recipe.patience, improvement=recipe.improvement)
-        problem = split.network_rows()
-        return _fit_groups(layout, problem, held_out, start, alphas, settings, _Stage(progress, stage, steps))
-
-    search_steps = min(recipe.search_steps, recipe.steps)
+    def search(alpha: float) -> tuple[np.ndarray, np.ndarray]:
+        """Errors (31,) and parameters (31, P) of one alpha."""
+        alphas = np.full(len(NETWORKS), alpha)
+        start = _start(searched, prepared.rotation, layout, recipe, alpha, seed)
+        stage = _Stage(progress, f"alpha {alpha:g}", brief.steps)
+        results = _fit_groups(layout, few, (held,), start, alphas, brief, stage)
+        return (
+            _gathered(result.error for result in results),
+            _gathered(result.parameters for result in results),
+        )
 
     with threadpool_limits(limits=1, user_api="blas"):
-        errors = np.stack(
-            [
-                _gathered(
-                    result.error
-                    for result in fit(
-                        searched, (held,), np.full(len(NETWORKS), alpha), search_steps, f"alpha {alpha:g}"
-                    )
-                )
-                for alpha in recipe.alphas
-            ]
-        )
-        alphas = np.array(recipe.alphas)[errors.argmin(axis=0)]
-        results = fit(train, (held, watched), alphas, recipe.steps, "all rows")
+        trials = [search(alpha) for alpha in recipe.alphas]
+        errors = np.stack([error for error, _ in trials])
+        best = errors.argmin(axis=0)
+        start = np.stack([parameters for _, parameters in trials])[best, np.arange(len(NETWORKS))]
+        alphas = np.array(recipe.alphas)[best]
+        stage = _Stage(progress, "all rows", settings.steps)
+        results = _fit_groups(layout, train.network_rows(), (held, watched), start, alphas, settings, stage)
     return Fit(
         layout=layout,
         parameters=_gathered(result.parameters for result in results),
@@ -111,9 +109,10 @@ def fit_networks(prepared: Prepared, recipe: Recipe, *, seed: int, progress: Pro
 
 
 def _start(
-    split: Split, rotation: np.ndarray, layout: Layout, recipe: Recipe, alphas: np.ndarray, seed: int
+    split: Split, rotation: np.ndarray, layout: Layout, recipe: Recipe, alpha: float, seed: int
 ) -> np.ndarray:
-    coefficients = {alpha: _ridge(split, alpha) for alpha in np.unique(alphas)}
+    """Parameters (31, P) with which the networks of one alpha begin."""
+    coefficients = ridge_coefficients(split.inputs, split.targets, _RIDGE_FACTOR * alpha)
     few = split.take(slice(_START_ROWS))
     rows = []
     for number, columns in enumerate(network_columns()):
@@ -125,16 +124,12 @@ def _start(
                 layout=layout,
                 inputs=few.inputs,
                 targets=few.targets[:, columns],
-                coefficients=coefficients[alphas[number]][:, columns],
-                alpha=float(alphas[number]),
+                coefficients=coefficients[:, columns],
+                alpha=alpha,
                 rng=rng,
             )
         rows.append(layout.join(w1[None], w2[None])[0])
     return np.array(rows, dtype=np.float32)
-
-
-def _ridge(split: Split, alpha: float) -> np.ndarray:
-    return ridge_coefficients(split.inputs, split.targets, _RIDGE_FACTOR * alpha)
 
 
 def _fit_groups(
