@@ -1,6 +1,7 @@
 """Evaluates a rig: identity, blendshape weights and gaze of many faces to vertices, landmarks and eyes."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -75,7 +76,8 @@ def evaluate(
         if not np.isfinite(array).all():
             raise InputError(f"{name} holds values that are not finite numbers")
     gaze = gaze / np.sqrt(gaze[..., 0] ** 2 + gaze[..., 1] ** 2 + gaze[..., 2] ** 2)[..., None]
-    vertices = np.empty((people, rig.cage_vertices if cage_only else len(rig.vertices), 3))
+    padded = -(-people // CHUNK) * CHUNK
+    cage = np.empty((padded, rig.cage_vertices, 3))
     eye_center, eye_radius = np.empty((people, 2, 3)), np.empty((people, 2))
     with one_blas_thread():
         for start in range(0, people, CHUNK):
@@ -83,15 +85,20 @@ def evaluate(
             here = rows.stop - start
             who = np.resize(identity[rows], (CHUNK, rig.components))
             face = np.resize(weights[rows], (CHUNK, len(rig.expression)))
-            vertices[rows, : rig.cage_vertices] = _linear(rig, who, face, slice(0, rig.cage_vertices))[:here]
+            np.matmul(
+                np.concatenate([who, face, np.ones((CHUNK, 1))], axis=1),
+                _cage_basis(rig),
+                out=cage[start : start + CHUNK].reshape(CHUNK, -1),
+            )
             center = who @ rig.eye_center_identity.reshape(-1, 6)
             eye_center[rows] = center.reshape(CHUNK, 2, 3)[:here] + rig.eye_center
             eye_radius[rows] = (who @ rig.eye_radius_identity)[:here] + rig.eye_radius
+        vertices = cage[:people]
         if not cage_only:
             # one row at a time: only pictures need these vertices, and they need one face
-            for row in range(people):
-                rest = slice(rig.cage_vertices, None)
-                vertices[row, rest] = _linear(rig, identity[row : row + 1], weights[row : row + 1], rest)[0]
+            rest = [_beyond_cage(rig, *row) for row in zip(identity, weights, strict=True)]
+            shape = (people, len(rig.vertices) - rig.cage_vertices, 3)
+            vertices = np.concatenate([vertices, np.reshape(rest, shape)], axis=1)
     close_lids(rig, vertices, weights=weights, eye_center=eye_center, eye_radius=eye_radius, gaze=gaze)
     return EvaluatedFaces(
         vertices=vertices,
@@ -101,11 +108,19 @@ def evaluate(
     )
 
 
-def _linear(rig: Rig, identity: np.ndarray, weights: np.ndarray, part: slice) -> np.ndarray:
-    """Some vertices (n, v, 3) of faces with straight lids; fixed shapes of the products fix the last bits."""
-    moved = identity @ rig.identity[:, part].reshape(len(rig.identity), -1)
-    moved += weights @ rig.expression[:, part].reshape(len(rig.expression), -1)
-    return moved.reshape(len(identity), -1, 3) + rig.vertices[part]
+@lru_cache(maxsize=4)
+def _cage_basis(rig: Rig) -> np.ndarray:
+    """Rows (K + 53, 3 V) that identity, weights and a 1 multiply to give the cage with straight lids."""
+    rows = np.concatenate([rig.identity, rig.expression, rig.vertices[None]])
+    return np.ascontiguousarray(rows[:, : rig.cage_vertices].reshape(len(rows), -1))
+
+
+def _beyond_cage(rig: Rig, identity: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """The other vertices (v, 3) of one face with straight lids."""
+    rest = slice(rig.cage_vertices, None)
+    moved = identity[None] @ rig.identity[:, rest].reshape(len(rig.identity), -1)
+    moved += weights[None] @ rig.expression[:, rest].reshape(len(rig.expression), -1)
+    return moved.reshape(-1, 3) + rig.vertices[rest]
 
 
 def _landmarks(rig: Rig, vertices: np.ndarray) -> np.ndarray:

@@ -8,58 +8,22 @@ is pushed out of the eye's true surface (which makes a straight path follow the 
 is made good, and the upper margin is laid in front of the lower one where they touch.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, Part
-from facegen.rigs.eyes import CORNEA_RADIUS_M, cornea_center_offset
+from facegen.rigs.eyes import cornea_center_offset
 from facegen.rigs.rig import Rig
 
-OVERLAP_M = 0.9e-3
-"""How far the upper margin lies below the lower one in the closed eye, mid-lid; 0 to 2 mm are allowed."""
-THICKNESS_M = (0.35e-3, 2.0e-3)
-"""Lids keep their clearance of the open eye within these: at 0.15 mm a cornea came through large lids."""
-BEHIND_M = 0.3e-3
-"""Linings of the lids that lie inside the eyeball when open stay this deep in it, out of the skin's way."""
-FRONT_M = 0.5e-3
-"""The upper margin's distance in front of the lower one in the closed eye."""
-STEADY_TRAVEL_M = 1.5e-3
-"""Columns whose blink travels less than this take the weight as it is: their ratio would be noise."""
+if TYPE_CHECKING:
+    from facegen.rigs.lid_closing import Lids
+
 CANTHUS_SHARE, COLUMN_SPACING_M = 0.10, 1.0e-3
 """Least distance along x of a column from the canthi, as a share of the eye's width, and from the next."""
 CONTACT_LANDMARKS = ((43, 47), (44, 46), (37, 41), (38, 40))
 """Upper and lower lid landmarks that face each other."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class _Eye:
-    """What one eye's lids need that does not depend on the face. M lid vertices, U columns.
-
-    ``before``, ``after`` (M,) columns on either side of each vertex and ``share`` (M,) of the latter;
-    ``blink`` (M, 3) and ``closing`` (2, M, 3) displacements; ``follow`` (M,) from 1 on the upper margin to 0
-    away from it; ``skin`` (M,) whether a vertex can be seen; ``travel`` (U,) of the blink; ``overlap`` (U,);
-    weights' indices; the margins as positions among the M; ``partner`` (L, U) interpolates the lower margin
-    at the columns; ``flip`` turns x so that it grows from the inner to the outer canthus.
-    """
-
-    vertices: np.ndarray
-    before: np.ndarray
-    after: np.ndarray
-    share: np.ndarray
-    blink: np.ndarray
-    closing: np.ndarray
-    follow: np.ndarray
-    skin: np.ndarray
-    travel: np.ndarray
-    overlap: np.ndarray
-    blink_index: int
-    closing_index: tuple[int, int]
-    upper: np.ndarray
-    lower: np.ndarray
-    partner: np.ndarray
-    flip: float
 
 
 def close_lids(
@@ -73,8 +37,7 @@ def close_lids(
 ) -> None:
     """Close the lids of linearly evaluated faces, in place.
 
-    Every operation is elementwise over vertices, so that the cage's vertices come out the same with and
-    without the rest.
+    Every vertex is moved by itself, so that the cage's vertices come out the same with and without the rest.
 
     Parameters
     ----------
@@ -87,10 +50,19 @@ def close_lids(
     eye_center, eye_radius, gaze
         (n, 2, 3), (n, 2) and (n, 2, 3) unit optical axes.
     """
-    for side, eye in enumerate(_eyes(rig, vertices.shape[1] == rig.cage_vertices)):
-        lid = vertices[:, eye.vertices] - eye_center[:, None, side]
-        lid = _closed(eye, lid, weights, eye_radius[:, side], gaze[:, side])
-        vertices[:, eye.vertices] = lid + eye_center[:, None, side]
+    from facegen.rigs.lid_closing import close_eye  # imports Numba
+
+    cornea_offset = cornea_center_offset(eye_radius)
+    for side, lids in enumerate(_lids(rig, vertices.shape[1] == rig.cage_vertices)):
+        close_eye(
+            lids,
+            vertices,
+            np.ascontiguousarray(weights),
+            np.ascontiguousarray(eye_center[:, side]),
+            np.ascontiguousarray(eye_radius[:, side]),
+            np.ascontiguousarray(cornea_offset[:, side]),
+            np.ascontiguousarray(gaze[:, side]),
+        )
 
 
 def clamp_contact(landmarks: np.ndarray) -> None:
@@ -99,103 +71,14 @@ def clamp_contact(landmarks: np.ndarray) -> None:
         landmarks[:, upper, 1] = np.maximum(landmarks[:, upper, 1], landmarks[:, lower, 1])
 
 
-def _closed(
-    eye: _Eye, lid: np.ndarray, weights: np.ndarray, radius: np.ndarray, gaze: np.ndarray
-) -> np.ndarray:
-    blink = weights[:, eye.blink_index, None, None]
-    down, squint = (weights[:, index, None, None] for index in eye.closing_index)
-    without_blink = lid - blink * eye.blink
-    opened = without_blink - down * eye.closing[0] - squint * eye.closing[1]
-    thickness = _length(opened) - radius[:, None]
-
-    blink = blink[..., 0]
-    gap_without = _gap(eye, without_blink)
-    goal = gap_without - blink * (np.maximum(_gap(eye, opened), 0.0) + eye.overlap)
-    goal = np.maximum(goal, -eye.overlap)
-    travel = gap_without - goal
-    steady = STEADY_TRAVEL_M**2
-    scale = (travel * eye.travel + blink * steady) / (np.square(eye.travel) + steady)
-    lid = without_blink + _along(eye, scale)[..., None] * eye.blink
-    lid = _rest_on_eye(eye, lid, thickness, radius, gaze)
-    for _ in range(2):
-        lid[..., 1] += eye.follow * _along(eye, goal - _gap(eye, lid))
-        lid = _lay_in_front(eye, lid)
-    return _rest_on_eye(eye, lid, np.minimum(thickness, THICKNESS_M[0]), radius, gaze)
-
-
-def _length(v: np.ndarray) -> np.ndarray:
-    return np.sqrt(v[..., 0] * v[..., 0] + v[..., 1] * v[..., 1] + v[..., 2] * v[..., 2])
-
-
-def _along(eye: _Eye, columns: np.ndarray) -> np.ndarray:
-    """Values (n, M) at the lid vertices of values (n, U) at the columns."""
-    return columns[:, eye.before] * (1.0 - eye.share) + columns[:, eye.after] * eye.share
-
-
-def _lower_at_columns(eye: _Eye, lid: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Values (n, L) along the lower margin, interpolated at the x of the upper margin's vertices: (n, U)."""
-    upper, lower = eye.flip * lid[:, eye.upper, 0], eye.flip * lid[:, eye.lower, 0]
-    after = np.clip((upper[:, :, None] >= lower[:, None, :]).sum(axis=-1), 1, lower.shape[1] - 1)
-    x0, x1 = np.take_along_axis(lower, after - 1, 1), np.take_along_axis(lower, after, 1)
-    v0, v1 = np.take_along_axis(values, after - 1, 1), np.take_along_axis(values, after, 1)
-    share = np.clip((upper - x0) / np.maximum(x1 - x0, 1e-6), 0.0, 1.0)
-    return v0 + share * (v1 - v0)
-
-
-def _gap(eye: _Eye, lid: np.ndarray) -> np.ndarray:
-    """Height (n, U) of the upper margin over the lower one in each column."""
-    return lid[:, eye.upper, 1] - _lower_at_columns(eye, lid, lid[:, eye.lower, 1])
-
-
-def _rest_on_eye(
-    eye: _Eye, lid: np.ndarray, thickness: np.ndarray, radius: np.ndarray, gaze: np.ndarray
-) -> np.ndarray:
-    """Push skin out of the eye's surface, and linings that lie in it back in, along rays from the centre."""
-    length = _length(lid)
-    support = _support(lid, length, radius, gaze)
-    skin = np.maximum(length, support + np.clip(thickness, *THICKNESS_M))
-    lining = np.minimum(length, support + np.maximum(thickness, -BEHIND_M))
-    wanted = np.where(eye.skin, skin, lining)
-    return lid * (wanted / length)[..., None]
-
-
-def _support(lid: np.ndarray, length: np.ndarray, radius: np.ndarray, gaze: np.ndarray) -> np.ndarray:
-    """`facegen.rigs.eyes.lid_support_radius`, written out so that every element is computed alone."""
-    along = lid[..., 0] * gaze[:, None, 0] + lid[..., 1] * gaze[:, None, 1] + lid[..., 2] * gaze[:, None, 2]
-    cosine = along / length
-    offset = cornea_center_offset(radius)[:, None]
-    root = CORNEA_RADIUS_M**2 - offset * offset * (1.0 - cosine * cosine)
-    cornea = cosine * offset + np.sqrt(np.maximum(root, 0.0))
-    return np.where(root > 0.0, np.maximum(radius[:, None], cornea), radius[:, None])
-
-
-def _lay_in_front(eye: _Eye, lid: np.ndarray) -> np.ndarray:
-    """Bring the upper margin to `FRONT_M` before the lower one where they touch, from behind or afar."""
-    length = _length(lid)
-    # the lower margin where it faces the column in the open eye: at the inner canthus it is steep, and a
-    # partner found anew after each move would run away from the column
-    below = np.zeros((len(lid), len(eye.upper)))
-    for vertex, share in zip(eye.lower, eye.partner, strict=True):
-        below += length[:, vertex, None] * share  # not a matrix product, whose bits depend on its shape
-    nearness = np.clip(
-        (0.5e-3 - _gap(eye, lid)) / 1e-3, 0.0, 1.0
-    )  # from nothing at 0.5 mm apart to all at contact
-    outwards = (
-        (below + FRONT_M * eye.overlap / OVERLAP_M - length[:, eye.upper])
-        * nearness
-        * nearness
-        * (3.0 - 2.0 * nearness)
-    )
-    wanted = length + eye.follow * _along(eye, outwards)
-    return lid * (wanted / length)[..., None]
-
-
 @lru_cache(maxsize=8)
-def _eyes(rig: Rig, cage_only: bool) -> tuple[_Eye, _Eye]:
+def _lids(rig: Rig, cage_only: bool) -> tuple["Lids", "Lids"]:
     return _prepared(rig, 0, "Left", 1.0, cage_only), _prepared(rig, 1, "Right", -1.0, cage_only)
 
 
-def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> _Eye:
+def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> "Lids":
+    from facegen.rigs.lid_closing import OVERLAP_M, Lids, measure_gap
+
     vertices = rig.lid_vertices[side]
     vertices = vertices[vertices >= 0]
     if cage_only:
@@ -211,19 +94,19 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> _
     descent = np.maximum(-blink[:, 1], 0.0)
     margin = descent[upper][after - 1] * (1.0 - share) + descent[upper][after] * share
     middle = (x[upper] - x[lower[0]]) / (x[lower[-1]] - x[lower[0]])
-    eye = _Eye(
+    lids = Lids(
         vertices=vertices,
         before=after - 1,
         after=after,
         share=share,
         blink=blink,
-        closing=rig.expression[[shapes["LookDown"], shapes["Squint"]]][:, vertices],
+        closing=np.ascontiguousarray(rig.expression[[shapes["LookDown"], shapes["Squint"]]][:, vertices]),
         follow=np.clip(descent / np.maximum(margin, 1e-3), 0.0, 1.0),
         skin=np.isin(vertices, rig.faces[np.isin(rig.part, (Part.SKIN, Part.BROWS, Part.LASHES, Part.LIPS))]),
         travel=np.zeros(len(upper)),
         overlap=OVERLAP_M * np.clip(12.0 * middle * (1.0 - middle), 0.0, 1.0),
         blink_index=shapes["Blink"],
-        closing_index=(shapes["LookDown"], shapes["Squint"]),
+        closing_index=np.array([shapes["LookDown"], shapes["Squint"]]),
         upper=upper,
         lower=lower,
         partner=np.array(
@@ -231,9 +114,12 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> _
         ),
         flip=flip,
     )
-    mean_lid = (rig.vertices[vertices] - rig.eye_center[side])[None]
-    eye.travel[:] = (_gap(eye, mean_lid) - _gap(eye, mean_lid + 0.7 * blink))[0] / 0.7
-    return eye
+    mean_lid = rig.vertices[vertices] - rig.eye_center[side]
+    blinking = np.empty(len(upper))
+    measure_gap(lids, mean_lid, lids.travel)
+    measure_gap(lids, mean_lid + 0.7 * blink, blinking)
+    lids.travel[:] = (lids.travel - blinking) / 0.7
+    return lids
 
 
 def _columns(margin: np.ndarray, x: np.ndarray) -> np.ndarray:
