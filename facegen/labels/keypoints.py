@@ -1,6 +1,6 @@
 """Labels that every sample has, rendered or not: 68 landmarks before the keypoint camera."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -14,6 +14,10 @@ from facegen.spec import Spec
 KEYPOINT_TOLERANCE_M = 2e-3
 """A cage face must be this much nearer to hide a landmark. The cage cuts up to 1 mm off the smooth surface between its
 vertices (measured on the default rig), and lips and lids that touch lie within another millimetre."""
+
+AT_ONCE = 100
+"""Faces evaluated and labelled together: 8 MB of cages (default rig), which stay near the processor. 1,000 took a third
+longer and ten times the memory; it is one chunk of `facegen.rigs.evaluate`."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -53,7 +57,11 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFace
     ``faces`` are the samples' faces where they have been evaluated already; their cage is enough.
     """
     if faces is None:
-        faces = evaluate(rig, samples.identity, samples.weights, samples.gaze, cage_only=True)
+        starts = range(0, max(len(samples.sample), 1), AT_ONCE)
+        parts = [_label_some(spec, rig, samples.rows(slice(start, start + AT_ONCE))) for start in starts]
+        return Keypoints(
+            **{f.name: np.concatenate([getattr(p, f.name) for p in parts]) for f in fields(Keypoints)}
+        )
     in_camera = apply_transform(samples.camera_from_head, faces.landmarks)
     points_2d = project_pinhole(in_camera, samples.intrinsics)
     first, last = FACE_WIDTH_LANDMARKS
@@ -75,3 +83,8 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFace
         visibility=np.where(inside, visibility, Visibility.OUTSIDE).astype(np.uint8),
         face_width=face_width,
     )
+
+
+def _label_some(spec: Spec, rig: Rig, samples: Samples) -> Keypoints:
+    faces = evaluate(rig, samples.identity, samples.weights, samples.gaze, cage_only=True)
+    return label_keypoints(spec, rig, samples, faces)

@@ -80,8 +80,8 @@ def _nearest_depth(
 ) -> np.ndarray:
     from facegen.raster.ray_casting import cast_rays  # imports Numba
 
-    if faces.shape[1] == 3:
-        faces = np.pad(faces, ((0, 0), (0, 1)), constant_values=-1)
+    last = faces[:, -1:]
+    corners = np.concatenate([faces[:, :3], np.where(last >= 0, last, faces[:, 2:3])], axis=1)
     z = rays_camera[..., 2:]
     rays = rays_camera[..., :2] / np.where(z > 0, z, np.nan)
     inverse_depth = np.empty(rays.shape[:2])
@@ -90,7 +90,7 @@ def _nearest_depth(
         np.ascontiguousarray(rays, np.float64),
         np.ascontiguousarray(vertices, np.float64),
         np.ascontiguousarray(camera_from_mesh, np.float64),
-        np.ascontiguousarray(faces, np.int32),
+        np.ascontiguousarray(corners, np.uint32),
         inverse_depth,
     )
     return np.divide(1.0, inverse_depth, out=np.full(inverse_depth.shape, np.inf), where=inverse_depth > 0)

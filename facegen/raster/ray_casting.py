@@ -34,36 +34,56 @@ def cast_rays(
     transforms
         (n, 4, 4) from the meshes' frame to the cameras'.
     faces
-        (F, 4) quads, cut along their first diagonal, and triangles, padded with -1. Both sides count; triangles with a
-        vertex at z <= 0 do not.
+        (F, 4) uint32 quads, cut along their first diagonal; triangles repeat their last corner. Both sides count,
+        triangles with a vertex at z <= 0 do not.
     inverse_depth
         (n, p) the result.
     """
-    projected, cells = np.empty((vertices.shape[1], 3)), np.empty((vertices.shape[1], 2), np.int32)
+    projected, cells = np.empty((vertices.shape[1], 3)), np.empty((vertices.shape[1], 2), np.uint32)
     order, where = np.empty(rays.shape[1], np.int64), np.empty((rays.shape[1], 2))
     begin, above = np.empty(SIDE * SIDE + 1, np.int32), np.zeros((SIDE + 1, SIDE + 1), np.int32)
+    near = np.empty(len(faces), np.uint32)
     for mesh in range(len(rays)):
         inverse_depth[mesh] = 0.0
         box = _box(rays[mesh])
         _sort(rays[mesh], box, begin, order, where)
         _add_up(begin, above)
         _project(vertices[mesh], transforms[mesh], box, projected, cells)
-        for face in range(len(faces)):
-            a, b, c, d = faces[face, 0], faces[face, 1], faces[face, 2], faces[face, 3]
-            e = d if d >= 0 else c
-            left = min(min(cells[a, 0], cells[b, 0]), min(cells[c, 0], cells[e, 0]))
-            right = max(max(cells[a, 0], cells[b, 0]), max(cells[c, 0], cells[e, 0])) + 1
-            top = min(min(cells[a, 1], cells[b, 1]), min(cells[c, 1], cells[e, 1]))
-            bottom = max(max(cells[a, 1], cells[b, 1]), max(cells[c, 1], cells[e, 1])) + 1
-            if above[bottom, right] - above[bottom, left] == above[top, right] - above[top, left]:
-                continue
+        for k in range(_faces_near_rays(faces, cells, above, near)):
+            a, b, c, d = faces[near[k], 0], faces[near[k], 1], faces[near[k], 2], faces[near[k], 3]
+            left, right, top, bottom = _cells_under(cells, a, b, c, d)
             for row in range(top, bottom):
                 for place in range(begin[row * SIDE + left], begin[row * SIDE + right]):
                     x, y = where[place, 0], where[place, 1]
-                    found = _inverse_depth_in(projected[a], projected[b], projected[c], x, y)
-                    if d >= 0:
-                        found = max(found, _inverse_depth_in(projected[a], projected[c], projected[d], x, y))
+                    found = max(
+                        _inverse_depth_in(projected[a], projected[b], projected[c], x, y),
+                        _inverse_depth_in(projected[a], projected[c], projected[d], x, y),
+                    )
                     inverse_depth[mesh, order[place]] = max(inverse_depth[mesh, order[place]], found)
+
+
+@compiled
+def _cells_under(cells: np.ndarray, a: int, b: int, c: int, d: int) -> tuple[int, int, int, int]:
+    """First column, last column + 1, first row and last row + 1 of the cells under four vertices."""
+    return (
+        min(min(cells[a, 0], cells[b, 0]), min(cells[c, 0], cells[d, 0])),
+        max(max(cells[a, 0], cells[b, 0]), max(cells[c, 0], cells[d, 0])) + 1,
+        min(min(cells[a, 1], cells[b, 1]), min(cells[c, 1], cells[d, 1])),
+        max(max(cells[a, 1], cells[b, 1]), max(cells[c, 1], cells[d, 1])) + 1,
+    )
+
+
+@compiled
+def _faces_near_rays(faces: np.ndarray, cells: np.ndarray, above: np.ndarray, near: np.ndarray) -> int:
+    """Write which faces have rays in the cells under them, and return how many; without a branch that guesses wrong."""
+    count = 0
+    for face in range(len(faces)):
+        left, right, top, bottom = _cells_under(
+            cells, faces[face, 0], faces[face, 1], faces[face, 2], faces[face, 3]
+        )
+        near[count] = face
+        count += above[bottom, right] - above[bottom, left] != above[top, right] - above[top, left]
+    return count
 
 
 @compiled
@@ -144,8 +164,8 @@ def _project(
         x = ((xx * a + xy * b + xz * c + xt) * inverse - low_x) * scale_x
         y = ((yx * a + yy * b + yz * c + yt) * inverse - low_y) * scale_y
         projected[k, 0], projected[k, 1], projected[k, 2] = x, y, inverse
-        cells[k, 0] = np.int32(min(max(x + 1.0, 0.0), CELLS + 1.0))
-        cells[k, 1] = np.int32(min(max(y + 1.0, 0.0), CELLS + 1.0))
+        cells[k, 0] = np.uint32(min(max(x + 1.0, 0.0), CELLS + 1.0))
+        cells[k, 1] = np.uint32(min(max(y + 1.0, 0.0), CELLS + 1.0))
 
 
 @compiled
