@@ -45,10 +45,6 @@ def import_bpy() -> ModuleType:
         import bpy
     except ImportError as error:
         raise MissingAsset(missing_library_sentence(error)) from error
-    # Blender makes an empty folder in the system's temporary one and removes it at its own shutdown, which a killed
-    # process never reaches: a farm would collect one for every child. Nothing that is used here needs it
-    with contextlib.suppress(OSError):
-        os.rmdir(bpy.app.tempdir)
     return bpy
 
 

@@ -1,5 +1,6 @@
 """The child process of one worker: takes tasks from its supervisor's pipe, makes them, says how it went."""
 
+import contextlib
 import ctypes
 import errno
 import os
@@ -8,12 +9,14 @@ import sys
 import tempfile
 import time
 import traceback
+from collections.abc import Iterator
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Literal, Protocol
 
 from facegen.errors import FacegenError, OutputError
+from facegen.store import DatasetFolder, open_dataset, staging
 from facegen.work.tasks import Task
 
 _PR_SET_PDEATHSIG = 1
@@ -94,10 +97,11 @@ def serve(pipe: Connection, out: str, log: str, threads: int, parent: int) -> No
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     _redirect_output(Path(log))
-    from facegen.store import open_dataset
     from facegen.work.worker import Worker
 
-    serve_with(Worker(open_dataset(out), threads=threads), pipe, Path(out), Path(log))
+    with _own_temporary_folder(DatasetFolder(Path(out))):
+        serve_with(Worker(open_dataset(out), threads=threads), pipe, Path(out), Path(log))
+    os._exit(0)  # Blender's own shutdown prints a traceback about a removed engine
 
 
 def serve_with(maker: Maker, pipe: Connection, out: Path, log: Path) -> None:
@@ -109,7 +113,23 @@ def serve_with(maker: Maker, pipe: Connection, out: Path, log: Path) -> None:
             _redirect_output(log)
     except (EOFError, BrokenPipeError, OSError):
         pass  # the supervisor is gone, or the disk full, which it has been told
-    os._exit(0)  # Blender's own shutdown prints a traceback about a removed engine
+
+
+@contextlib.contextmanager
+def _own_temporary_folder(folder: DatasetFolder) -> Iterator[None]:
+    """Let this process's temporary files lie where they are swept up if it is killed.
+
+    Blender makes a folder as soon as it starts and removes it at its own shutdown, which a killed process never
+    reaches: the nodes of a farm would collect one for every child.
+    """
+    with contextlib.ExitStack() as stack:
+        try:
+            tempfile.tempdir = str(stack.enter_context(staging(folder, "temporary")))
+        except OutputError:
+            pass  # no room even for a folder: the first task will meet that too, and say so
+        else:
+            os.environ["TMPDIR"] = tempfile.tempdir
+        yield
 
 
 def _attempt(maker: Maker, assignment: Assignment, pipe: Connection, out: Path) -> Report:
@@ -140,17 +160,16 @@ def _attempt(maker: Maker, assignment: Assignment, pipe: Connection, out: Path) 
 def place_at_fault(error: BaseException, out: Path) -> str | None:
     """Why the place is to blame for an error and not the sample; None where it is not.
 
-    Libraries in C++ report a full disk as an error of their own kind, so the disks themselves are asked too.
+    Libraries in C++ report a full disk as an error of their own kind, so the disk itself is asked too.
     """
     cause: BaseException | None = error
     while cause is not None:
         if isinstance(cause, OSError) and cause.errno in _PLACE_ERRORS:
             return f"{cause.filename or out}: {os.strerror(cause.errno)}"
         cause = cause.__cause__ or cause.__context__
-    for folder in (out, Path(tempfile.gettempdir())):
-        state = os.statvfs(folder)
-        if state.f_bavail * state.f_frsize < _NO_ROOM_BYTES:
-            return f"{folder}: no space left; free some and run the same command again"
+    state = os.statvfs(out)
+    if state.f_bavail * state.f_frsize < _NO_ROOM_BYTES:
+        return f"{out}: no space left; free some and run the same command again"
     return None
 
 

@@ -61,14 +61,3 @@ if __name__ == "__main__":
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     result = subprocess.run([sys.executable, tmp_path / "parent.py"], cwd=ROOT, env=environment)
     assert result.returncode == 0
-
-
-@pytest.mark.blender
-def test_a_killed_process_leaves_nothing_in_the_temporary_folder(tmp_path):
-    program = (
-        "import os; from facegen.blender.runtime import compile_lens; compile_lens(); os.kill(os.getpid(), 9)"
-    )
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "TMPDIR": str(tmp_path)}
-    result = subprocess.run([sys.executable, "-c", program], cwd=ROOT, env=environment)
-    assert result.returncode == -9
-    assert list(tmp_path.iterdir()) == []
