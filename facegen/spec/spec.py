@@ -97,20 +97,20 @@ class Expression:
     """Correlation of the strengths of left and right; 1 gives symmetric faces but for ``one_sided``."""
     subtle: Share = 0.3
     """Share of faces that are scaled down, log-uniformly to between 2 and 100 %."""
-    resting: Share = 0.3
+    resting: Share = 0.2
     """Largest weight that a shape has at rest, in components that show living faces (not in single, sparse, dense,
     extreme and divergent)."""
     mixture: Mixture = Mixture(
-        rest=0.05,
-        single=0.12,
+        rest=0.04,
+        single=0.10,
         emotion=0.10,
-        speech=0.28,
-        movement=0.16,
+        speech=0.30,
+        movement=0.30,
         one_sided=0.05,
-        sparse=0.12,
-        dense=0.05,
-        extreme=0.05,
-        divergent=0.02,
+        sparse=0.05,
+        dense=0.02,
+        extreme=0.03,
+        divergent=0.01,
     )
 
 
@@ -118,9 +118,9 @@ class Expression:
 class Gaze:
     """Where both eyes look; they look at one point, ``distance_m`` away."""
 
-    yaw_deg: quantity(-35, 35, "degrees") = _default({"normal": [0, 10], "within": [-30, 30]})
+    yaw_deg: quantity(-35, 35, "degrees") = _default({"normal": [0, 12], "within": [-30, 30]})
     """To the subject's left."""
-    pitch_deg: quantity(-30, 30, "degrees") = _default({"normal": [0, 8], "within": [-25, 25]})
+    pitch_deg: quantity(-30, 30, "degrees") = _default({"normal": [-3, 11], "within": [-25, 25]})
     """Upwards."""
     distance_m: quantity(0.1, 100, "metres") = _default({"uniform": [0.3, 3.0]})
     """Distance of the point that is looked at; near ones turn the eyes inwards."""

@@ -95,7 +95,7 @@ def test_restraining_once_is_enough_and_only_lowers(weights):
 def test_every_shape_covers_its_range(faces):
     for index, name in enumerate(BLENDSHAPES):
         counts, _ = np.histogram(faces.weights[:, index], 20, (0, 1))
-        assert (counts >= 50).all(), name
+        assert (counts >= 30).all(), name  # of 100,000
         assert faces.weights[:, index].max() > 0.98, name
 
 
@@ -115,7 +115,7 @@ def miss(axes: np.ndarray) -> np.ndarray:
 
 def test_both_eyes_look_at_one_point_outside_the_component_named_for_the_opposite(faces):
     apart = is_from(faces, "divergent")
-    assert 0.01 < apart.mean() < 0.03
+    assert 0.005 < apart.mean() < 0.02
     assert miss(faces.gaze[~apart]).max() < 1e-9
     x = faces.gaze[..., 0] / faces.gaze[..., 2]
     assert (x[~apart, 0] < x[~apart, 1]).all()  # in front of the face
