@@ -1,6 +1,7 @@
 """Who the people are: traits that the rig knows, and the coefficients of its identity basis."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.special import ndtr, ndtri
@@ -75,8 +76,16 @@ def people_of(spec: Spec, rig: Rig, person: np.ndarray) -> People:
 
 def split_of(spec: Spec, person: np.ndarray) -> np.ndarray:
     """Index into `facegen.conventions.SPLITS` of people (n,): a random partition of all people by the spec's shares."""
-    order = stream(spec.seed, "split", 0).permutation(spec.people)
-    edges = np.round(np.cumsum(spec.split_shares) * spec.people).astype(int)
-    split = np.empty(spec.people, np.int8)
-    split[order] = np.minimum(np.searchsorted(edges, np.arange(spec.people), side="right"), len(SPLITS) - 1)
-    return split[np.minimum(person, spec.people - 1)]
+    everyone = _split_of_everyone(spec.seed, spec.people, tuple(spec.split_shares))
+    return everyone[np.minimum(person, spec.people - 1)]
+
+
+@lru_cache(maxsize=2)
+def _split_of_everyone(seed: int, people: int, shares: tuple[float, ...]) -> np.ndarray:
+    """(people,) int8; kept, because every block asks and a million people take 25 ms."""
+    order = stream(seed, "split", 0).permutation(people)
+    edges = np.round(np.cumsum(shares) * people).astype(int)
+    split = np.empty(people, np.int8)
+    split[order] = np.minimum(np.searchsorted(edges, np.arange(people), side="right"), len(SPLITS) - 1)
+    split.flags.writeable = False
+    return split
