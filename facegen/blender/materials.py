@@ -13,8 +13,8 @@ from facegen.conventions import Part
 from facegen.scene.materials import MATERIALS
 
 EYE_INDEX = MATERIALS["cornea"]["index"]
-CLUMP = 3.5
-"""Lashes to a clump."""
+CREASE_DEPTH_M, CREASE_SHADE = 0.5e-3, 0.4
+"""Of a lid crease of strength 1: depth, and the share of light that its ground lacks."""
 UV_METRES = 0.9
 """Length on the face of one unit of the head's texture coordinates, about (0.43 mm a pixel at 2,048)."""
 
@@ -55,26 +55,34 @@ def _face_place(graph: Graph) -> Socket:
 
 
 def _skin(graph: Graph, subsurface: bool) -> Socket:
-    p, place = graph.parameters, _face_place(graph)
+    p, place, math = graph.parameters, _face_place(graph), graph.math
     albedo = _mottled(graph, place, p["albedo"], 12e-3, 2.5e-3, 0.8e-3)
     # fine wrinkles; cellular pores as well would cost a third of the render and are below a pixel
-    height = graph.noise(place, 1.0 / 1.0e-3, detail=1.0)
-    normal = graph.node("Bump", Strength=1.0, Distance=p["bump_m"], Height=height)
+    height = math("MULTIPLY", graph.noise(place, 1.0 / 1.0e-3, detail=1.0), p["bump_m"])
+    crease = _crease(graph, place)
+    height = math("MULTIPLY_ADD", crease, -CREASE_DEPTH_M, height)
+    # in its ground little light arrives, and scattering would fill a mere change of normals with light again
+    albedo = math("MULTIPLY", albedo, math("MULTIPLY_ADD", crease, -CREASE_SHADE, 1.0))
+    normal = graph.node("Bump", Strength=1.0, Distance=1.0, Height=height)
     return _surface(graph, albedo, subsurface=subsurface, normal=normal, Specular_IOR_Level=p["specular"])
 
 
-def _brows(graph: Graph, subsurface: bool) -> Socket:
-    """Skin under hairs along the brow: noise stretched tenfold, which hides the faces' jagged border."""
-    p = graph.parameters
-    stretched = graph.node(
-        "VectorMath", _face_place(graph), (3.0e3, 0.4e3, 0.0), settings={"operation": "MULTIPLY"}
+def _crease(graph: Graph, place: Socket) -> Socket:
+    """Depth of the lid's crease, 0 to ``crease``: a soft groove that wanders a little, with a faint second one."""
+    p, math = graph.parameters, graph.math
+    distance, share = (
+        graph.node("Attribute", output="Fac", settings={"attribute_name": name})
+        for name in ("crease_distance_m", "crease_share")
     )
-    hairs = graph.node("TexNoise", Vector=stretched, Scale=1.0, Detail=1.0)
-    dark = graph.node(
-        "MapRange", hairs, 0.5, 0.6, 0.0, p["hair"], settings={"interpolation_type": "SMOOTHSTEP"}
-    )
-    albedo = graph.math("MULTIPLY", p["albedo"], graph.math("SUBTRACT", 1.0, dark))
-    return _surface(graph, albedo, subsurface=subsurface, Specular_IOR_Level=p["specular"])
+    wander = math("MULTIPLY_ADD", graph.noise(place, 1.0 / 9.0e-3, detail=1.0), 0.6e-3, distance)
+
+    def groove(at: Socket, width_m: float) -> Socket:
+        off = math("DIVIDE", math("SUBTRACT", wander, at), width_m)
+        return math("EXPONENT", math("MULTIPLY", math("MULTIPLY", off, off), -1.0))
+
+    second = math("MULTIPLY", groove(math("ADD", p["crease_m"], 1.9e-3), 0.5e-3), 0.35)
+    both = math("ADD", groove(p["crease_m"], 0.55e-3), second)
+    return math("MULTIPLY", math("MULTIPLY", both, share), p["crease"])
 
 
 def _plain(graph: Graph, subsurface: bool) -> Socket:
@@ -88,8 +96,13 @@ def _sclera(graph: Graph, subsurface: bool) -> Socket:
     # vessels run along the meridians: stretch the noise along v; u wraps through the cosine and sine of its
     # angle
     albedo = _mottled(graph, _around(graph, u, 9.0, graph.math("MULTIPLY", v, 4.0)), p["albedo"], 1.0)
+    # vessels: where smooth noise crosses zero, thin lines that wander from the corners to the limbus
+    wandering = _around(graph, u, 7.0, graph.math("MULTIPLY", v, 9.0))
+    line = graph.math("ABSOLUTE", graph.noise(wandering, 1.0, detail=2.0))
+    vessel = graph.node("MapRange", line, 0.0, 0.1, p["vessels"], 0.0)
+    albedo = graph.math("MULTIPLY", albedo, graph.math("SUBTRACT", 1.0, vessel))
     edge = graph.node(
-        "MapRange", v, 0.95, 1.0, 0.0, p["limbus"], settings={"interpolation_type": "SMOOTHSTEP"}
+        "MapRange", v, 0.94, 1.0, 0.0, p["limbus"], settings={"interpolation_type": "SMOOTHSTEP"}
     )
     albedo = graph.math("MULTIPLY", albedo, graph.math("SUBTRACT", 1.0, edge))
     # no gloss: the tear film's images of lamps are added afterwards (`facegen.labels.glints`)
@@ -141,37 +154,6 @@ def _cornea(graph: Graph, subsurface: bool) -> Socket:
     return graph.mix(straight, refraction, graph.node("BsdfTransparent", (0.95, 0.95, 0.95, 1.0)))
 
 
-def _lash_mask(graph: Graph) -> Socket:
-    """1 on a strand and 0 between, on strips whose u runs along the lid and v from root (0) to tip (1).
-
-    Strands stand in clumps of three or four that close towards their tips, and have lengths of their own.
-    """
-    p, math = graph.parameters, graph.math
-    uv = graph.node("UVMap", settings={"uv_map": "uv"})
-    u, v = (graph.node("SeparateXYZ", uv, output=axis) for axis in ("X", "Y"))
-    spread = graph.node("TexNoise", settings={"noise_dimensions": "1D"}, W=u, Scale=7.0)
-    place = math("MULTIPLY_ADD", u, p["strands"], math("MULTIPLY", spread, 6.0))
-    middle = math("MULTIPLY_ADD", math("FLOOR", math("DIVIDE", place, CLUMP)), CLUMP, CLUMP / 2)
-    # where on the lid the strand through this point has its root
-    closing = math("SUBTRACT", 1.0, math("MULTIPLY", v, 0.65))
-    from_middle = math("DIVIDE", math("SUBTRACT", place, middle), closing)
-    root = math("ADD", middle, from_middle)
-    strand = math("FLOOR", root)
-    chance = graph.node("TexWhiteNoise", settings={"noise_dimensions": "1D"}, W=strand)
-    length = math("MULTIPLY", p["length"], math("MULTIPLY_ADD", chance, 0.5, 0.5))
-    thickness = math(
-        "MULTIPLY", math("SUBTRACT", 1.0, math("DIVIDE", v, length)), math("MULTIPLY", p["cover"], 0.5)
-    )
-    aside = math("ABSOLUTE", math("SUBTRACT", math("SUBTRACT", root, strand), 0.5))
-    in_clump = math("LESS_THAN", math("ABSOLUTE", from_middle), CLUMP / 2)
-    return math("MULTIPLY", math("LESS_THAN", aside, thickness), in_clump)
-
-
-def _lashes(graph: Graph, subsurface: bool) -> Socket:
-    hair = graph.node("BsdfDiffuse", graph.parameters["albedo"])
-    return graph.mix(_lash_mask(graph), graph.node("BsdfTransparent"), hair)
-
-
 def _emitter(graph: Graph, subsurface: bool) -> Socket:
     """Shines evenly: markers of tests and calibration targets."""
     return graph.node("Emission", None, graph.parameters["radiance"])
@@ -180,9 +162,9 @@ def _emitter(graph: Graph, subsurface: bool) -> Socket:
 SHADERS: dict[str, Callable[[Graph, bool], Socket]] = {
     "skin": _skin,
     "lips": _skin,
-    "brows": _brows,
     "cavity": _plain,
     "conjunctiva": _plain,
+    "caruncle": _plain,
     "sclera": _sclera,
     "iris": _iris,
     "pupil": _matte,
@@ -190,7 +172,8 @@ SHADERS: dict[str, Callable[[Graph, bool], Socket]] = {
     "teeth": _plain,
     "gums": _plain,
     "tongue": _plain,
-    "lashes": _lashes,
+    "lashes": _matte,
+    "hair": _matte,
     "emitter": _emitter,
 }
 """Shader of every material in `facegen.scene.materials.MATERIALS`."""
@@ -206,16 +189,13 @@ def build_truth_material() -> bpy.types.Material:
     """The one material of truth passes: emits (part, u, v) as a colour, and lets rays through where eyes do.
 
     Parts come from a face attribute, so they are exact integers; Cycles traces the refraction, so they are
-    what appears. Its parameters are those of the lashes, whose strands it must know.
+    what appears.
     """
-    graph = Graph("truth", MATERIALS["lashes"])
+    graph = Graph("truth", {})
     part = graph.node("Attribute", output="Fac", settings={"attribute_name": "part"})
     uv = graph.node("UVMap", settings={"uv_map": "uv"})
     u, v = (graph.node("SeparateXYZ", uv, output=axis) for axis in ("X", "Y"))
     label = graph.node("Emission", graph.node("CombineXYZ", part, u, v), 1.0)
     refraction = graph.node("BsdfRefraction", IOR=EYE_INDEX, Roughness=0.0)
     is_cornea = graph.math("COMPARE", part, float(Part.CORNEA), 0.1)
-    is_lash = graph.math("COMPARE", part, float(Part.LASHES), 0.1)
-    between_lashes = graph.math("MULTIPLY", is_lash, graph.math("SUBTRACT", 1.0, _lash_mask(graph)))
-    seen = graph.mix(is_cornea, label, refraction)
-    return graph.finish(graph.mix(between_lashes, seen, graph.node("BsdfTransparent")))
+    return graph.finish(graph.mix(is_cornea, label, refraction))

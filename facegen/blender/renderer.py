@@ -149,7 +149,6 @@ class Renderer:
                 set_parameters(self._materials[name], material_values(name, scene.materials.get(name, {})))
         for name in scene.materials:
             material_values(name, scene.materials[name])
-        set_parameters(self._truth, material_values("lashes", scene.materials.get("lashes", {})))
         for mesh in scene.meshes:
             self._place_mesh(mesh, scene)
         for lamp in scene.lamps:
@@ -268,7 +267,7 @@ def _lens_parameters(camera: Camera) -> dict[str, float | int]:
 
 
 def _new_mesh(mesh: Mesh, materials: list[bpy.types.Material]) -> bpy.types.Mesh:
-    """Blender's mesh with smooth normals, a texture map ``uv`` and a face attribute ``part``."""
+    """Blender's mesh with smooth normals, a texture map ``uv``, a face attribute ``part`` and the mesh's fields."""
     data = bpy.data.meshes.new(mesh.name)
     corners = mesh.faces >= 0
     sizes = corners.sum(axis=1)
@@ -286,6 +285,8 @@ def _new_mesh(mesh: Mesh, materials: list[bpy.types.Material]) -> bpy.types.Mesh
         data.uv_layers.new(name="uv").data.foreach_set("uv", mesh.uv[corners].astype(np.float32).ravel())
     part = data.attributes.new("part", "FLOAT", "FACE")
     part.data.foreach_set("value", mesh.part.astype(np.float32))
+    for name, values in mesh.fields.items():
+        data.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
     data.update(calc_edges=True)
     return data
 

@@ -1,7 +1,7 @@
 """Rigid motions, camera models and small solids: pure functions on arrays, float64."""
 
 from facegen.geometry.cameras import Camera, pixel_rays, project, unproject
-from facegen.geometry.mirrors import Reflection, reflect_in_sphere
+from facegen.geometry.mirrors import Reflection, fresnel, reflect_in_sphere, reflect_in_thread
 from facegen.geometry.rotations import (
     angles_from_direction,
     apply_transform,
@@ -18,11 +18,13 @@ __all__ = [
     "angles_from_direction",
     "apply_transform",
     "direction_from_angles",
+    "fresnel",
     "invert_transform",
     "look_at",
     "pixel_rays",
     "project",
     "reflect_in_sphere",
+    "reflect_in_thread",
     "rotation_from_angles",
     "transform",
     "unproject",

@@ -1,4 +1,4 @@
-"""Reflection in a convex spherical mirror: where a source is seen, how bright, and how large.
+"""Reflection in convex mirrors, spheres and threads: where a source is seen, how bright, and how large.
 
 References
 ----------
@@ -15,6 +15,9 @@ import numpy as np
 
 _STEPS = 40
 """Each either halves the bracket or is a Newton step, which doubles the correct digits."""
+
+THREAD_PLACES = 400
+"""Places along a thread that are compared; a lid's margin is 30 mm long."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -67,10 +70,49 @@ def reflect_in_sphere(
     s, t = np.linalg.norm(source_ray, axis=-1), np.linalg.norm(observer_ray, axis=-1)
     cosine = (normal * observer_ray).sum(axis=-1) / t
     # by how much the reflected pencil has widened at the observer, in the plane of incidence and across it
-    spread = np.sqrt(
-        (1.0 + t * (1.0 / s + 2.0 / (radius * cosine))) * (1.0 + t * (1.0 / s + 2.0 * cosine / radius))
-    )
-    return Reflection(point=point, cosine=cosine, gain=1.0 / (s * spread) ** 2, shrinking=1.0 / (s * spread))
+    spread = (1.0 + t * (1.0 / s + 2.0 / (radius * cosine))) * (1.0 + t * (1.0 / s + 2.0 * cosine / radius))
+    return _reflection(point, cosine, s, spread)
+
+
+def reflect_in_thread(
+    line: np.ndarray, radii: tuple[float, float], source: np.ndarray, observer: np.ndarray
+) -> Reflection:
+    """The mirror image in a thin, slightly bent thread; NaN where the shortest path meets one of its ends.
+
+    Parameters
+    ----------
+    line
+        (n, 3) polyline, metres.
+    radii
+        Of the thread across its length, and of its own bend.
+    source, observer
+        (3,) metres.
+    """
+    step = np.linspace(0.0, len(line) - 1.0, THREAD_PLACES)
+    places = np.stack([np.interp(step, np.arange(len(line)), line[:, axis]) for axis in range(3)], axis=-1)
+    s, t = (np.linalg.norm(places - end, axis=-1) for end in (source, observer))
+    best = int((s + t).argmin())
+    if best in (0, THREAD_PLACES - 1):
+        return Reflection(point=np.full(3, np.nan), cosine=np.nan, gain=np.nan, shrinking=np.nan)
+    point, s, t = places[best], s[best], t[best]
+    # the surface faces the middle between both rays
+    cosine = np.sqrt(0.5 * (1.0 + (source - point) @ (observer - point) / (s * t)))
+    return _reflection(point, cosine, s, np.prod([1.0 + t * (1.0 / s + 2.0 / radius) for radius in radii]))
+
+
+def _reflection(
+    point: np.ndarray, cosine: np.ndarray, distance: np.ndarray, spread: np.ndarray
+) -> Reflection:
+    gain = 1.0 / (distance**2 * spread)
+    return Reflection(point=point, cosine=cosine, gain=gain, shrinking=np.sqrt(gain))
+
+
+def fresnel(cosine: np.ndarray, index: float) -> np.ndarray:
+    """Share of unpolarised light that a surface of an index mirrors at incidences with these cosines [2]_."""
+    inside = np.sqrt(1.0 - (1.0 - np.square(cosine)) / index**2)
+    across = (cosine - index * inside) / (cosine + index * inside)
+    within = (index * cosine - inside) / (index * cosine + inside)
+    return 0.5 * (across**2 + within**2)
 
 
 def _mirror_angle(source: np.ndarray, observer: np.ndarray, between: np.ndarray) -> np.ndarray:

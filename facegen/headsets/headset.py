@@ -169,11 +169,13 @@ class Led:
 class Sensor:
     """How linear radiance becomes grey levels: one setting for all people (see `facegen.sensor`).
 
-    ``exposure`` is the number of full scales (levels above black) that a radiance of 1 W sr-1 m-2 gives.
+    ``exposure`` is the number of full scales (levels above black) that a radiance of 1 W sr-1 m-2 gives,
+    ``veiling_glare`` the share of the light that the lens scatters evenly over the picture.
     """
 
     exposure: Positive
     black_level: Annotated[float, Field(ge=0, le=200)]
+    veiling_glare: Annotated[float, Field(ge=0, le=0.5)] = 0.0
     bits: Literal[8] = 8
 
 

@@ -1,8 +1,9 @@
 """Labels: what is known of a sample because it was made, not looked at."""
 
-from facegen.labels.glints import Glints, with_glints
+from facegen.labels.glints import Glints
 from facegen.labels.keypoints import Keypoints, label_keypoints, project_pinhole
 from facegen.labels.rendered import RenderedSample, label_rendered
+from facegen.labels.spots import with_glints
 from facegen.labels.views import ViewLabels
 
 __all__ = [

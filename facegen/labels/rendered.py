@@ -9,9 +9,10 @@ from facegen.headsets import Headset, head_from_headset
 from facegen.labels.glints import label_glints
 from facegen.labels.keypoints import Keypoints, label_keypoints
 from facegen.labels.views import ViewLabels, label_view, occluders
+from facegen.randomness import stream
 from facegen.rigs import EyeGeometry, Rig, evaluate, eye_geometry, neutral_landmarks
 from facegen.sampling import Samples
-from facegen.scene import Scene, assemble
+from facegen.scene import Scene, assemble, draw_look, tear_lines
 from facegen.spec import Spec
 
 NOSE_BRIDGE = 27
@@ -66,10 +67,12 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
     )
     nose_bridge = neutral_landmarks(rig, samples.identity)[0, NOSE_BRIDGE]
     fit = head_from_headset(headset, nose_bridge, realised_donning(headset, samples))
-    scene = assemble(rig, face.vertices[0], (left, right), headset, fit)
+    look = draw_look(stream(spec.seed, "look", int(samples.person[0])), rig)
+    scene = assemble(rig, face.vertices[0], (left, right), headset, fit, look=look)
     occluder = occluders(scene.meshes)
     glint_occluder = occluders(scene.meshes, transparent=(Part.CORNEA,))
     eyes = left, right
+    tears = tear_lines(rig, face.vertices[0], face.eye_center[0])
     return RenderedSample(
         samples=samples,
         keypoints=label_keypoints(spec, rig, samples, face),
@@ -82,7 +85,7 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
                 face.landmarks[0],
                 eyes,
                 occluder,
-                label_glints(view, scene.lamps, eyes, glint_occluder),
+                label_glints(view, scene.lamps, eyes, tears, glint_occluder),
             )
             for view in scene.views
         },

@@ -2,6 +2,8 @@
 
 from facegen.scene.assembly import assemble
 from facegen.scene.eyes import eye_meshes
+from facegen.scene.lids import tear_lines
+from facegen.scene.looks import Look, draw_look
 from facegen.scene.materials import MATERIALS, material_values
 from facegen.scene.scene import Lamp, Layers, Mesh, Scene, View
 
@@ -9,10 +11,13 @@ __all__ = [
     "MATERIALS",
     "Lamp",
     "Layers",
+    "Look",
     "Mesh",
     "Scene",
     "View",
     "assemble",
+    "draw_look",
     "eye_meshes",
     "material_values",
+    "tear_lines",
 ]

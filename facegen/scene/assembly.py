@@ -9,14 +9,14 @@ from facegen.geometry import apply_transform, invert_transform
 from facegen.headsets import Headset
 from facegen.rigs import EyeGeometry, Rig
 from facegen.scene.eyes import eye_meshes
-from facegen.scene.lashes import lash_uv
+from facegen.scene.lids import caruncle_meshes, crease_fields
+from facegen.scene.looks import Look, hair_meshes
 from facegen.scene.scene import Lamp, Mesh, Scene, View
 
 MATERIAL_OF_PART: dict[Part, str] = {
     Part.SKIN: "skin",
     Part.LIPS: "lips",
-    Part.BROWS: "brows",
-    Part.LASHES: "lashes",
+    Part.BROWS: "skin",
     Part.TEETH: "teeth",
     Part.GUMS: "gums",
     Part.TONGUE: "tongue",
@@ -29,9 +29,9 @@ MESHES_OF_HEAD: dict[str, tuple[Part, ...]] = {
     "head": (Part.SKIN, Part.LIPS, Part.BROWS, Part.MOUTH_CAVITY, Part.EYE_CAVITY),
     "teeth": (Part.TEETH, Part.GUMS),
     "tongue": (Part.TONGUE,),
-    "lashes": (Part.LASHES,),
 }
-"""Objects that a head is cut into: light scatters within an object, not from lip to tooth."""
+"""Objects that a head is cut into: light scatters within an object, not from lip to tooth. A rig's lash strips are
+no surface, strands grow along them (`facegen.scene.lashes`)."""
 
 
 def assemble(
@@ -41,7 +41,7 @@ def assemble(
     headset: Headset,
     head_from_headset: np.ndarray,
     *,
-    materials: dict[str, dict[str, float]] | None = None,
+    look: Look | None = None,
 ) -> Scene:
     """The scene of one sample.
 
@@ -55,21 +55,22 @@ def assemble(
         The subject's left and right eye.
     headset, head_from_headset
         The headset and where it sits (`facegen.headsets.head_from_headset`).
-    materials
-        Parameters by material name, over the defaults of `facegen.scene.materials.MATERIALS`.
+    look
+        The person's materials and hair; without one the materials' defaults, and no hair.
     """
     eye_parts = [mesh for eye, side in zip(eyes, SIDES, strict=True) for mesh in eye_meshes(eye, side)]
+    eye_parts += caruncle_meshes(rig, vertices, np.stack([eye.center for eye in eyes]))
     return Scene(
-        meshes=(*head_meshes(rig, vertices), *eye_parts),
+        meshes=(*head_meshes(rig, vertices), *eye_parts, *(hair_meshes(look, vertices) if look else ())),
         lamps=headset_lamps(headset, head_from_headset),
         views=headset_views(headset, head_from_headset),
-        materials=materials or {},
+        materials=look.materials if look else {},
     )
 
 
 def head_meshes(rig: Rig, vertices: np.ndarray) -> tuple[Mesh, ...]:
     """The head cut into `MESHES_OF_HEAD`, without those that the rig has no faces for."""
-    meshes = []
+    meshes, fields = [], crease_fields(rig)
     for name, parts in MESHES_OF_HEAD.items():
         chosen = np.isin(rig.part, parts)
         if not chosen.any():
@@ -91,9 +92,8 @@ def head_meshes(rig: Rig, vertices: np.ndarray) -> tuple[Mesh, ...]:
                 part=part,
                 materials=names,
                 face_material=index_of_part[part],
-                uv=lash_uv(rig.vertices, rig.faces[chosen], rig.uv[chosen], rig.eye_center)
-                if name == "lashes"
-                else rig.uv[chosen],
+                uv=rig.uv[chosen],
+                fields={key: field[used] for key, field in fields.items()} if name == "head" else {},
             )
         )
     return tuple(meshes)

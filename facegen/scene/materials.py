@@ -19,26 +19,38 @@ MATERIALS: dict[str, dict[str, float]] = {
         "scatter_m": 3.0e-3,
         "mottle": 0.09,
         "bump_m": 4e-5,
+        "crease": 0.6,
+        "crease_m": 5.0e-3,
     },
     "lips": {
         "albedo": 0.56,
-        "roughness": 0.35,
-        "specular": 0.45,
+        "roughness": 0.5,
+        "specular": 0.3,
         "scatter_m": 3.0e-3,
         "mottle": 0.15,
         "bump_m": 8e-5,
+        "crease": 0.0,
+        "crease_m": 1.0,
     },
-    "brows": {"albedo": 0.58, "roughness": 0.48, "specular": 0.35, "scatter_m": 3.0e-3, "hair": 0.5},
     "cavity": {"albedo": 0.18, "roughness": 0.6},
     "conjunctiva": {"albedo": 0.5, "roughness": 0.3},
-    "sclera": {"albedo": 0.37, "roughness": 0.25, "scatter_m": 1.5e-3, "mottle": 0.1, "limbus": 0.35},
-    "iris": {"albedo": 0.215, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
+    "caruncle": {"albedo": 0.45, "roughness": 0.22, "scatter_m": 1.5e-3},
+    "sclera": {
+        "albedo": 0.4,
+        "roughness": 0.25,
+        "scatter_m": 1.5e-3,
+        "mottle": 0.05,
+        "vessels": 0.12,
+        "limbus": 0.35,
+    },
+    "iris": {"albedo": 0.255, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
     "pupil": {"albedo": 0.12},
     "cornea": {"index": 1.336},
     "teeth": {"albedo": 0.62, "roughness": 0.2, "scatter_m": 1.0e-3},
     "gums": {"albedo": 0.45, "roughness": 0.3, "scatter_m": 2.0e-3},
     "tongue": {"albedo": 0.42, "roughness": 0.4, "scatter_m": 2.0e-3},
-    "lashes": {"albedo": 0.08, "strands": 55.0, "cover": 0.5, "length": 0.9},
+    "lashes": {"albedo": 0.08},
+    "hair": {"albedo": 0.15},
     "emitter": {"radiance": 1.0},
 }
 """Every material and the parameters it knows, with their defaults.
@@ -49,11 +61,10 @@ MATERIALS: dict[str, dict[str, float]] = {
     How far the albedo falls at the limbus: iris and sclera shade into each other there.
 ``contrast``, ``collarette``, ``pattern``
     Depth of the iris's fibres, height of its lighter inner zone, and a number that picks the fibre pattern.
-``hair``
-    Share of the albedo that the brow's hairs take away.
-``strands``, ``cover``, ``length``
-    Lashes to a lid, the share of the strip they cover at its root, and the longest one's share of the strip's
-    depth.
+``crease``, ``crease_m``
+    Depth of the lid's crease, 1 being 0.5 mm, and its distance from the lid's margin.
+``vessels``
+    How much of the sclera's albedo a vessel takes away.
 """
 
 

@@ -28,6 +28,8 @@ class Mesh:
         (F,) index into ``materials``.
     uv
         (F, 4, 2) texture coordinates of each face's corners, or None.
+    fields
+        (V,) values at the vertices by name, for materials that ask for them.
     """
 
     name: str
@@ -37,6 +39,7 @@ class Mesh:
     materials: tuple[str, ...]
     face_material: np.ndarray
     uv: np.ndarray | None = None
+    fields: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -60,6 +60,7 @@ def sample_record(
             "sensor": {
                 "exposure": float(sensor.exposure),
                 "black_level": float(sensor.black_level),
+                "veiling_glare": float(sensor.veiling_glare),
                 "bits": int(sensor.bits),
             },
         },

@@ -1,6 +1,9 @@
 """The sensor: monotone, black level at no light, full scale cut."""
 
+from dataclasses import replace
+
 import numpy as np
+import pytest
 
 from facegen.headsets import Sensor
 from facegen.sensor import develop
@@ -26,3 +29,12 @@ def test_half_of_full_scale_is_halfway():
     picture = develop(np.array([[1.0]], np.float32), SENSOR)
     assert picture.dtype == np.uint8
     assert picture[0, 0] == 135
+
+
+def test_veiling_glare_takes_light_from_where_it_is_to_everywhere():
+    radiance = np.zeros((10, 10))
+    radiance[:5] = 1.0
+    clear = develop(radiance, SENSOR).astype(float) - 15
+    veiled = develop(radiance, replace(SENSOR, veiling_glare=0.1)).astype(float) - 15
+    assert veiled.mean() == pytest.approx(clear.mean(), abs=0.5)  # none is lost
+    assert veiled[9, 9] == pytest.approx(0.1 * clear.mean(), abs=0.5)

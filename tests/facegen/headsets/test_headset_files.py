@@ -62,7 +62,7 @@ def test_headsets_of_the_project_load(name):
         (
             "exposure = 0.5",
             "exposure = 0.5\ngain = 2",
-            r"sensor\.gain is not a known key; known are exposure, black_level, bits",
+            r"sensor\.gain is not a known key; known are exposure, black_level, veiling_glare, bits",
         ),
         ("k1 = -0.02", "k7 = -0.02", r"cameras\[0\]\.distortion\.k7 is not a known key; known are k1, k2"),
         (

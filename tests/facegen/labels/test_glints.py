@@ -6,23 +6,26 @@ import numpy as np
 import pytest
 
 from facegen.conventions import Part
-from facegen.geometry import apply_transform, invert_transform, pixel_rays, project
+from facegen.geometry import apply_transform, fresnel, invert_transform, pixel_rays, project
 from facegen.labels import with_glints
-from facegen.labels.glints import fresnel, label_glints, radiant_intensity
+from facegen.labels.glints import label_glints
 from facegen.labels.views import occluders
 from facegen.rigs import eye_geometry
 from facegen.scene import Mesh
+from facegen.scene.lamps import radiant_intensity
 from tests.facegen.blender.scenes import eye_scene
 
 EYE = eye_geometry(np.zeros(3), 0.012, np.array([0.0, 0.0, 1.0]))
 FAR = eye_geometry(np.array([0.0, 0.0, 5.0]), 0.012, np.array([0.0, 0.0, 1.0]))
 
 
-def _glints(scene, *more: Mesh):
-    meshes = (*scene.meshes, *more)
-    return label_glints(
-        scene.views[0], scene.lamps, (EYE, FAR), occluders(meshes, transparent=(Part.CORNEA,))
-    )
+NO_TEARS = np.array([[0.0, 0.0, 9.0], [0.0, 0.0, 9.1]])
+"""Behind the camera."""
+
+
+def _glints(scene, *more: Mesh, tears=NO_TEARS):
+    occluder = occluders((*scene.meshes, *more), transparent=(Part.CORNEA,))
+    return label_glints(scene.views[0], scene.lamps, (EYE, FAR), (tears, NO_TEARS), occluder)
 
 
 def _plate(middle, half_m: float, part: Part) -> Mesh:
@@ -83,6 +86,20 @@ def test_a_lamp_beside_the_eye_has_its_image_on_the_sclera_only():
     assert glints.surfaces == ("sclera",)
 
 
+def test_a_line_of_tears_below_the_cornea_has_an_image_of_each_lamp():
+    x = np.linspace(-0.012, 0.012, 15)
+    tears = np.stack([x, np.full_like(x, -0.0075), 0.0125 - 8.0 * x**2], axis=-1)
+    scene = _scene()
+    glints = _glints(scene, tears=tears)
+    on_tears = np.array(glints.surfaces) == "tears"
+    assert [glints.lamps[i] for i in np.flatnonzero(on_tears)] == ["lamp_-1", "lamp_1"]
+    assert glints.points_2d[on_tears][0, 0] < 47.5 < glints.points_2d[on_tears][1, 0]
+    # the thread's mirror is weaker than the cornea, and its light is all there
+    assert (glints.volume[on_tears] < 0.3 * glints.volume[~on_tears]).all()
+    added = with_glints(np.zeros((96, 96), np.float32), dataclasses.replace(glints, seen=on_tears))
+    assert added.sum() == pytest.approx(glints.volume[on_tears].sum(), rel=5e-3)
+
+
 def test_an_led_beams_as_its_renderer_does_and_all_of_its_power():
     lamp = _scene().lamps[0]
     for spread in (np.pi, 2.0, 1.0):
@@ -96,8 +113,8 @@ def test_an_led_beams_as_its_renderer_does_and_all_of_its_power():
 
 
 def test_fresnel_at_normal_and_grazing_incidence():
-    assert fresnel(np.array(1.0)) == pytest.approx((0.336 / 2.336) ** 2)
-    assert fresnel(np.array(0.0)) == pytest.approx(1.0)
+    assert fresnel(np.array(1.0), 1.336) == pytest.approx((0.336 / 2.336) ** 2)
+    assert fresnel(np.array(0.0), 1.336) == pytest.approx(1.0)
 
 
 @pytest.mark.blender

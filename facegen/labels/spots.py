@@ -1,0 +1,46 @@
+"""Draws glints: spots of light that are added to a view's finished radiance."""
+
+import numpy as np
+from scipy.special import erf
+
+from facegen.labels.glints import Glints
+
+REACH = 5.0
+"""Standard deviations to which a spot is drawn; beyond, the brightest is below a grey level."""
+CLUMP = np.array([[0.0, 0.0, 0.4], [0.7, 0.3, 0.2], [-0.5, 0.6, 0.15], [0.2, -0.8, 0.15], [-0.9, -0.4, 0.1]])
+"""What an uneven mirror makes of a spot: places in units of ``clump_px``, and shares of the light."""
+
+
+def with_glints(radiance: np.ndarray, glints: Glints) -> np.ndarray:
+    """A view's radiance with its seen glints: Gaussian spots, integrated over each pixel.
+
+    Parameters
+    ----------
+    radiance
+        (h, w) float32, W sr-1 m-2.
+    glints
+        The view's.
+
+    Returns
+    -------
+    numpy.ndarray
+        (h, w) float32 whose values 16-bit floats hold exactly, as a view's file does.
+    """
+    total = radiance.astype(np.float64)
+    for i in np.flatnonzero(glints.seen):
+        spots = CLUMP if glints.clump_px[i] > 0.0 else np.array([[0.0, 0.0, 1.0]])
+        for *aside, share in spots:
+            middle = glints.points_2d[i] + glints.clump_px[i] * np.array(aside)
+            _add_spot(total, middle, glints.sigma_px[i], share * glints.volume[i])
+    return np.minimum(total, np.finfo(np.float16).max).astype(np.float16).astype(np.float32)
+
+
+def _add_spot(image: np.ndarray, middle_px: np.ndarray, sigma_px: float, volume: float) -> None:
+    profile, window = [], []
+    for middle, size in zip(middle_px, image.shape[::-1], strict=True):
+        reach = REACH * sigma_px + 1.0
+        first, last = max(round(middle - reach), 0), min(round(middle + reach), size - 1)
+        edges = np.arange(first, last + 2) - 0.5
+        profile.append(np.diff(0.5 * erf((edges - middle) / (sigma_px * np.sqrt(2.0)))))
+        window.append(slice(first, last + 1))
+    image[window[1], window[0]] += volume * profile[1][:, None] * profile[0]

@@ -1,0 +1,46 @@
+"""Labels of rendered samples do not follow looks, materials or sensors; glints may only be hidden by other hair."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from facegen.labels import label_rendered
+from facegen.labels import rendered as module
+from facegen.sampling import draw_samples
+from facegen.scene import draw_look
+from facegen.spec import parse_spec
+from facegen.store import resolve, sample_record
+
+
+@pytest.fixture(scope="module")
+def dataset(anny, tmp_path_factory):
+    table = {
+        "version": 1,
+        "kind": "still",
+        "seed": 9,
+        "people": 3,
+        "render": {"samples": "0-2", "size_px": 64},
+    }
+    return resolve(parse_spec(table, where="here"), tmp_path_factory.mktemp("labels"))
+
+
+def _record(dataset, headset) -> dict:
+    block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(1, 2))
+    rendered = label_rendered(dataset.spec, dataset.rig, headset, block)
+    names = {"rig": "anny", "headset": "tracking3", "dataset_hash": ""}
+    return sample_record(rendered, sensor=headset.sensor, **names)
+
+
+def test_keypoint_labels_do_not_change_with_materials_hair_or_sensor(dataset, monkeypatch):
+    before = _record(dataset, dataset.headset)
+    monkeypatch.setattr(module, "draw_look", lambda rng, rig: draw_look(np.random.default_rng(77), rig))
+    sensor = dataclasses.replace(dataset.headset.sensor, exposure=2.0, black_level=40, veiling_glare=0.2)
+    after = _record(dataset, dataclasses.replace(dataset.headset, sensor=sensor))
+    assert before["headset"].pop("sensor") != after["headset"].pop("sensor")
+    seen = [
+        [[glint.pop("seen") for glint in view["glints"]] for view in record["views"].values()]
+        for record in (before, after)
+    ]
+    assert before == after
+    assert sum(map(len, seen[0])) >= 10
