@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from regress.exporters import export_model
-from regress.model import Model
+from regress.model import FastPredictor, Model
 
 BATCH_FRAMES = 20_000
 
@@ -43,6 +43,7 @@ def time_model(model: Model, faces: np.ndarray) -> tuple[Timing, ...]:
     with tempfile.TemporaryDirectory() as temporary, threadpool_limits(limits=1):
         folder = Path(temporary)
         export_model(model, folder, name="face", formats=("onnx", "c", "javascript"))
+        fast = FastPredictor(model)
         batch = faces[np.arange(BATCH_FRAMES) % len(faces)]
         return (
             Timing(
@@ -54,6 +55,16 @@ def time_model(model: Model, faces: np.ndarray) -> tuple[Timing, ...]:
                 name=f"NumPy, {BATCH_FRAMES:,} frames",
                 microseconds=_best(lambda: model.predict(batch), repeat=1) / BATCH_FRAMES,
                 note="Model.predict, a frame's share",
+            ),
+            Timing(
+                name="fast, one frame",
+                microseconds=_best(lambda: fast.predict_frame(faces[0]), repeat=500),
+                note="FastPredictor.predict_frame, NumPy in float32",
+            ),
+            Timing(
+                name=f"fast, {BATCH_FRAMES:,} frames",
+                microseconds=_best(lambda: fast.predict(batch), repeat=1) / BATCH_FRAMES,
+                note="FastPredictor.predict, a frame's share",
             ),
             _time_onnx(folder, faces),
             _time_c(folder, faces),

@@ -1,6 +1,7 @@
 """Trained models: what they hold, what they predict, and their folders on disk."""
 
+from regress.model.fast import FastPredictor
 from regress.model.folder import check_place, load_model, save_model
 from regress.model.model import Calibrated, Model, Normalisation
 
-__all__ = ["Calibrated", "Model", "Normalisation", "check_place", "load_model", "save_model"]
+__all__ = ["Calibrated", "FastPredictor", "Model", "Normalisation", "check_place", "load_model", "save_model"]
