@@ -13,19 +13,17 @@ ours (ridge knots). Where a peer stands after every iteration is judged on the v
 time; its best place counts. Details of each peer stand at its function. docs/training.md has a run's table.
 """
 
-import os
-
-for _variable in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-    os.environ[_variable] = "1"
-
 import argparse
 import json
+import os
 import platform
 import time
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib.metadata import version
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy and torch read it
 
 import numpy as np
 

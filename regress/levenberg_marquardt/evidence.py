@@ -15,8 +15,8 @@ from regress.levenberg_marquardt.minimise import Result, Settings, minimise
 from regress.levenberg_marquardt.problem import LeastSquares, State
 from regress.levenberg_marquardt.steps import inner
 
-_STEPS_A_ROUND = 6
-"""Between two updates; alpha settles to a few per cent in four rounds."""
+EVIDENCE_ROUNDS, EVIDENCE_STEPS = 4, 6
+"""Updates of alpha, which then has settled to a few per cent, and steps before each."""
 
 _RANGE = (1e-3, 1e4)
 """Of alpha: outside it the targets, whose variance is 1, are fitted exactly or not at all."""
@@ -28,9 +28,8 @@ def minimise_with_evidence(
     alpha: np.ndarray,
     settings: Settings,
     *,
-    rounds: int = 4,
     on_step: Callable[[int, int], None] | None = None,
-) -> tuple[Result, np.ndarray]:
+) -> Result:
     """Minimise as :func:`minimise` does, each problem at the strength that its evidence gives.
 
     Parameters
@@ -39,21 +38,17 @@ def minimise_with_evidence(
         See :func:`minimise`.
     alpha : (M,) float
         Strengths of the first round.
-    rounds
-        Updates of the strengths, each after a few steps from where the last round ended.
 
     Returns
     -------
     Result
-        Of the last, full minimisation.
-    alpha : (M,) float64
-        The strengths it had.
+        Of the last, full minimisation; ``alpha`` are the strengths it had.
     """
     members = np.arange(len(start))
-    few = replace(settings, steps=min(_STEPS_A_ROUND, settings.steps))
+    few = replace(settings, steps=min(EVIDENCE_STEPS, settings.steps))
     alpha = np.asarray(alpha, dtype=np.float64)
     parameters = start
-    for _ in range(rounds):
+    for _ in range(EVIDENCE_ROUNDS):
         parameters = minimise(problem, parameters, alpha, few, on_step=on_step).parameters
         state = problem.at(parameters, members)
         determined = _determined(state, alpha, settings)
@@ -61,7 +56,7 @@ def minimise_with_evidence(
         noise_variance = inner(state.residual, state.residual) / free
         size = np.maximum(inner(parameters, parameters), np.finfo(np.float64).tiny)
         alpha = np.clip(noise_variance * determined / size, *_RANGE)
-    return minimise(problem, parameters, alpha, settings, on_step=on_step), alpha
+    return minimise(problem, parameters, alpha, settings, on_step=on_step)
 
 
 def _determined(state: State, alpha: np.ndarray, settings: Settings) -> np.ndarray:

@@ -64,6 +64,8 @@ class Result:
         Those with the lowest held-out error.
     error : (M,) float64
         That error.
+    alpha : (M,) float64
+        The L2 strengths.
     outcomes
         Why each problem ended.
     steps : (M,) int64
@@ -82,6 +84,7 @@ class Result:
 
     parameters: np.ndarray
     error: np.ndarray
+    alpha: np.ndarray
     outcomes: tuple[Outcome, ...]
     steps: np.ndarray
     best_step: np.ndarray
@@ -190,6 +193,7 @@ def minimise(
     return Result(
         parameters=best,
         error=error,
+        alpha=alpha,
         outcomes=tuple(outcomes),
         steps=steps,
         best_step=best_step,

@@ -66,14 +66,12 @@ def pcg_step(state: State, alpha: np.ndarray, damping: np.ndarray, *, tolerance:
     while products < most and np.any(size > tolerance**2 * first_size):
         curved = state.transposed_product(state.product(search)) + shift[:, None] * search
         products += 1
-        # Problems that are done already divide 0 by 0: the guard makes their share 0.
-        length = size / np.maximum(inner(search, curved), np.finfo(np.float64).tiny)
+        length = _ratio(size, inner(search, curved))
         step += length.astype(kind)[:, None] * search
         remainder -= length.astype(kind)[:, None] * curved
         conditioned = apply_preconditioner(remainder)
         new_size = inner(remainder, conditioned)
-        ratio = new_size / np.maximum(size, np.finfo(np.float64).tiny)
-        search = conditioned + ratio.astype(kind)[:, None] * search
+        search = conditioned + _ratio(new_size, size).astype(kind)[:, None] * search
         size = new_size
     # (J'J + shift) s = -g - remainder, so s'(J'J + alpha)s = -s'g - s'remainder - mu s's.
     along = inner(step, gradient)
@@ -84,6 +82,11 @@ def pcg_step(state: State, alpha: np.ndarray, damping: np.ndarray, *, tolerance:
         gradient_norm=np.abs(gradient).max(axis=1).astype(np.float64),
         products=products,
     )
+
+
+def _ratio(over: np.ndarray, under: np.ndarray) -> np.ndarray:
+    """Quotients, 0 where a problem is done already and divides rounding by rounding."""
+    return np.divide(over, under, out=np.zeros_like(over), where=under > 1e-30)
 
 
 def exact_step(state: State, alpha: np.ndarray, damping: np.ndarray) -> Step:

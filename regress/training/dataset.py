@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, SPLITS
 from regress.errors import InputError
 
-_WIDTHS = {"weights": len(BLENDSHAPES), "detected_2d": LANDMARK_COUNT * 2}
+_WIDTHS = {"weights": len(BLENDSHAPES), "detected_2d": LANDMARK_COUNT * 2, "points_2d": LANDMARK_COUNT * 2}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,8 +80,15 @@ class KeypointDataset:
         return np.where(people[place] == self.person, candidates[first][place], -1)
 
 
-def read_dataset(folder: str | os.PathLike[str]) -> KeypointDataset:
+def read_dataset(folder: str | os.PathLike[str], *, points: str = "detected_2d") -> KeypointDataset:
     """Read the keypoints of a dataset made by ``facegen generate``.
+
+    Parameters
+    ----------
+    folder
+        With dataset.json and keypoints.
+    points
+        Column of the points: ``detected_2d``, or ``points_2d`` for the exact ones.
 
     Raises
     ------
@@ -98,11 +105,11 @@ def read_dataset(folder: str | os.PathLike[str]) -> KeypointDataset:
     for shard in shards:
         content = shard.read_bytes()
         digest.update(content)
-        tables.append(_table(shard, content))
+        tables.append(_table(shard, content, points))
     table = pa.concat_tables(tables)
-    points = _column(table, "detected_2d").reshape(-1, LANDMARK_COUNT, 2)
+    places = _column(table, points).reshape(-1, LANDMARK_COUNT, 2)
     weights = _column(table, "weights")
-    if not (np.isfinite(points).all() and np.isfinite(weights).all()):
+    if not (np.isfinite(places).all() and np.isfinite(weights).all()):
         raise InputError(f"{folder / 'keypoints'} holds points or weights that are not finite numbers")
     split = np.array(table.column("split").to_pylist())
     for name in SPLITS:
@@ -112,7 +119,7 @@ def read_dataset(folder: str | os.PathLike[str]) -> KeypointDataset:
             )
     return KeypointDataset(
         name=folder.resolve().name,
-        points=points,
+        points=places,
         weights=weights,
         split=split,
         person=table.column("person").to_numpy(),
@@ -134,8 +141,8 @@ def _description(path: Path) -> dict[str, Any]:
     return description
 
 
-def _table(shard: Path, content: bytes) -> pa.Table:
-    columns = ["person", "neutral", "split", *_WIDTHS]
+def _table(shard: Path, content: bytes, points: str) -> pa.Table:
+    columns = ["person", "neutral", "split", "weights", points]
     try:
         file = pq.ParquetFile(pa.BufferReader(content))
         missing = [name for name in columns if name not in file.schema_arrow.names]
@@ -146,7 +153,8 @@ def _table(shard: Path, content: bytes) -> pa.Table:
         table = file.read(columns=columns)
     except pa.ArrowException as error:
         raise InputError(f"{shard} is not a readable Parquet file: {error}") from error
-    for name, width in _WIDTHS.items():
+    for name in ("weights", points):
+        width = _WIDTHS[name]
         kind = table.schema.field(name).type
         if not pa.types.is_fixed_size_list(kind) or kind.list_size != width:
             raise InputError(f"{shard}: column {name!r} is {kind}; lists of {width} numbers are needed")

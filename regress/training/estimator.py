@@ -115,9 +115,11 @@ class LevenbergMarquardtRegressor(RegressorMixin, BaseEstimator):
                 rng=rng,
             )
             starts.append(layout.join(w1[None], w2[None])[0])
-        self.result_, alphas = self._fitted(problem, np.array(starts), alphas)
+        settings = Settings(steps=int(self.steps), patience=int(self.patience))
+        solve = minimise_with_evidence if isinstance(self.alpha, str) else minimise
+        self.result_: Result = solve(problem, np.array(starts), alphas, settings)
         best = int(np.argmin(self.result_.error))
-        self.alpha_, self.error_ = float(alphas[best]), float(self.result_.error[best])
+        self.alpha_, self.error_ = float(self.result_.alpha[best]), float(self.result_.error[best])
         self.networks_ = fold(
             layout,
             self.result_.parameters[best : best + 1],
@@ -167,14 +169,6 @@ class LevenbergMarquardtRegressor(RegressorMixin, BaseEstimator):
             return order, order
         held = min(max(1, round(self.validation_fraction * count)), count - 1)
         return order[held:], order[:held]
-
-    def _fitted(
-        self, problem: NetworkProblem, start: np.ndarray, alphas: np.ndarray
-    ) -> tuple[Result, np.ndarray]:
-        settings = Settings(steps=int(self.steps), patience=int(self.patience))
-        if isinstance(self.alpha, str):
-            return minimise_with_evidence(problem, start, alphas, settings)
-        return minimise(problem, start, alphas, settings), alphas
 
 
 def _spread(values: np.ndarray) -> np.ndarray:

@@ -10,7 +10,14 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from regress.errors import Interrupted
-from regress.levenberg_marquardt import Result, Settings, minimise
+from regress.levenberg_marquardt import (
+    EVIDENCE_ROUNDS,
+    EVIDENCE_STEPS,
+    Result,
+    Settings,
+    minimise,
+    minimise_with_evidence,
+)
 from regress.networks import (
     Layout,
     NetworkProblem,
@@ -33,6 +40,9 @@ Five to a group reach three quarters of the speed of all 31 in one; six groups f
 _START_ROWS = 3000
 """Rows on which a start's output weights are fitted: 21 unknowns need no more."""
 
+_FIRST_STRENGTH = 3.0
+"""Where the evidence begins; it moves by powers of ten within a round."""
+
 _RIDGE_FACTOR = 3.0
 """A start's ridge strength in units of alpha."""
 
@@ -48,8 +58,10 @@ class Fit:
     parameters : (31, P) float32
     alphas : (31,) float64
         The chosen L2 strengths.
+    tried : tuple of A floats
+        Those tried on the search's rows; none where the evidence chose.
     search_errors : (A, 31) float64
-        Validation errors per tried alpha, on the search's rows.
+        Their validation errors.
     groups
         Networks of each group.
     results
@@ -59,6 +71,7 @@ class Fit:
     layout: Layout
     parameters: np.ndarray
     alphas: np.ndarray
+    tried: tuple[float, ...]
     search_errors: np.ndarray
     groups: tuple[np.ndarray, ...]
     results: tuple[Result, ...]
@@ -79,29 +92,38 @@ def fit_networks(prepared: Prepared, recipe: Recipe, *, seed: int, progress: Pro
     settings = Settings(steps=recipe.steps, patience=recipe.patience, improvement=recipe.improvement)
     brief = replace(settings, steps=min(recipe.search_steps, recipe.steps))
 
-    def search(alpha: float) -> tuple[np.ndarray, np.ndarray]:
-        """Errors (31,) and parameters (31, P) of one alpha."""
+    def search(alpha: float) -> tuple[Result, ...]:
+        """What comes of one alpha on some rows."""
         alphas = np.full(len(NETWORKS), alpha)
         start = _start(searched, prepared.rotation, layout, recipe, alpha, seed)
         stage = _Stage(progress, f"alpha {alpha:g}", brief.steps)
-        results = _fit_groups(layout, few, (held,), start, alphas, brief, stage)
-        return (
-            _gathered(result.error for result in results),
-            _gathered(result.parameters for result in results),
-        )
+        return _fit_groups(layout, few, (held,), start, alphas, brief, stage)
 
     with threadpool_limits(limits=1, user_api="blas"):
-        trials = [search(alpha) for alpha in recipe.alphas]
-        errors = np.stack([error for error, _ in trials])
-        best = errors.argmin(axis=0)
-        start = np.stack([parameters for _, parameters in trials])[best, np.arange(len(NETWORKS))]
-        alphas = np.array(recipe.alphas)[best]
+        if recipe.strengths == "evidence":
+            tried = ()
+            start = _start(searched, prepared.rotation, layout, recipe, _FIRST_STRENGTH, seed)
+            stage = _Stage(progress, "evidence", EVIDENCE_ROUNDS * EVIDENCE_STEPS + brief.steps)
+            alphas = np.full(len(NETWORKS), _FIRST_STRENGTH)
+            found = _fit_groups(layout, few, (held,), start, alphas, brief, stage, evidence=True)
+            errors = np.empty((0, len(NETWORKS)))
+            start = _gathered(result.parameters for result in found)
+            alphas = _gathered(result.alpha for result in found)
+        else:
+            tried = recipe.alphas
+            trials = [search(alpha) for alpha in tried]
+            errors = np.stack([_gathered(result.error for result in trial) for trial in trials])
+            best = errors.argmin(axis=0)
+            start = np.stack([_gathered(result.parameters for result in trial) for trial in trials])
+            start = start[best, np.arange(len(NETWORKS))]
+            alphas = np.array(tried)[best]
         stage = _Stage(progress, "all rows", settings.steps)
         results = _fit_groups(layout, train.network_rows(), (held, watched), start, alphas, settings, stage)
     return Fit(
         layout=layout,
         parameters=_gathered(result.parameters for result in results),
         alphas=alphas,
+        tried=tried,
         search_errors=errors,
         groups=_GROUPS,
         results=results,
@@ -140,6 +162,8 @@ def _fit_groups(
     alphas: np.ndarray,
     settings: Settings,
     stage: "_Stage",
+    *,
+    evidence: bool = False,
 ) -> tuple[Result, ...]:
     used = used_outputs()
 
@@ -150,7 +174,8 @@ def _fit_groups(
             train=Rows(inputs=train.inputs, targets=train.targets[group]),
             held_out=tuple(Rows(inputs=rows.inputs, targets=rows.targets[group]) for rows in held_out),
         )
-        result = minimise(problem, start[group], alphas[group], settings, on_step=stage.step)
+        solve = minimise_with_evidence if evidence else minimise
+        result = solve(problem, start[group], alphas[group], settings, on_step=stage.step)
         stage.finish(int(result.steps.max()))
         return result
 

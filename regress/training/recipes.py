@@ -23,6 +23,9 @@ class Recipe:
         Train on every face and its mirror image.
     steps, patience, improvement
         Of :class:`regress.levenberg_marquardt.Settings`.
+    strengths
+        ``"validation"``: the L2 strength of each network is the one of ``alphas`` with the least validation
+        error; ``"evidence"``: it follows from the training rows (``levenberg_marquardt.evidence``).
     alphas
         L2 strengths to choose from for each network, in units of half the sum of squares of z-scored targets.
     search_rows
@@ -48,6 +51,7 @@ class Recipe:
     steps: int = 30
     patience: int = 6
     improvement: float = 1e-3
+    strengths: str = "validation"
     alphas: tuple[float, ...] = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
     search_rows: int = 3000
     search_steps: int = 30

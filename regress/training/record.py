@@ -52,7 +52,7 @@ def training_record(
         baselines = _baselines(dataset, model.features, recipe, calibrated=True)
         scores["calibrated"] = evaluate_model(model, dataset, calibrated=True)
         scores["calibrated_ridge"] = baselines["ridge"]
-    networks = {name: _network_records(recipe, fit) for name, fit in fits.items()}
+    networks = {name: _network_records(fit) for name, fit in fits.items()}
     return {
         "recipe": {**dataclasses.asdict(recipe), "alphas": list(recipe.alphas)},
         "seed": seed,
@@ -128,7 +128,7 @@ def _mean_over_networks(scores: dict[str, Scores]) -> float | None:
     return float(np.mean(known)) if known else None
 
 
-def _network_records(recipe: Recipe, fit: Fit) -> dict[str, Any]:
+def _network_records(fit: Fit) -> dict[str, Any]:
     """How each network's training went; errors are mean squares of z-scored targets."""
     records: dict[int, Any] = {}
     for group, result in zip(fit.groups, fit.results, strict=True):
@@ -139,9 +139,7 @@ def _network_records(recipe: Recipe, fit: Fit) -> dict[str, Any]:
             padding = fit.layout.outputs / len(NETWORKS[number].outputs)
             records[int(number)] = {
                 "alpha": float(fit.alphas[number]),
-                "search": dict(
-                    zip(map(str, recipe.alphas), fit.search_errors[:, number].tolist(), strict=True)
-                ),
+                "search": dict(zip(map(str, fit.tried), fit.search_errors[:, number].tolist(), strict=True)),
                 "outcome": result.outcomes[row].name,
                 "reason": result.outcomes[row].value,
                 "steps": steps,

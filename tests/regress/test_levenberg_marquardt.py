@@ -199,12 +199,12 @@ def test_evidence_finds_the_strength_of_a_linear_problem():
     matrix = rng.normal(size=(1, 3000, 60))
     truth = 2 * rng.normal(size=60)
     target = matrix[0] @ truth + rng.normal(size=3000)
-    result, alpha = minimise_with_evidence(
+    result = minimise_with_evidence(
         Linear(matrix, target[None]), np.zeros((1, 60)), np.array([100.0]), Settings(steps=20)
     )
     expected = np.mean((matrix[0] @ truth - target) ** 2) / np.mean(truth**2)
-    assert alpha[0] == pytest.approx(expected, rel=0.05)
-    exact = np.linalg.solve(matrix[0].T @ matrix[0] + alpha[0] * np.eye(60), matrix[0].T @ target)
+    assert result.alpha[0] == pytest.approx(expected, rel=0.05)
+    exact = np.linalg.solve(matrix[0].T @ matrix[0] + result.alpha[0] * np.eye(60), matrix[0].T @ target)
     assert np.allclose(result.parameters[0], exact, atol=1e-4)
 
 

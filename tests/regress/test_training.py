@@ -132,6 +132,20 @@ def test_every_recipe_trains(dataset: KeypointDataset, name: str):
     assert np.isfinite(model.predict(dataset.points[:3])).all()
 
 
+def test_strengths_by_evidence_need_no_list(dataset: KeypointDataset):
+    model = train(dataset, dataclasses.replace(QUICK, strengths="evidence", alphas=()))
+    figures = model.record["networks"].values()
+    assert len({network["alpha"] for network in figures}) > 20
+    assert all(network["search"] == {} for network in figures)
+    assert model.record["summary"]["network"]["mean_r2"] > 0.3
+
+
+def test_the_exact_points_can_be_read(dataset: KeypointDataset, dataset_folder: Path):
+    with pytest.raises(InputError, match="lacks the column 'points_2d'"):
+        read_dataset(dataset_folder, points="points_2d")
+    assert len(dataset.take(dataset.rows("test")).points) == len(dataset.rows("test"))
+
+
 def test_the_paper_recipe_is_the_papers():
     paper = RECIPES["paper"]
     assert (paper.alignment, paper.hidden, paper.start) == ("affine", 20, "nguyen_widrow")
