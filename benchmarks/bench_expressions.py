@@ -1,12 +1,14 @@
 """How near the expression model comes to recorded faces, against two other ways of drawing them.
 
-    python benchmarks/bench_expressions.py RANGE_OF_MOTION.csv SPEECH.csv [--samples 100000] [--picture FILE.png] [--json]
+    python benchmarks/bench_expressions.py RANGE_OF_MOTION.csv SPEECH.csv [--samples 100000] [--json]
+    python benchmarks/bench_expressions.py RANGE_OF_MOTION.csv SPEECH.csv --picture docs/pictures/coactivation.png
 
-The takes are Live Link Face recordings. The model was tuned by looking at a range-of-motion take; a speech take judges
-it. For every frame: the distance to the nearest sample (RMS over the 52 weights), and whether it is *inside*: no further
-from the nearest sample than 95 % of the sampler's own faces are from the nearest of the others. Inside says little for
-a sampler whose faces lie far apart, so its reach (that 95 % distance) stands beside it. The co-activation matrices are
-the correlations of the 52 weights; only shapes that move in a take (standard deviation 0.02 or more) are compared.
+The takes are Live Link Face recordings. The model was tuned by looking at a range-of-motion take; a speech take
+judges it. For every frame: the distance to the nearest sample (RMS over the 52 weights), and whether it is *inside*:
+no further from the nearest sample than 95 % of the sampler's own faces are from the nearest of the others. Inside says
+little for a sampler whose faces lie far apart, so its reach (that 95 % distance) stands beside it. The co-activation
+matrices are the correlations of the 52 weights; only shapes that move in a take (standard deviation 0.02 or more) are
+compared.
 """
 
 import argparse
@@ -35,7 +37,9 @@ EYES = np.tile([[0.031, 0.0, 0.0], [-0.031, 0.0, 0.0]], (BLOCK, 1, 1))
 def model(size: int) -> np.ndarray:
     """Weights (size, 52) of the default spec."""
     spec = parse_spec({"version": 1, "kind": "still", "seed": SEED, "people": 1}, where="default")
-    blocks = [draw_faces(spec, lambda part, b=b: stream(SEED, part, b), EYES) for b in range(-(-size // BLOCK))]
+    blocks = [
+        draw_faces(spec, lambda part, b=b: stream(SEED, part, b), EYES) for b in range(-(-size // BLOCK))
+    ]
     return np.concatenate([faces.weights for faces in blocks])[:size]
 
 
@@ -118,21 +122,22 @@ def compare(takes: dict[str, np.ndarray], size: int) -> dict:
 
 
 def draw_picture(takes: dict[str, np.ndarray], size: int, path: Path) -> None:
-    """Co-activation matrices of both takes, of uniform sampling and of the model, side by side."""
+    """Co-activation matrices of both takes and of every sampler, side by side."""
     import matplotlib
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     sets = {**takes, **{name: draw(size) for name, draw in SAMPLERS.items()}}
-    figure, axes = plt.subplots(1, len(sets), figsize=(7.2 * len(sets), 9.2), layout="constrained")
-    for axis, (name, weights) in zip(axes, sets.items(), strict=True):
+    figure, axes = plt.subplots(2, 3, figsize=(21, 14.5), layout="constrained")
+    for axis, (name, weights) in zip(axes.flat, sets.items(), strict=False):
         image = axis.imshow(coactivation(weights), vmin=-1, vmax=1, cmap="RdBu_r")
-        axis.set_title(name, fontsize=18)
-        axis.set_xticks(range(len(BLENDSHAPES)), BLENDSHAPES, rotation=90, fontsize=7.5)
-        axis.set_yticks(range(len(BLENDSHAPES)), BLENDSHAPES, fontsize=7.5)
-    figure.colorbar(image, ax=axes, shrink=0.6, label="correlation of two weights")
-    figure.savefig(path, dpi=100)
+        axis.set_title(name, fontsize=16)
+        axis.set_xticks(range(len(BLENDSHAPES)), BLENDSHAPES, rotation=90, fontsize=6.5)
+        axis.set_yticks(range(len(BLENDSHAPES)), BLENDSHAPES, fontsize=6.5)
+    axes.flat[-1].axis("off")
+    figure.colorbar(image, ax=axes.flat[-1], location="left", shrink=0.7, label="correlation of two weights")
+    figure.savefig(path, dpi=90)
 
 
 def main() -> None:

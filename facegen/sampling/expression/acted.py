@@ -4,7 +4,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.sampling.expression.sides import draw_shapes, draw_sides, over_shapes
-from facegen.sampling.expression.templates import CLOSING, Templates, emotions, templates
+from facegen.sampling.expression.templates import CLOSING, Templates, columns, emotions, templates
 
 SOMETIMES = 0.4
 """Chance of an action unit that some people show with an emotion (20 to 67 % in the table's source)."""
@@ -20,13 +20,17 @@ MOVEMENTS_SEAL = 0.2
 sign."""
 OTHER_SIDE = 0.25
 """Strongest that the weaker side of a one-sided face is, as a share of the stronger one."""
-LIPS_FOLLOW = (
-    (("mouthLowerDownLeft", "mouthLowerDownRight"), 0.9),
-    (("mouthStretchLeft", "mouthStretchRight"), 0.8),
-    (("mouthShrugUpper",), 0.3),
+LIPS_FOLLOW = (("mouthLowerDown", 0.9), ("mouthStretch", 0.6))
+"""Shapes that rise with what jawOpen leaves open, and the most that they rise per unit of it."""
+LIPS_APART = (("mouthShrugUpper", 0.45), ("mouthUpperUp", 0.25))
+"""Shapes that rise together, by no more than this, as soon as the lips part."""
+LIPS_TOGETHER = (
+    *(("mouthShrugLower", 0.6), ("mouthPress", 0.3), ("mouthRollLower", 0.25)),
+    *(("mouthDimple", 0.25), ("cheekPuff", 0.15)),
 )
-"""Shapes that rise as the mouth opens, and the most that they rise per jawOpen left open. A tracker's jawOpen carries
-them along (r = 0.79 and 0.88 with the first two in the range-of-motion take); the share is drawn anew each face."""
+"""Shapes that rise together, by no more than this, while the lips are held closed."""
+APART = 0.1
+"""Share of jawOpen left open at which lips are wholly apart."""
 
 _JAW = BLENDSHAPE_INDEX["jawOpen"]
 _TONGUE = BLENDSHAPE_INDEX["tongueOut"]
@@ -67,7 +71,6 @@ def draw_speech(rng: np.random.Generator, size: int, *, correlation: float) -> n
     weights[:, _JAW] = np.minimum(blend[:, _JAW] * 1.6 * rng.random(size), 1.0)
     closed = rng.random(size) < SPEECH_CLOSED
     weights[closed, CLOSING] = 1.0
-    draw_lips_follow(rng, weights)
     feels = np.flatnonzero(rng.random(size) < SPEECH_EMOTION)
     emotion = 0.6 * draw_emotion(rng, len(feels), correlation=correlation)
     emotion[:, (CLOSING, _JAW)] = 0.0
@@ -86,7 +89,6 @@ def draw_movement(rng: np.random.Generator, size: int, *, correlation: float) ->
     more = 0.7 * _draw_performed(rng, mouth.weights[kind], correlation=correlation)
     more[:, CLOSING] = 0.0
     weights[second] = together(weights[second], more)
-    draw_lips_follow(rng, weights)
     what = rng.random(size)
     weights[what < MOVEMENTS_EYES_ONLY] = np.arange(len(BLENDSHAPES)) == CLOSING
     return _draw_eyes_too(rng, weights, what < MOVEMENTS_EYES, correlation=correlation)
@@ -117,13 +119,29 @@ def draw_uneven(
     return weights
 
 
-def draw_lips_follow(rng: np.random.Generator, weights: np.ndarray) -> None:
-    """Let the lips follow the jaw where they are apart, in place (`LIPS_FOLLOW`)."""
+def draw_lips(rng: np.random.Generator, weights: np.ndarray) -> np.ndarray:
+    """Weights (n, 52) whose lips go with the jaw as they do in people; each face has its own shares.
+
+    In the range-of-motion take mouthStretch and mouthLowerDown rise with jawOpen (r = 0.88, 0.79), mouthShrugUpper
+    doubles as soon as the lips part, and mouthShrugLower, mouthPress, mouthRollLower and mouthDimple go together
+    (r = 0.5 to 0.9) and only while lips are closed. The orders of magnitude of these tables are such statistics.
+    """
     opening = weights[:, _JAW] * (1 - weights[:, CLOSING])
-    for names, most in LIPS_FOLLOW:
-        columns = [BLENDSHAPE_INDEX[name] for name in names]
-        rise = most * rng.random(len(weights)) * opening
-        weights[:, columns] = 1 - (1 - weights[:, columns]) * (1 - rise[:, None])
+    apart = np.minimum(opening / APART, 1.0)
+    unit = rng.random((4, len(weights)))
+    rises = (
+        *(
+            (shape, most * share * opening)
+            for (shape, most), share in zip(LIPS_FOLLOW, unit[:2], strict=True)
+        ),
+        *((shape, most * unit[2] * apart) for shape, most in LIPS_APART),
+        *((shape, most * unit[3] ** 2 * (1 - apart)) for shape, most in LIPS_TOGETHER),
+    )
+    weights = weights.copy()
+    for shape, rise in rises:
+        for column in columns(shape):
+            weights[:, column] = together(weights[:, column], rise)
+    return weights
 
 
 def together(first: np.ndarray, second: np.ndarray) -> np.ndarray:

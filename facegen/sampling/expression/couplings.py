@@ -7,7 +7,7 @@ bench_expressions.py says by how much frames of any take would be changed), and 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
-from facegen.sampling.expression.templates import CLOSING
+from facegen.sampling.expression.templates import CLOSING, columns
 
 EXCLUSIVE: tuple[tuple[str, str], ...] = (
     ("jawLeft", "jawRight"),
@@ -37,11 +37,15 @@ MEETING = (
 MEETING_FALLS, MEETING_REST = 1.25, 0.06
 """They reach 1 - 1.25 x (jawOpen - mouthClose), and 0.06 in the widest mouth: recorded frames stay well below."""
 
-STRETCHED = (
-    ("mouthRollUpper", ("mouthUpperUpLeft", "mouthUpperUpRight")),
-    ("mouthRollLower", ("mouthLowerDownLeft", "mouthLowerDownRight")),
+OPPOSED = (
+    ("mouthRollUpper", ("mouthUpperUp",)),
+    ("mouthRollLower", ("mouthLowerDown",)),
+    ("mouthShrugLower", ("mouthLowerDown",)),
+    ("mouthPress", ("mouthLowerDown",)),
+    ("mouthPucker", ("mouthSmile", "mouthStretch")),
 )
-"""A lip rolls in by as much as nothing draws it away: the two add up to 1 at most (0.64 and 0.83 recorded)."""
+"""Shapes with the shapes that pull the same lip another way: two of them add up to 1 at most (0.64 to 0.91 recorded);
+the first gives way."""
 
 _JAW, _TONGUE = BLENDSHAPE_INDEX["jawOpen"], BLENDSHAPE_INDEX["tongueOut"]
 
@@ -74,10 +78,10 @@ def restrain(weights: np.ndarray) -> np.ndarray:
     for name in MEETING:
         index = BLENDSHAPE_INDEX[name]
         weights[:, index] = np.minimum(weights[:, index], limit)
-    for name, (left, right) in STRETCHED:
-        index = BLENDSHAPE_INDEX[name]
-        drawn = np.maximum(weights[:, BLENDSHAPE_INDEX[left]], weights[:, BLENDSHAPE_INDEX[right]])
-        weights[:, index] = np.minimum(weights[:, index], 1 - drawn)
+    for name, others in OPPOSED:
+        left = 1 - weights[:, [column for other in others for column in columns(other)]].max(axis=1)
+        for column in columns(name):
+            weights[:, column] = np.minimum(weights[:, column], left)
     return weights
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.sampling.expression.acted import draw_lips
 from facegen.sampling.expression.components import COMPONENT_NAMES, COMPONENTS
 from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, close_lips, follow_gaze, restrain
 from facegen.sampling.expression.sides import draw_shapes
@@ -76,6 +77,8 @@ def draw_faces(spec: Spec, streams: Callable[[str], np.random.Generator], eye_ce
         np.array([getattr(part, trait) for part in COMPONENTS.values()])[component]
         for trait in ("living", "conjugate")
     )
+    alive = np.flatnonzero(living)
+    weights[alive] = draw_lips(streams("expression lips"), weights[alive])
     rng = streams("expression rest")
     closing = weights[:, CLOSING].copy()
     weights *= draw_subtlety(settings, rng, size)[:, None]

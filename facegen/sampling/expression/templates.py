@@ -79,10 +79,15 @@ def emotions() -> Emotions:
     return Emotions(names=tuple(table), always=mask("always"), sometimes=mask("sometimes"), units=units)
 
 
+def columns(name: str) -> list[int]:
+    """Columns of a shape; those of both sides for a name without Left or Right, such as ``"mouthSmile"``."""
+    both = (name,) if name in BLENDSHAPE_INDEX else (f"{name}Left", f"{name}Right")
+    return [BLENDSHAPE_INDEX[side] for side in both]
+
+
 def _row(weights: dict[str, float], closing: float) -> np.ndarray:
     row = np.zeros(len(BLENDSHAPES))
     for name, value in weights.items():
-        both = (name,) if name in BLENDSHAPE_INDEX else (f"{name}Left", f"{name}Right")
-        row[[BLENDSHAPE_INDEX[side] for side in both]] = value
+        row[columns(name)] = value
     row[CLOSING] = closing
     return row
