@@ -4,7 +4,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.sampling.expression.sides import draw_shapes, draw_sides, over_shapes
-from facegen.sampling.expression.templates import CLOSING, Templates, columns, emotions, templates
+from facegen.sampling.expression.templates import CLOSING, Templates, columns, load_emotions, load_templates
 
 SOMETIMES = 0.4
 """Chance of an action unit that some people show with an emotion (20 to 67 % in the table's source)."""
@@ -46,7 +46,7 @@ def draw_rest(rng: np.random.Generator, size: int, *, correlation: float) -> np.
 
 def draw_emotion(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
     """An emotion from faint to full; which optional action units show, and how strongly each, is drawn."""
-    table = emotions()
+    table = load_emotions()
     kind = rng.integers(0, len(table.names), size)
     chance = np.where(table.always, 1.0, np.where(table.sometimes, SOMETIMES, 0.0))
     shown = rng.random((size, len(table.units))) < chance[kind]
@@ -61,7 +61,7 @@ def draw_emotion(rng: np.random.Generator, size: int, *, correlation: float) -> 
 
 def draw_speech(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
     """Somewhere between two visemes, quiet or loud, with what brows, lids and feelings do meanwhile."""
-    visemes = templates("visemes").weights
+    visemes = load_templates("visemes").weights
     first, second = rng.integers(0, len(visemes), (2, size))
     share = rng.random((size, 1))
     blend = (1 - share) * visemes[first] + share * visemes[second]
@@ -80,7 +80,7 @@ def draw_speech(rng: np.random.Generator, size: int, *, correlation: float) -> n
 
 def draw_movement(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
     """One or two voluntary movements of mouth and jaw, of brows and lids, or both, as in range-of-motion takes."""
-    mouth = templates("mouth")
+    mouth = load_templates("mouth")
     kind = rng.integers(0, len(mouth), size)
     kind[rng.random(size) < MOVEMENTS_SEAL] = mouth.names.index("seal")
     weights = _draw_performed(rng, mouth.weights[kind], correlation=correlation)
@@ -96,7 +96,7 @@ def draw_movement(rng: np.random.Generator, size: int, *, correlation: float) ->
 
 def draw_one_sided(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
     """A wink, smirk, raised brow or any other movement on one side, the other one following a little or not."""
-    mouth, eyes = templates("mouth"), templates("eyes")
+    mouth, eyes = load_templates("mouth"), load_templates("eyes")
     every = Templates(names=mouth.names + eyes.names, weights=np.concatenate([mouth.weights, eyes.weights]))
     kind = rng.integers(0, len(every), size)
     kind[rng.random(size) < 0.3] = every.names.index("wink")
@@ -159,7 +159,7 @@ def _draw_eyes_too(
 ) -> np.ndarray:
     """Weights (n, 52) with a movement of brows or lids added where (n,) bool says so; in place."""
     rows = np.flatnonzero(where)
-    table = templates("eyes").weights
+    table = load_templates("eyes").weights
     eyes = _draw_performed(rng, table[rng.integers(0, len(table), len(rows))], correlation=correlation)
     eyes[:, CLOSING] = 0.0
     weights[rows] = together(weights[rows], eyes)

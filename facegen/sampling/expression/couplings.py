@@ -47,6 +47,22 @@ OPPOSED = (
 """Shapes with the shapes that pull the same lip another way: two of them add up to 1 at most (0.64 to 0.91 recorded);
 the first gives way."""
 
+ANTAGONISTS = (
+    ("mouthFrown", ("mouthSmile", "mouthUpperUp")),
+    ("mouthPucker", ("mouthSmile", "mouthStretch")),
+    ("mouthFunnel", ("mouthSmile",)),
+    ("mouthSmile", ("mouthFunnel", "mouthPucker")),
+    ("mouthDimple", ("mouthLowerDown", "mouthFunnel", "mouthPucker")),
+    ("mouthShrugLower", ("mouthLowerDown",)),
+    ("mouthPress", ("mouthLowerDown",)),
+    ("mouthRollLower", ("mouthLowerDown",)),
+    ("mouthRollUpper", ("mouthUpperUp",)),
+    ("cheekPuff", ("mouthLowerDown", "mouthSmile")),
+)
+"""Shapes that fade in living faces as their antagonists work (r = -0.3 to -0.65 in the range-of-motion take)."""
+FADES = 1.5
+"""Share of a shape that goes per weight of its strongest antagonist: nothing is left from 2/3 on."""
+
 _JAW, _TONGUE = BLENDSHAPE_INDEX["jawOpen"], BLENDSHAPE_INDEX["tongueOut"]
 
 
@@ -61,6 +77,16 @@ def close_lips(weights: np.ndarray, *, beyond: np.ndarray) -> None:
         (n,) 0 to `CLOSE_BEYOND_JAW`: how far lips that are closed are closed more than jawOpen opens them.
     """
     weights[:, CLOSING] *= np.minimum(weights[:, _JAW] + beyond, 1.0)
+
+
+def fade(weights: np.ndarray) -> np.ndarray:
+    """Weights (n, 52) of living faces, each shape weaker the more its `ANTAGONISTS` work; a copy."""
+    faded = weights.copy()
+    for name, others in ANTAGONISTS:
+        against = weights[:, [column for other in others for column in columns(other)]].max(axis=1)
+        for column in columns(name):
+            faded[:, column] *= np.clip(1 - FADES * against, 0, 1)
+    return faded
 
 
 def restrain(weights: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.sampling.expression.acted import draw_lips
 from facegen.sampling.expression.components import COMPONENT_NAMES, COMPONENTS
-from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, close_lips, follow_gaze, restrain
+from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, close_lips, fade, follow_gaze, restrain
 from facegen.sampling.expression.sides import draw_shapes
 from facegen.sampling.expression.templates import CLOSING
 from facegen.sampling.gaze import (
@@ -84,6 +84,7 @@ def draw_faces(spec: Spec, streams: Callable[[str], np.random.Generator], eye_ce
     weights *= draw_subtlety(settings, rng, size)[:, None]
     weights[:, CLOSING] = closing
     weights = 1 - (1 - weights) * (1 - draw_resting(settings, rng, size) * living[:, None])
+    weights[alive] = fade(weights[alive])
     # closed lips are mostly just closed: the fourth power keeps the median at 0.004 (0.002 in the range-of-motion take)
     close_lips(weights, beyond=CLOSE_BEYOND_JAW * rng.random(size) ** 4)
     target = draw_gaze_target(spec, streams("gaze"), size, wish=weights)

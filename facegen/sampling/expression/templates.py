@@ -60,7 +60,7 @@ class Emotions:
 
 
 @cache
-def templates(family: str) -> Templates:
+def load_templates(family: str) -> Templates:
     """The family ``"visemes"``, ``"mouth"``, ``"eyes"`` or ``"action_units"``."""
     table = tomllib.loads((_FOLDER / f"{family}.toml").read_text(encoding="utf-8"))
     rows = [_row(entry["weights"], entry.get("close", 1.0)) for entry in table.values()]
@@ -68,10 +68,10 @@ def templates(family: str) -> Templates:
 
 
 @cache
-def emotions() -> Emotions:
+def load_emotions() -> Emotions:
     """All emotions of ``templates/emotions.toml``."""
     table = tomllib.loads((_FOLDER / "emotions.toml").read_text(encoding="utf-8"))
-    units = templates("action_units")
+    units = load_templates("action_units")
 
     def mask(key: str) -> np.ndarray:
         return np.array([[int(unit) in entry[key] for unit in units.names] for entry in table.values()])

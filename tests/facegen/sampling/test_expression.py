@@ -15,9 +15,9 @@ from facegen.sampling.expression import (
     COMPONENTS,
     Faces,
     draw_faces,
-    emotions,
+    load_emotions,
+    load_templates,
     restrain,
-    templates,
 )
 from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, EXCLUSIVE, MEETING, TONGUE_NEEDS_JAW
 from facegen.sampling.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
@@ -188,7 +188,7 @@ def test_a_component_does_not_depend_on_what_others_draw():
 
 @pytest.mark.parametrize("family", ["action_units", "visemes", "mouth", "eyes"])
 def test_templates_are_possible_faces(family):
-    table = templates(family)
+    table = load_templates(family)
     assert len(set(table.names)) == len(table) > 5
     assert table.weights.min() >= 0
     assert table.weights.max() <= 1
@@ -199,7 +199,7 @@ def test_templates_are_possible_faces(family):
 
 
 def test_emotions_name_units_that_there_are():
-    table = emotions()
+    table = load_emotions()
     assert len(table.names) == 23
     assert not (table.always & table.sometimes).any()
     assert (table.always | table.sometimes).any(axis=0).all()  # no unit without an emotion
