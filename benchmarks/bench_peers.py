@@ -20,7 +20,7 @@ import platform
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy and torch read it
@@ -29,7 +29,7 @@ import numpy as np
 
 from regress.features import Features, load_reference_shape, mean_shape
 from regress.levenberg_marquardt import Settings, minimise
-from regress.networks import Layout, NetworkProblem, Rows, ridge_coefficients, ridge_knots
+from regress.networks import Layout, NetworkProblem, Rows, ridge_directions, ridge_knots
 from regress.targets import NETWORKS
 from regress.training import read_dataset
 from regress.training.preparation import Split, network_columns, prepare
@@ -122,7 +122,7 @@ def our_start(split: Split, alpha: float) -> np.ndarray:
         layout=layout,
         inputs=split.inputs,
         targets=split.targets,
-        coefficients=ridge_coefficients(split.inputs, split.targets, 3 * alpha),
+        directions=ridge_directions(split.inputs, split.targets, 3 * alpha),
         alpha=alpha,
         rng=np.random.default_rng(0),
     )
@@ -305,7 +305,7 @@ def tasks(folder: str, faces: int) -> Iterator[Task]:
     for network, columns in zip(NETWORKS, network_columns(), strict=True):
         if network.key in NAMES:
             splits = {
-                name: Split(inputs=split.inputs, targets=split.targets[:, columns])
+                name: replace(split, targets=split.targets[:, columns])
                 for name, split in prepared.splits.items()
             }
             trials = [

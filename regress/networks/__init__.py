@@ -2,7 +2,7 @@
 
 from regress.networks.folded import FoldedNetworks, evaluate, shifted
 from regress.networks.folding import fold
-from regress.networks.initial import nguyen_widrow, ridge_knots
+from regress.networks.initial import nguyen_widrow, ridge_directions, ridge_knots
 from regress.networks.least_squares import Layout, NetworkProblem, Rows
 from regress.networks.ridge import Ridge, fit_ridge, ridge_coefficients
 
@@ -17,6 +17,7 @@ __all__ = [
     "fold",
     "nguyen_widrow",
     "ridge_coefficients",
+    "ridge_directions",
     "ridge_knots",
     "shifted",
 ]

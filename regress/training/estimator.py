@@ -9,7 +9,7 @@ from sklearn.utils import Tags, check_random_state
 from sklearn.utils.validation import check_is_fitted, validate_data
 
 from regress.levenberg_marquardt import Result, Settings, minimise, minimise_with_evidence
-from regress.networks import Layout, NetworkProblem, Rows, evaluate, fold, ridge_coefficients, ridge_knots
+from regress.networks import Layout, NetworkProblem, Rows, evaluate, fold, ridge_directions, ridge_knots
 
 _RIDGE_FACTOR = 3.0
 """A start's ridge strength in units of alpha, as in ``training.fitting``."""
@@ -110,7 +110,7 @@ class LevenbergMarquardtRegressor(RegressorMixin, BaseEstimator):
                 layout=layout,
                 inputs=axes[kept],
                 targets=scaled[kept],
-                coefficients=ridge_coefficients(axes[kept], scaled[kept], _RIDGE_FACTOR * alpha),
+                directions=ridge_directions(axes[kept], scaled[kept], _RIDGE_FACTOR * alpha),
                 alpha=alpha,
                 rng=rng,
             )

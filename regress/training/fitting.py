@@ -23,7 +23,7 @@ from regress.networks import (
     NetworkProblem,
     Rows,
     nguyen_widrow,
-    ridge_coefficients,
+    ridge_directions,
     ridge_knots,
 )
 from regress.targets import NETWORKS
@@ -134,8 +134,11 @@ def _start(
     split: Split, rotation: np.ndarray, layout: Layout, recipe: Recipe, alpha: float, seed: int
 ) -> np.ndarray:
     """Parameters (31, P) with which the networks of one alpha begin."""
-    coefficients = ridge_coefficients(split.inputs, split.targets, _RIDGE_FACTOR * alpha)
     few = split.take(slice(_START_ROWS))
+    sources = [split]
+    if split.exact.any() and not split.exact.all():
+        sources.append(split.take(split.exact))
+    directions = [ridge_directions(rows.inputs, rows.targets, _RIDGE_FACTOR * alpha) for rows in sources]
     rows = []
     for number, columns in enumerate(network_columns()):
         rng = np.random.default_rng([seed, number])
@@ -146,7 +149,7 @@ def _start(
                 layout=layout,
                 inputs=few.inputs,
                 targets=few.targets[:, columns],
-                coefficients=coefficients[:, columns],
+                directions=np.concatenate([source[:, columns] for source in directions], axis=1),
                 alpha=alpha,
                 rng=rng,
             )

@@ -31,14 +31,17 @@ class Split:
         Z-scored features in principal axes.
     targets : (n, O) float64
         Z-scored weights in ``OUTPUTS`` order.
+    exact : (n,) bool
+        Rows as the dataset has them, not displaced.
     """
 
     inputs: np.ndarray
     targets: np.ndarray
+    exact: np.ndarray
 
     def take(self, rows: np.ndarray | slice) -> "Split":
         """Some of the rows."""
-        return Split(inputs=self.inputs[rows], targets=self.targets[rows])
+        return Split(inputs=self.inputs[rows], targets=self.targets[rows], exact=self.exact[rows])
 
     def network_rows(self) -> Rows:
         """The same in the layout and precision of :class:`NetworkProblem`."""
@@ -162,15 +165,18 @@ def prepare(
     The rotation into principal axes changes no cost (``|W1 V| = |W1|``) and makes X'X diagonal for the
     preconditioner. Nothing is cut off: low-variance axes carry signal.
     """
-    raw: dict[str, tuple[np.ndarray, np.ndarray]] = {}
+    raw: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
     for number, split in enumerate(("train", "validation", "test")):
         faces = faces_of(dataset, split, calibrated=calibrated)
         if mirror and split == "train":
             faces = _with_mirror_images(faces)
+        given = faces
         if noise is not None and split != "test":
-            faces = as_detected(faces.repeated(noise.copies), noise, np.random.default_rng([seed, number]))
-        raw[split] = faces.features(features), faces.weights[:, OUTPUT_COLUMNS]
-    inputs, targets = raw["train"]
+            given = faces.repeated(noise.copies)
+            faces = as_detected(given, noise, np.random.default_rng([seed, number]))
+        exact = (faces.points == given.points).all(axis=(1, 2))
+        raw[split] = faces.features(features), faces.weights[:, OUTPUT_COLUMNS], exact
+    inputs, targets, _ = raw["train"]
     normalisation = Normalisation(
         feature_mean=inputs.mean(axis=0),
         feature_std=_spread(inputs),
@@ -184,8 +190,9 @@ def prepare(
         split: Split(
             inputs=((inputs - normalisation.feature_mean) / normalisation.feature_std) @ rotation,
             targets=(targets - normalisation.target_mean) / normalisation.target_std,
+            exact=exact,
         )
-        for split, (inputs, targets) in raw.items()
+        for split, (inputs, targets, exact) in raw.items()
     }
     return Prepared(splits=splits, normalisation=normalisation, rotation=rotation)
 

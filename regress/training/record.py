@@ -10,12 +10,12 @@ from facegen.conventions import SPLITS
 from regress import __version__
 from regress.features import Features
 from regress.model import Model
-from regress.networks import fit_ridge
 from regress.targets import NETWORKS, OUTPUTS, VISIBLE_SHAPES
+from regress.training.baseline import fit_baseline
 from regress.training.dataset import KeypointDataset
 from regress.training.fitting import Fit
 from regress.training.noise import DetectorNoise
-from regress.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of, prepare
+from regress.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of
 from regress.training.recipes import Recipe
 from regress.training.regression import regress_split
 from regress.training.scores import Scores, evaluate_model, mean_r2, score, score_faces
@@ -108,15 +108,12 @@ def _baselines(
     dataset: KeypointDataset, features: Features, recipe: Recipe, *, calibrated: bool
 ) -> dict[str, dict[str, Scores]]:
     """Ridge on the same features, its strength chosen per shape, and the training mean; clipped."""
-    prepared = prepare(dataset, features, mirror=recipe.mirror, calibrated=calibrated)
-    train, validation, test = (prepared.splits[name] for name in SPLITS)
-    normalisation = prepared.normalisation
-    ridge = fit_ridge(train.inputs, train.targets, validation.inputs, validation.targets)
-    predicted = test.inputs @ ridge.coefficients * normalisation.target_std + normalisation.target_mean
-    true = faces_of(dataset, "test", calibrated=calibrated).weights[:, OUTPUT_COLUMNS]
-    mean = np.broadcast_to(normalisation.target_mean, true.shape)
+    ridge = fit_baseline(dataset, features, mirror=recipe.mirror, calibrated=calibrated)
+    faces = faces_of(dataset, "test", calibrated=calibrated)
+    true = faces.weights[:, OUTPUT_COLUMNS]
+    mean = np.broadcast_to(ridge.normalisation.target_mean, true.shape)
     return {
-        "ridge": dict(zip(OUTPUTS, score(np.clip(predicted, 0, 1), true), strict=True)),
+        "ridge": dict(zip(OUTPUTS, score(ridge.predict(faces.features(features)), true), strict=True)),
         "mean": dict(zip(OUTPUTS, score(mean, true), strict=True)),
     }
 

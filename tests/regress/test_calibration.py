@@ -133,6 +133,20 @@ def test_a_frame_and_its_neutral_share_the_bias_and_nothing_else():
     assert abs(np.corrcoef(frame[moved].ravel(), neutral[moved].ravel())[0, 1]) < 0.02
 
 
+def test_jitter_differs_from_face_to_face_and_some_faces_have_nothing_else():
+    noise = DetectorNoise(bias=1.0, drift=0.1, jitter=0.001, jitter_most=0.02, clean=0.2, unbiased=0.5)
+    frame, neutral = draw_displacements(noise, np.random.default_rng(0), 4000)
+    passing = (frame - neutral).std(axis=(1, 2)) / np.sqrt(2)
+    alone = np.abs(frame).mean(axis=(1, 2)) < 0.02  # a bias moves a face by 0.03
+    still = passing == 0
+    assert still.mean() == pytest.approx(0.2, abs=0.02)
+    jittered = alone & ~still
+    assert jittered.mean() == pytest.approx(0.5, abs=0.03)
+    levels = np.log(passing[jittered])
+    assert np.median(levels) == pytest.approx(np.log(0.001 * 0.02) / 2, abs=0.15)
+    assert np.log(0.0008) < levels.min() < levels.max() < np.log(0.024)
+
+
 def _recording(dataset: KeypointDataset, *, calm: int, moving: int) -> tuple[np.ndarray, np.ndarray]:
     """One person's frames, neutral ones at the end, with some jitter; and which are neutral."""
     rng = np.random.default_rng(3)

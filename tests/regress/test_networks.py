@@ -13,6 +13,7 @@ from regress.networks import (
     fold,
     nguyen_widrow,
     ridge_coefficients,
+    ridge_directions,
     ridge_knots,
 )
 from regress.targets import NETWORKS, NOT_OBSERVABLE, OUTPUTS, REGIONS, VISIBLE_SHAPES, observability
@@ -103,7 +104,12 @@ def test_ridge_knots_start_no_worse_than_ridge():
     coefficients = ridge_coefficients(inputs, targets, 3.0)
     layout = Layout(inputs=12, hidden=14, outputs=2)
     w1, w2 = ridge_knots(
-        layout=layout, inputs=inputs, targets=targets, coefficients=coefficients, alpha=1.0, rng=rng
+        layout=layout,
+        inputs=inputs,
+        targets=targets,
+        directions=ridge_directions(inputs, targets, 3.0),
+        alpha=1.0,
+        rng=rng,
     )
     columns = np.concatenate([inputs.T, np.ones((1, 500))])
     rows = Rows(inputs=columns, targets=targets.T[None])
@@ -112,13 +118,23 @@ def test_ridge_knots_start_no_worse_than_ridge():
     assert error < np.mean((inputs @ coefficients - targets) ** 2)
 
 
+def test_ridge_directions_have_outputs_of_unit_spread():
+    rng = np.random.default_rng(3)
+    inputs = rng.normal(size=(200, 12)) * np.logspace(0, -3, 12)
+    targets = inputs @ rng.normal(size=(12, 2))
+    directions = ridge_directions(inputs, targets, 0.1)
+    assert (inputs @ directions).std(axis=0) == pytest.approx(1)
+    coefficients = ridge_coefficients(inputs, targets, 0.1)
+    assert np.allclose(directions / directions[0], coefficients / coefficients[0])
+
+
 def test_ridge_knots_bear_a_shape_that_inputs_do_not_show():
     layout = Layout(inputs=3, hidden=4, outputs=1)
     w1, w2 = ridge_knots(
         layout=layout,
         inputs=np.ones((5, 3)),
         targets=np.zeros((5, 1)),
-        coefficients=np.zeros((3, 1)),
+        directions=ridge_directions(np.ones((5, 3)), np.zeros((5, 1)), 1.0),
         alpha=0.0,
         rng=np.random.default_rng(0),
     )
