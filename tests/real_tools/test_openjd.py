@@ -81,7 +81,7 @@ def test_the_template_passes_the_check_with_every_step(tmp_path):
     values = json.loads((out / "farm" / "job-001" / "bundle" / "parameter_values.json").read_text())
     assert {"name": "deadline:maxWorkerCount", "value": 7} in values["parameterValues"]
     assert {path.name for path in Path(template).parent.iterdir()} == {
-        *("template.json", "parameter_values.json", "asset_references.json", "spec.toml")
+        *("template.json", "parameter_values.json", "asset_references.json", "spec.toml", "headset.toml")
     }
 
 
