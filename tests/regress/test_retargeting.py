@@ -1,0 +1,93 @@
+"""Retargeting matrices: those that ship, and those that people write."""
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES, mirrored_name
+from regress.errors import InputError
+from regress.retargeting import read_retargeting, shipped_targets
+
+COUNTS = {"mixamo50": 50, "perfect_sync": 52, "vrm0": 17, "vrm1": 18}
+"""How many shapes a target has, where its makers give a number."""
+
+
+@pytest.mark.parametrize("name", shipped_targets())
+def test_shipped_targets_are_sound(name: str):
+    target = read_retargeting(name)
+    assert target.source
+    assert len(target.names) == len(set(target.names)) == COUNTS.get(name, len(target.names))
+    assert np.isfinite(target.factors).all()
+    assert (target.factors >= 0).all()
+    assert (target.low == 0).all()
+    assert (target.high == 1).all()
+    assert (target.apply(np.zeros((1, 52))) == 0).all()
+    assert target.apply(np.ones((1, 52))).max() == 1
+
+
+@pytest.mark.parametrize("name", shipped_targets())
+def test_shipped_targets_treat_both_sides_alike(name: str):
+    """What drives X...Left drives X...Right with sides exchanged, whatever a target's spelling of sides."""
+    target = read_retargeting(name)
+    rows = dict(zip(target.names, target.factors.T, strict=True))
+    spellings = (("Left", "Right"), ("left", "right"), ("_l", "_r"))
+    sided = 0
+    for shape, factors in rows.items():
+        for left, right in spellings:
+            if shape.endswith(left):
+                np.testing.assert_array_equal(
+                    factors, rows[shape.removesuffix(left) + right][list(MIRRORED_BLENDSHAPES)]
+                )
+                sided += 1
+    assert sided >= 2
+
+
+def test_perfect_sync_is_arkit_with_a_capital():
+    target = read_retargeting("perfect_sync")
+    weights = np.random.default_rng(0).uniform(size=(3, 52))
+    np.testing.assert_array_equal(target.apply(weights), weights)
+    assert tuple(name[0].lower() + name[1:] for name in target.names) == BLENDSHAPES
+    assert all(mirrored_name(name) in target.names for name in target.names)
+
+
+def test_a_file_of_ones_own_mixes_limits_and_leaves_empty_rows(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        "[shapes]\nJawSide = { jawRight = 1.0, jawLeft = -1.0 }\nGrin = { mouthSmileLeft = 2 }\nEar = {}\n"
+        "[limits]\nJawSide = [-1, 1]\n"
+    )
+    target = read_retargeting(str(path))
+    weights = np.zeros((3, 52))
+    weights[0, BLENDSHAPE_INDEX["jawLeft"]] = 0.4
+    weights[0, BLENDSHAPE_INDEX["mouthSmileLeft"]] = 0.7
+    weights[1] = np.nan
+    np.testing.assert_allclose(target.apply(weights), [[-0.4, 1.0, 0.0], [np.nan] * 3, [0, 0, 0]])
+    assert target.names == ("JawSide", "Grin", "Ear")
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("[shapes", "not a readable TOML"),
+        ("", "names no shape"),
+        ("shapes = 3", "a table [shapes] is needed"),
+        ("[shape]\nA = {}", "shape is not known; known are title, source"),
+        ("[shapes]\nA = 1", "a table like"),
+        ("[shapes]\nA = { jawOpened = 1 }", "shapes.A.jawOpened is not one of the 52"),
+        ("[shapes]\nA = { jawOpen = nan }", "a finite number"),
+        ("[shapes]\nA = { jawOpen = true }", "a finite number"),
+        ("[shapes]\nA = {}\n[limits]\nB = [0, 1]", "limits.B is not among the shapes"),
+        ("[shapes]\nA = {}\n[limits]\nA = [0.1, 1]", "[low, high] about 0"),
+        ("[shapes]\nA = {}\n[limits]\nA = [0]", "[low, high] about 0"),
+    ],
+)
+def test_a_bad_file_is_refused(content: str, said: str, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(content)
+    with pytest.raises(InputError) as caught:
+        read_retargeting(str(path))
+    assert said in str(caught.value)
+
+
+def test_an_unknown_target_names_the_known_ones():
+    with pytest.raises(InputError, match=r"mixamo50, perfect_sync, .* or give a \.toml file"):
+        read_retargeting("mixamo")
