@@ -1,4 +1,4 @@
-"""``facegen spec check | show | schema``."""
+"""``facegen spec check | show | schema | reference``."""
 
 import json
 import sys
@@ -49,3 +49,14 @@ def schema() -> None:
 
     json.dump(spec_schema(), sys.stdout, indent=2)
     print()
+
+
+@spec_app.command()
+def reference() -> None:
+    """Print every key of a spec with unit, allowed values, default and meaning, as Markdown: the page docs/spec.md.
+
+    Example: facegen spec reference > docs/spec.md
+    """
+    from facegen.spec import spec_reference
+
+    print(spec_reference(), end="")

@@ -2,6 +2,7 @@
 
 from facegen.spec.distribution import Distribution, draw
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
+from facegen.spec.reference import spec_reference
 from facegen.spec.sample_ranges import format_ranges, sample_numbers
 from facegen.spec.spec import Expression, Spec
 
@@ -16,6 +17,7 @@ __all__ = [
     "parse_spec",
     "sample_numbers",
     "spec_hash",
+    "spec_reference",
     "spec_schema",
     "spec_table",
 ]

@@ -87,19 +87,32 @@ def as_data(distribution: Distribution) -> float | dict[str, list[float]]:
     return {"normal": [distribution.mean, distribution.sd], "within": bounds}
 
 
-_SCHEMA = WithJsonSchema(
-    {
-        "anyOf": [
-            {"type": "number"},
-            {"type": "object", "properties": {"uniform": {"type": "array"}}, "required": ["uniform"]},
-            {
-                "type": "object",
-                "properties": {"normal": {"type": "array"}, "within": {"type": "array"}},
-                "required": ["normal"],
-            },
-        ]
-    }
-)
+def _schema(low: float, high: float, unit: str) -> WithJsonSchema:
+    number = {"type": "number", "minimum": low, "maximum": high}
+
+    def pair(first: dict, second: dict) -> dict:
+        return {"type": "array", "prefixItems": [first, second], "items": False, "minItems": 2}
+
+    def table(required: str, **properties: dict) -> dict:
+        return {
+            "type": "object",
+            "properties": properties,
+            "required": [required],
+            "additionalProperties": False,
+        }
+
+    bounds = pair(number, number)
+    normal = pair(number, {"type": "number", "exclusiveMinimum": 0})
+    return WithJsonSchema(
+        {
+            "anyOf": [
+                number,
+                table("uniform", uniform=bounds),
+                table("normal", normal=normal, within=bounds),
+            ],
+            "x-unit": unit,
+        }
+    )
 
 
 def quantity(low: float, high: float, unit: str) -> Any:
@@ -115,4 +128,4 @@ def quantity(low: float, high: float, unit: str) -> Any:
             )
         return result
 
-    return Annotated[Distribution, BeforeValidator(check), PlainSerializer(as_data), _SCHEMA]
+    return Annotated[Distribution, BeforeValidator(check), PlainSerializer(as_data), _schema(low, high, unit)]

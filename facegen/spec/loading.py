@@ -5,12 +5,15 @@ import difflib
 import hashlib
 import json
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, get_args
 
 from pydantic import TypeAdapter, ValidationError
+from pydantic.dataclasses import is_pydantic_dataclass
 
 from facegen.errors import InputError
+from facegen.spec.distribution import as_data
 from facegen.spec.sample_ranges import parse_ranges
 from facegen.spec.spec import Spec
 
@@ -89,8 +92,14 @@ def spec_table(spec: Spec) -> dict[str, Any]:
 
 
 def spec_schema() -> dict[str, Any]:
-    """JSON schema of a spec, for editors."""
-    return _ADAPTER.json_schema()
+    """JSON schema (2020-12) of a spec with all defaults, for editors and for `facegen.spec.spec_reference`."""
+    schema = _ADAPTER.json_schema()
+    for record in _records(Spec):
+        properties = (schema if record is Spec else schema["$defs"][record.__name__])["properties"]
+        for field in dataclasses.fields(record):
+            if field.default_factory is not dataclasses.MISSING:  # pydantic leaves these out
+                properties[field.name]["default"] = as_data(field.default_factory())
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
 
 
 def spec_hash(spec: Spec, *, asset_sha256: dict[str, str]) -> str:
@@ -107,11 +116,22 @@ def spec_hash(spec: Spec, *, asset_sha256: dict[str, str]) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
+def _records(record: Any) -> Iterator[Any]:
+    """A record of a spec and all records in it."""
+    yield record
+    for field in dataclasses.fields(record):
+        for inner in _records_of(field):
+            yield from _records(inner)
+
+
+def _records_of(field: dataclasses.Field) -> list[Any]:
+    return [kind for kind in (field.type, *get_args(field.type)) if is_pydantic_dataclass(kind)]
+
+
 def _known_keys(location: tuple[int | str, ...]) -> list[str]:
     record: Any = Spec
     for key in location[:-1]:
-        annotation = {f.name: f.type for f in dataclasses.fields(record)}.get(str(key))
-        options = [t for t in (annotation, *get_args(annotation)) if dataclasses.is_dataclass(t)]
+        options = [kind for f in dataclasses.fields(record) if f.name == key for kind in _records_of(f)]
         if not options:
             return []
         record = options[0]

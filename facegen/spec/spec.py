@@ -11,9 +11,9 @@ from facegen.spec.distribution import Distribution, parse, quantity
 _STRICT = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True)
 # every key's docstring is its line in docs/spec.md and in the JSON schema
 
-Share = Annotated[float, Field(ge=0, le=1)]
+Share = Annotated[float, Field(ge=0, le=1, json_schema_extra={"x-unit": "share"})]
 Count = Annotated[int, Field(ge=1)]
-Weight = Annotated[float, Field(ge=0, le=1000)]
+Weight = Annotated[float, Field(ge=0, le=1000, json_schema_extra={"x-unit": "share"})]
 
 
 def _default(value: object) -> Distribution:
@@ -60,7 +60,7 @@ class Identity:
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
 class Mixture:
-    """How often each component of the expression model makes a face: relative weights, of which the sum is 1 whole.
+    """How often each component of the expression model makes a face: relative weights; their sum counts as 1.
 
     Where the table stands in a spec, components that it does not name are left out.
     """
@@ -98,8 +98,7 @@ class Expression:
     subtle: Share = 0.3
     """Share of faces that are scaled down, log-uniformly to between 2 and 100 %."""
     resting: Share = 0.2
-    """Largest weight that a shape has at rest, in components that show living faces (not in single, sparse, dense,
-    extreme and divergent)."""
+    """Largest weight that each shape has at rest; not in single, sparse, dense, extreme and divergent faces."""
     mixture: Mixture = Mixture(
         rest=0.04,
         single=0.10,

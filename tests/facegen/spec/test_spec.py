@@ -1,5 +1,6 @@
 """Specs: what is accepted, what is refused and how, and what the hash depends on."""
 
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,9 +8,19 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from jsonschema import Draft202012Validator
 
 from facegen.errors import InputError
-from facegen.spec import draw, load_spec, parse_spec, sample_numbers, spec_hash, spec_schema, spec_table
+from facegen.spec import (
+    draw,
+    load_spec,
+    parse_spec,
+    sample_numbers,
+    spec_hash,
+    spec_reference,
+    spec_schema,
+    spec_table,
+)
 from facegen.spec.distribution import as_data, parse
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -42,6 +53,24 @@ def test_shipped_specs_load_and_survive_a_round_trip(path):
         ({"render": {"samples": "0-x"}}, ["render.samples", "'0-x'"]),
         ({"kind": "playback"}, ["[playback]", "recording"]),
         ({"seed": -1}, ["seed = -1"]),
+        (
+            {"expression": {"symmetric": 0.5}},
+            ["unknown key 'expression.symmetric'", "left_right_correlation"],
+        ),
+        (
+            {"expression": {"mixture": {"speach": 1}}},
+            ["'expression.mixture.speach'", "did you mean 'speech'", "one_sided"],
+        ),
+        (
+            {"expression": {"mixture": {"speech": -1}}},
+            ["expression.mixture.speech = -1", "greater than or equal to 0"],
+        ),
+        ({"expression": {"mixture": {}}}, ["expression.mixture", "above 0", "speech"]),
+        (
+            {"expression": {"left_right_correlation": 2}},
+            ["expression.left_right_correlation = 2", "less than or equal to 1"],
+        ),
+        ({"expression": {"model": 2}}, ["expression.model = 2", "1"]),
     ],
 )
 def test_refusals_say_what_where_and_what_is_allowed(change, words):
@@ -78,6 +107,44 @@ def test_hash_depends_on_what_decides_samples_and_on_nothing_else():
 def test_schema_lists_every_key():
     properties = spec_schema()["properties"]
     assert set(properties) == set(spec_table(parse_spec(SMALL, where="")))
+
+
+SCHEMA = Draft202012Validator(spec_schema())
+
+
+def test_schema_is_one_and_takes_the_shipped_specs():
+    Draft202012Validator.check_schema(SCHEMA.schema)
+    for path in (ROOT / "datasets").glob("*.toml"):
+        SCHEMA.validate(tomllib.loads(path.read_text()))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"peple": 3},
+        {"head": {"yaw_deg": {"uniform": [5, 100]}}},
+        {"head": {"yaw_deg": {"uniform": [5]}}},
+        {"head": {"yaw_deg": {"normal": [0, 0]}}},
+        {"head": {"yaw_deg": {"normal": [0, 5], "between": [-5, 5]}}},
+        {"camera": {"distance_m": 600}},
+        {"expression": {"mixture": {"speech": -1}}},
+        {"expression": {"left_right_correlation": 1.5}},
+    ],
+)
+def test_schema_refuses_what_loading_refuses(change):
+    SCHEMA.validate(SMALL | {"head": {"yaw_deg": {"normal": [0, 5], "within": [-5, 5]}}})
+    assert not SCHEMA.is_valid(SMALL | change)
+    with pytest.raises(InputError):
+        parse_spec(SMALL | change, where="")
+
+
+def test_the_page_of_keys_is_what_the_command_prints():
+    """Write it anew with ``facegen spec reference > docs/spec.md``."""
+    page = spec_reference()
+    assert (ROOT / "docs" / "spec.md").read_text(encoding="utf-8") == page
+    rows = [line.split(" | ") for line in page.splitlines() if line.startswith("| `")]
+    assert len(rows) > 40
+    assert all(row[-1].removesuffix(" |").strip() for row in rows), "a key lacks its docstring"
 
 
 _numbers = st.floats(-50, 50, allow_nan=False).map(lambda x: round(x, 3))
