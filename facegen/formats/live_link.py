@@ -1,4 +1,4 @@
-"""Recordings of the Live Link Face app: one row a frame, 52 blendshapes, read by name.
+"""Recordings of the Live Link Face app: one row a frame, 52 blendshapes and nine angles, read by name.
 
 The header's second column is ``BlendShapeCount`` or ``BlendshapeCount``; JawRight and MouthRight stand before
 their left partners, which is why columns are never read by number.
@@ -17,6 +17,21 @@ from facegen.errors import FormatError
 
 TIMECODE_RATE = 60
 """The app counts 60 timecode frames a second, also where it writes 30 rows a second (seen in two takes)."""
+
+_SWAPPED = {
+    "jawLeft": "jawRight",
+    "jawRight": "jawLeft",
+    "mouthLeft": "mouthRight",
+    "mouthRight": "mouthLeft",
+}
+
+_SHAPE_COLUMNS: tuple[str, ...] = tuple(_SWAPPED.get(name, name) for name in BLENDSHAPES)
+"""Our names in the app's order of columns, which has these two pairs the other way round."""
+
+ROTATIONS: tuple[str, ...] = tuple(
+    f"{what}{angle}" for what in ("Head", "LeftEye", "RightEye") for angle in ("Yaw", "Pitch", "Roll")
+)
+"""The last nine columns: angles of head and eyes."""
 
 _TIMECODE = re.compile(r"(\d+):(\d+):(\d+):(\d+(?:\.\d+)?)")
 
@@ -82,6 +97,38 @@ def read_live_link(path: str | os.PathLike[str], *, fps: float | None = None) ->
     timecodes = tuple(row[columns["timecode"]].strip() for row in rows)
     time_s = _timecode_seconds(timecodes, path) if fps is None else np.arange(len(rows)) / fps
     return LiveLinkTake(weights=weights, timecodes=timecodes, time_s=time_s)
+
+
+def live_link_csv(weights: np.ndarray, time_s: np.ndarray, *, rotations: np.ndarray | None = None) -> str:
+    """Text of a recording as the app writes it: 63 columns in its order, ten decimals.
+
+    Parameters
+    ----------
+    weights : (n, 52) float
+        In ``BLENDSHAPES`` order; a row with NaN is a frame without a face, and its cells stay empty.
+    time_s : (n,) float
+        Seconds from 00:00:00, finite and not negative; kept to a thousandth of a timecode frame (17 microseconds).
+    rotations : (n, 9) float, optional
+        `ROTATIONS` of every frame, in the app's unit; 0 without.
+    """
+    order = [BLENDSHAPES.index(name) for name in _SHAPE_COLUMNS]
+    angles = np.zeros((len(weights), len(ROTATIONS))) if rotations is None else rotations
+    values = np.concatenate([np.asarray(weights, dtype=np.float64)[:, order], angles], axis=1)
+    names = [name[0].upper() + name[1:] for name in _SHAPE_COLUMNS]
+    lines = [",".join(["Timecode", "BlendShapeCount", *names, *ROTATIONS])]
+    for time, row in zip(time_s, values, strict=True):
+        known = not np.isnan(row).any()
+        cells = [f"{value:.10f}" if known else "" for value in row]
+        lines.append(",".join([_timecode(float(time)), str(values.shape[1]), *cells]))
+    return "\n".join(lines) + "\n"
+
+
+def _timecode(time_s: float) -> str:
+    frames, thousandths = divmod(round(time_s * TIMECODE_RATE * 1000), 1000)
+    seconds, frame = divmod(frames, TIMECODE_RATE)
+    minutes, second = divmod(seconds, 60)
+    hours, minute = divmod(minutes, 60)
+    return f"{hours % 24:02d}:{minute:02d}:{second:02d}:{frame:02d}.{thousandths:03d}"
 
 
 def _timecode_seconds(timecodes: tuple[str, ...], path: Path) -> np.ndarray:

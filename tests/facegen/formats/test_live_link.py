@@ -6,9 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from facegen.formats import FormatError, read_live_link
+from facegen.formats import FormatError, live_link_csv, read_live_link
 
 REAL = Path(os.environ.get("FACEGEN_REAL", Path(__file__).parents[4] / "shared" / "real")) / "livelink"
 needs_recordings = pytest.mark.skipif(
@@ -62,6 +65,53 @@ def test_what_is_no_recording_is_refused(tmp_path: Path):
         read_live_link(_write(path, names, [["00:00:00:00.0", "61", "x", *["0"] * 51]]))
     with pytest.raises(FormatError, match="timecode 'soon'"):
         read_live_link(_write(path, names, [["soon", "61", *["0"] * 52]]))
+
+
+@given(
+    weights=hnp.arrays(np.float64, (4, 52), elements=st.floats(-0.02, 1.4)),
+    start_s=st.floats(0, 80_000),
+    steps_s=hnp.arrays(np.float64, 4, elements=st.floats(0, 30)),
+    gap=st.integers(0, 3),
+)
+@settings(max_examples=60, deadline=None)
+def test_what_is_written_is_read_again(tmp_path_factory, weights, start_s, steps_s, gap):
+    weights[gap] = np.nan
+    time_s = start_s + np.cumsum(steps_s)
+    path = tmp_path_factory.mktemp("takes") / "a.csv"
+    path.write_text(live_link_csv(weights, time_s))
+    take = read_live_link(path)
+    np.testing.assert_allclose(take.weights, weights, atol=1e-10, rtol=0)
+    np.testing.assert_allclose(take.time_s, time_s - time_s[0], atol=2e-5)  # 1/60000 s is 1.7e-5
+
+
+def test_columns_are_the_apps(tmp_path: Path):
+    weights = np.zeros((2, 52))
+    weights[0, BLENDSHAPE_INDEX["jawLeft"]] = 0.25
+    text = live_link_csv(weights, np.array([0.0, 3661.9999999]), rotations=np.full((2, 9), -0.5))
+    header, *rows = csv.reader(text.splitlines())
+    assert len(header) == 63
+    assert header[16:20] == ["JawForward", "JawRight", "JawLeft", "JawOpen"]
+    assert header[-10:-7] == ["TongueOut", "HeadYaw", "HeadPitch"]
+    assert rows[0][:2] == ["00:00:00:00.000", "61"]
+    assert rows[0][18] == "0.2500000000"
+    assert rows[1][0] == "01:01:02:00.000"
+    assert rows[1][-1] == "-0.5000000000"
+
+
+@needs_recordings
+@pytest.mark.parametrize("name", ["alex_rom_3.csv", "S07-001.csv"])
+def test_a_real_recording_written_again_has_its_columns_and_timecodes(name: str, tmp_path: Path):
+    with open(REAL / name, newline="") as file:
+        header, *rows = list(csv.reader(file))
+    take = read_live_link(REAL / name)
+    hours, minutes, seconds, frames = (float(part) for part in take.timecodes[0].split(":"))
+    start = hours * 3600 + minutes * 60 + seconds + frames / 60
+    ours_header, *ours = list(csv.reader(live_link_csv(take.weights, start + take.time_s).splitlines()))
+    assert [column.lower() for column in ours_header] == [column.lower() for column in header]
+    assert [row[0] for row in ours] == [row[0] for row in rows]
+    assert [float(cell) for cell in ours[5][2:54]] == pytest.approx(
+        [float(c) for c in rows[5][2:54]], abs=1e-9
+    )
 
 
 @needs_recordings
