@@ -41,7 +41,7 @@ def _mottled(graph: Graph, place: Socket, albedo: Socket, *sizes_m: float) -> So
     """Albedo that varies around its mean with the relative depth ``mottle``, at each of the given sizes."""
     total: Socket = 0.0
     for size in sizes_m:
-        total = graph.math("ADD", total, graph.noise(place, 1.0 / size))
+        total = graph.math("ADD", total, graph.noise(place, 1.0 / size, detail=1.0))
     relative = graph.math(
         "MULTIPLY_ADD", total, graph.math("DIVIDE", graph.parameters["mottle"], len(sizes_m)), 1.0
     )
@@ -74,7 +74,7 @@ def _crease(graph: Graph, place: Socket) -> Socket:
         graph.node("Attribute", output="Fac", settings={"attribute_name": name})
         for name in ("crease_distance_m", "crease_share")
     )
-    wander = math("MULTIPLY_ADD", graph.noise(place, 1.0 / 9.0e-3, detail=1.0), 0.6e-3, distance)
+    wander = math("MULTIPLY_ADD", graph.noise(place, 1.0 / 9.0e-3, detail=0.0), 0.6e-3, distance)
 
     def groove(at: Socket, width_m: float) -> Socket:
         off = math("DIVIDE", math("SUBTRACT", wander, at), width_m)

@@ -80,10 +80,9 @@ class Renderer:
         cycles.use_animated_seed = False
         # measured: the default, blue noise, gives other noise after a render with more samples, for good
         cycles.sampling_pattern = "TABULATED_SOBOL"
-        cycles.use_light_tree = True
         # measured: more bounces change nothing, a second diffuse one is 1 % of the brightness
         cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces = 4, 2, 2
-        cycles.transmission_bounces, cycles.transparent_max_bounces = 4, 16
+        cycles.transmission_bounces, cycles.transparent_max_bounces = 4, 4
         cycles.caustics_reflective = cycles.caustics_refractive = False
         cycles.denoiser = "OPENIMAGEDENOISE"
         cycles.denoising_input_passes = "RGB_ALBEDO_NORMAL"
@@ -200,6 +199,12 @@ class Renderer:
         """Switch on the lamps of a view and no others."""
         for name, placed in self._lamps.items():
             placed.hide_render = view is None or name not in view.lamps
+        powers = {
+            self._lamps[name].data.energy for name in (view.lamps if view else ()) if name in self._lamps
+        }
+        # measured: among equal lamps any choice is as good, and the tree costs a fifth of an eye's view; among lamps of
+        # different weight it more than pays (a mouth's noise at equal time is 0.42 of that without)
+        self._scene.cycles.use_light_tree = len(powers) > 1
 
     def _aim(self, view: View) -> None:
         """Make the view's camera the scene's."""
