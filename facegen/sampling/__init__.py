@@ -1,6 +1,6 @@
 """Draws: from (spec, sample number) to everything that differs between samples."""
 
-from facegen.sampling.expression import COMPONENT_NAMES
+from facegen.sampling.frames import COMPONENT_NAMES
 from facegen.sampling.plan import Plan, plan_dataset
 from facegen.sampling.samples import Samples, draw_samples
 

@@ -74,18 +74,24 @@ def people_of(spec: Spec, rig: Rig, person: np.ndarray) -> People:
     return People(**{name: pick(name) for name in ("female", "age_years", "ancestry", "identity")})
 
 
-def split_of(spec: Spec, person: np.ndarray) -> np.ndarray:
-    """Index into `facegen.conventions.SPLITS` of people (n,): a random partition of all people by the spec's shares."""
-    everyone = _split_of_everyone(spec.seed, spec.people, tuple(spec.split_shares))
-    return everyone[np.minimum(person, spec.people - 1)]
+def split_of(spec: Spec, unit: np.ndarray) -> np.ndarray:
+    """Index into `facegen.conventions.SPLITS` of people (n,), or of sessions where ``split = "session"``.
+
+    A random partition of all of them by the spec's shares.
+    """
+    total = spec.people
+    if spec.split == "session" and spec.kind == "sequence":  # elsewhere everyone has one session
+        total *= spec.sequence.sessions
+    everyone = _split_of_everyone(spec.seed, total, tuple(spec.split_shares))
+    return everyone[np.minimum(unit, total - 1)]
 
 
 @lru_cache(maxsize=2)
-def _split_of_everyone(seed: int, people: int, shares: tuple[float, ...]) -> np.ndarray:
-    """(people,) int8; kept, because every block asks and a million people take 25 ms."""
-    order = stream(seed, "split", 0).permutation(people)
-    edges = np.round(np.cumsum(shares) * people).astype(int)
-    split = np.empty(people, np.int8)
-    split[order] = np.minimum(np.searchsorted(edges, np.arange(people), side="right"), len(SPLITS) - 1)
+def _split_of_everyone(seed: int, total: int, shares: tuple[float, ...]) -> np.ndarray:
+    """(total,) int8; kept, because every block asks and a million people take 25 ms."""
+    order = stream(seed, "split", 0).permutation(total)
+    edges = np.round(np.cumsum(shares) * total).astype(int)
+    split = np.empty(total, np.int8)
+    split[order] = np.minimum(np.searchsorted(edges, np.arange(total), side="right"), len(SPLITS) - 1)
     split.flags.writeable = False
     return split

@@ -7,6 +7,7 @@ import numpy as np
 from facegen.conventions import BLOCK
 from facegen.errors import InputError
 from facegen.formats import read_live_link
+from facegen.sampling.motion import Script, write_script
 from facegen.spec import Spec
 
 
@@ -22,11 +23,14 @@ class Plan:
         Samples of one person; sample ``i`` belongs to person ``i // frames``.
     recording
         (frames, 52) weights that everyone plays, for ``kind = "playback"``; None otherwise.
+    script
+        Clips of every session, for ``kind = "sequence"``; None otherwise.
     """
 
     spec: Spec
     frames: int
-    recording: np.ndarray | None
+    recording: np.ndarray | None = None
+    script: Script | None = None
 
     @property
     def samples(self) -> int:
@@ -61,7 +65,10 @@ def plan_dataset(spec: Spec) -> Plan:
         If the recording cannot be read, or has not the frames asked for.
     """
     if spec.kind == "still":
-        return Plan(spec=spec, frames=spec.still.neutral + spec.still.faces, recording=None)
+        return Plan(spec=spec, frames=spec.still.neutral + spec.still.faces)
+    if spec.kind == "sequence":
+        script = write_script(spec)
+        return Plan(spec=spec, frames=spec.sequence.sessions * script.session_frames, script=script)
     playback = spec.playback
     weights = read_live_link(playback.recording).weights
     last = len(weights) if playback.frames is None else playback.first_frame + playback.frames
@@ -79,6 +86,8 @@ def block_places(plan: Plan, block: int) -> Places:
     sample = np.arange(block * BLOCK, (block + 1) * BLOCK, dtype=np.int64)
     person, within = np.divmod(sample, plan.frames)
     nothing = np.zeros_like(sample)
+    if plan.script is not None:
+        return _sequence_places(plan, plan.script, sample, person)
     if plan.spec.kind == "playback":
         return Places(
             sample=sample,
@@ -98,4 +107,19 @@ def block_places(plan: Plan, block: int) -> Places:
         frame=nothing,
         time_s=np.zeros(BLOCK),
         neutral=within < plan.spec.still.neutral,
+    )
+
+
+def _sequence_places(plan: Plan, script: Script, sample: np.ndarray, person: np.ndarray) -> Places:
+    session, within = np.divmod(sample, script.session_frames)
+    place = np.searchsorted(script.first, within, side="right") - 1
+    frame = within - script.first[place]
+    return Places(
+        sample=sample,
+        person=person,
+        session=session,
+        clip=session * len(script.kind) + place,
+        frame=frame,
+        time_s=frame / plan.spec.sequence.fps,
+        neutral=script.neutral[place],
     )

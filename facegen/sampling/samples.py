@@ -6,16 +6,12 @@ import numpy as np
 
 from facegen.conventions import BLOCK
 from facegen.randomness import stream
-from facegen.rigs import Rig, eye_centers
-from facegen.sampling.cameras import camera_from_head, draw_head_rotation, draw_keypoint_camera
-from facegen.sampling.expression import COMPONENT_NAMES, draw_faces
-from facegen.sampling.gaze import axes_from_weights
+from facegen.rigs import Rig
+from facegen.sampling.cameras import camera_from_head
+from facegen.sampling.detector import draw_detector_noise
+from facegen.sampling.frames import FIT_AXES, draw_clip_frames, draw_single_frames
 from facegen.sampling.people import people_of, split_of
 from facegen.sampling.plan import Plan, block_places
-from facegen.spec import draw
-
-FIT_AXES = 6
-"""Degrees of freedom of a headset on a head: translation x, y, z and rotation about x, y, z."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,13 +37,13 @@ class Samples:
     gaze
         (n, 2, 3) unit optical axes in the head frame, subject's left eye first.
     component
-        (n,) int8, index into `facegen.sampling.COMPONENT_NAMES`: what made the expression.
+        (n,) int8, index into `facegen.sampling.frames.COMPONENT_NAMES`: what made the expression.
     camera_from_head
         (n, 4, 4) of the keypoint camera.
     intrinsics
         (n, 4): fx, fy, cx, cy of the keypoint camera, pixels.
     detector_noise
-        (n, 68, 2) noise of the detected landmarks, as a share of the face's width.
+        (n, 68, 2) noise of the detected landmarks, as a share of the face's width; NaN where no face is found.
     pupil_radius_m
         (n, 2) radii of the pupils.
     donning, slip
@@ -91,23 +87,14 @@ def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:
     """All draws of a block of 1,000 samples; rows past the dataset's end are there, and to be cut by the caller."""
     spec, places = plan.spec, block_places(plan, block)
     people = people_of(spec, rig, places.person)
-
-    def rng(component: str) -> np.random.Generator:
-        return stream(spec.seed, component, block)
-
-    if plan.recording is None:
-        faces = draw_faces(spec, rng, eye_centers(rig, people.identity))
-        weights, gaze, component = faces.weights, faces.gaze, faces.component
-        weights[places.neutral] = 0.0
-        gaze[places.neutral] = (0.0, 0.0, 1.0)
-        component[places.neutral] = COMPONENT_NAMES.index("neutral")
+    if plan.script is not None:
+        frames = draw_clip_frames(plan, rig, places, people.identity)
     else:
-        weights = plan.recording[places.frame % plan.frames]
-        gaze = axes_from_weights(weights)
-        component = np.full(BLOCK, COMPONENT_NAMES.index("recording"), np.int8)
-    intrinsics, position = draw_keypoint_camera(spec, rng("camera"), BLOCK)
-    rotation = draw_head_rotation(spec, rng("head"), BLOCK)
-    pupil = draw(spec.eyes.pupil_radius_mm, rng("pupil"), BLOCK) * 1e-3
+        frames = draw_single_frames(plan, rig, block, places, people.identity)
+    noise = draw_detector_noise(
+        spec.landmarks, spec.seed, block, person=places.person, rotation=frames.rotation
+    )
+    noise[frames.dropped] = np.nan
     return Samples(
         sample=places.sample,
         person=places.person,
@@ -116,18 +103,18 @@ def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:
         frame=places.frame,
         time_s=places.time_s,
         neutral=places.neutral,
-        split=split_of(spec, places.person),
+        split=split_of(spec, places.session if spec.split == "session" else places.person),
         female=people.female,
         age_years=people.age_years,
         ancestry=people.ancestry,
         identity=people.identity,
-        weights=weights,
-        gaze=gaze,
-        component=component,
-        camera_from_head=camera_from_head(rotation, position),
-        intrinsics=intrinsics,
-        detector_noise=rng("detector").standard_normal((BLOCK, 68, 2)) * spec.landmarks.noise_face_widths,
-        pupil_radius_m=np.repeat(pupil[:, None], 2, axis=1),
+        weights=frames.weights,
+        gaze=frames.gaze,
+        component=frames.component,
+        camera_from_head=camera_from_head(frames.rotation, frames.position_m),
+        intrinsics=frames.intrinsics,
+        detector_noise=noise,
+        pupil_radius_m=np.repeat(frames.pupil_radius_m[:, None], 2, axis=1),
         donning=_by_session(spec.seed, "donning", places.session, FIT_AXES),
-        slip=rng("slip").standard_normal((BLOCK, FIT_AXES)),
+        slip=frames.slip,
     )

@@ -4,12 +4,14 @@ from facegen.spec.distribution import Distribution, draw
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
 from facegen.spec.reference import spec_reference
 from facegen.spec.sample_ranges import format_ranges, sample_numbers
-from facegen.spec.spec import Expression, Spec
+from facegen.spec.spec import Expression, Gaze, Landmarks, Spec
 
 __all__ = [
     "LABEL_VERSION",
     "Distribution",
     "Expression",
+    "Gaze",
+    "Landmarks",
     "Spec",
     "draw",
     "format_ranges",

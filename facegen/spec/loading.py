@@ -15,7 +15,7 @@ from pydantic.dataclasses import is_pydantic_dataclass
 from facegen.errors import InputError
 from facegen.spec.distribution import as_data
 from facegen.spec.sample_ranges import parse_ranges
-from facegen.spec.spec import Spec
+from facegen.spec.spec import Clips, Spec
 
 LABEL_VERSION = 2
 """Raised with every change that alters labels or pixels for the same spec; part of every hash (see CHANGELOG.md)."""
@@ -78,6 +78,10 @@ def parse_spec(table: dict[str, Any], *, where: str) -> Spec:
         )
     if spec.kind == "playback" and spec.playback is None:
         raise InputError(f'{where}: kind = "playback" needs a [playback] table with recording and fps')
+    if spec.kind == "sequence" and not any(
+        clips.count for clips in vars(spec.sequence).values() if isinstance(clips, Clips)
+    ):
+        raise InputError(f"{where}: sequence has no clips; at least one kind needs a count above 0")
     if spec.kind == "still" and spec.still.neutral + spec.still.faces == 0:
         raise InputError(
             f"{where}: still.neutral and still.faces are both 0; at least one face a person is needed"

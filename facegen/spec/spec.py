@@ -45,6 +45,38 @@ class Playback:
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
+class Clips:
+    """Clips of one kind in each session."""
+
+    count: Annotated[int, Field(ge=0, le=1000)]
+    """Clips of this kind."""
+    seconds: Annotated[float, Field(ge=2, le=600)]
+    """Length of each."""
+
+
+@dataclass(frozen=True, kw_only=True, config=_STRICT)
+class Sequence:
+    """``kind = "sequence"``: every person is recorded in sessions, each of them the same list of clips."""
+
+    fps: Literal[30, 60] = 30
+    """Frames a second."""
+    sessions: Annotated[int, Field(ge=1, le=1000)] = 1
+    """Sessions of each person: the headset is put on anew, the camera and the room are others."""
+    rooms: Annotated[int, Field(ge=1, le=100)] = 3
+    """Rooms; session n of a person is in room n modulo this, and pupils are smaller from room to room."""
+    neutral: Clips = Clips(count=1, seconds=2.0)
+    """A neutral face, held; these frames are labelled neutral and come first."""
+    peak: Clips = Clips(count=0, seconds=3.0)
+    """One expression from onset over apex to offset, the next one of 73 in each clip."""
+    sentence: Clips = Clips(count=4, seconds=4.0)
+    """Speech-like motion with glances, blinks and brows."""
+    range_of_motion: Clips = Clips(count=0, seconds=20.0)
+    """Voluntary movements one after the other: mouth and jaw in even clips, brows, lids and gaze in odd ones."""
+    conversation: Clips = Clips(count=0, seconds=30.0)
+    """Turns of talking and listening."""
+
+
+@dataclass(frozen=True, kw_only=True, config=_STRICT)
 class Identity:
     """Who the people are, as far as the rig knows such traits."""
 
@@ -158,7 +190,13 @@ class Landmarks:
     """What a detector would say: the exact points plus noise, as a share of the face's width in the picture."""
 
     noise_face_widths: Annotated[float, Field(ge=0, le=0.1)] = 0.001
-    """Standard deviation of the noise in x and in y."""
+    """Standard deviation of the noise in x and in y, drawn anew for every frame."""
+    bias: Annotated[float, Field(ge=0, le=3)] = 0.0
+    """Of what stays the same on a person: 1 displaces points as far as two detectors disagree about them."""
+    outliers: Annotated[float, Field(ge=0, le=0.2)] = 0.0
+    """Share of frames, for each part of the face, in which the whole part is found a long way off."""
+    dropped: Annotated[float, Field(ge=0, le=0.5)] = 0.0
+    """Share of frames in which no face is found (NaN); in clips they come in runs."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -191,19 +229,20 @@ class Spec:
 
     version: Literal[1]
     """Version of the spec's keys."""
-    kind: Literal["still", "playback"]
-    """Single faces, or a recording played by every person."""
+    kind: Literal["still", "sequence", "playback"]
+    """Single faces, clips of motion, or a recording played by every person."""
     seed: Annotated[int, Field(ge=0)]
     """Everything drawn follows from it."""
     people: Annotated[int, Field(ge=1, le=100_000_000)]
     """Number of people."""
     rig: str = "anny"
     """Name of a rig in blender_assets/build."""
-    split: Literal["person"] = "person"
-    """What stays together in the split."""
+    split: Literal["person", "session"] = "person"
+    """What stays together in the split; by session, a person can be in all three."""
     split_shares: tuple[Share, Share, Share] = (0.70, 0.15, 0.15)
     """Shares of training, validation and test; they add up to 1."""
     still: Still = Still()
+    sequence: Sequence = Sequence()
     playback: Playback | None = None
     identity: Identity = Identity()
     expression: Expression = Expression()

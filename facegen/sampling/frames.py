@@ -1,0 +1,127 @@
+"""What differs from frame to frame, for each kind of dataset: faces, gaze, pose, camera, pupils, slip."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import BLOCK
+from facegen.geometry import rotation_from_angles
+from facegen.randomness import stream
+from facegen.rigs import Rig, eye_centers
+from facegen.sampling.cameras import draw_head_rotation, draw_keypoint_camera
+from facegen.sampling.detector import draw_dropped
+from facegen.sampling.expression import COMPONENT_NAMES as STILL_COMPONENTS
+from facegen.sampling.expression import draw_faces
+from facegen.sampling.gaze import axes_from_weights
+from facegen.sampling.motion import KINDS, draw_takes
+from facegen.sampling.plan import Places, Plan
+from facegen.spec import Spec, draw
+
+COMPONENT_NAMES: tuple[str, ...] = (
+    *STILL_COMPONENTS,
+    *(name for name, kind in KINDS.items() if not kind.neutral),
+)
+"""What ``component`` labels count: neutral faces, frames of a recording, the mixture of stills, kinds of clips."""
+
+FIT_AXES = 6
+"""Degrees of freedom of a headset on a head: translation x, y, z and rotation about x, y, z."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Frames:
+    """n frames; the rows of all arrays belong together.
+
+    Attributes
+    ----------
+    weights
+        (n, 52) blendshape weights.
+    gaze
+        (n, 2, 3) unit optical axes in the head frame, subject's left eye first.
+    component
+        (n,) int8, index into `COMPONENT_NAMES`.
+    rotation
+        (n, 3, 3) of the head in its own frame.
+    position_m
+        (n, 3) of the head frame's origin in the camera frame.
+    intrinsics
+        (n, 4): fx, fy, cx, cy of the keypoint camera, pixels.
+    pupil_radius_m
+        (n,) radius of both pupils.
+    slip
+        (n, 6) standard normal draws of how the headset has slipped (`FIT_AXES`).
+    dropped
+        (n,) bool: a detector finds no face.
+    """
+
+    weights: np.ndarray
+    gaze: np.ndarray
+    component: np.ndarray
+    rotation: np.ndarray
+    position_m: np.ndarray
+    intrinsics: np.ndarray
+    pupil_radius_m: np.ndarray
+    slip: np.ndarray
+    dropped: np.ndarray
+
+
+def draw_single_frames(plan: Plan, rig: Rig, block: int, places: Places, identity: np.ndarray) -> Frames:
+    """Frames of a block that are drawn each by itself, but for the weights of a recording."""
+    spec = plan.spec
+
+    def rng(component: str) -> np.random.Generator:
+        return stream(spec.seed, component, block)
+
+    if plan.recording is None:
+        faces = draw_faces(spec, rng, eye_centers(rig, identity))
+        weights, gaze, component = faces.weights, faces.gaze, faces.component
+        weights[places.neutral] = 0.0
+        gaze[places.neutral] = (0.0, 0.0, 1.0)
+        component[places.neutral] = COMPONENT_NAMES.index("neutral")
+    else:
+        weights = plan.recording[places.frame % plan.frames]
+        gaze = axes_from_weights(weights)
+        component = np.full(BLOCK, COMPONENT_NAMES.index("recording"), np.int8)
+    intrinsics, position = draw_keypoint_camera(spec, rng("camera"), BLOCK)
+    return Frames(
+        weights=weights,
+        gaze=gaze,
+        component=component,
+        rotation=draw_head_rotation(spec, rng("head"), BLOCK),
+        position_m=position,
+        intrinsics=intrinsics,
+        pupil_radius_m=draw(spec.eyes.pupil_radius_mm, rng("pupil"), BLOCK) * 1e-3,
+        slip=rng("slip").standard_normal((BLOCK, FIT_AXES)),
+        dropped=draw_dropped(rng("detector dropped"), BLOCK, share=spec.landmarks.dropped, run=1.0),
+    )
+
+
+def draw_clip_frames(plan: Plan, rig: Rig, places: Places, identity: np.ndarray) -> Frames:
+    """Frames of a block cut from the clips that it touches; each clip is drawn whole, by its own number."""
+    spec, script = plan.spec, plan.script
+    clips, first_row, of_clip = np.unique(places.clip, return_index=True, return_inverse=True)
+    take = draw_takes(spec, script, clips, eye_centers(rig, identity[first_row]))
+    frames = script.frames[clips % len(script.kind)]
+    row = (np.cumsum(frames) - frames)[of_clip] + places.frame
+    sessions, of_session = np.unique(places.session, return_inverse=True)
+    drawn = [draw_keypoint_camera(spec, stream(spec.seed, "session camera", int(s)), 1) for s in sessions]
+    intrinsics, position = (np.concatenate(parts)[of_session] for parts in zip(*drawn, strict=True))
+    radius_m = np.array([_draw_pupil_radius_m(spec, int(s)) for s in sessions])[of_session]
+    kinds = np.array([COMPONENT_NAMES.index(name) for name in KINDS], np.int8)
+    return Frames(
+        weights=take.weights[row],
+        gaze=take.gaze[row],
+        component=kinds[script.kind[places.clip % len(script.kind)]],
+        rotation=rotation_from_angles(*np.radians(take.head_deg[row]).T),
+        position_m=position + take.sway_m[row],
+        intrinsics=intrinsics,
+        pupil_radius_m=radius_m * take.pupil[row],
+        slip=take.slip[row],
+        dropped=take.dropped[row],
+    )
+
+
+def _draw_pupil_radius_m(spec: Spec, session: int) -> float:
+    """Radius of a person's pupils in the room of a session: the darkest room, with the largest pupils, comes first."""
+    person, within = divmod(session, spec.sequence.sessions)
+    rooms = draw(spec.eyes.pupil_radius_mm, stream(spec.seed, "pupil rooms", person), spec.sequence.rooms)
+    return float(np.sort(rooms)[::-1][within % spec.sequence.rooms]) * 1e-3
