@@ -11,7 +11,8 @@ from regress.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
 from regress.errors import InputError
 from regress.inputs import Frames
 from regress.model import Model
-from regress.smoothing import OneEuro, moving_average, one_euro
+from regress.retargeting import Retargeting
+from regress.smoothing import OneEuro, moving_average, one_euro, smooth_landmarks
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,27 +21,27 @@ class Prediction:
 
     Parameters
     ----------
-    weights : (n, 52) float64
-        In ``BLENDSHAPES`` order, [0, 1]; rows of NaN where a frame has no face.
+    weights : (n, k) float64
+        Columns as ``names`` says, by default in ``BLENDSHAPES`` order; rows of NaN where a frame has no face.
     frames
         What they were predicted from.
+    names
+        The k shapes.
     """
 
     weights: np.ndarray
     frames: Frames
-
-    @property
-    def empty_rows(self) -> list[int]:
-        """Rows without weights, counted from 1 as a table's rows below its header."""
-        return [int(row) + 1 for row in np.flatnonzero(np.isnan(self.weights).any(axis=1))]
+    names: tuple[str, ...] = BLENDSHAPES
 
 
 @dataclass(frozen=True, kw_only=True)
 class Output:
-    """What happens to weights after the networks, in this order.
+    """What happens before and after the networks, in this order.
 
     Parameters
     ----------
+    smooth_landmarks_hz
+        Cutoff of a landmark at rest, of One-Euro smoothing before the networks; None for none.
     smooth
         Frames of the moving average; 1 leaves weights as they are.
     one_euro
@@ -50,22 +51,38 @@ class Output:
     left_right_blend
         0 leaves left and right, 1 gives both their mean.
     mirror
-        Exchange left and right at the end.
+        Exchange left and right.
+    retargeting
+        To other shapes than ARKit's, at the end.
     """
 
+    smooth_landmarks_hz: float | None = None
     smooth: int = 1
     one_euro: OneEuro | None = None
     adjustments: dict[str, ShapeAdjustment] = field(default_factory=dict)
     left_right_blend: float = 0.0
     mirror: bool = False
+    retargeting: Retargeting | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What the columns that leave are called."""
+        return BLENDSHAPES if self.retargeting is None else self.retargeting.names
+
+    @property
+    def needs_times(self) -> bool:
+        """Whether every frame must have a time."""
+        return self.one_euro is not None or self.smooth_landmarks_hz is not None
 
     def finish(self, weights: np.ndarray) -> np.ndarray:
-        """Smoothed weights (n, 52) as they leave."""
+        """Smoothed weights (n, 52) as they leave (n, k)."""
         if self.adjustments:
             weights = adjust(weights, self.adjustments)
         if self.left_right_blend > 0:
             weights = blend_sides(weights, self.left_right_blend)
-        return mirror(weights) if self.mirror else weights
+        if self.mirror:
+            weights = mirror(weights)
+        return weights if self.retargeting is None else self.retargeting.apply(weights)
 
 
 def predict_frames(model: Model, frames: Frames, *, output: Output | None = None) -> Prediction:
@@ -76,7 +93,7 @@ def predict_frames(model: Model, frames: Frames, *, output: Output | None = None
     model, frames
         What to run on what; calibrate the model first where a neutral frame is known.
     output
-        What happens after the networks; nothing by default.
+        What happens before and after the networks; nothing by default.
 
     Raises
     ------
@@ -84,31 +101,34 @@ def predict_frames(model: Model, frames: Frames, *, output: Output | None = None
         Where One-Euro smoothing is asked for and the frames' times are not known, or not in order.
     """
     output = output or Output()
-    weights = moving_average(model.predict(frames.points), output.smooth)
+    points, time_s = frames.points, frames.time_s
+    if output.needs_times and time_s is None:
+        raise InputError(f"{frames.source} does not say when its frames were taken; give --fps")
+    if output.smooth_landmarks_hz is not None:
+        points = smooth_landmarks(points, time_s, output.smooth_landmarks_hz, model.features.mean_shape)
+    weights = moving_average(model.predict(points), output.smooth)
     if output.one_euro is not None:
-        if frames.time_s is None:
-            raise InputError(f"{frames.source} does not say when its frames were taken; give --fps")
-        weights = one_euro(weights, frames.time_s, output.one_euro)
-    return Prediction(weights=output.finish(weights), frames=frames)
+        weights = one_euro(weights, time_s, output.one_euro)
+    return Prediction(weights=output.finish(weights), frames=frames, names=output.names)
 
 
 def prediction_csv(prediction: Prediction) -> str:
-    """Text of a CSV: ``frame``, ``time_s`` where known, 52 ARKit columns; cells are empty without a face."""
+    """Text of a CSV: ``frame``, ``time_s`` where known, a column a shape; cells are empty without a face."""
     times = prediction.frames.time_s
-    rows = [csv_header(timed=times is not None)]
+    rows = [csv_header(prediction.names, timed=times is not None)]
     for row, (label, weights) in enumerate(zip(prediction.frames.labels, prediction.weights, strict=True)):
         rows.append(csv_row(label, None if times is None else float(times[row]), weights))
     return "".join(rows)
 
 
-def csv_header(*, timed: bool) -> str:
+def csv_header(names: tuple[str, ...], *, timed: bool) -> str:
     """First line of a CSV of weights."""
-    return _line(["frame", *(["time_s"] if timed else []), *BLENDSHAPES])
+    return _line(["frame", *(["time_s"] if timed else []), *names])
 
 
 def csv_row(label: str, time_s: float | None, weights: np.ndarray) -> str:
-    """One line of a CSV of weights (52,)."""
-    time_cell = [] if time_s is None else [f"{time_s:.6f}"]
+    """One line of a CSV of weights (k,); no time cell for None, an empty one for NaN."""
+    time_cell = [] if time_s is None else ["" if np.isnan(time_s) else f"{time_s:.6f}"]
     cells = [""] * len(weights) if np.isnan(weights).any() else [f"{weight:.6f}" for weight in weights]
     return _line([label, *time_cell, *cells])
 

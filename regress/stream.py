@@ -6,12 +6,13 @@ from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
-from facegen.conventions import LANDMARK_COUNT
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from regress.errors import InputError
-from regress.model import Model
+from regress.inputs import Fault, TimeOrder, face_faults
+from regress.model import FastPredictor, Model
 from regress.neutral import estimate_neutral
 from regress.predict import Output, csv_header, csv_row
-from regress.smoothing import OneEuroStream
+from regress.smoothing import LandmarkStream, OneEuroStream
 
 _NUMBERS = 2 * LANDMARK_COUNT
 
@@ -56,6 +57,70 @@ class RunningNeutral:
             self._say(f"frame {self._count}: neutral face found ({estimate.reason}); calibrated from here on")
 
 
+class FaultRuns:
+    """Tells of faulty lines run by run, so that a face that is away for a minute is one sentence.
+
+    Parameters
+    ----------
+    say
+        Told of each run when it ends.
+    """
+
+    def __init__(self, say: Callable[[str], None]) -> None:
+        self._say = say
+        self._fault: Fault | None = None
+        self._first = 1
+
+    def step(self, number: int, fault: Fault | None) -> None:
+        """Take the fault of a line into account; lines are counted from 1."""
+        if fault is not self._fault:
+            if self._fault is not None:
+                lines = (
+                    f"line {self._first} has"
+                    if number == self._first + 1
+                    else (f"lines {self._first}-{number - 1} have")
+                )
+                self._say(f"{lines} {self._fault.value}")
+            self._fault, self._first = fault, number
+
+
+class WeightStream:
+    """Weights of frames that come one by one: the same as `predict_frames` gives of them all, to 1e-5.
+
+    Parameters
+    ----------
+    model, output
+        What to run, and what happens before and after it.
+    """
+
+    def __init__(self, model: Model, output: Output) -> None:
+        self._output = output
+        self._recent: deque[np.ndarray] = deque(maxlen=output.smooth)
+        self._filter = None if output.one_euro is None else OneEuroStream(output.one_euro)
+        cutoff_hz, mean_shape = output.smooth_landmarks_hz, model.features.mean_shape
+        self._landmarks = None if cutoff_hz is None else LandmarkStream(cutoff_hz, mean_shape)
+        self.use(model)
+
+    def use(self, model: Model) -> None:
+        """Go on with another model, as one that has been calibrated."""
+        self._fast = FastPredictor(model)
+
+    def step(self, time_s: float | None, points: np.ndarray) -> np.ndarray:
+        """Weights (k,) of the next face (68, 2); NaN where it has none. Times are later each time, where needed."""
+        if not np.isfinite(points).all():
+            weights = np.full(len(BLENDSHAPES), np.nan)
+            self._recent.append(weights)
+            return self._output.finish(weights[None])[0]
+        if self._landmarks is not None:
+            points = self._landmarks.step(time_s, points)
+        weights = self._fast.predict_frame(points).astype(np.float64)
+        self._recent.append(weights)
+        weights = np.nanmean(self._recent, axis=0)
+        if self._filter is not None:
+            weights = self._filter.step(time_s, weights)
+        return self._output.finish(weights[None])[0]
+
+
 def stream_csv(
     lines: Iterable[str],
     model: Model,
@@ -63,6 +128,7 @@ def stream_csv(
     *,
     fps: float | None = None,
     auto: bool = False,
+    strict: bool = False,
     say: Callable[[str], None] = lambda message: None,
 ) -> Iterator[str]:
     """Lines of a CSV of weights, each as soon as its frame is known.
@@ -73,41 +139,49 @@ def stream_csv(
         136 numbers ``x y x y ...`` each, or 137 with the time in seconds first; separated by blanks or
         commas. An empty line, or one with nan, is a frame without a face.
     model, output
-        What to run, and what happens after it.
+        What to run, and what happens before and after it.
     fps
         Frames a second, where lines carry no time.
     auto
         Whether to look for the neutral face.
+    strict
+        Whether a faulty frame is an error; otherwise its cells stay empty.
     say
         Told what a person should know.
 
     Raises
     ------
     InputError
-        A line that is not a frame, or times out of order; the message has the line's number.
+        A line that is not a frame; a frame without a time where smoothing needs one; where ``strict``, a
+        faulty frame. The message has the line's number.
     """
     running = RunningNeutral(model, say) if auto else None
-    recent: deque[np.ndarray] = deque(maxlen=output.smooth)
-    filtered = None if output.one_euro is None else OneEuroStream(output.one_euro)
+    stream, order, runs = WeightStream(model, output), TimeOrder(strictly=output.needs_times), FaultRuns(say)
+    number, timed = 0, False
     for number, line in enumerate(lines, start=1):
         time_s, points = _frame(line, number)
         if time_s is None and fps is not None:
             time_s = (number - 1) / fps
         if number == 1:
             timed = time_s is not None
-            yield csv_header(timed=timed)
-        if running is not None:
+            yield csv_header(output.names, timed=timed)
+        fault = face_faults(points[None])[0]
+        if fault is None and time_s is None and output.needs_times:
+            raise InputError(f"line {number} has no time, which smoothing needs; give --fps")
+        fault = fault or (None if time_s is None else order.step(time_s))
+        if fault is not None and strict:
+            raise InputError(f"line {number} has {fault.value}; without --strict its cells stay empty")
+        runs.step(number, fault)
+        if fault is not None:
+            points = np.full_like(points, np.nan)
+        elif running is not None:
+            before = running.model
             running.step(points)
-            model = running.model
-        weights = model.predict(points[None])[0]
-        recent.append(weights)
-        if not np.isnan(weights).any():
-            weights = np.nanmean(recent, axis=0)
-            if filtered is not None:
-                if time_s is None:
-                    raise InputError(f"line {number} has no time, which One-Euro smoothing needs; give --fps")
-                weights = filtered.step(time_s, weights)
-        yield csv_row(str(number), time_s if timed else None, output.finish(weights[None])[0])
+            if running.model is not before:
+                stream.use(running.model)
+        cell = None if not timed else math.nan if time_s is None else time_s
+        yield csv_row(str(number), cell, stream.step(time_s, points))
+    runs.step(number + 1, None)
 
 
 def _frame(line: str, number: int) -> tuple[float | None, np.ndarray]:

@@ -1,9 +1,7 @@
 """``regress predict``: landmarks in, a table of weights out."""
 
 import dataclasses
-import os
 import sys
-import tempfile
 from pathlib import Path
 from typing import Annotated
 
@@ -11,12 +9,14 @@ import numpy as np
 import typer
 
 from regress.adjustment import read_adjustments
+from regress.cli.results import Format, write_avatar, write_table
 from regress.cli.talk import say
-from regress.errors import InputError, OutputError
-from regress.inputs import Frames, read_frames
+from regress.errors import InputError
+from regress.inputs import Frames, emptied, read_frames, row_faults, told
 from regress.model import Model, load_model
 from regress.neutral import estimate_neutral
-from regress.predict import Output, predict_frames, prediction_csv
+from regress.predict import Output, predict_frames
+from regress.retargeting import read_retargeting, shipped_targets
 from regress.smoothing import OneEuro
 from regress.stream import stream_csv
 
@@ -32,7 +32,23 @@ def predict(
         ),
     ],
     out: Annotated[
-        Path | None, typer.Option("--out", help="CSV file to write; standard output without.")
+        Path | None,
+        typer.Option("--out", help="File to write, with --gltf the animated .glb; standard output without."),
+    ] = None,
+    table_format: Annotated[
+        Format, typer.Option("--format", help="csv, or livelink for the columns of the Live Link Face app.")
+    ] = Format.csv,
+    retarget: Annotated[
+        str | None,
+        typer.Option(
+            "--retarget",
+            metavar="|".join((*shipped_targets(), "FILE.toml")),
+            help="Weights of another avatar's shapes in place of ARKit's.",
+        ),
+    ] = None,
+    gltf: Annotated[
+        Path | None,
+        typer.Option(help="Avatar (.glb, .vrm) to which an animation of its morph targets is added."),
     ] = None,
     neutral: Annotated[
         str,
@@ -43,7 +59,18 @@ def predict(
             "file of landmarks, or auto, which looks for it.",
         ),
     ] = "none",
-    strict: Annotated[bool, typer.Option("--strict", help="Fail where any frame has no face.")] = False,
+    strict: Annotated[
+        bool, typer.Option("--strict", help="Fail where a frame has no face, or none that can be right.")
+    ] = False,
+    smooth_landmarks_hz: Annotated[
+        float | None,
+        typer.Option(
+            "--smooth-landmarks",
+            metavar="HZ",
+            min=1e-3,
+            help="One-Euro smoothing of the landmarks themselves, with this cutoff at rest; try 1.",
+        ),
+    ] = None,
     smooth: Annotated[int, typer.Option("--smooth", min=1, help="Frames of a moving average over time.")] = 1,
     cutoff_hz: Annotated[
         float | None,
@@ -69,46 +96,62 @@ def predict(
 ) -> None:
     """Predict the 52 blendshape weights of every frame.
 
-    A frame without a face gets empty cells. A neutral frame makes weights far better on real faces: it shows
-    what the person is like, and where the detector puts its points.
+    A frame without a face gets empty cells, and so does one whose points are collapsed or mirrored or whose
+    time is out of order; their row numbers are said. A neutral frame makes weights far better on real faces: it
+    shows what the person is like, and where the detector puts its points.
 
     Example: regress predict models/default take.csv --neutral 1 --one-euro 1 --out weights.csv
     """
     loaded = load_model(model)
     output = Output(
+        smooth_landmarks_hz=smooth_landmarks_hz,
         smooth=smooth,
         one_euro=None if cutoff_hz is None else OneEuro(cutoff_hz=cutoff_hz, beta=beta),
         adjustments={} if adjust is None else read_adjustments(adjust),
         left_right_blend=left_right_blend,
         mirror=mirror,
+        retargeting=None if retarget is None else read_retargeting(retarget),
     )
+    if table_format is Format.livelink and (retarget is not None or gltf is not None):
+        raise InputError("--format livelink has the app's own columns: leave out --retarget and --gltf")
+    if gltf is not None and out is None:
+        raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
     if str(landmarks) == "-":
-        _predict_stream(loaded, neutral, output, fps, out)
+        if out is not None or table_format is not Format.csv:
+            raise InputError(
+                "weights of standard input leave as CSV on standard output: use > FILE for --out"
+            )
+        _predict_stream(loaded, neutral, output, fps, strict)
         return
     frames = read_frames(landmarks)
     if fps is not None:
         frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
+    frames = _sound(frames, strictly=output.needs_times or gltf is not None, strict=strict)
     prediction = predict_frames(_calibrated(loaded, frames, neutral), frames, output=output)
-    empty = prediction.empty_rows
-    if empty:
-        found = f"{len(empty)} of {len(frames.labels)} rows have no face: {_numbers(empty)}"
-        if strict:
-            raise InputError(f"{frames.source}: {found}; without --strict their cells stay empty")
-        say(f"{frames.source}: {found}")
-    text = prediction_csv(prediction)
-    if out is None:
-        sys.stdout.write(text)
-        sys.stdout.flush()
+    if gltf is not None:
+        write_avatar(prediction, gltf, out)
     else:
-        _write(out, text)
+        write_table(prediction, table_format, out)
 
 
-def _predict_stream(model: Model, neutral: str, output: Output, fps: float | None, out: Path | None) -> None:
-    if out is not None:
-        raise InputError("weights of standard input go to standard output: leave out --out, and use > FILE")
+def _sound(frames: Frames, *, strictly: bool, strict: bool) -> Frames:
+    """The frames without those that cannot be used, of which a person is told."""
+    faults = row_faults(frames, strictly=strictly)
+    found = told(faults)
+    if found and strict:
+        raise InputError(f"{frames.source}: {'; '.join(found)}; without --strict their cells stay empty")
+    if None not in faults:
+        raise InputError(f"{frames.source} holds no usable frame: {'; '.join(found)}")
+    for line in found:
+        say(f"{frames.source}: {line}")
+    return emptied(frames, faults)
+
+
+def _predict_stream(model: Model, neutral: str, output: Output, fps: float | None, strict: bool) -> None:
     if neutral not in ("auto", "none"):
         model = model.calibrate(_neutral_file(neutral, "standard input").points)
-    for line in stream_csv(sys.stdin, model, output, fps=fps, auto=neutral == "auto", say=say):
+    lines = stream_csv(sys.stdin, model, output, fps=fps, auto=neutral == "auto", strict=strict, say=say)
+    for line in lines:
         sys.stdout.write(line)
         sys.stdout.flush()  # the reader wants each frame as it comes
 
@@ -144,34 +187,4 @@ def _neutral_file(neutral: str, source: str) -> Frames:
         raise InputError(
             f"--neutral {neutral!r} is neither a frame of {source}, nor a file; auto and none are allowed too"
         )
-    return read_frames(neutral)
-
-
-def _numbers(rows: list[int]) -> str:
-    """Row numbers with runs joined: ``3, 7-9``."""
-    runs: list[list[int]] = []
-    for row in rows:
-        if runs and row == runs[-1][1] + 1:
-            runs[-1][1] = row
-        else:
-            runs.append([row, row])
-    return ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)
-
-
-def _write(path: Path, text: str) -> None:
-    """Write to a temporary file beside it, then rename: a file that exists is complete."""
-    try:
-        with tempfile.NamedTemporaryFile(
-            "w", dir=path.absolute().parent, prefix=f".{path.name}-", delete=False, encoding="utf-8"
-        ) as file:
-            try:
-                file.write(text)
-                file.flush()
-                os.fsync(file.fileno())
-                os.chmod(file.name, 0o644)
-                os.replace(file.name, path)
-            except BaseException:
-                os.unlink(file.name)
-                raise
-    except OSError as error:
-        raise OutputError(f"{path} cannot be written: {error.strerror or error}") from error
+    return _sound(read_frames(neutral), strictly=False, strict=False)

@@ -1,6 +1,6 @@
 """From 68 points to the 178 numbers the networks see: alignment, edge lengths, face width."""
 
-from regress.features.alignment import ANCHORS, align_affine, mean_shape
+from regress.features.alignment import ANCHORS, align_affine, align_similarity, mean_shape
 from regress.features.distances import edge_distances
 from regress.features.extraction import ALIGNMENTS, Features, extract
 from regress.features.reference_shape import (
@@ -17,6 +17,7 @@ __all__ = [
     "Features",
     "ReferenceShape",
     "align_affine",
+    "align_similarity",
     "delaunay_edges",
     "edge_distances",
     "extract",

@@ -51,6 +51,33 @@ def align_affine(points: np.ndarray, mean_shape: np.ndarray) -> np.ndarray:
     return (points - centre) @ matrix + target_centre
 
 
+def align_similarity(points: np.ndarray, mean_shape: np.ndarray) -> np.ndarray:
+    """Turn, scale and shift every face onto the mean shape, as its anchors fit best; its shape stays.
+
+    Parameters
+    ----------
+    points : (n, 68, 2) float64
+        Faces in any unit.
+    mean_shape : (68, 2) float64
+        What they are laid upon.
+
+    Returns
+    -------
+    (n, 68, 2) float64
+        In the mean shape's unit and place; rows with NaN, or whose anchors are one point, are NaN.
+    """
+    faces, target = _as_complex(points), _as_complex(mean_shape)[list(ANCHORS)]
+    centre = target.mean()
+    faces = faces - faces[:, ANCHORS].mean(axis=1, keepdims=True)
+    anchors = faces[:, ANCHORS]
+    spread = np.sum(np.abs(anchors) ** 2, axis=1)
+    # A complex factor is a rotation and a scale: the best one is <face, mean> / <face, face>.
+    with np.errstate(invalid="ignore"):  # faces with missing points become NaN
+        factor = (anchors.conj() @ (target - centre)) / np.where(spread > 0, spread, np.nan)
+    laid = faces * factor[:, None] + centre
+    return np.stack([laid.real, laid.imag], axis=-1)
+
+
 def mean_shape(points: np.ndarray) -> np.ndarray:
     """Mirror-symmetric mean of many faces, by Procrustes averaging with similarities.
 

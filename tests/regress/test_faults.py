@@ -1,0 +1,173 @@
+"""Rows that cannot be used: found, said with their numbers, left empty, and an end to a strict run."""
+
+import io
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from facegen.conventions import MIRRORED_LANDMARKS
+from regress.inputs import Fault, Frames, TimeOrder, emptied, face_faults, read_frames, row_faults, told
+from regress.predict import Output, predict_frames
+from tests.regress.drawn import drawn_face, drawn_faces
+
+GOOD = drawn_faces(np.random.default_rng(8), 9)
+
+
+def _exchanged(faces: np.ndarray) -> np.ndarray:
+    """Left and right named the wrong way round."""
+    return faces[:, list(MIRRORED_LANDMARKS)]
+
+
+def _on_a_line(faces: np.ndarray) -> np.ndarray:
+    return np.stack([faces[..., 0], 2 * faces[..., 0] + 5], axis=-1)
+
+
+BAD_FACES = {
+    "nan": (Fault.MISSING, lambda faces: np.where(np.arange(68)[:, None] == 30, np.nan, faces)),
+    "inf": (Fault.MISSING, lambda faces: np.where(np.arange(68)[:, None] == 66, np.inf, faces)),
+    "one place": (Fault.COLLAPSED, lambda faces: faces[:, :1] * np.ones((68, 1))),
+    "on a line": (Fault.COLLAPSED, _on_a_line),
+    "sides exchanged": (Fault.MIRRORED, _exchanged),
+    "y upwards": (Fault.MIRRORED, lambda faces: faces * [1, -1]),
+}
+
+
+@given(seed=st.integers(0, 10**6), roll_deg=st.floats(-180, 180), size=st.floats(1e-3, 1e6))
+@settings(max_examples=30, deadline=None)
+def test_faces_are_told_from_mirrored_ones_however_they_are_turned(seed: int, roll_deg: float, size: float):
+    face = drawn_face() + np.random.default_rng(seed).normal(size=(68, 2)) * 0.05
+    turn = np.deg2rad(roll_deg)
+    turned = size * (face @ [[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]] + [30, -7])[None]
+    assert face_faults(turned) == [None]
+    assert face_faults(_exchanged(turned)) == [Fault.MIRRORED]
+    assert face_faults(_on_a_line(turned)) == [Fault.COLLAPSED]
+
+
+def test_the_real_recordings_have_no_faults(real):
+    for name in ("pyfeat_clip_001.csv", "openface_sequence.csv", "dlib_faces.xml", "breakingbad.pts"):
+        (path,) = real.rglob(name)
+        assert set(row_faults(read_frames(path), strictly=False)) == {None}
+
+
+def test_times_must_go_on_and_smoothing_wants_each_to_be_later():
+    times = [0.0, 1.0, 1.0, 0.5, np.nan, 1.5]
+    loose, strict = TimeOrder(strictly=False), TimeOrder(strictly=True)
+    late, none = Fault.DISORDER, Fault.TIMELESS
+    assert [loose.step(time) for time in times] == [None, None, None, late, None, None]
+    assert [strict.step(time) for time in times] == [None, None, late, late, none, None]
+
+
+def test_runs_of_rows_are_joined():
+    faults = [None, Fault.MISSING, Fault.MISSING, None, Fault.MISSING, Fault.MIRRORED]
+    assert told(faults)[0] == "3 of 6 rows have no face: 2-3, 5"
+    assert told(faults)[1].endswith("y pointing up: 6")
+
+
+@pytest.mark.parametrize("kind", BAD_FACES)
+def test_the_program_says_which_rows_are_bad_and_leaves_them_empty(
+    kind: str, run, quick_model, quick_model_folder, tmp_path
+):
+    fault, spoil = BAD_FACES[kind]
+    faces = GOOD.copy()
+    faces[[2, 5, 6]] = spoil(faces[[2, 5, 6]])
+    np.save(tmp_path / "take.npy", faces)
+    code, out, err = run("predict", quick_model_folder, tmp_path / "take.npy")
+    assert code == 0
+    assert err == f"{tmp_path / 'take.npy'}: 3 of 9 rows have {fault.value}: 3, 6-7\n"
+    rows = [line.split(",")[1:] for line in out.splitlines()[1:]]
+    assert [set(row) == {""} for row in rows] == [row in (2, 5, 6) for row in range(9)]
+    good = np.delete(np.arange(9), [2, 5, 6])
+    written = np.array([rows[row] for row in good], dtype=float)
+    np.testing.assert_allclose(written, quick_model.predict(GOOD[good]), atol=1e-6)
+    code, out, err = run("predict", quick_model_folder, tmp_path / "take.npy", "--strict")
+    assert (code, out) == (2, "")
+    assert "3 of 9 rows" in err
+    np.save(tmp_path / "all.npy", spoil(GOOD))
+    code, out, err = run("predict", quick_model_folder, tmp_path / "all.npy")
+    assert (code, out) == (2, "")
+    assert "no usable frame" in err
+
+
+def _openface(path, faces: np.ndarray, times: list[float]):
+    names = ["frame", "timestamp", "success", *(f"{a}_{i}" for a in "xy" for i in range(68))]
+    rows = [
+        [str(row + 1), str(time), "1", *map(repr, np.concatenate([face[:, 0], face[:, 1]]).tolist())]
+        for row, (face, time) in enumerate(zip(faces, times, strict=True))
+    ]
+    path.write_text("\n".join(", ".join(cells) for cells in [names, *rows]) + "\n")
+
+
+def test_frames_out_of_order_are_left_out_and_the_others_smoothed(
+    run, quick_model, quick_model_folder, tmp_path
+):
+    times = [0.0, 0.1, 0.2, 0.15, 0.3, 0.3, 0.4, 0.5, 0.6]
+    _openface(tmp_path / "take.csv", GOOD, times)
+    code, out, err = run("predict", quick_model_folder, tmp_path / "take.csv", "--smooth-landmarks", 2)
+    assert code == 0
+    assert f"2 of 9 rows have {Fault.DISORDER.value}: 4, 6" in err
+    rows = [line.split(",")[2:] for line in out.splitlines()[1:]]
+    assert [set(row) == {""} for row in rows] == [row in (3, 5) for row in range(9)]
+    kept = [0, 1, 2, 4, 6, 7, 8]
+    frames = Frames(
+        points=GOOD[kept], labels=tuple(map(str, kept)), time_s=np.array(times)[kept], source="take"
+    )
+    expected = predict_frames(quick_model, frames, output=Output(smooth_landmarks_hz=2)).weights
+    np.testing.assert_allclose(np.array([rows[row] for row in kept], dtype=float), expected, atol=1e-6)
+    code, _, err = run("predict", quick_model_folder, tmp_path / "take.csv", "--one-euro", 2, "--strict")
+    assert code == 2
+    assert ": 4, 6" in err
+
+
+def test_a_neutral_face_the_wrong_way_round_is_refused(run, quick_model_folder, tmp_path):
+    np.save(tmp_path / "take.npy", GOOD)
+    np.save(tmp_path / "rest.npy", _exchanged(GOOD[:2]))
+    arguments = ("predict", quick_model_folder, tmp_path / "take.npy", "--neutral", tmp_path / "rest.npy")
+    code, _, err = run(*arguments)
+    assert code == 2
+    assert "left and right exchanged" in err
+
+
+def test_a_pipe_tells_runs_of_bad_lines_and_goes_on(run, quick_model_folder, monkeypatch):
+    faces = GOOD.copy()
+    faces[2:4] = _exchanged(faces[2:4])
+    faces[8] = np.nan
+    times = [0.0, 0.1, 0.2, 0.3, 0.4, 0.25, 0.5, 0.6, 0.7]
+    lines = [
+        " ".join(map(repr, [time, *face.ravel().tolist()])) for time, face in zip(times, faces, strict=True)
+    ]
+    monkeypatch.setattr(sys, "stdin", io.StringIO("\n".join(lines) + "\n"))
+    code, out, err = run("predict", quick_model_folder, "-", "--one-euro", 2, "--smooth-landmarks", 2)
+    assert code == 0
+    assert err.splitlines() == [
+        f"lines 3-4 have {Fault.MIRRORED.value}",
+        f"line 6 has {Fault.DISORDER.value}",
+        "line 9 has no face",
+    ]
+    rows = [line.split(",") for line in out.splitlines()]
+    assert {len(row) for row in rows} == {54}
+    assert [row[3] == "" for row in rows[1:]] == [False, False, True, True, False, True, False, False, True]
+    monkeypatch.setattr(sys, "stdin", io.StringIO("\n".join(lines) + "\n"))
+    code, out, err = run("predict", quick_model_folder, "-", "--strict")
+    assert code == 2
+    assert "line 3 has left and right exchanged" in err
+    assert len(out.splitlines()) == 3
+
+
+def test_a_line_without_a_face_keeps_the_columns_of_a_timed_pipe(run, quick_model_folder, monkeypatch):
+    line = " ".join(map(repr, [0.5, *GOOD[0].ravel().tolist()]))
+    monkeypatch.setattr(sys, "stdin", io.StringIO(f"{line}\n\n"))
+    code, out, _ = run("predict", quick_model_folder, "-")
+    assert code == 0
+    assert out.splitlines()[2] == "2" + "," * 53
+
+
+def test_emptying_leaves_the_rest():
+    frames = Frames(points=GOOD, labels=tuple("012345678"), time_s=None, source="here")
+    faults: list[Fault | None] = [None] * 9
+    faults[4] = Fault.MISSING
+    left = emptied(frames, faults)
+    assert np.isnan(left.points[4]).all()
+    np.testing.assert_array_equal(np.delete(left.points, 4, axis=0), np.delete(GOOD, 4, axis=0))

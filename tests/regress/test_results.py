@@ -1,0 +1,129 @@
+"""What leaves the program: other avatars' shapes, Live Link Face's columns, animated avatars, smooth landmarks."""
+
+import csv
+import io
+
+import numpy as np
+import pytest
+from pygltflib import GLTF2
+
+from facegen.conventions import BLENDSHAPES
+from facegen.formats import read_live_link
+from regress.features import align_similarity, extract
+from regress.inputs import Frames
+from regress.predict import Output, predict_frames
+from regress.retargeting import read_retargeting, shipped_targets
+from regress.smoothing import smooth_landmarks
+from regress.stream import WeightStream
+from tests.facegen.formats.test_gltf_animation import avatar
+from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
+
+FACES = drawn_faces(np.random.default_rng(4), 12)
+
+
+@pytest.fixture
+def take(tmp_path):
+    faces = FACES.copy()
+    faces[7] = np.nan
+    np.save(tmp_path / "take.npy", faces)
+    return tmp_path / "take.npy"
+
+
+@pytest.mark.parametrize("target", shipped_targets())
+def test_columns_are_the_targets(target: str, run, quick_model, quick_model_folder, take):
+    code, out, err = run("predict", quick_model_folder, take, "--retarget", target)
+    assert code == 0, err
+    rows = list(csv.DictReader(io.StringIO(out)))
+    retargeting = read_retargeting(target)
+    assert tuple(rows[0]) == ("frame", *retargeting.names)
+    assert set(rows[7].values()) == {"7", ""}
+    written = np.array([[float(row[name]) for name in retargeting.names] for row in rows[:7]])
+    expected = np.clip(quick_model.predict(FACES[:7]) @ retargeting.factors, 0, 1)
+    np.testing.assert_allclose(written, expected, atol=1e-6)
+
+
+def test_live_link_reads_back(run, quick_model, quick_model_folder, take):
+    target = take.with_name("out.csv")
+    options = ("--format", "livelink", "--fps", 25, "--out", target)
+    code, _, err = run("predict", quick_model_folder, take, *options)
+    assert code == 0, err
+    read = read_live_link(target)
+    expected = quick_model.predict(np.load(take))
+    np.testing.assert_allclose(read.weights, expected, atol=1e-9)
+    np.testing.assert_allclose(read.time_s, np.arange(12) / 25, atol=2e-5)
+
+
+@pytest.mark.filterwarnings("ignore:Ignoring chunk 2")
+def test_an_avatar_moves(run, quick_model, quick_model_folder, take, tmp_path):
+    options = ("--gltf", avatar(tmp_path / "a.glb"), "--fps", 25, "--out", tmp_path / "b.glb")
+    code, out, err = run("predict", quick_model_folder, take, *options)
+    assert (code, out) == (0, "")
+    assert "no morph target for 48 of 52 shapes" in err
+    gltf = GLTF2().load(str(tmp_path / "b.glb"))
+    assert gltf.animations[-1].name == "take"
+    view = gltf.bufferViews[gltf.accessors[gltf.animations[-1].samplers[1].output].bufferView]
+    jaw = np.frombuffer(gltf.binary_blob(), "<f4", 11, view.byteOffset)
+    expected = np.delete(quick_model.predict(np.load(take))[:, BLENDSHAPES.index("jawOpen")], 7)
+    np.testing.assert_allclose(jaw, expected, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--format", "livelink"), "give --fps"),
+        (("--gltf", "a.glb", "--out", "b.glb"), "give --fps"),
+        (("--gltf", "a.glb"), "needs --out"),
+        (("--gltf", "none.glb", "--out", "b.glb", "--fps", 25), "does not exist"),
+        (("--format", "livelink", "--retarget", "vrm1"), "leave out --retarget"),
+        (("--retarget", "metahuman"), "no target 'metahuman'"),
+        (("--smooth-landmarks", 1), "give --fps"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(options, said, run, quick_model_folder, take, monkeypatch):
+    monkeypatch.chdir(take.parent)
+    avatar(take.with_name("a.glb"))
+    before = sorted(path.name for path in take.parent.iterdir())
+    code, out, err = run("predict", quick_model_folder, take, *options)
+    assert (code, out) == (2, "")
+    assert said in err
+    assert sorted(path.name for path in take.parent.iterdir()) == before
+
+
+def test_laying_a_face_upon_the_mean_keeps_its_features(quick_model):
+    laid = align_similarity(FACES, quick_model.features.mean_shape)
+    np.testing.assert_allclose(
+        extract(quick_model.features, laid), extract(quick_model.features, FACES), atol=1e-12
+    )
+    assert np.ptp(np.linalg.norm(laid[:, 16] - laid[:, 0], axis=1)) < 0.5
+
+
+def test_smooth_landmarks_calm_a_still_face_of_a_moving_head(quick_model):
+    rng = np.random.default_rng(1)
+    still = np.repeat(drawn_face()[None], 90, axis=0)
+    time_s, mean = np.arange(90) / 30, quick_model.features.mean_shape
+    moving = in_pictures(rng, still)  # another roll, size and place in every frame
+    calm = smooth_landmarks(moving, time_s, 1.0, mean)
+    np.testing.assert_allclose(calm, np.repeat(calm[:1], 90, axis=0), atol=1e-12)
+    noisy = smooth_landmarks(
+        in_pictures(rng, still + rng.normal(size=still.shape) * 0.004), time_s, 1.0, mean
+    )
+    raw = align_similarity(in_pictures(rng, still + rng.normal(size=still.shape) * 0.004), mean)
+    assert noisy[30:].std(axis=0).mean() < raw[30:].std(axis=0).mean() / 2
+
+
+@pytest.mark.parametrize("target", [None, "mixamo50"])
+def test_a_stream_gives_what_a_recording_gives(target, quick_model):
+    output = Output(
+        smooth_landmarks_hz=1.5,
+        smooth=3,
+        mirror=True,
+        retargeting=None if target is None else read_retargeting(target),
+    )
+    faces = FACES.copy()
+    faces[4] = np.nan
+    frames = Frames(points=faces, labels=tuple("abcdefghijkl"), time_s=np.arange(12) / 30, source="here")
+    stream = WeightStream(quick_model, output)
+    streamed = [stream.step(time, face) for time, face in zip(frames.time_s, faces, strict=True)]
+    np.testing.assert_allclose(
+        streamed, predict_frames(quick_model, frames, output=output).weights, atol=1e-5
+    )
