@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from facegen.preview.portraits import draw_portraits
-from facegen.rigs.building import build_rig
+from facegen.rigs.building import add_rig, build_rig
 from facegen.rigs.files import load_rig, read_record
 
 rig_app = typer.Typer(
@@ -29,6 +29,28 @@ def build(
     """
     file, built = build_rig(name, path=path, wheel=wheel, force=force)
     typer.echo(f"{file} {'built' if built else 'is up to date'}")
+
+
+@rig_app.command()
+def add(
+    file: Annotated[Path, typer.Argument(help="glTF head with ARKit morph targets, .glb or .gltf")],
+    landmarks: Annotated[Path, typer.Option(help="JSON file that marks it up, see docs/adding-a-rig.md")],
+    name: Annotated[str | None, typer.Option(help="Name of the rig; default the file's")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace a rig of this name")] = False,
+) -> None:
+    """Make a rig without identities of your own head.
+
+    Example: facegen rig add head.glb --landmarks head.json --name me
+    """
+    path, added = add_rig(file, landmarks, name=name, force=force)
+    if added.left_out:
+        typer.echo(f"Left out of the head: {', '.join(added.left_out)}.", err=True)
+    if added.rig.missing:
+        typer.echo(
+            f"{len(added.rig.missing)} of 52 blendshapes are missing and stay zero: {', '.join(added.rig.missing)}.",
+            err=True,
+        )
+    typer.echo(f"{path} added")
 
 
 @rig_app.command()

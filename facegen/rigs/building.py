@@ -1,11 +1,13 @@
-"""Which rigs facegen can build, from what, and whether a build is still good."""
+"""Which rigs facegen can build, from what, and whether a build is still good; adding a user's own head."""
 
+import re
 import shutil
 from pathlib import Path
 
 from facegen.errors import InputError, MissingAsset
 from facegen.rigs import anny, ict
 from facegen.rigs.files import read_record, rigs_folder, save_rig
+from facegen.rigs.gltf_head import AddedHead, build_head
 from facegen.rigs.makehuman import check_wheel, download_wheel
 from facegen.rigs.rig import Rig
 
@@ -57,6 +59,54 @@ def build_rig(
     ):  # ICT's terms ask that the notice goes with the shapes
         shutil.copyfile(path / "LICENSE", folder / f"{name}.LICENSE")
     return npz, True
+
+
+def add_rig(
+    file: Path,
+    landmarks: Path,
+    *,
+    name: str | None = None,
+    folder: Path | None = None,
+    force: bool = False,
+) -> tuple[Path, AddedHead]:
+    """Make a rig without identities of a user's glTF head.
+
+    Parameters
+    ----------
+    file
+        A .glb or .gltf file with ARKit morph targets.
+    landmarks
+        JSON file that marks it up (`facegen.rigs.markup.HeadMarkup`).
+    name
+        Of the rig; default the file's, in lower case.
+    folder
+        Where to write; default `facegen.rigs.files.rigs_folder`.
+    force
+        Replace a rig of this name.
+
+    Returns
+    -------
+    tuple
+        Path of the .npz, and the rig with the names of what was left out.
+
+    Raises
+    ------
+    InputError
+        Unusable files, or a name that is taken or not allowed.
+    """
+    folder = Path(folder) if folder is not None else rigs_folder()
+    name = name if name is not None else re.sub("[^a-z0-9]+", "_", file.stem.lower()).strip("_")
+    if name in RIGS or not re.fullmatch("[a-z0-9][a-z0-9_-]*", name):
+        raise InputError(
+            f"A rig cannot be called {name!r}: lower-case letters, digits, - and _ are allowed, and not the names "
+            f"of facegen's own rigs ({', '.join(RIGS)}); choose one with --name"
+        )
+    if (folder / f"{name}.npz").exists() and not force:
+        raise InputError(
+            f"There is a rig {name!r} in {folder}; choose another --name, or replace it with --force"
+        )
+    added = build_head(file, landmarks, name=name)
+    return save_rig(added.rig, folder), added
 
 
 def _build(name: str, *, path: Path | None, wheel: Path | None, folder: Path) -> Rig:

@@ -118,9 +118,10 @@ def _cage_basis(rig: Rig) -> np.ndarray:
 def _beyond_cage(rig: Rig, identity: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """The other vertices (v, 3) of one face with straight lids."""
     rest = slice(rig.cage_vertices, None)
-    moved = identity[None] @ rig.identity[:, rest].reshape(len(rig.identity), -1)
-    moved += weights[None] @ rig.expression[:, rest].reshape(len(rig.expression), -1)
-    return moved.reshape(-1, 3) + rig.vertices[rest]
+    base = rig.vertices[rest]
+    moved = identity[None] @ rig.identity[:, rest].reshape(len(rig.identity), base.size)
+    moved += weights[None] @ rig.expression[:, rest].reshape(len(rig.expression), base.size)
+    return moved.reshape(-1, 3) + base
 
 
 def _landmarks(rig: Rig, vertices: np.ndarray) -> np.ndarray:

@@ -80,7 +80,8 @@ def read_record(name: str, folder: Path | None = None) -> dict:
     if not path.is_file() or not path.with_suffix(".npz").is_file():
         built = ", ".join(sorted(file.stem for file in folder.glob("*.npz"))) or "none"
         raise MissingAsset(
-            f"There is no rig {name!r} in {folder} (built: {built}); make it with: facegen rig build {name}"
+            f"There is no rig {name!r} in {folder} (built: {built}); make it with: facegen rig build {name}, "
+            "or of your own head with: facegen rig add"
         )
     try:
         record = json.loads(path.read_text())

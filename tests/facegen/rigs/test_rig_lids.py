@@ -15,9 +15,10 @@ def seen(
     rig: Rig, rows: np.ndarray, *, pitch_deg: float = 0.0, gaze_yaw_deg: float = 0.0
 ) -> tuple[np.ndarray, np.ndarray]:
     """Eyeball area seen, and the part outside the margins, in mm2 of each person and eye."""
-    gaze = np.broadcast_to(direction_from_angles(np.radians(gaze_yaw_deg), 0.0), (PEOPLE, 2, 3))
-    faces = evaluate(rig, people(rig), rows, gaze)
-    found = [eyeball_seen(rig, faces, i, gaze[i], pitch_deg=pitch_deg) for i in range(PEOPLE)]
+    count = PEOPLE if rig.components else 1
+    gaze = np.broadcast_to(direction_from_angles(np.radians(gaze_yaw_deg), 0.0), (count, 2, 3))
+    faces = evaluate(rig, people(rig, count), rows[:count], gaze)
+    found = [eyeball_seen(rig, faces, i, gaze[i], pitch_deg=pitch_deg) for i in range(count)]
     return np.array([f.area_mm2 for f in found]), np.array([f.outside_mm2 for f in found])
 
 

@@ -1,0 +1,158 @@
+"""A user's glTF head becomes a rig, and what is wrong with its files is said in one sentence."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pygltflib
+import pytest
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.errors import InputError
+from facegen.formats.gltf import read_gltf
+from facegen.rigs import Rig, evaluate, load_rig
+from facegen.rigs.building import add_rig
+from facegen.rigs.gltf_mesh import blendshape_sources
+from tests.facegen.rigs.glb_head import write_head
+from tests.facegen.rigs.people import straight, weights
+
+EVERY_SHAPE = 0.8 * np.concatenate([np.zeros((1, len(BLENDSHAPES))), np.eye(len(BLENDSHAPES))])
+
+
+def landmarks(rig: Rig) -> np.ndarray:
+    """Of the mean face in rest and in each shape, (53, 68, 3)."""
+    identity = np.zeros((len(EVERY_SHAPE), rig.components))
+    return evaluate(rig, identity, EVERY_SHAPE, straight(len(EVERY_SHAPE)), cage_only=True).landmarks
+
+
+@pytest.fixture(scope="module")
+def files(anny: Rig, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    return write_head(anny, tmp_path_factory.mktemp("marked"), lids=True)
+
+
+def changed(files: tuple[Path, Path], folder: Path, **values) -> tuple[Path, Path]:
+    """The head with another markup: keys set to ``values``, those that are None removed."""
+    markup = json.loads(files[1].read_text()) | values
+    path = folder / "marks.json"
+    path.write_text(json.dumps({key: value for key, value in markup.items() if value is not None}))
+    return files[0], path
+
+
+def test_landmarks_are_those_of_the_head_that_was_written(anny: Rig, glb: Rig, files, tmp_path: Path) -> None:
+    add_rig(*files, folder=tmp_path)
+    there = landmarks(anny)
+    assert np.linalg.norm(landmarks(load_rig("head", tmp_path)) - there, axis=-1).max() < 1e-5
+    # margins found on the finer mesh steer the lids at other columns
+    assert np.linalg.norm(landmarks(glb) - there, axis=-1).max() < 1e-4
+    assert glb.components == 0
+    assert glb.licence == "CC0-1.0"
+
+
+def test_missing_shapes_are_named_and_zero_and_spelling_does_not_matter(anny: Rig, tmp_path: Path) -> None:
+    absent = ("tongueOut", "eyeBlinkLeft", "eyeBlinkRight", "cheekPuff")
+
+    def in_maya(name: str) -> str:
+        return "blendShape1." + name.replace("Left", "_L").replace("Right", "_R").upper()
+
+    path, added = add_rig(
+        *write_head(anny, tmp_path, rename=in_maya, left_out=absent), folder=tmp_path / "rigs"
+    )
+    rig = load_rig(path.stem, path.parent)
+    assert rig.missing == added.rig.missing == tuple(name for name in BLENDSHAPES if name in absent)
+    assert added.left_out == ("Hat",)
+    shapes = [0, *(1 + i for name, i in BLENDSHAPE_INDEX.items() if name not in absent)]
+    points = [i for i in range(68) if i not in range(36, 48)]  # lids rest on the eye by other columns
+    offset = np.linalg.norm(landmarks(rig) - landmarks(anny), axis=-1)
+    assert offset[np.ix_(shapes, points)].max() < 1e-5
+    blinking = evaluate(rig, np.zeros((1, 0)), weights(1, eyeBlink=1.0), straight(1))
+    np.testing.assert_array_equal(
+        blinking.landmarks, evaluate(rig, np.zeros((1, 0)), weights(1), straight(1)).landmarks
+    )
+
+
+@pytest.mark.parametrize(
+    ("names", "shape", "sources"),
+    [
+        (["EyeBlink_L"], "eyeBlinkLeft", ("EyeBlink_L",)),
+        (["head.mouth_smile_right"], "mouthSmileRight", ("head.mouth_smile_right",)),
+        (["browInnerUp_L", "browInnerUp_R"], "browInnerUp", ("browInnerUp_L", "browInnerUp_R")),
+        (["jawLeft", "mouthL"], "jawLeft", ("jawLeft",)),
+        (["browInnerUp_L"], "browInnerUp", None),
+    ],
+)
+def test_spellings_of_blendshapes(names: list[str], shape: str, sources: tuple[str, ...] | None) -> None:
+    assert blendshape_sources(names).get(shape) == sources
+
+
+def test_points_may_be_positions(anny: Rig, files, tmp_path: Path) -> None:
+    """Positions in the file's frame, as a user picks them in Blender, find the vertices there."""
+    part = max(read_gltf(files[0]), key=lambda part: len(part.positions))
+    points = [int(point[0][0]) for point in json.loads(files[1].read_text())["landmarks"]]
+    _, by_vertex = add_rig(*changed(files, tmp_path, landmarks=points), name="a", folder=tmp_path)
+    positions = (part.positions[points] + 1e-6).tolist()
+    _, by_position = add_rig(*changed(files, tmp_path, landmarks=positions), name="b", folder=tmp_path)
+    np.testing.assert_allclose(landmarks(by_position.rig), landmarks(by_vertex.rig))
+
+
+def test_eyes_may_be_given_as_balls(anny: Rig, files, tmp_path: Path) -> None:
+    eyes = {
+        side: {"center": part.positions.mean(axis=0).tolist(), "radius": 0.0165}
+        for side, part in zip(
+            ("left", "right"), [p for p in read_gltf(files[0]) if p.node.startswith("Eye")], strict=True
+        )
+    }
+    _, added = add_rig(*changed(files, tmp_path, eyes=eyes, head="face"), folder=tmp_path)
+    np.testing.assert_allclose(added.rig.eye_radius, 0.0165)
+    np.testing.assert_allclose(added.rig.eye_center.mean(axis=0), 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"landmarks": [0] * 67}, "landmarks: List should have at least 68"),
+        ({"landmarks": None}, "landmarks: Field required"),
+        ({"landmark": 1}, "landmark: Extra inputs"),
+        ({"landmarks": [10**6] * 68}, "landmarks.0 names vertex 1000000; the face's mesh has"),
+        ({"landmarks": [0] * 68}, "landmarks.0 and landmarks.1 are the same"),
+        ({"landmarks": [[0.0, 0.0, 0.0]] * 68}, "landmarks.0 lies .* mm from the face"),
+        ({"eyes": {"left": "EyeRight", "right": "EyeLeft"}}, "left is the subject's"),
+        (
+            {"eyes": {"left": "Eye", "right": "EyeRight"}},
+            "nothing is called 'Eye'; the file holds mesh 'Face'",
+        ),
+        ({"eyes": {"left": "Skin", "right": "EyeRight"}}, "is no ball"),
+        ({"metres_per_unit": 0.01}, "eyes are 0.6.* mm apart.*metres_per_unit"),
+        ({"head": "EyeLeft"}, "landmarks.0 names a vertex that is not on the skin"),
+        ({"parts": {"hair": ["Hat"]}}, "parts.hair"),
+    ],
+)
+def test_wrong_marks_are_refused(files, tmp_path: Path, values: dict, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        add_rig(*changed(files, tmp_path, **values), folder=tmp_path)
+    assert not list(tmp_path.glob("*.npz"))
+
+
+def test_wrong_files_and_names_are_refused(anny: Rig, files, tmp_path: Path) -> None:
+    other = tmp_path / "other.glb"
+    with pytest.raises(InputError, match="does not exist"):
+        add_rig(other, files[1], folder=tmp_path)
+    for content in (b"", b"solid", files[0].read_bytes()[:5000], b"glTF" + bytes(40)):
+        other.write_bytes(content)
+        with pytest.raises(InputError, match="cannot be read as a glTF"):
+            add_rig(other, files[1], folder=tmp_path)
+    gltf = pygltflib.GLTF2().load(str(files[0]))
+    gltf.extensionsRequired = ["KHR_draco_mesh_compression"]
+    gltf.save(str(other))
+    with pytest.raises(InputError, match="compressed with KHR_draco_mesh_compression"):
+        add_rig(other, files[1], folder=tmp_path)
+    for name in ("anny", "A Head", "../head"):
+        with pytest.raises(InputError, match="--name"):
+            add_rig(*files, name=name, folder=tmp_path)
+    (tmp_path / "head.npz").touch()
+    with pytest.raises(InputError, match="--force"):
+        add_rig(*files, folder=tmp_path)
+    marks = tmp_path / "marks.json"
+    for content in (b"{", b"\xff\xfe"):
+        marks.write_bytes(content)
+        with pytest.raises(InputError, match="JSON"):
+            add_rig(files[0], marks, name="other", folder=tmp_path)
