@@ -24,22 +24,28 @@ _UNITS = {"px": "pixels", "widths": "face widths", "fps": "frames/s", "m": "metr
 def spec_reference() -> str:
     """The page ``docs/spec.md``: one table of keys for each table of a spec, in the records' order."""
     schema = spec_schema()
-    return _HEAD + "".join(_section(schema, schema, (), ()))
+    return _HEAD + "".join(_section(schema, schema, (), (), ""))
 
 
-def _section(schema: dict, record: dict, path: tuple[str, ...], default: Any) -> list[str]:
-    """Lines of a record and of the records in it; ``default`` is the record's own where it is not its keys'."""
+def _section(schema: dict, record: dict, path: tuple[str, ...], default: Any, meaning: str) -> list[str]:
+    """Lines of a record and of the records in it.
+
+    ``default`` is the record's own where it is not its keys', and so is ``meaning``.
+    """
     title = f"`[{'.'.join(path)}]`" if path else "Top level"
-    lines = [f"\n## {title}\n\n{_flowing(record['description'])}\n\n"] if path else [f"\n## {title}\n\n"]
+    about = f"{_flowing(meaning or record['description'])}\n\n" if path else ""
+    lines = [f"\n## {title}\n\n{about}"]
     lines.append("| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n")
     inner = []
     for key, entry in record["properties"].items():
         target = _record_of(schema, entry)
         if target is not None:
-            inner += _section(schema, target, (*path, key), entry.get("default"))
+            inner += _section(
+                schema, target, (*path, key), entry.get("default"), entry.get("description", "")
+            )
             continue
         own = default[key] if isinstance(default, dict) and key in default else entry.get("default")
-        needed = key in record.get("required", ())
+        needed = key in record.get("required", ()) and own is None
         cells = (
             f"`{key}`",
             entry.get("x-unit") or _UNITS.get(key.rsplit("_", 1)[-1], ""),

@@ -81,7 +81,7 @@ class KeypointDataset:
 
 
 def read_dataset(folder: str | os.PathLike[str], *, points: str = "detected_2d") -> KeypointDataset:
-    """Read the keypoints of a dataset made by ``facegen generate``.
+    """Read the keypoints of a dataset made by ``facegen generate``; rows without a face are left out.
 
     Parameters
     ----------
@@ -108,6 +108,10 @@ def read_dataset(folder: str | os.PathLike[str], *, points: str = "detected_2d")
         tables.append(_table(shard, content, points))
     table = pa.concat_tables(tables)
     places = _column(table, points).reshape(-1, LANDMARK_COUNT, 2)
+    found = ~np.isnan(places).all(axis=(1, 2))  # frames in which the detector finds no face teach nothing
+    if not found.any():
+        raise InputError(f"{folder / 'keypoints'}: no row has a face; all of {points} is NaN")
+    table, places = table.filter(found), places[found]
     weights = _column(table, "weights")
     if not (np.isfinite(places).all() and np.isfinite(weights).all()):
         raise InputError(f"{folder / 'keypoints'} holds points or weights that are not finite numbers")

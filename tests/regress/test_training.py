@@ -26,6 +26,17 @@ def test_a_dataset_reads_as_it_was_written(dataset: KeypointDataset, dataset_fol
     assert read.sha256 == read_dataset(dataset_folder).sha256
 
 
+def test_frames_in_which_a_detector_found_no_face_are_left_out(dataset: KeypointDataset, tmp_path: Path):
+    dropped = dataset.points.copy()
+    dropped[[3, 40]] = np.nan
+    write_dataset(dataclasses.replace(dataset, points=dropped), tmp_path / "dropped")
+    read = read_dataset(tmp_path / "dropped")
+    kept = np.delete(np.arange(len(dataset.split)), [3, 40])
+    assert np.allclose(read.points, dataset.points[kept], rtol=1e-6)
+    assert np.allclose(read.weights, dataset.weights[kept], atol=1e-7)
+    assert np.array_equal(read.person, dataset.person[kept])
+
+
 def test_what_is_no_dataset_is_refused(dataset: KeypointDataset, tmp_path: Path):
     with pytest.raises(InputError, match=r"dataset\.json does not exist"):
         read_dataset(tmp_path)
@@ -36,10 +47,15 @@ def test_what_is_no_dataset_is_refused(dataset: KeypointDataset, tmp_path: Path)
     write_dataset(one_split, tmp_path / "one_split")
     with pytest.raises(InputError, match="no sample in the validation split"):
         read_dataset(tmp_path / "one_split")
-    missing = dataclasses.replace(dataset, points=np.full_like(dataset.points, np.nan))
-    write_dataset(missing, tmp_path / "missing")
+    damaged = dataset.points.copy()
+    damaged[3, 5, 1] = np.nan
+    write_dataset(dataclasses.replace(dataset, points=damaged), tmp_path / "damaged")
     with pytest.raises(InputError, match="not finite"):
-        read_dataset(tmp_path / "missing")
+        read_dataset(tmp_path / "damaged")
+    faceless = dataclasses.replace(dataset, points=np.full_like(dataset.points, np.nan))
+    write_dataset(faceless, tmp_path / "faceless")
+    with pytest.raises(InputError, match="no row has a face"):
+        read_dataset(tmp_path / "faceless")
     write_dataset(dataset, tmp_path / "broken")
     (tmp_path / "broken" / "keypoints" / "shard-00001.parquet").write_bytes(b"PAR1")
     with pytest.raises(InputError, match="not a readable Parquet file"):

@@ -43,6 +43,15 @@ def test_shipped_specs_load_and_survive_a_round_trip(path):
         ({"head": {"yaw_deg": {"uniform": [5, 1]}}}, ["head.yaw_deg", "lower bound must be below"]),
         ({"head": {"yaw_deg": {"normal": [0, 0]}}}, ["head.yaw_deg", "above 0"]),
         ({"head": {"yaw_deg": {"normal": [0, 100]}}}, ["head.yaw_deg", "between -60 and 60 degrees"]),
+        (
+            {
+                "kind": "sequence",
+                "sequence": {k: {"count": 0, "seconds": 2.0} for k in ("neutral", "sentence")},
+            },
+            ["sequence has no clips", "count above 0"],
+        ),
+        ({"sequence": {"peak": {"count": 73}}}, ["sequence.peak.seconds", "missing"]),
+        ({"sequence": {"fps": 50}}, ["sequence.fps", "50", "30 or 60"]),
         ({"kind": "stil"}, ["kind", "stil", "'still', 'sequence' or 'playback'"]),
         ({"people": 0}, ["people = 0", "greater than or equal to 1"]),
         ({"people": 2.5}, ["people = 2.5", "whole number"]),
