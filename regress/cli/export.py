@@ -8,7 +8,7 @@ import typer
 
 from regress.exporters import EXPORTERS, export_model
 from regress.inputs import read_frames
-from regress.model import load_model
+from regress.model import load_model, symmetrised
 
 Format = StrEnum("Format", ["all", *EXPORTERS])
 
@@ -22,13 +22,16 @@ def export(
         Path | None,
         typer.Option(help="Landmarks of a person's neutral face: the export is then calibrated to them"),
     ] = None,
+    symmetric: Annotated[
+        bool, typer.Option("--symmetric", help="Average every face with its mirror image; twice the size")
+    ] = False,
 ) -> None:
     """Write a model for other programs: landmarks in, 52 weights out, alignment included.
 
     Every file agrees with `regress predict` to 1e-4. Example: regress export models/default --format onnx
     """
     formats = list(EXPORTERS) if chosen is Format.all else [chosen.value]
-    loaded = load_model(model)
+    loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     if neutral is not None:
         loaded = loaded.calibrate(read_frames(neutral).points)
     for path in export_model(loaded, out, name=name, formats=formats):

@@ -13,7 +13,7 @@ from regress.cli.results import Format, write_avatar, write_table
 from regress.cli.talk import say
 from regress.errors import InputError
 from regress.inputs import Frames, emptied, read_frames, row_faults, told
-from regress.model import Model, load_model
+from regress.model import Model, load_model, symmetrised
 from regress.neutral import estimate_neutral
 from regress.predict import Output, predict_frames
 from regress.retargeting import read_retargeting, shipped_targets
@@ -93,6 +93,12 @@ def predict(
         typer.Option("--left-right-blend", min=0, max=1, help="0 leaves left and right, 1 averages them."),
     ] = 0.0,
     mirror: Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")] = False,
+    symmetric: Annotated[
+        bool,
+        typer.Option(
+            "--symmetric", help="Average every face's weights with its mirror image's; twice the time."
+        ),
+    ] = False,
 ) -> None:
     """Predict the 52 blendshape weights of every frame.
 
@@ -102,7 +108,7 @@ def predict(
 
     Example: regress predict models/default take.csv --neutral 1 --one-euro 1 --out weights.csv
     """
-    loaded = load_model(model)
+    loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     output = Output(
         smooth_landmarks_hz=smooth_landmarks_hz,
         smooth=smooth,
