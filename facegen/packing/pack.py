@@ -9,6 +9,7 @@ from pathlib import Path
 from facegen.errors import InputError
 from facegen.packing.coco import COCO
 from facegen.packing.keypoints import KEYPOINTS
+from facegen.packing.livelink import LIVELINK
 from facegen.packing.parquet import PARQUET
 from facegen.packing.plan import Format, Options, Part, chosen_samples
 from facegen.packing.webdataset import WEBDATASET
@@ -29,6 +30,7 @@ FORMATS: dict[str, Format] = {
     "parquet": PARQUET,
     "keypoints": KEYPOINTS,
     "coco": COCO,
+    "livelink": LIVELINK,
 }
 """Every format there is; a new one is a module and a line here."""
 
