@@ -89,6 +89,8 @@ def test_restraining_once_is_enough_and_only_lowers(weights):
     np.testing.assert_array_equal(restrain(once), once)
     assert (once <= weights).all()
     assert (once >= 0).all()
+    jaw, close = once[:, BLENDSHAPE_INDEX["jawOpen"]], once[:, BLENDSHAPE_INDEX["mouthClose"]]
+    assert (close <= jaw + CLOSE_BEYOND_JAW).all()
     np.testing.assert_array_equal(restrain(weights[:, MIRRORED_BLENDSHAPES])[:, MIRRORED_BLENDSHAPES], once)
 
 
@@ -133,6 +135,19 @@ def test_weights_say_where_the_eyes_look(faces):
     np.testing.assert_allclose(turned[within], faces.gaze[within], atol=1e-12)
 
 
+def test_eyes_turn_through_their_whole_range_even_where_people_look_at_near_points():
+    near = {"version": 1, "kind": "still", "seed": 7, "people": 1, "gaze": {"distance_m": 0.3}}
+    faces = drawn(parse_spec(near | {"expression": {"mixture": {"single": 1}}}, where="test"), 10)
+    for name in ("eyeLookOutLeft", "eyeLookInLeft", "eyeLookOutRight", "eyeLookInRight"):
+        assert column(faces, name).max() > 0.97, name
+
+
+def test_subtle_faces_keep_their_lips_closed():
+    faces = drawn(spec(mixture={"rest": 1}, subtle=1.0, resting=0.0), 1)
+    assert np.median(column(faces, "jawOpen")) < 0.02
+    assert (column(faces, "mouthClose") >= column(faces, "jawOpen")).all()
+
+
 def test_the_mixture_is_what_the_spec_says(faces):
     shares = np.array(list(asdict(spec().expression.mixture).values()))
     counts = np.bincount(faces.component, minlength=len(COMPONENT_NAMES))[-len(shares) :]
@@ -150,6 +165,7 @@ def test_a_single_face_is_one_shape_and_what_it_needs():
     alone = moving.sum(axis=1) - (moving[:, LEFT] & moving[:, RIGHT]).sum(axis=1)
     needs_jaw = moving[:, BLENDSHAPE_INDEX["mouthClose"]] | moving[:, BLENDSHAPE_INDEX["tongueOut"]]
     assert (alone - needs_jaw <= 1).all()
+    assert column(faces, "mouthClose").max() > 0.9
 
 
 @pytest.mark.parametrize("correlation", [0.0, 0.5, 0.9, 1.0])
