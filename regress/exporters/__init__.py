@@ -14,7 +14,7 @@ from regress.exporters.formula import Formula, formula_of
 from regress.exporters.javascript import export_javascript
 from regress.exporters.json_text import export_json
 from regress.exporters.npz_archive import export_npz
-from regress.exporters.onnx_graph import export_onnx
+from regress.exporters.onnx_graph import export_onnx, export_onnx_networks
 from regress.files import write_whole
 from regress.model import Model
 
@@ -24,6 +24,7 @@ Exporter = Callable[[Formula, str], dict[str, bytes]]
 
 EXPORTERS: dict[str, Exporter] = {
     "onnx": export_onnx,
+    "onnx-networks": export_onnx_networks,
     "c": export_c,
     "json": export_json,
     "npz": export_npz,

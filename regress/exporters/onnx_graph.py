@@ -1,4 +1,4 @@
-"""One ONNX graph: points in, avatar weights out, for onnxruntime, browsers, Unity and Unreal.
+"""ONNX graphs for onnxruntime, browsers, Unity and Unreal: points in, or features in, avatar weights out.
 
 Opset 15 and IR version 8 are old enough for every runtime named above, and the dozen operators used are plain
 ones (`OPERATORS`): small inverses are written out, nothing is scattered, no shape is computed.
@@ -43,6 +43,11 @@ def export_onnx(formula: Formula, name: str) -> dict[str, bytes]:
     return {f"{name}.onnx": build_graph(formula).SerializeToString(deterministic=True)}
 
 
+def export_onnx_networks(formula: Formula, name: str) -> dict[str, bytes]:
+    """Make ``NAME-networks.onnx``; see `build_networks_graph` for what is inside."""
+    return {f"{name}-networks.onnx": build_networks_graph(formula).SerializeToString(deterministic=True)}
+
+
 def build_graph(formula: Formula) -> onnx.ModelProto:
     """Build the checked ONNX model.
 
@@ -60,20 +65,56 @@ def build_graph(formula: Formula) -> onnx.ModelProto:
     graph = _Graph()
     _features(graph, formula)
     _networks(graph, formula)
+    about = {"names": list(BLENDSHAPES), **formula.about}
+    return _checked(graph, ("points", ["n", LANDMARK_COUNT, 2]), about, _DESCRIPTION)
+
+
+def build_networks_graph(formula: Formula) -> onnx.ModelProto:
+    """Build the checked ONNX model of the networks alone, for programs that measure faces themselves.
+
+    Returns
+    -------
+    onnx.ModelProto
+        Input ``features`` float32 (n, E): lengths of the edges after the alignment, over the face's width.
+        Output as in `build_graph`. Its metadata also holds, as JSON, what it takes to measure them:
+        ``alignment``, ``anchors``, ``reference``, ``edges`` and ``width_landmarks``, as `json_text` says.
+    """
+    graph = _Graph()
+    graph.constant("feature_mean", formula.feature_mean)
+    graph.node("Sub", ["features", "feature_mean"], "features_centred")
+    _networks(graph, formula, features="features_centred")
+    about = {
+        "names": list(BLENDSHAPES),
+        **formula.about,
+        "alignment": formula.alignment,
+        "anchors": formula.anchors.tolist(),
+        "reference": formula.reference.tolist(),
+        "edges": formula.edges.tolist(),
+        "width_landmarks": formula.width_landmarks.tolist(),
+    }
+    return _checked(graph, ("features", ["n", len(formula.edges)]), about, _NETWORKS_DESCRIPTION)
+
+
+_DESCRIPTION = "68 iBUG landmarks (x right, y down, any unit) to 52 ARKit blendshape weights."
+_NETWORKS_DESCRIPTION = "Edge lengths of an aligned face over its width to 52 ARKit blendshape weights."
+
+
+def _checked(
+    graph: "_Graph", entry: tuple[str, list[str | int]], about: dict[str, object], description: str
+) -> onnx.ModelProto:
     model = helper.make_model(
         helper.make_graph(
             graph.nodes,
             "regress",
-            [helper.make_tensor_value_info("points", TensorProto.FLOAT, ["n", LANDMARK_COUNT, 2])],
+            [helper.make_tensor_value_info(entry[0], TensorProto.FLOAT, entry[1])],
             [helper.make_tensor_value_info("weights", TensorProto.FLOAT, ["n", len(BLENDSHAPES)])],
             initializer=graph.constants,
         ),
         opset_imports=[helper.make_opsetid("", OPSET)],
         ir_version=IR_VERSION,
         producer_name="regress",
-        doc_string="68 iBUG landmarks (x right, y down, any unit) to 52 ARKit blendshape weights.",
+        doc_string=description,
     )
-    about = {"names": list(BLENDSHAPES), **formula.about}
     text = {key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()}
     helper.set_model_props(model, dict(sorted(text.items())))
     onnx.checker.check_model(model, full_check=True)
@@ -153,8 +194,8 @@ def _alignment(graph: _Graph, formula: Formula) -> None:
     graph.node("MatMul", ["adjugate", "cross"], "map")
 
 
-def _networks(graph: _Graph, formula: Formula) -> None:
-    """Append the nodes from ``features`` to ``weights``: all networks as two matrix products."""
+def _networks(graph: _Graph, formula: Formula, *, features: str = "features") -> None:
+    """Append the nodes from centred features to ``weights``: all networks as two matrix products."""
     stacked = formula.stacked()
     graph.constant("hidden_weights", stacked.hidden_weights.T)
     graph.constant("hidden_bias", stacked.hidden_bias)
@@ -162,7 +203,7 @@ def _networks(graph: _Graph, formula: Formula) -> None:
     graph.constant("output_bias", stacked.output_bias)
     graph.constant("low", np.array(0.0))
     graph.constant("high", np.array(1.0))
-    graph.node("MatMul", ["features", "hidden_weights"], "hidden_sums")
+    graph.node("MatMul", [features, "hidden_weights"], "hidden_sums")
     graph.node("Add", ["hidden_sums", "hidden_bias"], "hidden_biased")
     graph.node("Tanh", ["hidden_biased"], "hidden")
     graph.node("MatMul", ["hidden", "output_weights"], "output_sums")
@@ -172,6 +213,6 @@ def _networks(graph: _Graph, formula: Formula) -> None:
     # soon as one point is not finite, and 0 otherwise.
     graph.constant("nothing", np.array(0.0))
     graph.constant("feature_axis", [1], dtype=np.int64)
-    graph.node("Mul", ["features", "nothing"], "features_unmeasured")
+    graph.node("Mul", [features, "nothing"], "features_unmeasured")
     graph.node("ReduceSum", ["features_unmeasured", "feature_axis"], "missing", keepdims=1)
     graph.node("Add", ["clipped", "missing"], "weights")

@@ -74,6 +74,30 @@ def read_onnx(paths: tuple[Path, ...]):
     return lambda points: session.run(["weights"], {"points": points.astype(np.float32)})[0], tuple(names)
 
 
+def read_onnx_networks(paths: tuple[Path, ...]):
+    """onnxruntime on features measured here, in float64, as the graph's metadata says."""
+    session = onnxruntime.InferenceSession(paths[0], providers=["CPUExecutionProvider"])
+    about = session.get_modelmeta().custom_metadata_map
+    known = {
+        key: json.loads(about[key]) for key in ("names", "anchors", "reference", "edges", "width_landmarks")
+    }
+
+    def predict(points: np.ndarray) -> np.ndarray:
+        points = points.astype(np.float64)
+        matrix = np.eye(2)
+        if about["alignment"] == "affine":
+            anchors = points[:, known["anchors"]]
+            anchors = anchors - anchors.mean(axis=1, keepdims=True)
+            across = anchors.swapaxes(1, 2)
+            matrix = np.linalg.inv(across @ anchors) @ (across @ np.array(known["reference"]))
+        first, last = np.array([*known["edges"], known["width_landmarks"]]).T
+        lengths = np.linalg.norm((points[:, last] - points[:, first]) @ matrix, axis=-1)
+        features = (lengths[:, :-1] / lengths[:, -1:]).astype(np.float32)
+        return session.run(["weights"], {"features": features})[0]
+
+    return predict, tuple(known["names"])
+
+
 def read_c(paths: tuple[Path, ...]):
     """The system's C compiler, with every warning an error, as a shared library."""
     header, source = paths
@@ -124,4 +148,11 @@ def read_javascript(paths: tuple[Path, ...]):
     return predict, names
 
 
-READERS = {"json": read_json, "npz": read_npz, "onnx": read_onnx, "c": read_c, "javascript": read_javascript}
+READERS = {
+    "json": read_json,
+    "npz": read_npz,
+    "onnx": read_onnx,
+    "onnx-networks": read_onnx_networks,
+    "c": read_c,
+    "javascript": read_javascript,
+}

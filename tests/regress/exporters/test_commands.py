@@ -35,6 +35,7 @@ def test_export_writes_all_formats_and_names_them(run, folder, tmp_path, capsys)
     written = {path.name for path in (tmp_path / "out").iterdir()}
     assert written == {
         "avatar.onnx",
+        "avatar-networks.onnx",
         "avatar.h",
         "avatar.c",
         "avatar.json",

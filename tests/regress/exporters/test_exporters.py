@@ -7,12 +7,13 @@ import hypothesis
 import hypothesis.strategies as st
 import numpy as np
 import onnx
+import onnxruntime
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError, OutputError
 from regress.exporters import EXPORTERS, export_model, formula_of
-from regress.exporters.onnx_graph import OPERATORS, OPSET, build_graph
+from regress.exporters.onnx_graph import OPERATORS, OPSET, build_graph, build_networks_graph
 from regress.training import Recipe, train
 from tests.regress.drawn import drawn_dataset, drawn_faces
 from tests.regress.exporters.conftest import random_model
@@ -156,6 +157,18 @@ def test_onnx_is_one_plain_graph(model):
     assert set(about) == {"names", "recipe", "dataset", "dataset_sha256", "licence", "program"}
 
 
+def test_the_networks_graph_gives_nan_where_a_feature_is_missing(model, tmp_path):
+    path = tmp_path / "networks.onnx"
+    path.write_bytes(build_networks_graph(formula_of(model)).SerializeToString())
+    session = onnxruntime.InferenceSession(path, providers=["CPUExecutionProvider"])
+    features = np.ones((2, len(model.features.edges)), dtype=np.float32)
+    features[1, 9] = np.nan
+    (weights,) = session.run(None, {"features": features})
+    assert np.isfinite(weights[0]).all()
+    assert np.isnan(weights[1]).all()
+    assert {node.op_type for node in onnx.load(path).graph.node} <= OPERATORS
+
+
 def test_onnx_runs_on_one_face(exported, faces):
     predict, _ = exported("onnx")
     np.testing.assert_allclose(predict(faces[:1]), predict(faces)[:1], atol=1e-5, rtol=0)
@@ -190,7 +203,7 @@ def test_c_refuses_names_that_c_cannot_say(model, tmp_path):
 
 
 def test_unknown_formats_and_names_with_folders_are_refused(model, tmp_path):
-    with pytest.raises(InputError, match="known are onnx, c, json, npz, javascript"):
+    with pytest.raises(InputError, match="known are onnx, onnx-networks, c, json, npz, javascript"):
         export_model(model, tmp_path, name="face", formats=["xml"])
     with pytest.raises(InputError, match="without a folder"):
         export_model(model, tmp_path, name="a/b")
