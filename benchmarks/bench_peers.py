@@ -217,7 +217,7 @@ def by_sklearn(task: Task, limit: float, start: np.ndarray | None) -> list[Place
     watch, iterations = Watch(task), 10
     while not watch.is_over(limit) and iterations <= 1280:
         network = MLPRegressor(
-            (HIDDEN,),
+            hidden_layer_sizes=(HIDDEN,),
             activation="logistic",
             solver="lbfgs",
             alpha=task.alpha / layout.outputs,
@@ -355,38 +355,36 @@ def main() -> None:
     arguments = parser.parse_args()
     chosen = list(tasks(arguments.dataset, arguments.faces))
     our = [ours(task, arguments.limit) for task in chosen]
-    rows = {"ours": compared(our, our)}
+    rows: dict[str, dict[str, float | int | None]] = {}
+
+    def add(name: str, theirs: list[list[Place]]) -> None:
+        rows[name] = compared(our, theirs)
+        if not arguments.json:
+            print(_line(name, rows[name], len(chosen)), flush=True)
+
+    if not arguments.json:
+        packages = ("numpy", "scipy", "scikit-learn", "torch", "torch-levenberg-marquardt")
+        print(f"{platform.machine()}, one thread; Python {platform.python_version()}, ", end="")
+        print(", ".join(f"{name} {version(name)}" for name in packages))
+        print("L2: " + ", ".join(f"{task.name} {task.alpha:g}" for task in chosen))
+        print(f"{'peer, start':<44}{'validation':>11}{'test':>8}{'CPU s':>8}{'ours':>8}{'times':>8}  reached")
+    add("ours", our)
     for name in arguments.peers.split(","):
         for label, starts in (("its own", [None] * len(chosen)), ("ours", [task.start for task in chosen])):
-            theirs = []
-            for task, start in zip(chosen, starts, strict=True):
-                theirs.append(PEERS[name](task, arguments.limit, start))
-                found = best(theirs[-1])
-                if not arguments.json:
-                    print(
-                        f"# {name}, start {label}, {task.name} (alpha {task.alpha:g}): "
-                        f"{found.validation:.4f} after {found.seconds:.2f} s",
-                        flush=True,
-                    )
-            rows[f"{name}, start: {label}"] = compared(our, theirs)
-    packages = ("numpy", "scipy", "scikit-learn", "torch", "torch-levenberg-marquardt")
+            found = [
+                PEERS[name](task, arguments.limit, start) for task, start in zip(chosen, starts, strict=True)
+            ]
+            add(f"{name}, {label}", found)
     if arguments.json:
-        print(json.dumps({"networks": {task.name: task.alpha for task in chosen}, "rows": rows}, indent=1))
-        return
-    print(
-        f"\n{platform.processor() or platform.machine()}, one thread; Python {platform.python_version()}, ",
-        end="",
+        print(json.dumps({"strengths": {task.name: task.alpha for task in chosen}, "rows": rows}, indent=1))
+
+
+def _line(name: str, row: dict[str, float | int | None], count: int) -> str:
+    times = "" if row["times_less"] is None else f"{row['times_less']:.0f}"
+    return (
+        f"{name:<44}{row['validation']:>11.4f}{row['test']:>8.4f}{row['seconds']:>8.2f}"
+        f"{row['our_seconds']:>8.2f}{times:>8}  {row['reached']} of {count}"
     )
-    print(", ".join(f"{name} {version(name)}" for name in packages))
-    print(
-        f"\n{'peer':<44}{'validation':>11}{'test':>8}{'CPU s':>8}{'ours, CPU s':>13}{'times less':>12}  reached"
-    )
-    for name, row in rows.items():
-        times = "" if row["times_less"] is None else f"{row['times_less']:.0f}"
-        print(
-            f"{name:<44}{row['validation']:>11.4f}{row['test']:>8.4f}{row['seconds']:>8.2f}"
-            f"{row['our_seconds']:>13.2f}{times:>12}  {row['reached']} of {len(chosen)}"
-        )
 
 
 if __name__ == "__main__":

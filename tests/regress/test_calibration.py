@@ -15,7 +15,7 @@ from regress.networks import evaluate
 from regress.neutral import estimate_neutral
 from regress.training import KeypointDataset, evaluate_model, train
 from regress.training.noise import DetectorNoise, displace, draw_bias, draw_displacements
-from regress.training.preparation import faces_of
+from regress.training.preparation import faces_of, prepare
 from tests.regress.conftest import QUICK
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 from tests.regress.exporters.readers import READERS
@@ -145,6 +145,15 @@ def test_jitter_differs_from_face_to_face_and_some_faces_have_nothing_else():
     levels = np.log(passing[jittered])
     assert np.median(levels) == pytest.approx(np.log(0.001 * 0.02) / 2, abs=0.15)
     assert np.log(0.0008) < levels.min() < levels.max() < np.log(0.024)
+
+
+def test_rows_that_noise_left_alone_are_known(quick_model: Model, dataset: KeypointDataset):
+    noise = DetectorNoise(bias=1.0, clean=0.4, copies=3)
+    splits = prepare(dataset, quick_model.features, mirror=True, noise=noise).splits
+    assert splits["train"].exact.mean() == pytest.approx(0.4, abs=0.05)
+    assert splits["test"].exact.all()
+    plain = prepare(dataset, quick_model.features, mirror=True).splits
+    assert plain["train"].exact.all()
 
 
 def _recording(dataset: KeypointDataset, *, calm: int, moving: int) -> tuple[np.ndarray, np.ndarray]:
