@@ -8,9 +8,11 @@ from typing import Annotated
 import numpy as np
 import typer
 
+from regress.adjustment import mirror as exchanged
 from regress.adjustment import read_adjustments
-from regress.cli.results import Format, write_avatar, write_table
+from regress.cli.results import Format, write_avatar, write_confidence, write_table
 from regress.cli.talk import say
+from regress.confidence import confidence
 from regress.errors import InputError
 from regress.inputs import Frames, emptied, read_frames, row_faults, told
 from regress.model import Model, load_model, symmetrised
@@ -49,6 +51,10 @@ def predict(
     gltf: Annotated[
         Path | None,
         typer.Option(help="Avatar (.glb, .vrm) to which an animation of its morph targets is added."),
+    ] = None,
+    trust: Annotated[
+        Path | None,
+        typer.Option("--confidence", help="CSV to write with the trust in each ARKit weight, 0 to 1."),
     ] = None,
     neutral: Annotated[
         str,
@@ -123,17 +129,19 @@ def predict(
     if gltf is not None and out is None:
         raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
     if str(landmarks) == "-":
-        if out is not None or table_format is not Format.csv:
-            raise InputError(
-                "weights of standard input leave as CSV on standard output: use > FILE for --out"
-            )
+        if not (out is gltf is trust is None and table_format is Format.csv):
+            raise InputError("weights of standard input leave as CSV on standard output alone: use > FILE")
         _predict_stream(loaded, neutral, output, fps, strict)
         return
     frames = read_frames(landmarks)
     if fps is not None:
         frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
     frames = _sound(frames, strictly=output.needs_times or gltf is not None, strict=strict)
-    prediction = predict_frames(_calibrated(loaded, frames, neutral), frames, output=output)
+    calibrated = _calibrated(loaded, frames, neutral)
+    prediction = predict_frames(calibrated, frames, output=output)
+    if trust is not None:
+        values = confidence(calibrated, frames.points)
+        write_confidence(prediction, exchanged(values) if mirror else values, trust)
     if gltf is not None:
         write_avatar(prediction, gltf, out)
     else:

@@ -34,6 +34,11 @@ def write_table(prediction: Prediction, chosen: Format, out: Path | None) -> Non
         _write(out, text)
 
 
+def write_confidence(prediction: Prediction, trust: np.ndarray, out: Path) -> None:
+    """Write a table (n, 52) of how far each ARKit weight can be trusted, row by row that of the weights."""
+    _write(out, prediction_csv(Prediction(weights=trust, frames=prediction.frames)))
+
+
 def write_avatar(prediction: Prediction, avatar: Path, out: Path) -> None:
     """Write an avatar with the prediction as an animation more, and say which shapes it lacks."""
     title = Path(prediction.frames.source).stem
