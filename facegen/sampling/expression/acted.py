@@ -33,7 +33,6 @@ APART = 0.1
 """Share of jawOpen left open at which lips are wholly apart."""
 
 _JAW = BLENDSHAPE_INDEX["jawOpen"]
-_TONGUE = BLENDSHAPE_INDEX["tongueOut"]
 
 
 def draw_rest(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
