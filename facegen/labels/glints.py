@@ -33,7 +33,7 @@ from facegen.scene.lamps import radiant_intensity
 
 HIDING_M = 3e-5
 """What hides a glint is nearer than its mirror by at least this; closed lids lie 0.35 mm before the cornea."""
-LENS_BLUR = 1.1 / 640.0
+LENS_BLUR = 0.6 / 640.0
 """Standard deviation of the lens's blur, of the picture's width: glints of 9 to 17 px at 640 px wide."""
 PIXEL_BLUR_PX = 0.3
 """Standard deviation of what a pixel adds to its own box: crosstalk, and the renderer's pixel filter."""

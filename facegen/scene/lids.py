@@ -10,12 +10,12 @@ from facegen.scene.scene import Mesh
 
 BESIDE_M = 25e-3
 """Pushes places beside and below the upper lid out of a crease's reach."""
-CARUNCLE_M = (2.6e-3, 3.0e-3, 1.1e-3)
-"""Largest half axes along the lids, across them and outwards: a mound of 4 to 5 mm by 3 mm [1]_.
+CARUNCLE_M = (3.6e-3, 3.0e-3, 1.1e-3)
+"""Largest half axes along the lids, across them and outwards; of it lids and eyeball leave 4 to 5 mm by 3 mm [1]_.
 
 .. [1] R. S. Snell and M. A. Lemp, "Clinical Anatomy of the Eye", 2nd ed., 1998, the lacrimal caruncle.
 """
-CARUNCLE_BEHIND_M, CARUNCLE_IN_M = 1.9e-3, 1.6e-3
+CARUNCLE_BEHIND_M, CARUNCLE_IN_M = 1.9e-3, 1.2e-3
 """Its middle lies this far behind the lids' margins, so that these frame it, and this far from the corner."""
 TEARS_BEFORE_M = 0.25e-3
 """The meniscus stands this far before the lower lid's edge, as seen from the eyeball's centre."""

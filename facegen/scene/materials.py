@@ -13,7 +13,7 @@ from facegen.errors import InputError
 
 MATERIALS: dict[str, dict[str, float]] = {
     "skin": {
-        "albedo": 0.565,
+        "albedo": 0.56,
         "roughness": 0.48,
         "specular": 0.35,
         "scatter_m": 3.0e-3,
@@ -43,7 +43,7 @@ MATERIALS: dict[str, dict[str, float]] = {
         "vessels": 0.12,
         "limbus": 0.35,
     },
-    "iris": {"albedo": 0.28, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
+    "iris": {"albedo": 0.295, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
     "pupil": {"albedo": 0.14},
     "cornea": {"index": 1.336},
     "teeth": {"albedo": 0.62, "roughness": 0.2, "scatter_m": 1.0e-3},
