@@ -1,0 +1,34 @@
+using Unity.InferenceEngine;
+using UnityEngine;
+
+// Drives an avatar's blend shapes from 68 landmarks. In Unity 6 with the package com.unity.ai.inference; put face.onnx
+// (regress export models/default --format onnx) among the assets. The avatar's shapes carry ARKit's names.
+public class FaceWeights : MonoBehaviour
+{
+    public ModelAsset asset;
+    public SkinnedMeshRenderer avatar;
+
+    // The order of the export's "names"; the shapes' places in the avatar are looked up once.
+    public string[] names;
+    Worker worker;
+    int[] shapes;
+
+    void Start()
+    {
+        worker = new Worker(ModelLoader.Load(asset), BackendType.CPU);
+        shapes = System.Array.ConvertAll(names, avatar.sharedMesh.GetBlendShapeIndex);
+    }
+
+    // points: 136 numbers, x and y of each landmark, y down.
+    public void Apply(float[] points)
+    {
+        using var input = new Tensor<float>(new TensorShape(1, 68, 2), points);
+        worker.Schedule(input);
+        var weights = (worker.PeekOutput() as Tensor<float>).DownloadToArray();
+        for (int i = 0; i < shapes.Length; i++)
+            if (shapes[i] >= 0 && !float.IsNaN(weights[i]))
+                avatar.SetBlendShapeWeight(shapes[i], 100f * weights[i]);
+    }
+
+    void OnDestroy() => worker?.Dispose();
+}

@@ -1,0 +1,23 @@
+/* Weights of faces on standard input: a line of 136 numbers (x y x y ...) in, 52 lines "name weight" out.
+ *
+ *     regress export models/default --format c --out .
+ *     cc -std=c99 -O2 main.c face.c -lm -o weights
+ *     ./weights < points.txt
+ */
+#include <stdio.h>
+#include "face.h"
+
+static int read_face(float points[FACE_POINTS][2]) {
+    for (int i = 0; i < FACE_POINTS; i++)
+        if (scanf("%f %f", &points[i][0], &points[i][1]) != 2) return 0;
+    return 1;
+}
+
+int main(void) {
+    static float points[FACE_POINTS][2], weights[FACE_WEIGHTS];
+    while (read_face(points)) {
+        face_predict((const float (*)[2])points, weights);
+        for (int i = 0; i < FACE_WEIGHTS; i++) printf("%s %.6f\n", face_names[i], weights[i]);
+    }
+    return 0;
+}

@@ -1,0 +1,90 @@
+"""The examples of docs/examples, run as they stand on what `regress export` writes."""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPES
+from regress.exporters import export_model
+from tests.regress.drawn import drawn_faces
+
+EXAMPLES = Path(__file__).parents[3] / "docs" / "examples"
+FACES = drawn_faces(np.random.default_rng(12), 3).astype(np.float32).astype(np.float64)
+
+
+@pytest.fixture
+def folder(quick_model, tmp_path: Path) -> Path:
+    export_model(quick_model, tmp_path, name="face", formats=("onnx", "c", "javascript"))
+    for example in EXAMPLES.iterdir():
+        shutil.copy(example, tmp_path)
+    return tmp_path
+
+
+def _run(folder: Path, *command: object, given: str = "") -> str:
+    done = subprocess.run(
+        [str(part) for part in command], cwd=folder, input=given, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def _lines() -> str:
+    return "".join(" ".join(map(repr, face.ravel().tolist())) + "\n" for face in FACES)
+
+
+def _needs(tool: str) -> None:
+    if shutil.which(tool) is None:
+        pytest.skip(f"no {tool} on this machine")
+
+
+@pytest.mark.compiler
+def test_the_c_program(folder: Path, quick_model):
+    _needs("cc")
+    _run(folder, "cc", "-std=c99", "-O2", "-Wall", "-Werror", "main.c", "face.c", "-lm", "-o", "weights")
+    rows = [line.split() for line in _run(folder, "./weights", given=_lines()).splitlines()]
+    assert [row[0] for row in rows] == list(BLENDSHAPES) * len(FACES)
+    written = np.array([row[1] for row in rows], dtype=float).reshape(len(FACES), -1)
+    np.testing.assert_allclose(written, quick_model.predict(FACES), atol=1e-4)
+
+
+def test_the_onnx_script(folder: Path, quick_model):
+    np.save(folder / "landmarks.npy", FACES)
+    header, *rows = _run(folder, sys.executable, "onnx_weights.py", "face.onnx", "landmarks.npy").splitlines()
+    assert header.split(",") == list(BLENDSHAPES)
+    written = np.array([row.split(",") for row in rows], dtype=float)
+    np.testing.assert_allclose(written, quick_model.predict(FACES), atol=1e-4)
+
+
+def test_the_live_loop(folder: Path, quick_model_folder: Path, quick_model):
+    out = _run(folder, sys.executable, "live.py", quick_model_folder, given=_lines())
+    weights = quick_model.calibrate(FACES[:1]).predict(FACES)
+    for line, row in zip(out.splitlines(), weights, strict=True):
+        shown = json.loads(line.replace("'", '"'))
+        assert set(shown) >= {name for name, weight in zip(BLENDSHAPES, row, strict=True) if weight > 0.06}
+        assert all(abs(row[BLENDSHAPES.index(name)] - weight) < 0.011 for name, weight in shown.items())
+
+
+def test_the_web_page(folder: Path, quick_model):
+    """Its module runs in Node with a stand-in for the page and its server."""
+    _needs("node")
+    (module,) = re.findall(r'<script type="module">(.*?)</script>', (folder / "page.html").read_text(), re.S)
+    (folder / "face.mjs").write_text((folder / "face.js").read_text())
+    (folder / "page.mjs").write_text(module.replace("./face.js", "./face.mjs"))
+    (folder / "stand_in.mjs").write_text(
+        "const table = {};"
+        "globalThis.document = { getElementById: (id) => (id === 'weights' ? table : null) };"
+        f"globalThis.fetch = async () => ({{ json: async () => {json.dumps(FACES[0].ravel().tolist())} }});"
+        "await import('./page.mjs');"
+        "console.log(table.innerHTML);"
+    )
+    rows = re.findall(r"<tr><td>(\w+)</td><td>([\d.]+)</td>", _run(folder, "node", "stand_in.mjs"))
+    assert [name for name, _ in rows] == list(BLENDSHAPES)
+    np.testing.assert_allclose(
+        [float(weight) for _, weight in rows], quick_model.predict(FACES[:1])[0], atol=1e-3
+    )
