@@ -1,17 +1,26 @@
 """``facegen preview``."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from facegen.cli.progress import progress
 from facegen.errors import InputError
+
+if TYPE_CHECKING:
+    from facegen.preview import Performance
+
+STRIP = ".png"
 
 
 def preview(
-    dataset: Annotated[Path, typer.Argument(help="Folder of a dataset.")],
-    out: Annotated[Path, typer.Option("--out", help="PNG file to write.")] = Path("contact-sheet.png"),
+    dataset: Annotated[Path | None, typer.Argument(help="Folder of a dataset.")] = None,
+    out: Annotated[
+        Path, typer.Option("--out", help="File to write: PNG; of clips and weights also .mp4, .gif or .webp.")
+    ] = Path("contact-sheet.png"),
     samples: Annotated[
         str | None,
         typer.Option("--samples", help="Samples to show: 0-3,17. Default: the first rendered ones."),
@@ -20,14 +29,81 @@ def preview(
     landmarks: Annotated[
         bool, typer.Option("--landmarks/--no-landmarks", help="Draw landmarks over the pictures.")
     ] = True,
+    clip: Annotated[int | None, typer.Option("--clip", min=0, help="Show this clip of a dataset.")] = None,
+    weights: Annotated[
+        Path | None,
+        typer.Option("--weights", help="Play a CSV of 52 weights: Live Link Face, or regress predict."),
+    ] = None,
+    rig: Annotated[str, typer.Option("--rig", help="Rig that plays --weights.")] = "anny",
+    fps: Annotated[
+        float | None,
+        typer.Option("--fps", min=1, max=240, help="Rows a second of --weights; default: its own."),
+    ] = None,
+    frames: Annotated[
+        str | None, typer.Option("--frames", help="Frames of the clip or the CSV: 0-299. Default: all.")
+    ] = None,
+    size: Annotated[int, typer.Option("--size", min=64, max=2160, help="Height of a face in pixels.")] = 480,
 ) -> None:
-    """Draw a contact sheet: the headset's views with landmarks, the keypoints, and the largest weights of each sample.
+    """Draw a contact sheet of samples, or play a clip or a CSV of weights as a strip (PNG) or a film.
 
-    Example: facegen preview datasets/out/tiny --out tiny.png
+    The sheet shows the headset's views with landmarks, the keypoints, and the largest weights of each sample.
+
+    Examples: facegen preview datasets/out/tiny --out tiny.png
+
+    facegen preview datasets/out/protocol --clip 74 --out sentence.mp4
+
+    facegen preview --weights take.csv --rig anny --out face.mp4
     """
+    if (dataset is None) == (weights is None):
+        raise InputError(
+            "preview shows either the folder of a dataset or --weights FILE.csv; give one of them"
+        )
+    if weights is not None:
+        from facegen.formats.weight_table import read_weight_table
+        from facegen.preview import play_weights
+        from facegen.rigs import load_rig
+
+        table, time_s = read_weight_table(weights, fps=fps)
+        _play(play_weights(load_rig(rig), table, time_s, title=weights.name), out, frames, size, landmarks)
+    elif clip is not None:
+        from facegen.preview import clip_of_dataset
+        from facegen.store import open_dataset
+
+        _play(clip_of_dataset(open_dataset(dataset), clip), out, frames, size, landmarks)
+    else:
+        _sheet(dataset, out, samples, columns, landmarks)
+    print(out)
+
+
+def _play(performance: "Performance", out: Path, frames: str | None, height_px: int, landmarks: bool) -> None:
+    """Write a strip or a film."""
+    from facegen.preview import ANIMATIONS, FILMS, clip_strip, pictures, write_film
+    from facegen.spec import sample_numbers
+
+    if out.suffix.lower() not in (STRIP, *FILMS, *ANIMATIONS):
+        raise InputError(f"--out: {out} ends in none of {', '.join((STRIP, *FILMS, *ANIMATIONS))}")
+    if frames is not None:
+        total = len(performance.time_s)
+        performance = performance.rows(sample_numbers(frames, total=total, where="--frames", what="frame"))
+    if out.suffix.lower() == STRIP:
+        figure = clip_strip(performance, height_px=height_px, landmarks=landmarks)
+        _write(out, figure.savefig)
+        return
+    with progress("frames", len(performance.time_s)) as update:
+
+        def counted():
+            for done, picture in enumerate(pictures(performance, height_px=height_px, landmarks=landmarks)):
+                yield picture
+                update(done + 1)
+
+        _write(out, lambda part: write_film(part, counted(), fps=performance.fps))
+
+
+def _sheet(dataset: Path, out: Path, samples: str | None, columns: int, landmarks: bool) -> None:
+    """Write a contact sheet."""
     from facegen.preview import contact_sheet
     from facegen.spec import sample_numbers
-    from facegen.store import open_dataset, output_errors
+    from facegen.store import open_dataset
 
     opened = open_dataset(dataset)
     there = {int(number) for number in opened.keypoints()["sample"].to_numpy()}
@@ -41,11 +117,17 @@ def preview(
             f"{dataset}: sample {missing[0] if missing else 0} has not been made; run facegen generate first"
         )
     figure = contact_sheet(opened, numbers, columns=columns, landmarks=landmarks)
-    part = out.with_name(f".{out.name}.{os.getpid()}.png")
+    _write(out, lambda part: figure.savefig(part, facecolor=figure.get_facecolor()))
+
+
+def _write(out: Path, write: Callable[[Path], None]) -> None:
+    """Let a file appear under its name when it is complete."""
+    from facegen.store import output_errors
+
+    part = out.with_name(f".{out.name}.{os.getpid()}{out.suffix}")
     with output_errors(out):
         try:
-            figure.savefig(part, facecolor=figure.get_facecolor())
+            write(part)
             os.replace(part, out)
         finally:
             part.unlink(missing_ok=True)
-    print(out)

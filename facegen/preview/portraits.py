@@ -102,6 +102,7 @@ def portrait(
     *,
     yaw_deg: float = 0.0,
     pitch_deg: float = 0.0,
+    rotation: np.ndarray | None = None,
     window_m: tuple[float, float, float, float] = (-0.100, 0.085, 0.100, -0.125),
     step_m: float = 0.5e-3,
 ) -> Portrait:
@@ -113,12 +114,16 @@ def portrait(
         (2, 3) optical axes of this face.
     yaw_deg, pitch_deg
         Where the viewer stands: towards the subject's left, and above.
+    rotation
+        (3, 3) of the head in its own frame, seen from the front; instead of the two angles.
     window_m
         Left, top, right and bottom of the picture, in the head turned towards the viewer.
     step_m
         Size of a pixel.
     """
     turn = rotation_from_angles(np.radians(yaw_deg), np.radians(pitch_deg), 0.0)
+    if rotation is not None:
+        turn = rotation.T
     vertices, triangles, part = drawn_mesh(rig, faces, index, gaze)
     vertices = vertices @ turn
     left, top, right, bottom = window_m

@@ -5,7 +5,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX
 from facegen.sampling.expression.couplings import EXCLUSIVE, TONGUE_NEEDS_JAW
 
-TONGUE_OUT_WITHIN = 0.1
+TONGUE_OUT_WITHIN = 0.3
 """Beyond the least jawOpen, the tongue comes out over this much more of it."""
 
 _JAW, _TONGUE = BLENDSHAPE_INDEX["jawOpen"], BLENDSHAPE_INDEX["tongueOut"]

@@ -15,8 +15,9 @@ VERGENCE_S = 0.3
 FIXATION_S, FIXATION_SPREAD, FIXATION_WITHIN_S = 0.6, 0.8, (0.15, 4.0)
 """Median, log standard deviation and bounds of fixations: 0.3 s on scenes (Rayner 1998, Psychological Bulletin 124),
 seconds on a partner's face (Argyle & Cook 1976, "Gaze and Mutual Gaze")."""
-AHEAD, AHEAD_DEG = 0.6, 1.5
-"""Share of fixations that come back to what the person talks to or is told to look at, and their scatter."""
+AHEAD, AHEAD_SPREAD, AHEAD_DEG = 0.6, 0.3, 1.5
+"""Share of fixations that come back to what the person talks to or is told to look at, how far from straight ahead that
+lies as a share of the spec's spread, and the scatter of these fixations."""
 SWEEP_S = (0.8, 1.2)
 """Fixations of people who are asked to look into every corner."""
 SWEEP_DISTANCE_M = 10.0
@@ -46,8 +47,8 @@ def draw_glances(rng: np.random.Generator, gaze: Gaze, duration_s: float) -> Fix
     scatter = np.clip(rng.standard_normal((2, size)), -2, 2) * AHEAD_DEG
     return Fixations(
         edges_s=edges,
-        yaw_deg=np.where(ahead, yaw[0] + scatter[0], yaw),
-        pitch_deg=np.where(ahead, pitch[0] + scatter[1], pitch),
+        yaw_deg=np.where(ahead, AHEAD_SPREAD * yaw[0] + scatter[0], yaw),
+        pitch_deg=np.where(ahead, AHEAD_SPREAD * pitch[0] + scatter[1], pitch),
         distance_m=np.where(ahead, distance[0], distance),
     )
 

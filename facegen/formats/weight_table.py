@@ -1,0 +1,72 @@
+"""Tables of blendshape weights over time: Live Link Face recordings, or any CSV with the 52 ARKit columns."""
+
+import csv
+import os
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES
+from facegen.errors import FormatError
+from facegen.formats.live_link import read_live_link
+
+DEFAULT_FPS = 30.0
+"""Rows a second where neither the file nor the reader says."""
+
+
+def read_weight_table(
+    path: str | os.PathLike[str], *, fps: float | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Read weights and times of a CSV.
+
+    Parameters
+    ----------
+    path
+        A Live Link Face recording, or a CSV with a column for each ARKit name, with or without a capital, and maybe
+        ``time_s``, such as ``regress predict`` writes.
+    fps
+        Rows a second; without it the file's own times count, or `DEFAULT_FPS` where it has none.
+
+    Returns
+    -------
+    weights : (n, 52) float64
+        In ``BLENDSHAPES`` order; rows of empty cells, frames without a face, are NaN.
+    time_s : (n,) float64
+        Seconds from the first row.
+
+    Raises
+    ------
+    FormatError
+        Where a blendshape's column is missing, there are no rows, or a cell is no number.
+    """
+    path = Path(path)
+    try:
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            header, *rows = [row for row in csv.reader(file) if row] or [[]]
+    except FileNotFoundError:
+        raise FormatError(
+            f"{path}: there is no such file; a CSV with the 52 ARKit columns is needed"
+        ) from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise FormatError(f"{path} is not a CSV file: {error}") from error
+    columns = {name.strip().lower(): column for column, name in enumerate(header)}
+    if "timecode" in columns:
+        take = read_live_link(path, fps=fps)
+        return take.weights, take.time_s
+    missing = [name for name in BLENDSHAPES if name.lower() not in columns]
+    if missing:
+        raise FormatError(
+            f"{path}: column {missing[0]} is missing ({len(missing)} of the 52 ARKit columns are)"
+        )
+    if not rows:
+        raise FormatError(f"{path} has a header and no rows")
+    names = [*BLENDSHAPES, *(["time_s"] if "time_s" in columns else [])]
+    picked = [columns[name.lower()] for name in names]
+    try:
+        values = np.array([[float(row[column].strip() or "nan") for column in picked] for row in rows])
+    except (ValueError, IndexError) as error:
+        raise FormatError(f"{path}: a cell is missing or no number ({error})") from error
+    weights = values[:, : len(BLENDSHAPES)]
+    if fps is None and "time_s" in columns:
+        return weights, values[:, -1] - values[0, -1]
+    return weights, np.arange(len(rows)) / (fps or DEFAULT_FPS)

@@ -1,0 +1,141 @@
+"""A face that moves, and pictures of its frames by the NumPy renderer."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from facegen.errors import InputError
+from facegen.preview.portraits import portrait
+from facegen.rigs import Rig, evaluate
+from facegen.sampling.gaze import axes_from_weights
+from facegen.store import Dataset, column_array
+
+WINDOW_M = (-0.115, 0.115, 0.115, -0.145)
+"""Left, top, right and bottom of the pictures: room for a head that turns."""
+_SEEN, _HIDDEN = (0, 64, 255), (255, 255, 255)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Performance:
+    """n frames of one face.
+
+    Attributes
+    ----------
+    rig
+        Whose face.
+    identity
+        (K,) coefficients.
+    weights
+        (n, 52) blendshape weights.
+    gaze
+        (n, 2, 3) unit optical axes in the head frame, subject's left eye first.
+    rotation
+        (n, 3, 3) of the head in its own frame.
+    time_s
+        (n,) seconds.
+    title
+        What it is.
+    """
+
+    rig: Rig
+    identity: np.ndarray
+    weights: np.ndarray
+    gaze: np.ndarray
+    rotation: np.ndarray
+    time_s: np.ndarray
+    title: str
+
+    @property
+    def fps(self) -> float:
+        """Frames a second, by the median step of time; 30 for a single frame."""
+        return 1.0 / float(np.median(np.diff(self.time_s))) if len(self.time_s) > 1 else 30.0
+
+    def rows(self, numbers: Sequence[int]) -> "Performance":
+        """Some of the frames."""
+        index = np.asarray(numbers)
+        kept = {name: getattr(self, name)[index] for name in ("weights", "gaze", "rotation", "time_s")}
+        return Performance(rig=self.rig, identity=self.identity, title=self.title, **kept)
+
+
+def clip_of_dataset(dataset: Dataset, clip: int) -> Performance:
+    """A clip of a dataset, by its number.
+
+    Raises
+    ------
+    InputError
+        If there is no such clip, or it has not been made.
+    """
+    table = dataset.keypoints()
+    rows = np.flatnonzero(table.column("clip").to_numpy() == clip)
+    if not len(rows):
+        raise InputError(
+            f"{dataset.folder.path}: has no clip {clip}; there are clips {table['clip'][0]}-{table['clip'][-1]}"
+        )
+    table = table.take(rows)
+    person, session, kind = (table.column(name)[0].as_py() for name in ("person", "session", "component"))
+    head_in_camera = column_array(table, "camera_from_head").reshape(-1, 4, 4)[:, :3, :3]
+    return Performance(
+        rig=dataset.rig,
+        identity=column_array(table, "identity")[0].astype(np.float64),
+        weights=column_array(table, "weights").astype(np.float64),
+        gaze=column_array(table, "gaze").astype(np.float64),
+        rotation=np.diag([1.0, -1.0, -1.0])
+        @ head_in_camera,  # from OpenCV's camera back to y up, z to the viewer
+        time_s=column_array(table, "time_s"),
+        title=f"clip {clip}: {kind}, person {person}, session {session}",
+    )
+
+
+def play_weights(rig: Rig, weights: np.ndarray, time_s: np.ndarray, *, title: str) -> Performance:
+    """Weights (n, 52) on a rig's mean face; where they are NaN, the face stays as it was."""
+    known = ~np.isnan(weights).any(axis=1)
+    if not known.any():
+        raise InputError(f"{title}: no row has all weights")
+    latest = np.maximum.accumulate(np.where(known, np.arange(len(weights)), np.flatnonzero(known)[0]))
+    weights = weights[latest]
+    return Performance(
+        rig=rig,
+        identity=np.zeros(rig.components),
+        weights=weights,
+        gaze=axes_from_weights(weights),
+        rotation=np.tile(np.eye(3), (len(weights), 1, 1)),
+        time_s=time_s,
+        title=title,
+    )
+
+
+def pictures(performance: Performance, *, height_px: int, landmarks: bool = True) -> Iterator[np.ndarray]:
+    """RGB pictures (height, width, 3) uint8 of every frame, width and height even."""
+    step_m = (WINDOW_M[1] - WINDOW_M[3]) / height_px
+    for row in range(len(performance.weights)):
+        one = slice(row, row + 1)
+        face = evaluate(
+            performance.rig, performance.identity[None], performance.weights[one], performance.gaze[one]
+        )
+        drawn = portrait(
+            performance.rig,
+            face,
+            0,
+            performance.gaze[row],
+            rotation=performance.rotation[row],
+            window_m=WINDOW_M,
+            step_m=step_m,
+        )
+        picture = np.ascontiguousarray(np.round(drawn.picture * 255).astype(np.uint8))
+        picture = picture[
+            : picture.shape[0] // 2 * 2, : picture.shape[1] // 2 * 2
+        ].copy()  # films need even sizes
+        if landmarks:
+            _draw_landmarks(picture, drawn.landmarks, drawn.seen)
+        yield picture
+
+
+def _draw_landmarks(picture: np.ndarray, points: np.ndarray, seen: np.ndarray) -> None:
+    """Dots over a picture, in place; hidden ones are white."""
+    radius = max(len(picture) / 300, 1.0)
+    for (x, y), visible in zip(points, seen, strict=True):
+        center = round(x * 16), round(y * 16)  # sixteenths of a pixel
+        colour = _SEEN if visible else _HIDDEN
+        cv2.circle(picture, center, round(radius * 16), colour, cv2.FILLED, cv2.LINE_AA, 4)
