@@ -115,7 +115,8 @@ class WeightStream:
             points = self._landmarks.step(time_s, points)
         weights = self._fast.predict_frame(points).astype(np.float64)
         self._recent.append(weights)
-        weights = np.nanmean(self._recent, axis=0)
+        if len(self._recent) > 1:
+            weights = np.nanmean(self._recent, axis=0)
         if self._filter is not None:
             weights = self._filter.step(time_s, weights)
         return self._output.finish(weights[None])[0]
