@@ -64,9 +64,7 @@ class Recipe:
 RECIPES: dict[str, Recipe] = {
     "default": Recipe(
         name="default",
-        noise=DetectorNoise(
-            bias=0.5, jitter=0.0005, jitter_most=0.02, clean=0.45, unbiased=0.15, copies=2
-        ),
+        noise=DetectorNoise(bias=0.5, jitter=0.0005, jitter_most=0.02, clean=0.45, unbiased=0.15, copies=2),
         calibrated_noise=DetectorNoise(bias=1.0, jitter=0.0005, jitter_most=0.02, unbiased=0.2, copies=2),
     ),
     "exact": Recipe(name="exact"),

@@ -128,6 +128,32 @@ def test_ridge_directions_have_outputs_of_unit_spread():
     assert np.allclose(directions / directions[0], coefficients / coefficients[0])
 
 
+def test_directions_of_exact_rows_keep_what_displaced_rows_flood():
+    # The target lies along an axis of little variance, which displacement floods in half of the rows.
+    rng = np.random.default_rng(4)
+    inputs = rng.normal(size=(2000, 6)) * [1, 1, 1, 1, 1, 0.05]
+    targets = inputs[:, 5:] / 0.05
+    exact = np.arange(2000) < 1000
+    inputs[~exact, 5] += rng.normal(size=1000)
+    layout = Layout(inputs=6, hidden=12, outputs=1)
+    of_all = ridge_directions(inputs, targets, 1.0)
+    of_exact = ridge_directions(inputs[exact], targets[exact], 1.0)
+    errors = []
+    for directions in (of_all, np.concatenate([of_all, of_exact], axis=1)):
+        w1, w2 = ridge_knots(
+            layout=layout,
+            inputs=inputs,
+            targets=targets,
+            directions=directions,
+            alpha=1.0,
+            rng=np.random.default_rng(0),
+        )
+        hidden = 1 / (1 + np.exp(-(inputs[exact] @ w1[:, :-1].T + w1[:, -1])))
+        outputs = hidden @ w2[:, :-1].T + w2[:, -1]
+        errors.append(np.mean((outputs - targets[exact]) ** 2))
+    assert errors[1] < errors[0] / 3
+
+
 def test_ridge_knots_bear_a_shape_that_inputs_do_not_show():
     layout = Layout(inputs=3, hidden=4, outputs=1)
     w1, w2 = ridge_knots(
