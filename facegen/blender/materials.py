@@ -154,6 +154,13 @@ def _cornea(graph: Graph, subsurface: bool) -> Socket:
     return graph.mix(straight, refraction, graph.node("BsdfTransparent", (0.95, 0.95, 0.95, 1.0)))
 
 
+def _headset(graph: Graph, subsurface: bool) -> Socket:
+    """Matte, each part with an albedo of its own (`facegen.scene.housing`)."""
+    return graph.node(
+        "BsdfDiffuse", graph.node("Attribute", output="Fac", settings={"attribute_name": "albedo"})
+    )
+
+
 def _emitter(graph: Graph, subsurface: bool) -> Socket:
     """Shines evenly: markers of tests and calibration targets."""
     return graph.node("Emission", None, graph.parameters["radiance"])
@@ -174,6 +181,7 @@ SHADERS: dict[str, Callable[[Graph, bool], Socket]] = {
     "tongue": _plain,
     "lashes": _matte,
     "hair": _matte,
+    "headset": _headset,
     "emitter": _emitter,
 }
 """Shader of every material in `facegen.scene.materials.MATERIALS`."""

@@ -1,18 +1,18 @@
 """One rendered sample before it is rendered: its scene, and every label that its pictures will carry."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from facegen.conventions import Part
-from facegen.headsets import Headset, head_from_headset
+from facegen.conventions import Part, Visibility
+from facegen.headsets import Headset, HeadsetCamera, draw_unit, head_from_headset
 from facegen.labels.glints import label_glints
 from facegen.labels.keypoints import Keypoints, label_keypoints
 from facegen.labels.views import ViewLabels, label_view, occluders
 from facegen.randomness import stream
 from facegen.rigs import EyeGeometry, Rig, evaluate, eye_geometry, neutral_landmarks
-from facegen.sampling import Samples
-from facegen.scene import Scene, assemble, draw_look, tear_lines
+from facegen.sampling import Samples, Shot, draw_shot
+from facegen.scene import Scene, View, assemble, draw_look, tear_lines
 from facegen.spec import Spec
 
 NOSE_BRIDGE = 27
@@ -31,18 +31,22 @@ class RenderedSample:
         What to render.
     eyes
         The subject's left and right eye.
+    headset
+        The session's unit of the headset.
     head_from_headset
-        (4, 4) how the headset sits.
-    views
-        Labels by camera name.
+        (4, 4) how it sits.
+    views, shots
+        Labels and circumstances by camera name.
     """
 
     samples: Samples
     keypoints: Keypoints
     scene: Scene
     eyes: tuple[EyeGeometry, EyeGeometry]
+    headset: Headset
     head_from_headset: np.ndarray
     views: dict[str, ViewLabels]
+    shots: dict[str, Shot]
 
 
 def realised_donning(headset: Headset, samples: Samples) -> np.ndarray:
@@ -65,28 +69,48 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
         )
         for side in (0, 1)
     )
+    session, sample = int(samples.session[0]), int(samples.sample[0])
+    unit = draw_unit(headset, stream(spec.seed, "unit", session), scale=spec.sensor.tolerances)
     nose_bridge = neutral_landmarks(rig, samples.identity)[0, NOSE_BRIDGE]
-    fit = head_from_headset(headset, nose_bridge, realised_donning(headset, samples))
+    fit = head_from_headset(unit, nose_bridge, realised_donning(headset, samples))
     look = draw_look(stream(spec.seed, "look", int(samples.person[0])), rig)
-    scene = assemble(rig, face.vertices[0], (left, right), headset, fit, look=look)
+    scene = assemble(rig, face.vertices[0], (left, right), unit, fit, look=look)
+    shots = {
+        view.name: draw_shot(spec, view.name, view.lamps, session=session, sample=sample)
+        for view in scene.views
+    }
+    scene = replace(scene, views=tuple(_with_lit_lamps(view, shots[view.name]) for view in scene.views))
     occluder = occluders(scene.meshes)
     glint_occluder = occluders(scene.meshes, transparent=(Part.CORNEA,))
     eyes = left, right
     tears = tear_lines(rig, face.vertices[0], face.eye_center[0])
+    views = {}
+    for view in scene.views:
+        glints = label_glints(view, scene.lamps, eyes, tears, glint_occluder)
+        labels = label_view(view, face.landmarks[0], eyes, occluder, glints)
+        views[view.name] = behind_aperture(labels, unit.camera(view.name))
     return RenderedSample(
         samples=samples,
         keypoints=label_keypoints(spec, rig, samples, face),
         scene=scene,
         eyes=eyes,
+        headset=unit,
         head_from_headset=fit,
-        views={
-            view.name: label_view(
-                view,
-                face.landmarks[0],
-                eyes,
-                occluder,
-                label_glints(view, scene.lamps, eyes, tears, glint_occluder),
-            )
-            for view in scene.views
-        },
+        views=views,
+        shots=shots,
     )
+
+
+def _with_lit_lamps(view: View, shot: Shot) -> View:
+    return replace(view, lamps=tuple(name for name in view.lamps if name != shot.dropped_led))
+
+
+def behind_aperture(labels: ViewLabels, camera: HeadsetCamera) -> ViewLabels:
+    """Labels of a view whose camera looks through a lens: what its rim covers is hidden."""
+    with np.errstate(invalid="ignore"):  # NaN: behind the camera
+        covered = camera.inside_aperture_px(labels.points_2d) < 0
+    visibility = np.where(
+        covered, np.minimum(labels.visibility, Visibility.HIDDEN), labels.visibility
+    ).astype(np.uint8)
+    seen = labels.glints.seen & (camera.inside_aperture_px(labels.glints.points_2d) >= 0)
+    return replace(labels, visibility=visibility, glints=replace(labels.glints, seen=seen))

@@ -9,6 +9,7 @@ from facegen.geometry import apply_transform, invert_transform
 from facegen.headsets import Headset
 from facegen.rigs import EyeGeometry, Rig
 from facegen.scene.eyes import eye_meshes
+from facegen.scene.housing import headset_meshes
 from facegen.scene.lids import caruncle_meshes, crease_fields
 from facegen.scene.looks import Look, hair_meshes
 from facegen.scene.scene import Lamp, Mesh, Scene, View
@@ -60,6 +61,7 @@ def assemble(
     """
     eye_parts = [mesh for eye, side in zip(eyes, SIDES, strict=True) for mesh in eye_meshes(eye, side)]
     eye_parts += caruncle_meshes(rig, vertices, np.stack([eye.center for eye in eyes]))
+    eye_parts += headset_meshes(headset, head_from_headset)
     return Scene(
         meshes=(*head_meshes(rig, vertices), *eye_parts, *(hair_meshes(look, vertices) if look else ())),
         lamps=headset_lamps(headset, head_from_headset),

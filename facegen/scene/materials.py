@@ -51,6 +51,7 @@ MATERIALS: dict[str, dict[str, float]] = {
     "tongue": {"albedo": 0.42, "roughness": 0.4, "scatter_m": 2.0e-3},
     "lashes": {"albedo": 0.08},
     "hair": {"albedo": 0.15},
+    "headset": {},
     "emitter": {"radiance": 1.0},
 }
 """Every material and the parameters it knows, with their defaults.

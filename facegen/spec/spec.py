@@ -208,6 +208,28 @@ class Eyes:
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
+class Sensor:
+    """What else differs from picture to picture; the headset's file says how much at a factor of 1."""
+
+    tolerances: Annotated[float, Field(ge=0, le=10)] = 1.0
+    """Factor on the headset's tolerances of mounts, focal lengths, LEDs and sensor; each session has its own unit."""
+    noise: Annotated[float, Field(ge=0, le=10)] = 1.0
+    """Factor on shot and read noise."""
+    exposure_percent: Annotated[float, Field(ge=0, le=50)] = 1.0
+    """Standard deviation of the exposure from picture to picture."""
+    motion_deg_s: Annotated[float, Field(ge=0, le=2000)] = 15.0
+    """Standard deviation, across and along, of how fast the face moves in the picture while it is exposed."""
+    room: Literal["drawn", "dark", "dim", "bright_office", "flashing_screen"] = "drawn"
+    """Room whose light leaks in; drawn means one for each session, in sequences the same as the pupils' rooms."""
+    room_light: Annotated[float, Field(ge=0, le=100)] = 1.0
+    """Factor on the light that leaks in."""
+    flash: Share = 0.005
+    """Share of pictures with a flash of foreign light."""
+    dropped_led: Share = 0.005
+    """Share of pictures in which one of the camera's LEDs stays dark."""
+
+
+@dataclass(frozen=True, kw_only=True, config=_STRICT)
 class Render:
     """Which samples are rendered, by which headset, and how."""
 
@@ -251,4 +273,5 @@ class Spec:
     camera: KeypointCamera = KeypointCamera()
     landmarks: Landmarks = Landmarks()
     eyes: Eyes = Eyes()
+    sensor: Sensor = Sensor()
     render: Render = Render()

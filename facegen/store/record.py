@@ -1,15 +1,15 @@
 """``sample.json``: the labels of one rendered sample as JSON."""
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, SIDES, SPLITS
 from facegen.geometry import Camera
-from facegen.headsets import Sensor
 from facegen.labels import Glints, RenderedSample, ViewLabels
 from facegen.rigs import EyeGeometry, visual_axis
-from facegen.sampling import COMPONENT_NAMES
+from facegen.sampling import COMPONENT_NAMES, Shot
 from facegen.scene import Lamp, View
 
 
@@ -23,9 +23,7 @@ def numbers(array: np.ndarray) -> Any:
     return np.vectorize(lambda x: None if np.isnan(x) else float(str(x)), otypes=[object])(rounded).tolist()
 
 
-def sample_record(
-    rendered: RenderedSample, *, dataset_hash: str, rig: str, headset: str, sensor: Sensor
-) -> dict:
+def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> dict:
     """Labels of a rendered sample that follow from (spec, sample number) alone; pictures' checksums come on top."""
     samples, keypoints = rendered.samples, rendered.keypoints
     return {
@@ -54,17 +52,15 @@ def sample_record(
         },
         "eyes": {side: _eye(eye, sight) for side, eye, sight in _by_side(rendered)},
         "headset": {
-            "name": headset,
+            "name": rendered.headset.name,
             "head_from_headset": rendered.head_from_headset.tolist(),
             "lamps": [_lamp(lamp) for lamp in rendered.scene.lamps],
-            "sensor": {
-                "exposure": float(sensor.exposure),
-                "black_level": float(sensor.black_level),
-                "veiling_glare": float(sensor.veiling_glare),
-                "bits": int(sensor.bits),
-            },
+            "sensor": asdict(rendered.headset.sensor),
         },
-        "views": {view.name: _view(view, rendered.views[view.name]) for view in rendered.scene.views},
+        "views": {
+            view.name: _view(view, rendered.views[view.name], rendered.shots[view.name])
+            for view in rendered.scene.views
+        },
     }
 
 
@@ -104,7 +100,7 @@ def _camera(camera: Camera) -> dict:
     }
 
 
-def _view(view: View, labels: ViewLabels) -> dict:
+def _view(view: View, labels: ViewLabels, shot: Shot) -> dict:
     return {
         "camera": _camera(view.camera),
         "camera_from_head": view.camera_from_head.tolist(),
@@ -116,6 +112,7 @@ def _view(view: View, labels: ViewLabels) -> dict:
         "pupil_center_camera": dict(zip(SIDES, numbers(labels.pupil_center_camera), strict=True)),
         "gaze_camera": dict(zip(SIDES, numbers(labels.gaze_camera), strict=True)),
         "glints": _glints(labels.glints),
+        "shot": asdict(shot),
     }
 
 

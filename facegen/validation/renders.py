@@ -109,8 +109,6 @@ def _check_labels(dataset: Dataset, record: dict, samples: Samples) -> _Wrong:
         label_rendered(dataset.spec, dataset.rig, dataset.headset, samples),
         dataset_hash=dataset.hash,
         rig=dataset.rig.name,
-        headset=dataset.headset.name,
-        sensor=dataset.headset.sensor,
     )
     for name, what in disagreements(record, json.loads(json.dumps(made))):
         yield name, what, "label"

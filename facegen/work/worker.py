@@ -11,7 +11,7 @@ from facegen.conventions import BLOCK
 from facegen.labels import RenderedSample, label_keypoints, label_rendered, with_glints
 from facegen.randomness import stream
 from facegen.sampling import Samples, draw_samples
-from facegen.sensor import develop
+from facegen.sensor import develop_view
 from facegen.store import (
     Dataset,
     commit_file,
@@ -81,13 +81,7 @@ class Worker:
         on_phase("draw")
         rendered = label_sample(dataset, number, self._samples(number // BLOCK))
         files = self._pictures(rendered, on_phase)
-        record = sample_record(
-            rendered,
-            dataset_hash=dataset.hash,
-            rig=dataset.rig.name,
-            headset=dataset.headset.name,
-            sensor=dataset.headset.sensor,
-        )
+        record = sample_record(rendered, dataset_hash=dataset.hash, rig=dataset.rig.name)
         record["render"] = {
             "engine": "cycles",
             "blender": importlib.metadata.version("bpy"),
@@ -127,7 +121,14 @@ class Worker:
             )
             glints = rendered.views[view.name].glints
             layers = dataclasses.replace(layers, radiance=with_glints(layers.radiance, glints))
-            files[f"{view.name}.png"] = png_bytes(develop(layers.radiance, self.dataset.headset.sensor))
+            grey = develop_view(
+                layers,
+                rendered.headset.camera(view.name),
+                view.camera_from_head,
+                rendered.headset.sensor,
+                rendered.shots[view.name],
+            )
+            files[f"{view.name}.png"] = png_bytes(grey)
             files[f"{view.name}.exr"] = exr_bytes(layers)
         return files
 

@@ -61,8 +61,8 @@ def test_headsets_of_the_project_load(name):
         ),
         (
             "exposure = 0.5",
-            "exposure = 0.5\ngain = 2",
-            r"sensor\.gain is not a known key; known are exposure, black_level, veiling_glare, bits",
+            "exposure = 0.5\niso = 2",
+            r"sensor\.iso is not a known key; known are exposure, gain, black_level, veiling_glare, ",
         ),
         ("k1 = -0.02", "k7 = -0.02", r"cameras\[0\]\.distortion\.k7 is not a known key; known are k1, k2"),
         (

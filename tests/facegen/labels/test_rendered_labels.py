@@ -28,8 +28,7 @@ def dataset(anny, tmp_path_factory):
 def _record(dataset, headset) -> dict:
     block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(1, 2))
     rendered = label_rendered(dataset.spec, dataset.rig, headset, block)
-    names = {"rig": "anny", "headset": "tracking3", "dataset_hash": ""}
-    return sample_record(rendered, sensor=headset.sensor, **names)
+    return sample_record(rendered, rig="anny", dataset_hash="")
 
 
 def test_keypoint_labels_do_not_change_with_materials_hair_or_sensor(dataset, monkeypatch):

@@ -1,0 +1,143 @@
+"""A headset's camera: intrinsics, lens, and where it is fixed."""
+
+from dataclasses import replace
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from facegen.geometry import Camera, look_at, project, transform, unproject
+from facegen.geometry.cameras import DISTORTION_TERMS
+from facegen.headsets.quantities import MM, Name, Pair, Positive, Share, Vector, record
+
+
+@record()
+class Distortion:
+    """Coefficients by name, in OpenCV's meaning; those not given are 0."""
+
+    k1: float = 0.0
+    k2: float = 0.0
+    k3: float = 0.0
+    k4: float = 0.0
+    p1: float = 0.0
+    p2: float = 0.0
+
+
+@record()
+class Lens:
+    """What a lens does to light besides bending it; lengths are shares of the picture's width.
+
+    ``vignette`` is the share of the light that is lost in the corner farthest from the principal point, growing with
+    the square of the distance from there. With an ``aperture_radius`` nothing is seen beyond a circle of that
+    radius, whose middle lies ``aperture_offset`` (right, down) from the middle of the picture: the rim of a lens or of
+    the eyecup that the camera looks through.
+    """
+
+    vignette: Share = 0.0
+    aperture_radius: Positive | None = None
+    aperture_offset: Pair = (0.0, 0.0)
+
+
+@record()
+class HeadsetCamera:
+    """One camera: its intrinsics in pixels and its pose in the headset frame.
+
+    The camera stands at ``position_mm`` and its optical axis meets ``target_mm``; the headset's y appears
+    upwards in the picture until ``roll_deg`` turns the camera about its axis (clockwise as the camera itself
+    sees it).
+    """
+
+    name: Name
+    model: Literal["pinhole", "fisheye"]
+    width: Annotated[int, Field(ge=8, le=8192)]
+    height: Annotated[int, Field(ge=8, le=8192)]
+    fx: Positive
+    fy: Positive
+    cx: float
+    cy: float
+    distortion: Distortion = Distortion()
+    position_mm: Vector
+    target_mm: Vector
+    roll_deg: float = 0.0
+    lens: Lens = Lens()
+
+    @model_validator(mode="after")
+    def _check(self) -> "HeadsetCamera":
+        allowed = DISTORTION_TERMS[self.model]
+        for term in ("k1", "k2", "k3", "k4", "p1", "p2"):
+            if term not in allowed and getattr(self.distortion, term) != 0.0:
+                raise ValueError(
+                    f"a {self.model} camera has no distortion term {term}; it has {', '.join(allowed)}"
+                )
+        line_of_sight = np.subtract(self.target_mm, self.position_mm)
+        if np.linalg.norm(np.cross(line_of_sight, (0.0, 1.0, 0.0))) < 1e-6:
+            raise ValueError(
+                "target_mm lies straight above, below or at position_mm, so up in the picture is undefined"
+            )
+        if not self._sees_everywhere():
+            raise ValueError(
+                "distortion folds within the picture: some of its pixels see no ray; make it weaker"
+            )
+        return self
+
+    def _sees_everywhere(self) -> bool:
+        """Whether the distortion has an inverse in the whole picture, judged along lines to its corners."""
+        corners = np.array([[u, v] for u in (-0.5, self.width - 0.5) for v in (-0.5, self.height - 0.5)])
+        centre = np.array([self.cx, self.cy])
+        pixels = centre + (corners - centre)[:, None] * np.linspace(0.02, 1.0, 50)[:, None]
+        rays = unproject(self.camera, pixels)
+        # a polynomial that turns back has its ray elsewhere: on the other side, or nearer to the axis than
+        # the last one
+        same_side = (rays[..., :2] * (pixels - centre)).sum(axis=-1) > 0
+        outwards = np.diff(rays[..., 2], axis=1) < 0
+        # a hundredth of a pixel is far above rounding
+        back = np.allclose(project(self.camera, rays), pixels, rtol=0.0, atol=0.01)
+        return bool(same_side.all() and outwards.all() and back)
+
+    @property
+    def camera(self) -> Camera:
+        """Intrinsics."""
+        terms = tuple(getattr(self.distortion, term) for term in DISTORTION_TERMS[self.model])
+        return Camera(
+            model=self.model,
+            width=self.width,
+            height=self.height,
+            fx=self.fx,
+            fy=self.fy,
+            cx=self.cx,
+            cy=self.cy,
+            distortion=terms if any(terms) else (),
+        )
+
+    def inside_aperture_px(self, pixels: np.ndarray) -> np.ndarray:
+        """How far points (..., 2) lie inside the rim of the lens, in pixels; negative beyond it."""
+        if self.lens.aperture_radius is None:
+            return np.full(pixels.shape[:-1], np.inf)
+        middle = np.array([self.width - 1, self.height - 1]) / 2.0
+        offset = pixels - middle - np.multiply(self.lens.aperture_offset, self.width)
+        return self.lens.aperture_radius * self.width - np.linalg.norm(offset, axis=-1)
+
+    @property
+    def headset_from_camera(self) -> np.ndarray:
+        """Pose (4, 4) of the OpenCV camera in the headset frame, metres."""
+        pose = look_at(np.multiply(self.position_mm, MM), np.multiply(self.target_mm, MM))
+        roll = np.radians(self.roll_deg)
+        about_axis = np.array(
+            [[np.cos(roll), -np.sin(roll), 0.0], [np.sin(roll), np.cos(roll), 0.0], [0.0, 0.0, 1.0]]
+        )
+        return pose @ transform(about_axis, np.zeros(3))
+
+    def scaled(self, width: int) -> "HeadsetCamera":
+        """The same camera with a picture ``width`` pixels wide: field of view and pose stay."""
+        height = max(8, round(self.height * width / self.width))
+        sx, sy = width / self.width, height / self.height
+        # a pixel's centre is at +0.5 of its corner, and it is corners that scale
+        return replace(
+            self,
+            width=width,
+            height=height,
+            fx=self.fx * sx,
+            fy=self.fy * sy,
+            cx=(self.cx + 0.5) * sx - 0.5,
+            cy=(self.cy + 0.5) * sy - 0.5,
+        )

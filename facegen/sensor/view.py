@@ -1,0 +1,44 @@
+"""Developing a whole view: room, motion, lens, exposure and noise in the order in which light meets them."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from facegen.headsets import HeadsetCamera, Sensor
+from facegen.randomness import stream
+from facegen.sampling import Shot
+from facegen.scene import Layers
+from facegen.sensor.development import develop
+from facegen.sensor.lens import transmission
+from facegen.sensor.motion import blurred
+from facegen.sensor.room import room_light
+
+
+def develop_view(
+    layers: Layers, camera: HeadsetCamera, camera_from_head: np.ndarray, sensor: Sensor, shot: Shot
+) -> np.ndarray:
+    """Grey picture (h, w) uint8 of a view's layers.
+
+    Parameters
+    ----------
+    layers
+        What is true of the view: radiance with glints, and normals and parts for the light of the room.
+    camera
+        Its lens, at the picture's size.
+    camera_from_head
+        (4, 4) its pose.
+    sensor
+        The unit's sensor.
+    shot
+        What is particular to this picture.
+    """
+    light = layers.radiance.astype(np.float64) + room_light(layers, camera_from_head, shot)
+    way_rad = np.multiply(shot.motion_rad_s, sensor.exposure_ms * 1e-3)
+    light = blurred(light, (way_rad[0] * camera.fx, way_rad[1] * camera.fy)) * transmission(camera)
+    noise = shot.noise * draw_noise(stream(shot.noise_seed, "sensor noise", 0), light.shape)
+    return develop(light, replace(sensor, exposure=sensor.exposure * shot.exposure_factor), noise=noise)
+
+
+def draw_noise(rng: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+    """Standard normal noise of one picture."""
+    return rng.standard_normal(shape)
