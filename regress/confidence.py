@@ -10,9 +10,10 @@ from regress.model import Model
 USUAL, STRANGE = 0.75, 1.9
 """Root mean square z-scores of a frame's features between which trust falls from all to none.
 
-Measured on 13,500 test faces with detectors' bias and jitter of 0 to 3 times the usual: the share of the variance
-that the networks explain falls nearly on a line, from its best at 0.75 to nothing at 1.9, frames alone and with a
-neutral frame (docs/using-a-model.md). Training faces have 1 in the mean square.
+Measured on 2,700 test faces with detectors' bias and jitter of 0 to 3 times the usual: the share of the variance
+that the networks explain falls nearly on a line, from its best at 0.75 to nothing at 1.9, frames alone; with a neutral
+frame it is above that line, and falls to nothing from 1.5 to 1.7 (docs/using-a-model.md). Training faces have 1 in the
+mean square.
 """
 
 
