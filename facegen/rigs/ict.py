@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES, Part
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.errors import InputError
 from facegen.rigs.files import assets_folder
 from facegen.rigs.identity import fit_sphere
@@ -19,7 +19,7 @@ from facegen.rigs.rig import Rig
 COMPONENTS = 60
 """Modes taken at most; 60 hold 98.8 % of the variance."""
 CENTIMETRE_M = 0.01
-VERSION = "ICT-FaceKit light, build 1"
+VERSION = "ICT-FaceKit light, build 2"
 LICENCE = "MIT"
 SOURCE = "ICT-FaceKit light (USC Institute for Creative Technologies, 2020), github.com/ICT-VGL/ICT-FaceKit"
 _NEUTRAL = "generic_neutral_mesh"
@@ -46,7 +46,9 @@ def build_ict(clone: Path, *, components: int = COMPONENTS) -> Rig:
     if not (folder / f"{_NEUTRAL}.obj").is_file():
         raise InputError(f"{clone} holds no FaceXModel/{_NEUTRAL}.obj; --path wants a clone of ICT-FaceKit")
     data = assets_folder() / "rigs" / "ict"
-    parts, points = (json.loads((data / f"{name}.json").read_text()) for name in ("parts", "landmarks"))
+    parts, points, gains = (
+        json.loads((data / f"{name}.json").read_text()) for name in ("parts", "landmarks", "gains")
+    )
     mesh = _read_obj(folder / f"{_NEUTRAL}.obj")
     part_of = np.zeros(len(mesh.vertices), np.uint8)
     for name, ranges in parts["parts"].items():
@@ -55,6 +57,8 @@ def build_ict(clone: Path, *, components: int = COMPONENTS) -> Rig:
 
     modes = _modes(folder, mesh.vertices, components)
     expression, missing = _expression(folder, mesh.vertices)
+    for name, gain in gains["gains"].items():
+        expression[BLENDSHAPE_INDEX[name]] *= gain
     eyes = np.array([np.arange(first, last + 1) for first, last in parts["eyeballs"]])
     centre, radius = fit_sphere(mesh.vertices[eyes])
     mode_centre, mode_radius = fit_sphere((mesh.vertices + modes)[:, eyes])

@@ -24,6 +24,8 @@ CANTHUS_SHARE, COLUMN_SPACING_M = 0.10, 1.0e-3
 """Least distance along x of a column from the canthi, as a share of the eye's width, and from the next."""
 CONTACT_LANDMARKS = ((43, 47), (44, 46), (37, 41), (38, 40))
 """Upper and lower lid landmarks that face each other."""
+LIP_LANDMARKS = ((61, 67), (62, 66), (63, 65))
+"""Landmarks of the upper and lower inner lip that face each other."""
 
 
 def close_lids(
@@ -66,9 +68,17 @@ def close_lids(
 
 
 def clamp_contact(landmarks: np.ndarray) -> None:
-    """Lift upper lid landmarks (n, 68, 3) to their lower partners where lids overlap, in place."""
+    """Bring landmarks (n, 68, 3) of lids and lips that passed each other to where they touch, in place.
+
+    Upper lids rest on the lower ones. Lips meet halfway: shapes of both press them through each other, and a
+    detector sees the line between them.
+    """
     for upper, lower in CONTACT_LANDMARKS:
         landmarks[:, upper, 1] = np.maximum(landmarks[:, upper, 1], landmarks[:, lower, 1])
+    for upper, lower in LIP_LANDMARKS:
+        crossed = 0.5 * np.maximum(landmarks[:, lower, 1] - landmarks[:, upper, 1], 0.0)
+        landmarks[:, upper, 1] += crossed
+        landmarks[:, lower, 1] -= crossed
 
 
 @lru_cache(maxsize=8)

@@ -15,8 +15,9 @@ AGES = ("young", "old")  # MakeHuman's anchors at 25 and 90 years, ends of the a
 LEVELS = ("min", "average", "max")
 SIDE_CORRELATION = 0.95
 """Between the left and right of a slider that has both: eyes and ears differ by about a third of a sigma."""
-SIZE_SIGMA = 0.025
-"""Relative spread of head size at given sex; MakeHuman's height stays at its middle, it only scales."""
+SIZE_SIGMA, SIZE_BY_SEX = 0.03, 0.006
+"""Relative spread of head size at given sex, and by how much men's heads are above and women's below 1 in the mean.
+MakeHuman's height stays at its middle, it only scales. Chosen beside measured faces (docs/population.md)."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -57,7 +58,8 @@ def draw_population(
     traits = draw_traits(people, rng)
     macro_names, macro_weights = _macro(traits, rng)
     local_names, local_weights = _locals(recipe, people, rng)
-    size = 1.0 + SIZE_SIGMA * _bounded_normal(rng, people)
+    by_sex = SIZE_BY_SEX * (1.0 - 2.0 * traits[:, TRAITS.index("female")])
+    size = 1.0 + by_sex + SIZE_SIGMA * _bounded_normal(rng, people)
     weights = np.concatenate([macro_weights, local_weights], axis=1)
     targets = _macro_targets(wheel, macro_names, rows)
     targets = np.concatenate([targets, read_targets(wheel, local_names, rows)])

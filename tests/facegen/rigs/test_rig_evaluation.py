@@ -70,7 +70,17 @@ def test_landmarks_lie_where_their_names_say(rig: Rig) -> None:
 
 
 @pytest.mark.parametrize(
-    ("shape", "share"), [("jawOpen", 0.444), ("mouthSmileLeft", 0.142), ("eyeBlinkLeft", 0.105)]
+    ("shape", "share"),
+    [
+        ("jawOpen", 0.444),
+        ("mouthClose", 0.289),
+        ("mouthSmileLeft", 0.142),
+        ("mouthRight", 0.143),
+        ("eyeBlinkLeft", 0.105),
+        ("eyeLookDownRight", 0.048),
+        ("noseSneerLeft", 0.039),
+        ("browInnerUp", 0.136),
+    ],
 )
 def test_weight_one_means_about_what_apple_means(rig: Rig, shape: str, share: float) -> None:
     rows = np.concatenate([weights(1), weights(1, **{shape: 1.0})])
@@ -78,6 +88,21 @@ def test_weight_one_means_about_what_apple_means(rig: Rig, shape: str, share: fl
     moved = np.linalg.norm(points[1] - points[0], axis=-1).max()
     width = np.linalg.norm(points[0, 45] - points[0, 36])
     assert 0.75 * share < moved / width < 1.25 * share
+
+
+def test_lips_meet_and_do_not_pass_each_other(rig: Rig) -> None:
+    shapes = ({}, {"mouthRollUpper": 1.0, "mouthRollLower": 1.0}, {"jawOpen": 0.4, "mouthClose": 0.46})
+    rows = np.concatenate([weights(10, **shape) for shape in shapes] + [random_faces(rig, 60)[1]])
+    vertices = evaluate(rig, people(rig, 90), rows, straight(90), cage_only=True)
+    points = vertices.landmarks
+    unclamped = np.einsum("ln,blnc->blc", rig.landmark_weights, vertices.vertices[:, rig.landmark_vertices])
+    upper, lower = [61, 62, 63], [67, 66, 65]
+    gap = unclamped[:, upper, 1] - unclamped[:, lower, 1]
+    assert (gap < -1e-3).any()  # the shapes do press lips through each other
+    np.testing.assert_allclose(points[:, upper, 1] - points[:, lower, 1], np.maximum(gap, 0.0), atol=1e-12)
+    np.testing.assert_allclose(
+        points[:, upper, 1] + points[:, lower, 1], unclamped[:, upper, 1] + unclamped[:, lower, 1], atol=1e-12
+    )
 
 
 def test_jaw_open_moves_the_chin_down(rig: Rig) -> None:
