@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from regress.cli.rows import sound_rows
 from regress.exporters import EXPORTERS, export_model
 from regress.inputs import read_frames
 from regress.model import load_model, symmetrised
@@ -33,6 +34,6 @@ def export(
     formats = list(EXPORTERS) if chosen is Format.all else [chosen.value]
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     if neutral is not None:
-        loaded = loaded.calibrate(read_frames(neutral).points)
+        loaded = loaded.calibrate(sound_rows(read_frames(neutral)).points)
     for path in export_model(loaded, out, name=name, formats=formats):
         typer.echo(f"{path} ({path.stat().st_size:,} bytes)")

@@ -11,10 +11,11 @@ import typer
 from regress.adjustment import mirror as exchanged
 from regress.adjustment import read_adjustments
 from regress.cli.results import Format, write_avatar, write_confidence, write_table
+from regress.cli.rows import sound_rows
 from regress.cli.talk import say
 from regress.confidence import confidence
 from regress.errors import InputError
-from regress.inputs import Frames, emptied, read_frames, row_faults, told
+from regress.inputs import Frames, read_frames
 from regress.model import Model, load_model, symmetrised
 from regress.neutral import estimate_neutral
 from regress.predict import Output, predict_frames
@@ -136,7 +137,7 @@ def predict(
     frames = read_frames(landmarks)
     if fps is not None:
         frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
-    frames = _sound(frames, strictly=output.needs_times or gltf is not None, strict=strict)
+    frames = sound_rows(frames, strictly=output.needs_times or gltf is not None, strict=strict)
     calibrated = _calibrated(loaded, frames, neutral)
     prediction = predict_frames(calibrated, frames, output=output)
     if trust is not None:
@@ -146,19 +147,6 @@ def predict(
         write_avatar(prediction, gltf, out)
     else:
         write_table(prediction, table_format, out)
-
-
-def _sound(frames: Frames, *, strictly: bool, strict: bool) -> Frames:
-    """The frames without those that cannot be used, of which a person is told."""
-    faults = row_faults(frames, strictly=strictly)
-    found = told(faults)
-    if found and strict:
-        raise InputError(f"{frames.source}: {'; '.join(found)}; without --strict their cells stay empty")
-    if None not in faults:
-        raise InputError(f"{frames.source} holds no usable frame: {'; '.join(found)}")
-    for line in found:
-        say(f"{frames.source}: {line}")
-    return emptied(frames, faults)
 
 
 def _predict_stream(model: Model, neutral: str, output: Output, fps: float | None, strict: bool) -> None:
@@ -201,4 +189,4 @@ def _neutral_file(neutral: str, source: str) -> Frames:
         raise InputError(
             f"--neutral {neutral!r} is neither a frame of {source}, nor a file; auto and none are allowed too"
         )
-    return _sound(read_frames(neutral), strictly=False, strict=False)
+    return sound_rows(read_frames(neutral))

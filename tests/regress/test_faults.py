@@ -125,9 +125,14 @@ def test_a_neutral_face_the_wrong_way_round_is_refused(run, quick_model_folder, 
     np.save(tmp_path / "take.npy", GOOD)
     np.save(tmp_path / "rest.npy", _exchanged(GOOD[:2]))
     arguments = ("predict", quick_model_folder, tmp_path / "take.npy", "--neutral", tmp_path / "rest.npy")
-    code, _, err = run(*arguments)
-    assert code == 2
-    assert "left and right exchanged" in err
+    for refused in (
+        arguments,
+        ("export", quick_model_folder, "--neutral", tmp_path / "rest.npy", "--out", tmp_path),
+    ):
+        code, _, err = run(*refused)
+        assert code == 2
+        assert "left and right exchanged" in err
+    assert not (tmp_path / "face.onnx").exists()
 
 
 def test_a_pipe_tells_runs_of_bad_lines_and_goes_on(run, quick_model_folder, monkeypatch):

@@ -1,5 +1,6 @@
 """Animations added to an avatar, read again by pygltflib and by Blender."""
 
+import base64
 import json
 import struct
 from pathlib import Path
@@ -19,7 +20,10 @@ TEETH = ["JAWOPEN"]
 def avatar(
     path: Path, *, names: tuple[list[str], ...] = (HEAD, TEETH, ["Ear_Up"]), binary: bool = True
 ) -> Path:
-    """A triangle a mesh with its morph targets, a mesh without any, an animation, extensions, and odd chunks."""
+    """A triangle a mesh with its morph targets, a mesh without any, an animation, extensions, and an odd chunk.
+
+    Without ``binary`` its data are in a URI.
+    """
     triangle = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
     data = triangle.tobytes() * 2 + np.array([0.0, 1.0], "<f4").tobytes() + np.zeros((2, 3), "<f4").tobytes()
     views = [(0, 36), (36, 36), (72, 8), (80, 24)]
@@ -76,7 +80,9 @@ def avatar(
         ],
     }
     if not binary:
-        document = {key: document[key] for key in ("asset", "nodes", "meshes")}
+        document["buffers"][0]["uri"] = (
+            "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+        )
     text = json.dumps(document).encode()
     chunks = [(b"JSON", text + b" " * (-len(text) % 4))]
     if binary:
