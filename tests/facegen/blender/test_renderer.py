@@ -207,8 +207,8 @@ def _face(anny, headset, look, **weights):
 
 
 def test_eye_cameras_see_what_real_ones_see(anny):
-    # bounds from measured frames of real headsets (benchmarks/bench_look.py), widened by a quarter for three looks of one face
-    # that looks straight ahead, at 64 pixels
+    # bounds from measured frames of real headsets (benchmarks/bench_look.py), widened by a quarter for three looks of
+    # one face that looks straight ahead, at 64 pixels
     headset = load_headset("tracking3").scaled(64)
     renderer = open_renderer(threads=2)
     figures = []
