@@ -14,12 +14,14 @@ def test_bench_times_each_way_or_says_why_not(run, quick_model_folder, monkeypat
     assert list(timings) == [
         "NumPy, one frame",
         "NumPy, 200 frames",
+        "fast, one frame",
+        "fast, 200 frames",
         "ONNX, one frame",
         "C, one frame",
         "JavaScript, one frame",
     ]
     for name, entry in timings.items():
-        if name.startswith(("NumPy", "ONNX")):
+        if name.startswith(("NumPy", "fast", "ONNX")):
             assert 0 < entry["microseconds"] < 1e6
         else:
             assert entry["microseconds"] is None
@@ -30,5 +32,5 @@ def test_bench_prints_a_line_each(run, quick_model_folder, monkeypatch):
     monkeypatch.setattr(timing, "BATCH_FRAMES", 200)
     code, out, err = run("bench", quick_model_folder)
     assert code == 0, err
-    assert len(out.splitlines()) == 5
+    assert len(out.splitlines()) == 7
     assert "failed" not in out
