@@ -26,8 +26,8 @@ BEFORE_S, AFTER_S = (0.1, 0.35), (0.1, 0.3)
 STRONG, HELD = (0.75, 1.0), (0.8, 1.0)
 """Strength of peak expressions, and what is left of it at the end of the apex."""
 RANGE_GAP_S, RANGE_PASSAGE_S, RANGE_REST = (0.4, 1.0), (0.2, 0.5), 0.4
-"""Range of motion: seconds a movement, its passages, and the share of rests. A recorded range-of-motion take moves by
-up to 8 to 12 a second: the whole way takes 0.16 to 0.23 s there."""
+"""Range of motion: seconds a movement, its passages, and the share followed by rest. A recorded range-of-motion take
+moves by up to 8 to 12 a second: the whole way takes 0.16 to 0.23 s there."""
 REACTION_GAP_S, REACTION_PASSAGE_S, REACTIONS = (0.8, 2.5), 0.6, 0.5
 """What brows, lids and feelings do meanwhile: seconds a reaction, the longest passage, and how often there is one."""
 LEAD_S, TAIL_S = (0.3, 0.7), (0.4, 0.8)
@@ -40,6 +40,7 @@ ONE_SIDED = (("eyes", "wink"), ("mouth", "smile"), ("eyes", "outer_raise"))
 _JAW, _TONGUE = BLENDSHAPE_INDEX["jawOpen"], BLENDSHAPE_INDEX["tongueOut"]
 _REST = np.zeros(len(BLENDSHAPES))
 _REST[CLOSING] = 1.0
+_NOTHING = -1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,13 +129,14 @@ def _draw_range(
     rng: np.random.Generator, time_s: np.ndarray, family: Templates, told: Direction
 ) -> np.ndarray:
     edges = draw_edges(rng, time_s[-1], RANGE_GAP_S)
-    rounds = -(-(len(edges) + 1) // len(family))
-    order = np.concatenate([rng.permutation(len(family)) for _ in range(rounds)])[: len(edges) + 1]
-    strength = 0.6 + 0.4 * draw_sides(rng, len(order), correlation=told.correlation)
-    poses = _draw_poses(rng, family.weights[order], strength, told)
-    rests = rng.random(len(order)) < RANGE_REST
-    rests[0] = True
-    poses[rests] = _REST
+    order = [_NOTHING]
+    while len(order) <= len(edges):
+        for movement in rng.permutation(len(family)):
+            order += [movement, _NOTHING] if rng.random() < RANGE_REST else [movement]
+    shown = np.array(order[: len(edges) + 1])
+    strength = 0.6 + 0.4 * draw_sides(rng, len(shown), correlation=told.correlation)
+    poses = _draw_poses(rng, family.weights[shown], strength, told)
+    poses[shown == _NOTHING] = _REST
     low, high = RANGE_PASSAGE_S
     return wander(time_s, edges, poses, low + (high - low) * rng.random(len(edges)))
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLOCK
 from facegen.rigs import eye_centers
@@ -13,6 +14,7 @@ from facegen.sampling import COMPONENT_NAMES, draw_samples, plan_dataset
 from facegen.sampling.expression import load_templates, restrain
 from facegen.sampling.motion import KINDS, draw_take, write_script
 from facegen.sampling.motion.blinks import CLOSING_S, draw_blinks, lid_closure
+from facegen.sampling.motion.continuity import ease
 from facegen.sampling.motion.envelopes import STEEPEST, memberships
 from facegen.sampling.motion.glances import Fixations, gaze_course, saccade_seconds
 from facegen.sampling.motion.performances import peak_expressions
@@ -89,6 +91,23 @@ def test_couplings_hold_at_every_frame_and_make_no_jumps(seed, clip):
     # and no weight turns back at full speed from one frame to the next
     assert np.abs(np.diff(take.weights[:, rest], 2, axis=0)).max(initial=0) <= whole
     assert np.abs(np.diff(take.head_deg, axis=0)).max() <= 4
+
+
+@settings(max_examples=40, deadline=None)
+@given(ends=arrays(float, (2, 52), elements=st.floats(0, 1)))
+def test_couplings_turn_a_smooth_course_into_a_smooth_one(ends):
+    share = np.linspace(0, 1, 2001)[:, None]
+    course = restrain(ease((1 - share) * ends[0] + share * ends[1]))
+    # the steepest coupling is the tongue's, which takes 0.3 of jawOpen: 3.3 times as fast as the jaw
+    assert np.abs(np.diff(course, axis=0)).max() <= 4 / 2000
+
+
+def test_a_range_of_motion_goes_through_all_movements():
+    of = spec(range_of_motion={"count": 2, "seconds": 40.0})
+    most = draw_take(of, write_script(of), first_of("range_of_motion"), EYES).weights.max(axis=0)
+    moved = {name for name, weight in zip(BLENDSHAPES, most, strict=True) if weight > 0.3}
+    assert {"jawOpen", "mouthPucker", "cheekPuff", "mouthSmileLeft", "mouthRollUpper", "tongueOut"} <= moved
+    assert len(moved & set(BLENDSHAPES[14:41])) >= 20  # of the 27 shapes of jaw and mouth
 
 
 @settings(max_examples=20, deadline=None)
