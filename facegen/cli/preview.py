@@ -14,12 +14,17 @@ if TYPE_CHECKING:
     from facegen.preview import Performance
 
 STRIP = ".png"
+PAGE = ".html"
 
 
 def preview(
     dataset: Annotated[Path | None, typer.Argument(help="Folder of a dataset.")] = None,
     out: Annotated[
-        Path, typer.Option("--out", help="File to write: PNG; of clips and weights also .mp4, .gif or .webp.")
+        Path,
+        typer.Option(
+            "--out",
+            help="File to write: PNG; of clips and weights also .mp4, .gif or .webp; .html for statistics.",
+        ),
     ] = Path("contact-sheet.png"),
     samples: Annotated[
         str | None,
@@ -46,9 +51,12 @@ def preview(
 ) -> None:
     """Draw a contact sheet of samples, or play a clip or a CSV of weights as a strip (PNG) or a film.
 
-    The sheet shows the headset's views with landmarks, the keypoints, and the largest weights of each sample.
+    The sheet shows the headset's views with landmarks, the keypoints, and the largest weights of each sample. An HTML
+    file holds the whole dataset's statistics instead: weights, what goes together, heads, poses.
 
     Examples: facegen preview datasets/out/tiny --out tiny.png
+
+    facegen preview datasets/out/default --out statistics.html
 
     facegen preview datasets/out/protocol --clip 74 --out sentence.mp4
 
@@ -70,6 +78,8 @@ def preview(
         from facegen.store import open_dataset
 
         _play(clip_of_dataset(open_dataset(dataset), clip), out, frames, size, landmarks)
+    elif out.suffix.lower() == PAGE:
+        _statistics(dataset, out)
     else:
         _sheet(dataset, out, samples, columns, landmarks)
     print(out)
@@ -97,6 +107,16 @@ def _play(performance: "Performance", out: Path, frames: str | None, height_px: 
                 update(done + 1)
 
         _write(out, lambda part: write_film(part, counted(), fps=performance.fps))
+
+
+def _statistics(dataset: Path, out: Path) -> None:
+    """Write the page of statistics."""
+    from facegen.preview import dataset_statistics, statistics_page
+    from facegen.store import open_dataset
+
+    opened = open_dataset(dataset)
+    text = statistics_page(opened, dataset_statistics(opened))
+    _write(out, lambda part: part.write_text(text, encoding="utf-8"))
 
 
 def _sheet(dataset: Path, out: Path, samples: str | None, columns: int, landmarks: bool) -> None:

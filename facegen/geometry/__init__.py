@@ -4,6 +4,7 @@ from facegen.geometry.cameras import Camera, pixel_rays, project, unproject
 from facegen.geometry.mirrors import Reflection, fresnel, reflect_in_sphere, reflect_in_thread
 from facegen.geometry.rotations import (
     angles_from_direction,
+    angles_from_rotation,
     apply_transform,
     direction_from_angles,
     invert_transform,
@@ -16,6 +17,7 @@ __all__ = [
     "Camera",
     "Reflection",
     "angles_from_direction",
+    "angles_from_rotation",
     "apply_transform",
     "direction_from_angles",
     "fresnel",

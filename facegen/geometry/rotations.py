@@ -35,6 +35,18 @@ def rotation_from_angles(yaw_rad: np.ndarray, pitch_rad: np.ndarray, roll_rad: n
     return about_y @ about_x @ about_z
 
 
+def angles_from_rotation(rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """``(yaw_rad, pitch_rad, roll_rad)`` of rotations (..., 3, 3); the inverse of `rotation_from_angles`.
+
+    For a pitch within +-90 degrees; at these two only the sum of yaw and roll is known.
+    """
+    rotation = np.asarray(rotation, np.float64)
+    yaw = np.arctan2(rotation[..., 0, 2], rotation[..., 2, 2])
+    pitch = np.arcsin(np.clip(rotation[..., 1, 2], -1.0, 1.0))
+    roll = np.arctan2(-rotation[..., 1, 0], rotation[..., 1, 1])
+    return yaw, pitch, roll
+
+
 def direction_from_angles(yaw_rad: np.ndarray, pitch_rad: np.ndarray) -> np.ndarray:
     """Unit vectors (..., 3) of a gaze: +z turned by ``yaw`` to the subject's left, by ``pitch`` upwards."""
     yaw, pitch = np.broadcast_arrays(np.asarray(yaw_rad, np.float64), np.asarray(pitch_rad, np.float64))

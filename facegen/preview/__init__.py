@@ -3,15 +3,20 @@
 from facegen.preview.films import ANIMATIONS, FILMS, clip_strip, write_film
 from facegen.preview.performance import Performance, clip_of_dataset, pictures, play_weights
 from facegen.preview.sheet import contact_sheet
+from facegen.preview.statistics import Statistics, dataset_statistics
+from facegen.preview.statistics_page import statistics_page
 
 __all__ = [
     "ANIMATIONS",
     "FILMS",
     "Performance",
+    "Statistics",
     "clip_of_dataset",
     "clip_strip",
     "contact_sheet",
+    "dataset_statistics",
     "pictures",
     "play_weights",
+    "statistics_page",
     "write_film",
 ]

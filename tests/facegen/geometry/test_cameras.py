@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from facegen.geometry import (
     Camera,
     angles_from_direction,
+    angles_from_rotation,
     apply_transform,
     direction_from_angles,
     invert_transform,
@@ -92,6 +93,7 @@ def test_rotations_are_rotations_and_turn_the_gaze_as_named(yaw, pitch, roll):
     np.testing.assert_allclose(
         angles_from_direction(direction_from_angles(yaw, pitch)), (yaw, pitch), atol=1e-9
     )
+    np.testing.assert_allclose(angles_from_rotation(rotation), (yaw, pitch, roll), atol=1e-9)
 
 
 def test_signs_of_angles():

@@ -1,0 +1,154 @@
+"""What a dataset holds, in numbers: weights, how they go together, heads, poses, gaze, visibility."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from facegen.conventions import Visibility
+from facegen.errors import InputError
+from facegen.geometry import angles_from_direction, angles_from_rotation
+from facegen.rigs import eye_centers
+from facegen.sampling.cameras import FACING
+from facegen.store import Dataset, column_array
+
+MOST_ROWS = 100_000
+"""Rows read at most: whole shards, evenly spread over the dataset. Percentiles do not move with more."""
+
+_COLUMNS = (
+    *("person", "split", "component", "sex", "age_years", "weights", "identity"),
+    *("gaze", "camera_from_head", "points_3d", "visibility", "neutral"),
+)
+
+MEASURES: dict[str, tuple[int, int]] = {
+    "face width": (0, 16),
+    "face height, nasion to chin": (27, 8),
+    "mouth width": (48, 54),
+    "nose length, nasion to nose base": (27, 33),
+    "outer eye corners": (36, 45),
+}
+"""Distances between landmarks (indices) that are measured on neutral faces."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measure:
+    """A length over people, millimetres: mean, standard deviation, 1st and 99th percentile."""
+
+    name: str
+    sex: str
+    people: int
+    mean: float
+    sd: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Statistics:
+    """What rows of a dataset hold.
+
+    Attributes
+    ----------
+    rows, people
+        How many were read.
+    counts
+        Rows by value, of split, component and sex.
+    age_years
+        (people,).
+    weights
+        (n, 52).
+    head_deg
+        (n, 3) yaw, pitch and roll of the head before its camera, degrees, as specs count them.
+    gaze_deg
+        (m, 2) yaw and pitch of the left eye's optical axis in the head, degrees, of faces that are not neutral.
+    visible
+        (68,) share of rows in which each landmark is visible.
+    measures
+        Of neutral faces; empty where none was read.
+    """
+
+    rows: int
+    people: int
+    counts: dict[str, dict[str, int]]
+    age_years: np.ndarray
+    weights: np.ndarray
+    head_deg: np.ndarray
+    gaze_deg: np.ndarray
+    visible: np.ndarray
+    measures: tuple[Measure, ...]
+
+    @property
+    def coactivation(self) -> np.ndarray:
+        """(52, 52) correlations of the weights; NaN for shapes that never move."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.corrcoef(self.weights.T)
+
+
+def dataset_statistics(dataset: Dataset) -> Statistics:
+    """Read the keypoints of a dataset, or an even choice of its shards.
+
+    Raises
+    ------
+    InputError
+        If nothing has been made yet.
+    """
+    table = _read(dataset)
+    column = {name: column_array(table, name) for name in _COLUMNS}
+    people, first = np.unique(column["person"], return_index=True)
+    return Statistics(
+        rows=len(table),
+        people=len(people),
+        counts={name: _counts(column[name]) for name in ("split", "component", "sex")},
+        age_years=column["age_years"][first],
+        weights=column["weights"],
+        head_deg=head_angles_deg(column["camera_from_head"].reshape(-1, 4, 4)),
+        gaze_deg=np.degrees(np.stack(angles_from_direction(column["gaze"][~column["neutral"], 0]), axis=-1)),
+        visible=(column["visibility"] == Visibility.VISIBLE).mean(axis=0),
+        measures=_measures(dataset, column),
+    )
+
+
+def head_angles_deg(camera_from_head: np.ndarray) -> np.ndarray:
+    """Yaw, pitch and roll (n, 3), degrees, of heads (n, 4, 4) before their cameras; 0 is a face that looks at it."""
+    angles = angles_from_rotation(FACING.T @ camera_from_head[:, :3, :3])
+    return np.degrees(np.stack(angles, axis=-1))
+
+
+def _read(dataset: Dataset) -> pa.Table:
+    shards = dataset.folder.shards()
+    if not shards:
+        raise InputError(f"{dataset.folder.path}: has no keypoints yet; run: facegen generate")
+    rows = pq.read_metadata(shards[0]).num_rows
+    count = min(len(shards), max(1, MOST_ROWS // max(rows, 1)))
+    chosen = np.linspace(0, len(shards) - 1, count).round().astype(int)
+    return pa.concat_tables([pq.read_table(shards[index], columns=list(_COLUMNS)) for index in chosen])
+
+
+def _counts(values: np.ndarray) -> dict[str, int]:
+    names, counts = np.unique(values.astype(str), return_counts=True)
+    return dict(sorted(zip(names.tolist(), counts.tolist(), strict=True), key=lambda item: -item[1]))
+
+
+def _measures(dataset: Dataset, column: dict[str, np.ndarray]) -> tuple[Measure, ...]:
+    still = np.flatnonzero((column["weights"] == 0).all(axis=1))
+    _, first = np.unique(column["person"][still], return_index=True)
+    rows = still[first]
+    points = 1e3 * column["points_3d"][rows]
+    lengths = {name: np.linalg.norm(points[:, a] - points[:, b], axis=1) for name, (a, b) in MEASURES.items()}
+    eyes = 1e3 * eye_centers(dataset.rig, column["identity"][rows].astype(np.float64))
+    lengths = {"interpupillary distance": np.linalg.norm(eyes[:, 0] - eyes[:, 1], axis=1)} | lengths
+    return tuple(
+        Measure(
+            name=name,
+            sex=sex,
+            people=int(of.sum()),
+            mean=float(values[of].mean()),
+            sd=float(values[of].std()),
+            low=float(np.percentile(values[of], 1)),
+            high=float(np.percentile(values[of], 99)),
+        )
+        for name, values in lengths.items()
+        for sex in ("female", "male")
+        if (of := column["sex"][rows] == sex).any()
+    )
