@@ -18,7 +18,7 @@ from facegen.sampling.motion.envelopes import memberships
 
 SYLLABLES_PER_S = (4.0, 5.0)
 """Of conversation (Tauroza & Allison 1990, Applied Linguistics 11: 4.3 a second)."""
-PASSAGE_S = {"lips": 0.12, "closing": 0.10, "jaw": 0.16, "rounding": 0.20}
+PASSAGE_S = {"lips": 0.12, "closing": 0.10, "jaw": 0.20, "rounding": 0.20}
 """Visemes set in and fade within about 120 ms (Bailly 1997, as in Edwards et al. 2016, "JALI", ACM TOG 35(4)):
 lips that meet are quicker, the jaw is heavy, rounding begins early."""
 CONSONANTS = {
@@ -31,9 +31,10 @@ VOWEL_SHARE, CODA = (0.45, 0.65), 0.4
 """Share of a syllable that its vowel takes, and of syllables that end in a consonant."""
 PHRASE, PAUSE_S, LENGTHENED = (5, 10), (0.15, 0.45), 1.4
 """Syllables between pauses, the pauses, and how much longer the last syllable before one is (Klatt 1976, JASA 59)."""
-STRESS = (0.6, 1.3)
-"""Factors on the jaw from syllable to syllable."""
-LOUDNESS = (0.3, 0.9)
+STRESS = (0.35, 0.85)
+"""Factors on the visemes' jaw from syllable to syllable. In speech the jaw moves by 5 to 15 mm, and by 0.2 m/s at most
+(Ostry & Flanagan 1989, Archives of Oral Biology 34); jawOpen = 1 is 40 mm on Apple's face."""
+LOUDNESS = (0.3, 0.8)
 """Strength of all visemes of a clip."""
 
 _JAW = BLENDSHAPE_INDEX["jawOpen"]

@@ -18,7 +18,7 @@ from facegen.sampling.motion.continuity import ease
 from facegen.sampling.motion.envelopes import STEEPEST, memberships
 from facegen.sampling.motion.glances import Fixations, gaze_course, saccade_seconds
 from facegen.sampling.motion.performances import peak_expressions
-from facegen.sampling.motion.speech import PASSAGE_S, draw_utterance, speech_course
+from facegen.sampling.motion.speech import LOUDNESS, PASSAGE_S, draw_utterance, speech_course
 from facegen.sampling.people import split_of
 from facegen.spec import parse_spec
 from facegen.spec.spec import Clips
@@ -187,7 +187,9 @@ def test_lips_meet_for_every_p_b_and_m_and_syllables_come_at_their_rate():
     vowels = np.isin(spoken.viseme, [visemes.names.index(name) for name in ("aa", "E", "ih", "oh", "ou")])
     assert 3.0 < vowels.sum() / 59 < 5.0  # pauses included
     open_vowel = spoken.viseme[1:-1] == visemes.names.index("aa")
-    assert np.median(speech_course(spoken, visemes.weights, ((begin + end) / 2)[open_vowel])[:, jaw]) > 0.3
+    assert np.median(speech_course(spoken, visemes.weights, ((begin + end) / 2)[open_vowel])[:, jaw]) > 0.2
+    course = speech_course(spoken, LOUDNESS[1] * visemes.weights, np.arange(0, 60, 0.01))[:, jaw]
+    assert 0.1 < 0.04 * np.abs(np.diff(course)).max() / 0.01 < 0.2  # m/s: jawOpen = 1 is 40 mm
 
 
 def test_a_clip_across_two_blocks_is_the_clip_drawn_alone(anny):
