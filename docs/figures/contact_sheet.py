@@ -1,7 +1,7 @@
 """Makes docs/pictures/contact-sheet.png of what `facegen preview` draws, smaller and in few colours.
 
-facegen generate datasets/paper.toml --out datasets/out/paper --samples 0-11
-facegen preview datasets/out/paper --samples 1,2,3,4,7,8 --out sheet.png
+facegen generate datasets/gallery.toml --out datasets/out/gallery
+facegen preview datasets/out/gallery --samples 1,2,6,9,10,11 --out sheet.png
 python docs/figures/contact_sheet.py sheet.png
 """
 
