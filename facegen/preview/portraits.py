@@ -24,6 +24,7 @@ COLOURS = {
     Part.TONGUE: (0.70, 0.35, 0.35),
     Part.MOUTH_CAVITY: (0.40, 0.15, 0.15),
     Part.EYE_CAVITY: (0.55, 0.30, 0.30),
+    Part.HEADSET: (0.36, 0.38, 0.44),
 }
 HIDDEN_M = 4e-3
 """A landmark this far behind what is drawn is hidden; jaw points on the silhouette lie a little behind it."""
@@ -139,6 +140,8 @@ def portrait(
 def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
     """Write a PNG of the mean person and others from the front, three quarters and the side.
 
+    A rig without identities has one person.
+
     Raises
     ------
     OutputError
@@ -147,6 +150,7 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg  # heavy, and only this function needs it
     from matplotlib.figure import Figure
 
+    people = people if rig.components else 1
     rng = np.random.Generator(np.random.PCG64(7))
     identity = np.clip(rng.standard_normal((people, rig.components)), -2.0, 2.0)
     identity[0] = 0.0

@@ -24,6 +24,8 @@ def keypoint_schema(components: int) -> pa.Schema:
     def floats(width: int) -> pa.DataType:
         return pa.list_(pa.float32(), width)
 
+    # a rig without identities has lists without entries; of a fixed size of 0, Arrow 22 dies by a division by 0
+    identity = floats(components) if components else pa.list_(pa.float32())
     return pa.schema(
         [
             _field("sample", pa.int64(), "number of the sample in the dataset"),
@@ -39,7 +41,7 @@ def keypoint_schema(components: int) -> pa.Schema:
             _field("age_years", pa.float32(), "age", unit="years"),
             _field("ancestry", floats(3), "shares of African, Asian and Caucasian ancestry"),
             _field("weights", floats(len(BLENDSHAPES)), "ARKit blendshape weights: " + " ".join(BLENDSHAPES)),
-            _field("identity", floats(components), "coefficients of the rig's identity basis"),
+            _field("identity", identity, "coefficients of the rig's identity basis"),
             _field("gaze", floats(6), "unit optical axes, head frame, subject's left eye first", shape="2 3"),
             _field(
                 "camera_from_head",
@@ -109,6 +111,8 @@ def _column(values: np.ndarray, kind: pa.DataType) -> pa.Array:
     if pa.types.is_fixed_size_list(kind):
         flat = np.ascontiguousarray(values, dtype=_NUMPY[kind.value_type]).ravel()
         return pa.FixedSizeListArray.from_arrays(pa.array(flat), type=kind)
+    if pa.types.is_list(kind):
+        return pa.array([[]] * len(values), type=kind)
     return pa.array(np.ascontiguousarray(values, dtype=_NUMPY[kind]), type=kind)
 
 
@@ -133,6 +137,8 @@ def column_array(table: pa.Table, name: str) -> np.ndarray:
     """A column as (n, ...) array in the shape its field's metadata tells."""
     column = table.column(name).combine_chunks()
     field = table.schema.field(name)
+    if pa.types.is_list(field.type):
+        return np.empty((len(column), 0), _NUMPY[field.type.value_type])
     if not pa.types.is_fixed_size_list(field.type):
         return column.to_numpy(zero_copy_only=False)
     shape = (field.metadata or {}).get(b"shape", str(field.type.list_size).encode()).decode()

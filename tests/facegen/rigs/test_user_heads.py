@@ -4,15 +4,21 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pyarrow.parquet as pq
 import pygltflib
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.errors import InputError
 from facegen.formats.gltf import read_gltf
+from facegen.labels import label_keypoints
 from facegen.rigs import Rig, evaluate, load_rig
 from facegen.rigs.building import add_rig
 from facegen.rigs.gltf_mesh import blendshape_sources
+from facegen.sampling import draw_samples
+from facegen.sampling.plan import plan_dataset
+from facegen.spec import parse_spec
+from facegen.store import column_array, keypoint_schema, keypoint_table, write_shard
 from tests.facegen.rigs.glb_head import write_head
 from tests.facegen.rigs.people import straight, weights
 
@@ -68,6 +74,19 @@ def test_missing_shapes_are_named_and_zero_and_spelling_does_not_matter(anny: Ri
     np.testing.assert_array_equal(
         blinking.landmarks, evaluate(rig, np.zeros((1, 0)), weights(1), straight(1)).landmarks
     )
+
+
+def test_keypoints_of_a_head_without_identities_are_written_and_read(glb: Rig, tmp_path: Path) -> None:
+    """Arrow dies of lists of a fixed size of 0."""
+    table = {"version": 1, "kind": "still", "seed": 2, "people": 500, "rig": "glb"}
+    spec = parse_spec(table | {"still": {"neutral": 1, "faces": 1}}, where="here")
+    samples = draw_samples(plan_dataset(spec), glb, 0).rows(slice(0, 40))
+    made = keypoint_table(samples, label_keypoints(spec, glb, samples), image_size=(640, 480))
+    write_shard(made, tmp_path / "shard.parquet")
+    read = pq.read_table(tmp_path / "shard.parquet")
+    assert column_array(read, "identity").shape == (40, 0)
+    assert column_array(read, "points_3d").shape == (40, 68, 3)
+    assert read.schema.equals(keypoint_schema(0))
 
 
 @pytest.mark.parametrize(
