@@ -34,7 +34,9 @@ def build(
 @rig_app.command()
 def add(
     file: Annotated[Path, typer.Argument(help="glTF head with ARKit morph targets, .glb or .gltf")],
-    landmarks: Annotated[Path, typer.Option(help="JSON file that marks it up, see docs/adding-a-rig.md")],
+    landmarks: Annotated[
+        Path | None, typer.Option(help="JSON file that marks it up; without it, says what the head holds")
+    ] = None,
     name: Annotated[str | None, typer.Option(help="Name of the rig; default the file's")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a rig of this name")] = False,
 ) -> None:

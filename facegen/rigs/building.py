@@ -63,7 +63,7 @@ def build_rig(
 
 def add_rig(
     file: Path,
-    landmarks: Path,
+    landmarks: Path | None,
     *,
     name: str | None = None,
     folder: Path | None = None,
@@ -76,7 +76,7 @@ def add_rig(
     file
         A .glb or .gltf file with ARKit morph targets.
     landmarks
-        JSON file that marks it up (`facegen.rigs.markup.HeadMarkup`).
+        JSON file that marks it up (`facegen.rigs.markup.HeadMarkup`); None asks for what the file holds.
     name
         Of the rig; default the file's, in lower case.
     folder

@@ -9,7 +9,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, LANDMARK_GROUPS, Part
 from facegen.errors import InputError
 from facegen.formats.gltf import read_gltf
-from facegen.rigs.gltf_mesh import HeadMesh, eyeballs, join_parts
+from facegen.rigs.gltf_mesh import HeadMesh, contents, eyeballs, join_parts
 from facegen.rigs.marking import lid_neighbourhood, lip_faces, paint_brows, shortest_path
 from facegen.rigs.markup import HeadMarkup, Margins, read_markup
 from facegen.rigs.rig import Rig
@@ -34,15 +34,23 @@ class AddedHead:
     left_out: tuple[str, ...]
 
 
-def build_head(path: Path, markup_path: Path, *, name: str) -> AddedHead:
+def build_head(path: Path, markup_path: Path | None, *, name: str) -> AddedHead:
     """Build rig ``name`` from the glTF file at ``path`` and what `HeadMarkup` says about it.
+
+    Without a markup it is refused, and the refusal says what the file holds.
 
     Raises
     ------
     InputError
         One of the files is not what it should be; says what was found and what to do.
     """
-    markup, parts = read_markup(markup_path), read_gltf(path)
+    parts = read_gltf(path)
+    if markup_path is None:
+        raise InputError(
+            f"{path} holds {contents(parts)}; say what is what in a JSON file given with --landmarks "
+            "(docs/adding-a-rig.md)"
+        )
+    markup = read_markup(markup_path)
     try:
         mesh = join_parts(markup, parts)
         center, radius = eyeballs(markup.eyes, parts)

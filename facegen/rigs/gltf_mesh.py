@@ -58,7 +58,7 @@ def join_parts(markup: HeadMarkup, parts: tuple[GltfPart, ...]) -> HeadMesh:
     called = {Part[kind.upper()]: names for kind, names in markup.parts.items()}
     for name in [*([markup.head] if markup.head else []), *eyes, *(n for ns in called.values() for n in ns)]:
         if not any(_is(part, name) for part in parts):
-            raise InputError(f"nothing is called {name!r}; the file holds {_contents(parts)}")
+            raise InputError(f"nothing is called {name!r}; the file holds {contents(parts)}")
     head = markup.head if markup.head is not None else _most_expressive(parts)
 
     kept, kinds, rows, left_out = [], [], [], []
@@ -148,13 +148,18 @@ def blendshape_sources(names: Iterable[str]) -> dict[str, tuple[str, ...]]:
     return found
 
 
+def contents(parts: tuple[GltfPart, ...]) -> str:
+    """What the markup can name, and how many ARKit blendshapes each has."""
+    held = []
+    for part in parts:
+        shapes = len(blendshape_sources(part.morphs))
+        with_shapes = f" with {shapes} ARKit shapes" * bool(shapes)
+        held.append(f"mesh {part.mesh!r}, node {part.node!r}, material {part.material!r}{with_shapes}")
+    return "; ".join(dict.fromkeys(held)) or "no meshes"
+
+
 def _is(part: GltfPart, name: str) -> bool:
     return name.casefold() in (part.mesh.casefold(), part.node.casefold(), part.material.casefold())
-
-
-def _contents(parts: tuple[GltfPart, ...]) -> str:
-    held = [f"mesh {p.mesh!r} (node {p.node!r}, material {p.material!r})" for p in parts]
-    return ", ".join(dict.fromkeys(held)) or "no meshes"
 
 
 def _most_expressive(parts: tuple[GltfPart, ...]) -> str:
