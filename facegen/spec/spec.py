@@ -50,8 +50,8 @@ class Clips:
 
     count: Annotated[int, Field(ge=0, le=1000)]
     """Clips of this kind."""
-    seconds: Annotated[float, Field(ge=2, le=600)]
-    """Length of each."""
+    seconds: Annotated[float, Field(ge=2, le=120)]
+    """Length of each; a clip is drawn whole for every block of 1,000 samples that it touches."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
