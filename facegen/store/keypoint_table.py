@@ -55,7 +55,13 @@ def keypoint_schema(components: int) -> pa.Schema:
                 "image_size", pa.list_(pa.int32(), 2), "width and height of the keypoint camera", unit="px"
             ),
             _field("points_2d", floats(136), "exact landmarks", shape="68 2", unit="px"),
-            _field("detected_2d", floats(136), "landmarks with detector noise", shape="68 2", unit="px"),
+            _field(
+                "detected_2d",
+                floats(136),
+                "landmarks with detector noise; NaN where no face is found",
+                shape="68 2",
+                unit="px",
+            ),
             _field("points_3d", floats(204), "landmarks in the head frame", shape="68 3", unit="m"),
             _field("visibility", pa.list_(pa.uint8(), 68), "0 outside the picture, 1 hidden, 2 visible"),
             _field("face_width", pa.float32(), "distance between landmarks 0 and 16", unit="px"),
