@@ -153,7 +153,7 @@ def test_wrong_marks_are_refused(files, tmp_path: Path, values: dict, said: str)
 
 def test_wrong_files_and_names_are_refused(anny: Rig, files, tmp_path: Path) -> None:
     other = tmp_path / "other.glb"
-    with pytest.raises(InputError, match="material 'Skin' with 52 ARKit shapes; .*--landmarks"):
+    with pytest.raises(InputError, match=r"material 'Skin' with 52 ARKit shapes; .*--landmarks"):
         add_rig(files[0], None, folder=tmp_path)
     with pytest.raises(InputError, match="does not exist"):
         add_rig(other, files[1], folder=tmp_path)
