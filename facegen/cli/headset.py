@@ -1,7 +1,9 @@
-"""``facegen headset``: which headsets there are, and what is in one."""
+"""``facegen headset``: which headsets there are, what is in one, and how it looks."""
 
 import dataclasses
 import json
+import os
+from pathlib import Path
 from typing import Annotated
 
 import numpy as np
@@ -43,7 +45,8 @@ def show(
         typer.echo(json.dumps(TypeAdapter(Headset).dump_python(headset, mode="json"), indent=2))
         return
     typer.echo(f"{headset.name}: {headset.description}\n{headset_path(name)}\n")
-    typer.echo(f"{'camera':12} {'model':8} {'size':>9} {'field':>6}  {'position mm':22} LEDs")
+    wide = max(12, *(len(name) for name in headset.camera_names))
+    typer.echo(f"{'camera':{wide}} {'model':8} {'size':>9} {'field':>6}  {'position mm':22} LEDs")
     for camera in headset.cameras:
         leds = [led for led in headset.leds if led.camera == camera.name]
         wavelengths = ", ".join(sorted({f"{led.wavelength_nm:g} nm" for led in leds}))
@@ -51,14 +54,42 @@ def show(
         size = f"{camera.width}x{camera.height}"
         place = ", ".join(f"{value:.1f}" for value in camera.position_mm)
         field = f"{field_of_view_deg(headset, camera.name):.0f}°"
-        typer.echo(f"{camera.name:12} {camera.model:8} {size:>9} {field:>6}  {place:22} {light}")
-    typer.echo(
-        f"\nsensor       exposure {headset.sensor.exposure:g}, black level {headset.sensor.black_level:g}"
-    )
-    typer.echo(f"fit          nose bridge at {', '.join(f'{v:g}' for v in headset.fit.nose_bridge_mm)} mm")
+        typer.echo(f"{camera.name:{wide}} {camera.model:8} {size:>9} {field:>6}  {place:22} {light}")
+    typer.echo("")
+    for occluder in headset.occluders:
+        place = ", ".join(f"{value:g}" for value in occluder.position_mm)
+        typer.echo(f"{'occluder':12} {occluder.name}, a {occluder.shape} at {place} mm")
+    for key, value in dataclasses.asdict(headset.sensor).items():
+        typer.echo(f"{'sensor':12} {key} {value:g}")
+    typer.echo(f"{'fit':12} nose bridge at {', '.join(f'{v:g}' for v in headset.fit.nose_bridge_mm)} mm")
     for key, value in dataclasses.asdict(headset.tolerances).items():
         spread = ", ".join(f"{v:g}" for v in value) if isinstance(value, tuple) else f"{value:g}"
         typer.echo(f"{'tolerance':12} {key} ±{spread}")
+
+
+@headset_app.command()
+def preview(
+    name: Annotated[str, typer.Argument(help="Name of a headset, or the path of a .toml file")],
+    out: Annotated[Path, typer.Option("--out", help="PNG file to write")] = Path("headset.png"),
+    rig: Annotated[str, typer.Option("--rig", help="Whose mean head wears it")] = "anny",
+) -> None:
+    """Draw cameras, LEDs and occluders round the mean head, and what each camera sees; without Blender.
+
+    Example: facegen headset preview tracking3 --out tracking3.png
+    """
+    from facegen.preview.headsets import draw_headset
+    from facegen.rigs import load_rig
+    from facegen.store import output_errors
+
+    figure = draw_headset(load_headset(name), load_rig(rig))
+    part = out.with_name(f".{out.name}.{os.getpid()}.png")
+    with output_errors(out):
+        try:
+            figure.savefig(part, metadata={"Software": None})
+            os.replace(part, out)
+        finally:
+            part.unlink(missing_ok=True)
+    typer.echo(out)
 
 
 def field_of_view_deg(headset: Headset, camera_name: str) -> float:

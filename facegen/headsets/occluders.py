@@ -10,6 +10,9 @@ from facegen.headsets.quantities import MM, Name, Share, Vector, record
 
 SEGMENTS = 72
 """Corners of a round outline: 0.1 mm inside the circle at a radius of 100 mm."""
+FACE_MM = 5.0
+"""Longest edge of a face along a straight line. Ray casting leaves out faces that reach behind the camera
+(`facegen.raster.nearest_depth`); of small ones nothing is in the picture."""
 MAX_SIZE_MM = 1000.0
 
 Length = Annotated[float, Field(gt=0, le=MAX_SIZE_MM)]
@@ -87,10 +90,12 @@ KEYS_OF_SHAPE = {
 """Keys of an occluder that say how large each shape is."""
 
 
-def _bands(
-    radii: tuple[float, float], depth: float, rim: float | None
-) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Wall, front, inner wall and back: each between two loops of `SEGMENTS` points; a cylinder's hole is a line."""
+_Surface = tuple[np.ndarray, np.ndarray]
+"""Points (n, 3) and faces (m, 4)."""
+
+
+def _bands(radii: tuple[float, float], depth: float, rim: float | None) -> list[_Surface]:
+    """Wall, front, inner wall and back, each between two loops of `SEGMENTS` points; a cylinder's hole is a line."""
     around = np.linspace(0.0, 2.0 * np.pi, SEGMENTS, endpoint=False)
     circle = np.stack([np.cos(around), np.sin(around)], axis=-1)
     inner = np.subtract(radii, rim) if rim is not None else np.multiply(radii, 1e-6)
@@ -98,18 +103,30 @@ def _bands(
         np.column_stack([circle * size, np.full(SEGMENTS, z)])
         for size, z in ((radii, -depth / 2), (radii, depth / 2), (inner, depth / 2), (inner, -depth / 2))
     ]
-    first = np.arange(SEGMENTS)
-    following = (first + 1) % SEGMENTS
-    faces = np.stack([first, following, following + SEGMENTS, first + SEGMENTS], axis=-1)
-    return [(np.concatenate([loops[i], loops[(i + 1) % 4]]), faces) for i in range(4)]
+    return [_between(loops[i], loops[(i + 1) % 4], closed=True) for i in range(4)]
 
 
-def _box(size: tuple[float, float, float]) -> list[tuple[np.ndarray, np.ndarray]]:
-    half = np.divide(size, 2.0)
+def _box(size: tuple[float, float, float]) -> list[_Surface]:
     sides = []
     for axis in range(3):
-        u, v = np.eye(3)[(axis + 1) % 3], np.eye(3)[(axis + 2) % 3]
-        for sign in (1.0, -1.0):
-            square = [a * u + b * sign * v for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-            sides.append(((np.array(square) + sign * np.eye(3)[axis]) * half, np.array([[0, 1, 2, 3]])))
+        out, u, v = (np.eye(3)[(axis + k) % 3] * size[(axis + k) % 3] / 2.0 for k in range(3))
+        along = np.linspace(-1.0, 1.0, _steps(2.0 * np.linalg.norm(u)) + 1)[:, None]
+        sides += [_between(s * out + along * u - s * v, s * out + along * u + s * v) for s in (1.0, -1.0)]
     return sides
+
+
+def _between(first: np.ndarray, last: np.ndarray, *, closed: bool = False) -> _Surface:
+    """The surface between two lines of as many points (n, 3); closed lines end where they begin."""
+    steps = _steps(np.linalg.norm(last - first, axis=-1).max())
+    share = np.linspace(0.0, 1.0, steps + 1)[:, None, None]
+    points = (1.0 - share) * first + share * last
+    here = np.arange(len(first))
+    following = np.roll(here, -1)
+    here, following = (here, following) if closed else (here[:-1], following[:-1])
+    faces = np.stack([here, following, following + len(first), here + len(first)], axis=-1)
+    rows = np.arange(steps)[:, None, None] * len(first)
+    return points.reshape(-1, 3), (faces + rows).reshape(-1, 4)
+
+
+def _steps(length_mm: float) -> int:
+    return max(int(np.ceil(length_mm / FACE_MM)), 1)

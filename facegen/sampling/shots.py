@@ -10,12 +10,12 @@ from facegen.spec import Spec
 
 ROOMS: dict[str, tuple[float, float]] = {
     "dark": (0.0, 0.0),
-    "dim": (0.0, 0.02),
-    "flashing_screen": (0.03, 0.12),
-    "bright_office": (0.05, 0.2),
+    "dim": (0.0, 0.005),
+    "flashing_screen": (0.005, 0.03),
+    "bright_office": (0.01, 0.05),
 }
 """Rooms, and from where to where the radiance of their light lies, W sr-1 m-2, as it comes through a headset's gaps:
-up to about five grey levels on the skin of tracking3 (chosen; indoor light has little infra-red)."""
+up to about three grey levels on the skin of tracking3 (chosen: indoor light has little infra-red, and lenses have filters)."""
 DRAWN_ROOMS = ("dim", "flashing_screen", "bright_office")
 """The three rooms of the second paper, the one with the largest pupils first."""
 FLASH = (0.3, 1.5)

@@ -223,9 +223,9 @@ class Sensor:
     """Room whose light leaks in; drawn means one for each session, in sequences the same as the pupils' rooms."""
     room_light: Annotated[float, Field(ge=0, le=100)] = 1.0
     """Factor on the light that leaks in."""
-    flash: Share = 0.005
+    flash: Share = 0.002
     """Share of pictures with a flash of foreign light."""
-    dropped_led: Share = 0.005
+    dropped_led: Share = 0.002
     """Share of pictures in which one of the camera's LEDs stays dark."""
 
 

@@ -2,6 +2,7 @@
 
 import json
 
+import cv2
 import pytest
 from typer.testing import CliRunner
 
@@ -28,6 +29,19 @@ def test_show_as_json_is_the_whole_headset():
     shown = json.loads(result.stdout)
     assert [camera["name"] for camera in shown["cameras"]] == ["left_eye", "right_eye", "mouth"]
     assert shown["sensor"]["bits"] == 8
+
+
+def test_preview_draws_every_camera(anny, tmp_path):
+    result = CliRunner().invoke(headset_app, ["preview", "mouth1", "--out", str(tmp_path / "a.png")])
+    assert result.exit_code == 0, result.output
+    assert result.stdout.strip() == str(tmp_path / "a.png")
+    picture = cv2.imread(str(tmp_path / "a.png"))
+    assert min(picture.shape[:2]) > 600
+    # the lower left quarter is what the camera sees: skin, and the dark plate above it
+    view = picture[picture.shape[0] // 2 :, : picture.shape[1] // 2].reshape(-1, 3).astype(int)
+    assert ((view[:, 2] - view[:, 0]) > 30).mean() > 0.1
+    assert (view.max(axis=-1) < 60).mean() > 0.03
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.png"]
 
 
 def test_an_unknown_headset_is_bad_input():

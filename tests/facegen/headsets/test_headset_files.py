@@ -175,3 +175,15 @@ def test_tracking3_is_mirror_symmetric():
         for side in ("left", "right")
     }
     assert np.allclose(np.multiply(places["left"], mirrored), places["right"])
+
+
+def test_tracking3_is_a_subset_of_training9():
+    tracking3, training9 = load_headset("tracking3"), load_headset("training9")
+    assert len(training9.cameras) == 9
+    for kind in ("cameras", "leds", "occluders"):
+        assert set(getattr(tracking3, kind)) <= set(getattr(training9, kind)), kind
+    assert (tracking3.sensor, tracking3.fit, tracking3.tolerances) == (
+        training9.sensor,
+        training9.fit,
+        training9.tolerances,
+    )

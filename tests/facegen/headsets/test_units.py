@@ -27,23 +27,23 @@ def test_units_are_off_by_the_tolerances():
         black_levels=0.5,
     )  # fmt: skip
     headset = replace(TRACKING3, tolerances=sd)
-    units = [draw_unit(headset, np.random.default_rng(i)) for i in range(300)]
+    units = [draw_unit(headset, np.random.default_rng(i)) for i in range(80)]
     drawn = np.array([camera.headset_from_camera for camera in headset.cameras])
     made = np.array([[camera.headset_from_camera for camera in unit.cameras] for unit in units])
-    assert (made[..., :3, 3] - drawn[:, :3, 3]).std() == pytest.approx(0.5e-3, rel=0.05)
+    assert (made[..., :3, 3] - drawn[:, :3, 3]).std() == pytest.approx(0.5e-3, rel=0.1)
     turned = np.einsum("uckj,ckl->ucjl", made[..., :3, :3], drawn[:, :3, :3])
     angles = np.stack([turned[..., 2, 1], turned[..., 0, 2], turned[..., 1, 0]], axis=-1)  # small rotations
-    assert np.degrees(angles.std(axis=(0, 1))) == pytest.approx(1.0, rel=0.12)
+    assert np.degrees(angles.std(axis=(0, 1))) == pytest.approx(1.0, rel=0.15)
     focal = np.log([[c.fx for c in unit.cameras] for unit in units]) - np.log([c.fx for c in headset.cameras])
-    assert focal.std() == pytest.approx(0.02, rel=0.08)
+    assert focal.std() == pytest.approx(0.02, rel=0.15)
     power = np.log([[led.power_mw for led in unit.leds] for unit in units])
-    assert power.std(axis=0).mean() == pytest.approx(0.05, rel=0.05)
+    assert power.std(axis=0).mean() == pytest.approx(0.05, rel=0.1)
     beams = [led.direction for led in headset.leds]
     assert np.allclose([led.direction for led in units[0].leds], beams)
     places = np.array([[led.position_mm for led in unit.leds] for unit in units])
-    assert places.std(axis=0).mean() == pytest.approx(0.3, rel=0.05)
-    assert np.std([unit.sensor.black_level for unit in units]) == pytest.approx(0.5, rel=0.15)
-    assert np.log([unit.sensor.exposure for unit in units]).std() == pytest.approx(0.03, rel=0.15)
+    assert places.std(axis=0).mean() == pytest.approx(0.3, rel=0.1)
+    assert np.std([unit.sensor.black_level for unit in units]) == pytest.approx(0.5, rel=0.25)
+    assert np.log([unit.sensor.exposure for unit in units]).std() == pytest.approx(0.03, rel=0.25)
 
 
 def test_one_tolerance_leaves_the_others_draws():

@@ -1,0 +1,141 @@
+"""Draws a headset round the mean head: cameras, LEDs, occluders, and what each camera sees."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from facegen.conventions import BLENDSHAPES, Part
+from facegen.geometry import apply_transform, project, rotation_from_angles, unproject
+from facegen.headsets import Headset, head_from_headset
+from facegen.preview.portraits import drawn_mesh, shade
+from facegen.raster import hidden, nearest_along_z, nearest_triangles, triangles_of
+from facegen.rigs import Rig, evaluate
+from facegen.scene import View
+from facegen.scene.assembly import headset_lamps, headset_views
+from facegen.scene.housing import headset_meshes
+from facegen.sensor.lens import transmission
+
+SIDES_DEG = {"from the front": (0.0, 0.0), "from the left": (75.0, 0.0), "from below": (0.0, -55.0)}
+"""Yaw and pitch of the viewer."""
+WINDOW_M = (-0.12, 0.085, 0.13, -0.165)
+"""Left, top, right and bottom of the pictures of the head, in the head turned towards the viewer."""
+STEP_M = 0.6e-3
+CORNER_M = 0.022
+"""How far along the rays of its picture's corners a camera is drawn."""
+FISHEYE_EDGE = -0.3
+"""Cosine of the angle from a fisheye's axis beyond which nothing is drawn: triangles there reach round the picture."""
+HIDDEN_M = 1e-3
+VIEW_PX = 320
+_COLORS = ("#0050ff", "#e07000", "#009050", "#c000a0", "#806000", "#00a0b0", "#d02020", "#5050a0", "#60a000")
+
+
+def draw_headset(headset: Headset, rig: Rig) -> Figure:
+    """Figure of a headset on the rig's mean head, without tolerances: from three sides, then camera by camera."""
+    gaze = np.tile((0.0, 0.0, 1.0), (1, 2, 1))
+    face = evaluate(rig, np.zeros((1, rig.components)), np.zeros((1, len(BLENDSHAPES))), gaze)
+    fit = head_from_headset(headset, face.landmarks[0, 27], np.zeros(6))
+    head = drawn_mesh(rig, face, 0, gaze[0])
+    housing = _with_housing(head, headset, fit)
+    cameras = len(headset.cameras)
+    columns = min(max(cameras, 2), 5)
+    lines = -(-cameras // columns)
+    figure = Figure(figsize=(12.0, 12.0 / 3 * 1.0 + 12.0 / columns * lines), dpi=100)
+    FigureCanvasAgg(figure)
+    top, rest = figure.subfigures(2, 1, height_ratios=(1 / 3, lines / columns))
+    for axes, (title, (yaw, pitch)) in zip(top.subplots(1, 3), SIDES_DEG.items(), strict=True):
+        _draw_side(axes, headset, fit, head, housing, yaw, pitch)
+        axes.set_title(title, fontsize=8, y=0.97)
+    grid = rest.subplots(lines, columns, squeeze=False).ravel()
+    for axes in grid:
+        axes.set_axis_off()
+    for axes, view, color in zip(grid, headset_views(headset, fit), _cycle(cameras), strict=False):
+        _draw_view(axes, headset, view, housing, face.landmarks[0], color)
+    for part in (top, rest):
+        part.subplots_adjust(left=0.005, right=0.995, bottom=0.01, top=0.95, wspace=0.03, hspace=0.12)
+    return figure
+
+
+_Mesh = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Vertices (V, 3), triangles (T, 3), part of each triangle."""
+
+
+def _with_housing(head: _Mesh, headset: Headset, fit: np.ndarray) -> _Mesh:
+    vertices, triangles, part = head
+    for mesh in headset_meshes(headset, fit):
+        added = triangles_of(mesh.faces)
+        triangles = np.concatenate([triangles, added + len(vertices)])
+        part = np.concatenate([part, np.full(len(added), Part.HEADSET)])
+        vertices = np.concatenate([vertices, mesh.vertices])
+    return vertices, triangles, part
+
+
+def _draw_side(
+    axes: Axes, headset: Headset, fit: np.ndarray, head: _Mesh, housing: _Mesh, yaw: float, pitch: float
+) -> None:
+    turn = rotation_from_angles(np.radians(yaw), np.radians(pitch), 0.0)
+    left, top, right, bottom = WINDOW_M
+    shape = (round((top - bottom) / STEP_M), round((right - left) / STEP_M))
+    pictures = []
+    for vertices, triangles, part in (head, housing):
+        turned = vertices @ turn
+        depth = nearest_along_z(turned, triangles, origin=np.array([left, top]), step=STEP_M, shape=shape)
+        pictures.append(shade(turned, triangles, part, depth))
+    # the housing is half transparent: what it hides can be judged
+    axes.imshow(0.5 * (pictures[0] + pictures[1]), extent=(left, right, bottom, top), interpolation="nearest")
+    color_of = dict(zip(headset.camera_names, _cycle(len(headset.cameras)), strict=True))
+    lamp_camera = {led.name: led.camera for led in headset.leds}
+    for lamp in headset_lamps(headset, fit):
+        x, y, _ = lamp.position @ turn
+        axes.plot(x, y, "o", color="#ffd000", mec=color_of[lamp_camera[lamp.name]], ms=3.5, mew=0.8)
+    for camera in headset.cameras:
+        corners = [[-0.5, -0.5], [camera.width - 0.5, -0.5], [camera.width - 0.5, camera.height - 0.5]]
+        corners.append([-0.5, camera.height - 0.5])
+        rays = unproject(camera.camera, np.array(corners)) * CORNER_M
+        there = (
+            apply_transform(fit @ camera.headset_from_camera, np.concatenate([np.zeros((1, 3)), rays])) @ turn
+        )
+        for k in range(4):
+            line = there[[0, 1 + k, 1 + (k + 1) % 4]]
+            axes.plot(line[:, 0], line[:, 1], color=color_of[camera.name], lw=0.8)
+        axes.annotate(camera.name, there[0, :2], fontsize=6, color=color_of[camera.name])
+    axes.set_xlim(left, right)
+    axes.set_ylim(bottom, top)
+    axes.set_axis_off()
+
+
+def _draw_view(
+    axes: Axes, headset: Headset, view: View, housing: _Mesh, landmarks: np.ndarray, color: str
+) -> None:
+    camera = headset.camera(view.name).scaled(VIEW_PX)
+    vertices, triangles, part = housing
+    vertices = apply_transform(view.camera_from_head, vertices)
+    distance = np.linalg.norm(vertices, axis=-1)
+    fisheye = camera.model == "fisheye"
+    in_front = vertices[:, 2] > (FISHEYE_EDGE * distance if fisheye else 1e-4)
+    pixels = np.where(in_front[:, None], project(camera.camera, vertices), np.nan)
+    # over a fisheye's picture no measure of depth is exactly linear; triangles are small
+    nearness = 1.0 / (distance if fisheye else np.where(in_front, vertices[:, 2], np.inf))
+    depth = nearest_triangles(pixels, nearness, triangles, shape=(camera.height, camera.width))
+    picture = shade(vertices * (1.0, -1.0, -1.0), triangles, part, depth)
+    axes.imshow(picture * transmission(camera)[..., None], interpolation="nearest")
+    points = apply_transform(view.camera_from_head, landmarks)
+    places = project(camera.camera, points)
+    seen = camera.camera.contains(places) & (camera.inside_aperture_px(places) >= 0)
+    seen &= ~hidden(points, vertices, triangles, tolerance_m=HIDDEN_M)
+    for number in np.flatnonzero(seen):
+        x, y = places[number]
+        axes.plot(x, y, ".", color="#0040ff", ms=3)
+        axes.annotate(
+            str(number), (x, y), (1.5, 1.5), textcoords="offset points", fontsize=5, color="#a00000"
+        )
+    shape = f"{headset.camera(view.name).width}x{headset.camera(view.name).height}"
+    axes.set_title(
+        f"{view.name}: {camera.model}, {shape}, {seen.sum()} points", fontsize=7, color=color, y=0.98
+    )
+    axes.set_xlim(-0.5, camera.width - 0.5)
+    axes.set_ylim(camera.height - 0.5, -0.5)
+
+
+def _cycle(count: int) -> list[str]:
+    return [_COLORS[i % len(_COLORS)] for i in range(count)]
