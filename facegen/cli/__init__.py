@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from facegen import __version__
+from facegen.cli.develop import develop
 from facegen.cli.farm import farm_app
 from facegen.cli.generate import generate
 from facegen.cli.headset import headset_app
@@ -35,6 +36,7 @@ app.command()(validate)
 app.command()(preview)
 app.command()(pack)
 app.command()(merge)
+app.command()(develop)
 
 
 def _print_version(wanted: bool) -> None:

@@ -2,7 +2,7 @@
 
 from facegen.labels.glints import Glints
 from facegen.labels.keypoints import Keypoints, label_keypoints, project_pinhole
-from facegen.labels.rendered import RenderedSample, label_rendered
+from facegen.labels.rendered import RenderedSample, label_rendered, session_unit
 from facegen.labels.spots import with_glints
 from facegen.labels.views import ViewLabels
 
@@ -14,5 +14,6 @@ __all__ = [
     "label_keypoints",
     "label_rendered",
     "project_pinhole",
+    "session_unit",
     "with_glints",
 ]

@@ -57,6 +57,11 @@ def realised_donning(headset: Headset, samples: Samples) -> np.ndarray:
     return samples.donning[0] * donning_sd + samples.slip[0] * slip_sd
 
 
+def session_unit(spec: Spec, headset: Headset, session: int) -> Headset:
+    """The unit of a headset that is worn in a session."""
+    return draw_unit(headset, stream(spec.seed, "unit", session), scale=spec.sensor.tolerances)
+
+
 def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> RenderedSample:
     """Scene and labels of one sample (a single row of `Samples`)."""
     face = evaluate(rig, samples.identity, samples.weights, samples.gaze)
@@ -70,7 +75,7 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
         for side in (0, 1)
     )
     session, sample = int(samples.session[0]), int(samples.sample[0])
-    unit = draw_unit(headset, stream(spec.seed, "unit", session), scale=spec.sensor.tolerances)
+    unit = session_unit(spec, headset, session)
     nose_bridge = neutral_landmarks(rig, samples.identity)[0, NOSE_BRIDGE]
     fit = head_from_headset(unit, nose_bridge, realised_donning(headset, samples))
     look = draw_look(stream(spec.seed, "look", int(samples.person[0])), rig)

@@ -15,7 +15,8 @@ ROOMS: dict[str, tuple[float, float]] = {
     "bright_office": (0.01, 0.05),
 }
 """Rooms, and from where to where the radiance of their light lies, W sr-1 m-2, as it comes through a headset's gaps:
-up to about three grey levels on the skin of tracking3 (chosen: indoor light has little infra-red, and lenses have filters)."""
+up to about three grey levels on the skin of tracking3 (chosen: indoor light has little infra-red, and cameras have
+filters)."""
 DRAWN_ROOMS = ("dim", "flashing_screen", "bright_office")
 """The three rooms of the second paper, the one with the largest pupils first."""
 FLASH = (0.3, 1.5)

@@ -1,6 +1,7 @@
 """Making datasets: tasks, workers, and the supervisor that owns them."""
 
 from facegen.work.allocation import available_cpus, available_memory
+from facegen.work.developing import Settings, develop_dataset, develop_sample
 from facegen.work.generate import DEFAULT_GRACE_S, Summary, Work, generate, plan_work
 from facegen.work.journal import Attempt, attempt_logs, read_journals
 from facegen.work.supervisor import Limits
@@ -10,12 +11,15 @@ __all__ = [
     "DEFAULT_GRACE_S",
     "Attempt",
     "Limits",
+    "Settings",
     "Summary",
     "Task",
     "Work",
     "attempt_logs",
     "available_cpus",
     "available_memory",
+    "develop_dataset",
+    "develop_sample",
     "done_tasks",
     "generate",
     "plan_work",

@@ -1,0 +1,136 @@
+"""``develop``: pictures made anew from the radiance of a rendered dataset, with another sensor or other draws."""
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from facegen.errors import InputError
+from facegen.labels import session_unit
+from facegen.sampling import Shot, draw_shot
+from facegen.sensor import develop_view
+from facegen.store import (
+    Dataset,
+    DatasetFolder,
+    commit_file,
+    commit_folder,
+    output_errors,
+    png_bytes,
+    read_exr,
+    read_json,
+    staging,
+    write_json,
+)
+
+SETTINGS_FILE = "develop.json"
+"""What the pictures of a folder were developed with; a folder holds one setting."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """What differs from the dataset's own pictures; None leaves it as it is.
+
+    Attributes
+    ----------
+    exposure, gain
+        Instead of the headset's (`facegen.headsets.Sensor`); units still differ by its tolerances.
+    noise
+        Factor on shot and read noise, instead of the spec's.
+    seed
+        Of the draws of exposure, motion, noise, room and flash, instead of the spec's.
+    """
+
+    exposure: float | None = None
+    gain: float | None = None
+    noise: float | None = None
+    seed: int | None = None
+
+
+def develop_dataset(
+    dataset: Dataset,
+    out: Path,
+    settings: Settings = Settings(),
+    numbers: list[int] | None = None,
+    *,
+    on_progress: Callable[[int], None] = lambda done: None,
+) -> int:
+    """Develop rendered samples into ``out``, laid out as a dataset's ``renders``; returns how many were made.
+
+    What is there already is kept, so a second run goes on. Beside the pictures of each sample, ``shots.json`` holds
+    its shots as `facegen.store.sample_record` has them.
+
+    Raises
+    ------
+    InputError
+        If a sample has not been rendered, or ``out`` holds pictures of another dataset or of other settings.
+    """
+    rendered = set(dataset.folder.rendered())
+    numbers = sorted(rendered) if numbers is None else numbers
+    missing = sorted(set(numbers) - rendered)
+    if missing or not numbers:
+        raise InputError(
+            f"{dataset.folder.path}: sample {missing[0] if missing else 0} has not been rendered; run facegen generate "
+            f"first"
+        )
+    _begin(dataset, out, settings)
+    folder, made = DatasetFolder(out), 0
+    for done, number in enumerate(numbers):
+        on_progress(done)
+        if folder.render(number).exists():
+            continue
+        pictures, shots = develop_sample(dataset, number, settings)
+        with staging(folder, f"develop-{number}") as stage:
+            for view, grey in pictures.items():
+                (stage / f"{view}.png").write_bytes(png_bytes(grey))
+            write_json(stage / "shots.json", {view: asdict(shot) for view, shot in shots.items()})
+            made += commit_folder(stage, folder.render(number))
+    on_progress(len(numbers))
+    return made
+
+
+def develop_sample(
+    dataset: Dataset, number: int, settings: Settings = Settings()
+) -> tuple[dict[str, np.ndarray], dict[str, Shot]]:
+    """Grey pictures (h, w) uint8 and shots of one rendered sample by view.
+
+    With the plain settings the pictures are the dataset's own. LEDs stay as they were rendered.
+    """
+    spec, record = dataset.spec, dataset.sample(number)
+    given = {
+        key: getattr(settings, key) for key in ("exposure", "gain") if getattr(settings, key) is not None
+    }
+    headset = replace(dataset.headset, sensor=replace(dataset.headset.sensor, **given))
+    unit = session_unit(spec, headset, record["session"])
+    pictures, shots = {}, {}
+    for camera in unit.cameras:
+        view = camera.name
+        leds = tuple(led.name for led in unit.leds if led.camera == view)
+        place = {"session": record["session"], "sample": number}
+        rendered = draw_shot(spec, view, leds, **place)
+        shot = draw_shot(spec, view, leds, **place, seed=settings.seed)
+        noise = shot.noise if settings.noise is None else settings.noise
+        shots[view] = replace(shot, noise=noise, dropped_led=rendered.dropped_led)
+        layers = read_exr(dataset.folder.render(number) / f"{view}.exr")
+        camera_from_head = np.array(record["views"][view]["camera_from_head"])
+        pictures[view] = develop_view(layers, camera, camera_from_head, unit.sensor, shots[view])
+    return pictures, shots
+
+
+def _begin(dataset: Dataset, out: Path, settings: Settings) -> None:
+    """Write what the folder's pictures are; check what an old one holds."""
+    path, content = out / SETTINGS_FILE, {"spec_hash": dataset.hash, "settings": asdict(settings)}
+    if path.is_file():
+        if read_json(path) != content:
+            raise InputError(
+                f"{out}: holds pictures of another dataset or with other settings ({SETTINGS_FILE} says which); choose "
+                f"another folder"
+            )
+        return
+    with output_errors(out):
+        if out.is_dir() and any(p.name != "tmp" for p in out.iterdir()):
+            raise InputError(f"{out}: is not empty and holds no developed pictures; choose another folder")
+        out.mkdir(parents=True, exist_ok=True)
+    with staging(DatasetFolder(out), "begin") as stage:
+        write_json(stage / SETTINGS_FILE, content)
+        commit_file(stage / SETTINGS_FILE, path)
