@@ -51,7 +51,7 @@ class Rig:
         (2,) and (K, 2): radii of the eyeballs in metres.
     upper_lid, lower_lid
         (2, U) and (2, L) vertex indices along the lid margins, subject's left eye first, each from the inner
-        to the outer canthus, both canthi included.
+        to the outer canthus, both canthi included; the shorter of a pair repeats its last vertex.
     lid_vertices
         (2, M) indices of the skin and lash vertices that follow a closing lid, padded with -1.
     licence, source, version
