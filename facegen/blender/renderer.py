@@ -1,6 +1,7 @@
 """Cycles as a function from a `Scene` and a view to linear `Layers`: one scene kept alive, no files."""
 
 from functools import lru_cache
+from pathlib import Path
 
 import bpy
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from facegen.blender.materials import build_material, build_truth_material
 from facegen.blender.nodes import set_parameters
 from facegen.blender.passes import passes_of_renders
-from facegen.blender.runtime import choose_device, compile_lens, quiet_stdout
+from facegen.blender.runtime import LENS, choose_device, compile_lens, quiet_stdout
 from facegen.conventions import Part
 from facegen.errors import InputError
 from facegen.geometry import Camera, invert_transform, pixel_rays
@@ -110,18 +111,39 @@ class Renderer:
         denoise
             Whether Open Image Denoise cleans the radiance.
         """
-        views = {view.name: view for view in scene.views}
-        if view_name not in views:
-            raise InputError(f"the scene has no view {view_name!r}; it has {', '.join(views)}")
-        view = views[view_name]
+        view = _view(scene, view_name)
         self._load(scene)
         self._aim(view)
         truth = self._truth_passes(view)
         self._light(view)
-        cycles = self._scene.cycles
-        cycles.samples, cycles.seed, cycles.use_denoising = samples, seed, denoise
+        self._sample(samples, seed, denoise)
         radiance = self._passes()["Combined"][..., 0]
         return _layers(view, radiance, truth)
+
+    def save(
+        self, scene: Scene, view_name: str, path: Path, *, samples: int, seed: int, denoise: bool = True
+    ) -> None:
+        """Write a .blend file that renders a view's radiance as `render` does, but for glints; nothing lies outside it.
+
+        All cameras are in it, the view's own is active, and its lamps alone are lit. The other parameters are those of
+        `render`.
+        """
+        view = _view(scene, view_name)
+        self._load(scene)
+        for other in (*scene.views, view):
+            self._aim(other)
+        self._light(view)
+        self._sample(samples, seed, denoise)
+        # cameras hold the compiled lens; its source is for readers
+        source = bpy.data.texts.get(LENS.name) or bpy.data.texts.new(LENS.name)
+        source.from_string(LENS.read_text(encoding="utf-8"))
+        source.use_fake_user = True
+        with quiet_stdout():
+            bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True, copy=True)
+
+    def _sample(self, samples: int, seed: int, denoise: bool) -> None:
+        cycles = self._scene.cycles
+        cycles.samples, cycles.seed, cycles.use_denoising = samples, seed, denoise
 
     def _truth_passes(self, view: View) -> dict[str, np.ndarray]:
         """One sample a pixel, which Cycles puts at its centre, with the label material on everything."""
@@ -227,6 +249,13 @@ class Renderer:
             view.camera.width,
             view.camera.height,
         )
+
+
+def _view(scene: Scene, name: str) -> View:
+    views = {view.name: view for view in scene.views}
+    if name not in views:
+        raise InputError(f"the scene has no view {name!r}; it has {', '.join(views)}")
+    return views[name]
 
 
 def _layers(view: View, radiance: np.ndarray, truth: dict[str, np.ndarray]) -> Layers:

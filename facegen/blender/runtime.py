@@ -27,6 +27,9 @@ DEBIAN_PACKAGES = {
 }
 """Debian and Ubuntu packages of the libraries that bpy links to; the files suffice, no X server runs."""
 
+LENS = Path(__file__).with_name("lens.osl")
+"""Source of the camera models."""
+
 GPU_BACKENDS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")
 """In order of preference."""
 
@@ -98,8 +101,8 @@ def compile_lens() -> tuple[str, str]:
     with tempfile.TemporaryDirectory() as folder:
         compiled = Path(folder) / "lens.oso"
         # the compiler's own search for bundled tools needs no path here: the stock functions ship with Cycles
-        if not _cycles.osl_compile(str(Path(__file__).with_name("lens.osl")), str(compiled)):
-            raise InputError("Blender could not compile facegen/blender/lens.osl")
+        if not _cycles.osl_compile(str(LENS), str(compiled)):
+            raise InputError(f"Blender could not compile {LENS}")
         bytecode = compiled.read_text()
     return bytecode, hashlib.md5(bytecode.encode()).hexdigest()
 

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from facegen import __version__
+from facegen.cli.blend import blend
 from facegen.cli.develop import develop
 from facegen.cli.farm import farm_app
 from facegen.cli.generate import generate
@@ -37,6 +38,7 @@ app.command()(preview)
 app.command()(pack)
 app.command()(merge)
 app.command()(develop)
+app.command()(blend)
 
 
 def _print_version(wanted: bool) -> None:

@@ -1,6 +1,7 @@
 """Making datasets: tasks, workers, and the supervisor that owns them."""
 
 from facegen.work.allocation import available_cpus, available_memory
+from facegen.work.blend import save_blend
 from facegen.work.developing import Settings, develop_dataset, develop_sample
 from facegen.work.generate import DEFAULT_GRACE_S, Summary, Work, generate, plan_work
 from facegen.work.journal import Attempt, attempt_logs, read_journals
@@ -25,5 +26,6 @@ __all__ = [
     "plan_work",
     "quarantined_tasks",
     "read_journals",
+    "save_blend",
     "wanted_tasks",
 ]

@@ -108,15 +108,11 @@ class Worker:
         files = {}
         for view in rendered.scene.views:
             on_phase(f"render {view.name}")
-            key = f"render/{view.name}"
-            seed = int(
-                stream(self.dataset.spec.seed, key, int(rendered.samples.sample[0])).integers(1, 2**31 - 1)
-            )
             layers = self._renderer.render(
                 rendered.scene,
                 view.name,
                 samples=settings.samples_per_pixel,
-                seed=seed,
+                seed=draw_render_seed(self.dataset.spec.seed, view.name, int(rendered.samples.sample[0])),
                 denoise=settings.denoise,
             )
             glints = rendered.views[view.name].glints
@@ -131,6 +127,11 @@ class Worker:
             files[f"{view.name}.png"] = png_bytes(grey)
             files[f"{view.name}.exr"] = exr_bytes(layers)
         return files
+
+
+def draw_render_seed(seed: int, view: str, sample: int) -> int:
+    """Seed of the renderer's noise in one view of a sample."""
+    return int(stream(seed, f"render/{view}", sample).integers(1, 2**31 - 1))
 
 
 def label_sample(dataset: Dataset, number: int, block: Samples) -> RenderedSample:
