@@ -63,12 +63,8 @@ def progress(what: str, total: int, *, style: str = "auto") -> Iterator[Callable
         now = time.monotonic()
         if done == total or now - last >= LINE_EVERY_S:
             last, elapsed = now, now - started
-            left = elapsed / done * (total - done) if done else float("nan")
-            print(
-                f"{what}: {done}/{total}, {elapsed:.0f} s, about {left:.0f} s left",
-                file=sys.stderr,
-                flush=True,
-            )
+            left = f", about {elapsed / done * (total - done):.0f} s left" if 0 < done < total else ""
+            print(f"{what}: {done}/{total}, {elapsed:.0f} s{left}", file=sys.stderr, flush=True)
 
     yield line
 

@@ -9,6 +9,7 @@ from scipy.special import ndtr, ndtri
 from facegen.conventions import BLOCK, SPLITS
 from facegen.randomness import stream
 from facegen.rigs import Rig
+from facegen.rigs.threads import one_blas_thread
 from facegen.spec import Spec, draw
 
 LARGEST_SCORE = 2.5
@@ -56,9 +57,10 @@ def draw_people(spec: Spec, rig: Rig, block: int) -> People:
         "african": ancestry[:, 0],
         "asian": ancestry[:, 1],
     }
-    identity = scores @ rig.identity_residual.T
-    if rig.traits:
-        identity += np.stack([known[name] for name in rig.traits], axis=-1) @ rig.identity_from_traits.T
+    with one_blas_thread():
+        identity = scores @ rig.identity_residual.T
+        if rig.traits:
+            identity += np.stack([known[name] for name in rig.traits], axis=-1) @ rig.identity_from_traits.T
     return People(female=female, age_years=age_years, ancestry=ancestry, identity=identity)
 
 

@@ -1,5 +1,6 @@
 """A dataset's folder holds all that says what it is."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -37,7 +38,9 @@ def test_where_a_headset_lies_does_not_matter_but_what_it_says_does(folder):
     spec = folder / "elsewhere" / "spec.toml"
     assert resolve(load_spec(spec), folder / "out").hash == hash_here
     changed = folder / "elsewhere" / "mine.toml"
-    changed.write_text(changed.read_text().replace("black_level = 1", "black_level = 2"))
+    text, replaced = re.subn(r"(?m)^black_level = .*", "black_level = 2", changed.read_text())
+    assert replaced == 1
+    changed.write_text(text)
     assert resolve(load_spec(spec), folder / "out").hash != hash_here
 
 
