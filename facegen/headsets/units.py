@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from facegen.geometry import rotation_from_angles
+from facegen.geometry import look_at, rotation_from_angles
 from facegen.headsets.cameras import HeadsetCamera
 from facegen.headsets.headset import Headset, Led
 
@@ -48,16 +48,13 @@ def _mounted(camera: HeadsetCamera, headset: Headset, drawn: np.ndarray) -> Head
     position = camera.position_mm + sd.mount_mm * drawn[:3]
     turned = camera.headset_from_camera[:3, :3] @ rotation_from_angles(*np.radians(sd.mount_deg) * drawn[3:6])
     distance = np.linalg.norm(np.subtract(camera.target_mm, camera.position_mm))
-    moved = replace(
-        camera,
-        position_mm=tuple(map(float, position)),
-        target_mm=tuple(map(float, position + distance * turned[:, 2])),
-        roll_deg=0.0,
-    )
-    about_axis = moved.headset_from_camera[:3, :3].T @ turned
+    target = position + distance * turned[:, 2]
+    about_axis = look_at(position, target)[:3, :3].T @ turned
     longer = float(np.exp(sd.focal_percent / 100.0 * drawn[6]))
     return replace(
-        moved,
+        camera,
+        position_mm=tuple(map(float, position)),
+        target_mm=tuple(map(float, target)),
         roll_deg=float(np.degrees(np.arctan2(about_axis[1, 0], about_axis[0, 0]))),
         fx=camera.fx * longer,
         fy=camera.fy * longer,

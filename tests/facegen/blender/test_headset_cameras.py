@@ -15,6 +15,7 @@ from facegen.sampling import draw_samples
 from facegen.scene import Scene
 from facegen.scene.assembly import headset_views
 from facegen.scene.housing import headset_meshes
+from facegen.sensor import develop_view
 from facegen.spec import parse_spec
 from facegen.store import resolve
 from tests.facegen.blender.scenes import sphere
@@ -105,3 +106,26 @@ def test_landmarks_behind_the_housing_are_labelled_hidden(anny, tmp_path):
     hidden = (bare.visibility == Visibility.VISIBLE) & (made.visibility == Visibility.HIDDEN)
     assert hidden[36:48].sum() >= 2, "the lower plate hides eyes from a camera below the chin"
     assert not hidden[48:68].any(), "and leaves the mouth free"
+
+
+def test_mouth1_sees_what_a_real_mouth_camera_sees(renderer, anny, tmp_path):
+    # ranges of three real frames (benchmarks/bench_look.py), widened by what four people of twelve differ in mean
+    table = {"version": 1, "kind": "still", "seed": 12, "people": 12, "still": {"neutral": 0, "faces": 1}}
+    table["render"] = {"headset": "mouth1", "size_px": 48}
+    dataset = resolve(parse_spec(table, where="here"), tmp_path)
+    block = draw_samples(dataset.plan, anny, 0)
+    figures = []
+    for number in (0, 2, 5, 9):
+        made = label_rendered(dataset.spec, anny, dataset.headset, block.rows(slice(number, number + 1)))
+        (view,) = made.scene.views
+        layers = renderer.render(made.scene, "mouth", samples=4, seed=1)
+        camera, shot = made.headset.camera("mouth"), made.shots["mouth"]
+        grey = develop_view(layers, camera, view.camera_from_head, made.headset.sensor, shot)
+        figures.append([grey.mean(), grey.std(), *np.percentile(grey, [1, 50, 99])])
+        assert (grey < 250).all()
+    mean, deviation, dark, median, bright = np.mean(figures, axis=0)
+    assert 36 < mean < 50
+    assert 30 < deviation < 46
+    assert 9 < dark < 13
+    assert 20 < median < 33
+    assert 130 < bright < 185

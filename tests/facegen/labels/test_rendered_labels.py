@@ -43,3 +43,26 @@ def test_keypoint_labels_do_not_change_with_materials_hair_or_sensor(dataset, mo
     ]
     assert before == after
     assert sum(map(len, seen[0])) >= 10
+
+
+def test_keypoints_do_not_change_with_units_shots_or_rooms(dataset):
+    block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(0, 1))
+    off = {
+        "tolerances": 0.0,
+        "noise": 0.0,
+        "motion_deg_s": 0.0,
+        "room": "dark",
+        "flash": 0.0,
+        "dropped_led": 1.0,
+    }
+    spec = dataclasses.replace(dataset.spec, sensor=dataclasses.replace(dataset.spec.sensor, **off))
+    plain, other = (label_rendered(s, dataset.rig, dataset.headset, block) for s in (dataset.spec, spec))
+    for field in dataclasses.fields(plain.keypoints):
+        assert np.array_equal(getattr(plain.keypoints, field.name), getattr(other.keypoints, field.name))
+    assert np.allclose(plain.views["mouth"].points_2d, other.views["mouth"].points_2d, atol=3.0)
+    assert not np.array_equal(plain.views["mouth"].points_2d, other.views["mouth"].points_2d)
+    # an LED that stays dark is not lit and has no glint
+    dark = {name: shot.dropped_led for name, shot in other.shots.items()}
+    assert all(dark[view.name] and dark[view.name] not in view.lamps for view in other.scene.views)
+    assert not {*dark.values()} & {lamp for view in other.views.values() for lamp in view.glints.lamps}
+    assert other.headset.cameras[0].fx == dataset.headset.cameras[0].fx
