@@ -93,7 +93,7 @@ def measure(folder: Path) -> dict[str, list[dict[str, float]]]:
             grey, part = read_png(path / f"{name}.png"), read_exr(path / f"{name}.exr").part
             if name.endswith("_eye"):
                 figures["eye"].append(eye_figures(grey, part, view, name.removesuffix("_eye")))
-            else:
+            elif name == "mouth":
                 figures["mouth"].append(levels(grey, part))
     return figures
 
@@ -110,6 +110,8 @@ def main() -> None:
         return
     for kind, real in (("eye", EYE), ("mouth", MOUTH)):
         rows = figures[kind]
+        if not rows:
+            continue
         print(f"\n{len(rows)} {kind} views".ljust(30) + "mean      sd   of real frames")
         for name, (low, high) in real.items():
             values = np.array([row[name] for row in rows], np.float64)
