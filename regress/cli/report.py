@@ -1,20 +1,48 @@
 """``regress report``: what a model can do, as one page."""
 
+import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from regress.cli.talk import say
+from regress.errors import InputError, OutputError
+from regress.files import write_whole
 from regress.model import load_model
+from regress.probes import figures_of, measure
 from regress.report import write_report
 
 
 def report(
     model: Annotated[Path, typer.Argument(help="Model folder, as `regress train` writes it")],
     out: Annotated[Path, typer.Option(help="HTML file to write")] = Path("report.html"),
+    data: Annotated[
+        Path | None,
+        typer.Option(
+            help="Dataset that the model was trained on: measures noise, pose, leaks and people, in a minute."
+        ),
+    ] = None,
+    figures: Annotated[
+        Path | None, typer.Option(help="JSON file for what --data measures, unrounded.")
+    ] = None,
 ) -> None:
     """Write one HTML file with every figure of a model: it opens without a network.
 
-    Example: regress report models/default --out report.html
+    Example: regress report models/default --data datasets/out/default --out report.html
     """
-    typer.echo(write_report(load_model(model), out))
+    if figures is not None and data is None:
+        raise InputError(
+            "--figures has nothing to write without a dataset to measure on; give --data as well"
+        )
+    trained = load_model(model)
+    measured = None if data is None else measure(trained, data)
+    typer.echo(write_report(trained, out, measured))
+    if figures is not None:
+        try:
+            write_whole(figures, json.dumps(figures_of(measured), indent=1, allow_nan=False) + "\n")
+        except OSError as error:
+            raise OutputError(
+                f"the figures cannot be written to {figures}: {error.strerror or error}"
+            ) from error
+        say(f"figures in {figures}")

@@ -38,7 +38,7 @@ def train(
     )
     for name, figures in model.record["summary"].items():
         r2, visible = figures["mean_r2_networks"], figures["mean_r2_visible"]
-        say(f"{name.replace('_', ' '):>16}: test R2 {_figure(r2)}, visible shapes {_figure(visible)}")
+        say(f"{name.replace('_', ' '):>26}: test R2 {_figure(r2)}, visible shapes {_figure(visible)}")
 
 
 def _figure(value: float | None) -> str:

@@ -5,14 +5,16 @@ from pathlib import Path
 from regress.errors import OutputError
 from regress.files import write_whole
 from regress.model import Model
+from regress.probes import Measured
 from regress.report.page import render_page
+from regress.report.probed import probed_of
 from regress.report.reading import content_of
 
 __all__ = ["content_of", "render_page", "write_report"]
 
 
-def write_report(model: Model, path: Path) -> Path:
-    """Write a model's report; the same model gives the same bytes.
+def write_report(model: Model, path: Path, measured: Measured | None = None) -> Path:
+    """Write a model's report, with what was measured on its dataset if anything was; equal inputs give equal bytes.
 
     Raises
     ------
@@ -21,7 +23,7 @@ def write_report(model: Model, path: Path) -> Path:
     OutputError
         The file cannot be written.
     """
-    page = render_page(content_of(model))
+    page = render_page(content_of(model), measured and probed_of(measured))
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         return write_whole(path, page)

@@ -7,6 +7,7 @@ import numpy as np
 
 from regress.report.axes import Scale, figure, label
 from regress.report.content import LearningCurve, RegressionPlot, ShapeScores
+from regress.report.svg import line, picture, text, upright_text
 
 BAR_ROW = 17
 BAR_NAMES = 158
@@ -24,21 +25,23 @@ def score_bars(scores: Sequence[ShapeScores]) -> str:
     for score in scores:
         if score.region != region:
             region = score.region
-            rows.append(_text(0, y + 13, region, "region"))
+            rows.append(text(0, y + 13, region, "region"))
             y += 20
         rows.append(_score_bar(score, x, y))
         y += BAR_ROW
     height = y + 8
-    grid = [_line(x(tick), 20, x(tick), y + 2, "zero" if tick == 0 else "grid") for tick in x.ticks()]
-    ticks = [_text(x(tick), 12, label(tick), "tick middle") for tick in x.ticks()]
-    return _svg(BAR_WIDTH, height, [*grid, *ticks, *rows], "R squared of every shape, networks beside ridge")
+    grid = [line(x(tick), 20, x(tick), y + 2, "zero" if tick == 0 else "grid") for tick in x.ticks()]
+    ticks = [text(x(tick), 12, label(tick), "tick middle") for tick in x.ticks()]
+    return picture(
+        BAR_WIDTH, height, [*grid, *ticks, *rows], "R squared of every shape, networks beside ridge"
+    )
 
 
 def _score_bar(score: ShapeScores, x: Scale, y: float) -> str:
     network, ridge = score.network.r2, score.ridge.r2
     middle = y + BAR_ROW / 2
     if score.grade == "unmoved":
-        return _text(BAR_NAMES - 8, middle + 4, score.name, "name end") + _text(
+        return text(BAR_NAMES - 8, middle + 4, score.name, "name end") + text(
             x(0.0) + 6, middle + 4, "never moves in the test split", "tick"
         )
     left, right = sorted((float(x(0.0)), float(x(network))))
@@ -46,11 +49,11 @@ def _score_bar(score: ShapeScores, x: Scale, y: float) -> str:
     title = escape(f"{score.name}: network {network:.3f}, ridge {ridge:.3f}")
     return (
         f"<g><title>{title}</title>"
-        + _text(BAR_NAMES - 8, middle + 4, score.name, "name end")
+        + text(BAR_NAMES - 8, middle + 4, score.name, "name end")
         + f'<rect class="bar {score.grade}" x="{left:.1f}" y="{y + 3:.1f}" width="{width:.1f}" '
         f'height="{BAR_ROW - 6}" rx="1.5"/>'
-        + _line(x(ridge), y + 1.5, x(ridge), y + BAR_ROW - 1.5, "ridge")
-        + _text(BAR_WIDTH, middle + 4, figure(network), "value end")
+        + line(x(ridge), y + 1.5, x(ridge), y + BAR_ROW - 1.5, "ridge")
+        + text(BAR_WIDTH, middle + 4, figure(network), "value end")
         + "</g>"
     )
 
@@ -71,14 +74,14 @@ def learning_curves(curve: LearningCurve) -> str:
     width, height, left, bottom = 900, 320, 58, 46
     low, high = error_range([curve])
     parts = _curve_parts(curve, (left, 14, width - 110, height - bottom), large=True, low=low, high=high)
-    return _svg(width, height, parts, f"Learning curves, {curve.name}")
+    return picture(width, height, parts, f"Learning curves, {curve.name}")
 
 
 def small_curves(curve: LearningCurve, *, low: float, high: float) -> str:
     """The same, small, to stand in a grid: one range of errors for all."""
     box = (30, 20, 206, 112)
     parts = _curve_parts(curve, box, large=False, low=low, high=high)
-    return _svg(214, 132, [_text(30, 12, curve.name, "name"), *parts], f"Learning curves of {curve.name}")
+    return picture(214, 132, [text(30, 12, curve.name, "name"), *parts], f"Learning curves of {curve.name}")
 
 
 def _curve_parts(curve: LearningCurve, box, *, large: bool, low: float, high: float) -> list[str]:
@@ -89,14 +92,14 @@ def _curve_parts(curve: LearningCurve, box, *, large: bool, low: float, high: fl
     x = Scale(low=0, high=steps, start=left, stop=right)
     parts = []
     for tick in y.ticks():
-        parts.append(_line(left, y(tick), right, y(tick), "grid"))
+        parts.append(line(left, y(tick), right, y(tick), "grid"))
         if large or f"{tick:e}"[0] == "1":
-            parts.append(_text(left - 6, y(tick) + 4, label(tick), "tick end"))
+            parts.append(text(left - 6, y(tick) + 4, label(tick), "tick end"))
     for tick in x.ticks(10) if large else (0, steps):
         if tick == int(tick):
-            parts.append(_text(x(tick), bottom + (18 if large else 14), label(tick), "tick middle"))
+            parts.append(text(x(tick), bottom + (18 if large else 14), label(tick), "tick middle"))
     if curve.best_step is not None:
-        parts.append(_line(x(curve.best_step), top, x(curve.best_step), bottom, "chosen"))
+        parts.append(line(x(curve.best_step), top, x(curve.best_step), bottom, "chosen"))
     for name, values in series.items():
         if len(values):
             places = zip(x(np.arange(len(values))), y(np.asarray(values)), strict=True)
@@ -104,7 +107,7 @@ def _curve_parts(curve: LearningCurve, box, *, large: bool, low: float, high: fl
             parts.append(f'<path class="curve {name}" d="M{path}"/>')
     if large:
         parts += _end_labels(series, y, right)
-        parts.append(_text((left + right) / 2, bottom + 38, "Levenberg-Marquardt step", "tick middle"))
+        parts.append(text((left + right) / 2, bottom + 38, "Levenberg-Marquardt step", "tick middle"))
     return parts
 
 
@@ -114,7 +117,7 @@ def _end_labels(series: dict[str, np.ndarray], y: Scale, right: float) -> list[s
     parts, last = [], -np.inf
     for place, name in ends:
         last = max(place, last + 15)
-        parts.append(_text(right + 8, last + 4, name, f"label {name}"))
+        parts.append(text(right + 8, last + 4, name, f"label {name}"))
     return parts
 
 
@@ -128,21 +131,18 @@ def regression_panel(plot: RegressionPlot) -> str:
     x = Scale(low=low, high=high, start=38, stop=PANEL - 6)
     y = Scale(low=low, high=high, start=PANEL - 40, stop=8)
     ticks = (0, 0.25, 0.5, 0.75, 1)
-    parts = [_line(x(tick), y(low), x(tick), y(high), "grid") for tick in ticks]
-    parts += [_line(x(low), y(tick), x(high), y(tick), "grid") for tick in ticks]
+    parts = [line(x(tick), y(low), x(tick), y(high), "grid") for tick in ticks]
+    parts += [line(x(low), y(tick), x(high), y(tick), "grid") for tick in ticks]
     parts += _density(plot.counts, x, y)
-    parts.append(_line(x(0), y(0), x(1), y(1), "equal"))
+    parts.append(line(x(0), y(0), x(1), y(1), "equal"))
     if np.isfinite(plot.slope):
         start, stop = plot.intercept, plot.intercept + plot.slope
-        parts.append(_line(x(0), y(start), x(1), y(stop), "fit"))
-    parts += [_text(x(tick), PANEL - 24, label(tick), "tick middle") for tick in ticks]
-    parts += [_text(32, y(tick) + 4, label(tick), "tick end") for tick in ticks]
-    parts.append(_text((x(low) + x(high)) / 2, PANEL - 6, "true weight", "tick middle"))
-    parts.append(
-        f'<text class="tick middle" transform="translate(9 {(y(low) + y(high)) / 2:.1f}) rotate(-90)">'
-        "predicted</text>"
-    )
-    return _svg(PANEL, PANEL, parts, f"Predicted against true weights, {plot.split} faces")
+        parts.append(line(x(0), y(start), x(1), y(stop), "fit"))
+    parts += [text(x(tick), PANEL - 24, label(tick), "tick middle") for tick in ticks]
+    parts += [text(32, y(tick) + 4, label(tick), "tick end") for tick in ticks]
+    parts.append(text((x(low) + x(high)) / 2, PANEL - 6, "true weight", "tick middle"))
+    parts.append(upright_text(9, (y(low) + y(high)) / 2, "predicted", "tick middle"))
+    return picture(PANEL, PANEL, parts, f"Predicted against true weights, {plot.split} faces")
 
 
 def _density(counts: np.ndarray, x: Scale, y: Scale) -> list[str]:
@@ -162,16 +162,3 @@ def _density(counts: np.ndarray, x: Scale, y: Scale) -> list[str]:
             opacity = 0.06 + 0.94 * shade / PANEL_SHADES
             parts.append(f'<path class="cell" fill-opacity="{opacity:.2f}" d="{cells}"/>')
     return parts
-
-
-def _line(x1: float, y1: float, x2: float, y2: float, kind: str) -> str:
-    return f'<line class="{kind}" x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}"/>'
-
-
-def _text(x: float, y: float, text: str, kind: str) -> str:
-    return f'<text class="{kind}" x="{x:.1f}" y="{y:.1f}">{escape(text)}</text>'
-
-
-def _svg(width: float, height: float, parts: Sequence[str], description: str) -> str:
-    named = f'role="img" aria-label="{escape(description, quote=True)}"'
-    return f'<svg viewBox="0 0 {width:.0f} {height:.0f}" {named}>{"".join(parts)}</svg>'

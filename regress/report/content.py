@@ -137,6 +137,10 @@ class ReportContent:
         Mean over the networks.
     curves : tuple of LearningCurve
         Each network.
+    noisy_training : bool
+        Whether training faces were displaced and test faces were not.
+    floor : float or None
+        Mean R2 over the visible shapes of ridge regression on the networks' own displaced rows.
     regressions : tuple of RegressionPlot
     calibration : tuple of CalibrationRow
         Empty where a model has no calibrated networks.
@@ -151,6 +155,8 @@ class ReportContent:
     constant: tuple[str, ...]
     curve: LearningCurve
     curves: tuple[LearningCurve, ...]
+    noisy_training: bool
+    floor: float | None
     regressions: tuple[RegressionPlot, ...]
     calibration: tuple[CalibrationRow, ...]
     provenance: tuple[tuple[str, str], ...]

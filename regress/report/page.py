@@ -11,10 +11,11 @@ from markupsafe import Markup
 from regress.report.axes import figure
 from regress.report.charts import error_range, learning_curves, regression_panel, score_bars, small_curves
 from regress.report.content import PARTLY_R2, SEEN_R2, ReportContent, ShapeScores
+from regress.report.probed import Probed, grade
 
 
-def render_page(content: ReportContent) -> str:
-    """Draw the figures and fill in the page; equal content gives equal text."""
+def render_page(content: ReportContent, probed: Probed | None = None) -> str:
+    """Draw the figures and fill in the page, with what probes found where they ran; equal content gives equal text."""
     environment = Environment(
         loader=PackageLoader("regress.report"),
         autoescape=True,
@@ -26,6 +27,8 @@ def render_page(content: ReportContent) -> str:
     low, high = error_range(content.curves)
     return environment.get_template("report.html").render(
         content=content,
+        probed=probed,
+        grade=grade,
         seen_r2=SEEN_R2,
         partly_r2=PARTLY_R2,
         hidden=[score.name for score in content.scores if score.grade == "hidden"],

@@ -46,6 +46,8 @@ def content_of(model: Model) -> ReportContent:
             constant=tuple(name for name in BLENDSHAPES if name not in model.outputs),
             curve=mean_curve(curves),
             curves=curves,
+            noisy_training=record["recipe"]["noise"] is not None,
+            floor=record["summary"].get("ridge_same_rows", {}).get("mean_r2_visible"),
             regressions=tuple(_regression(split, record["regression"][split]) for split in SPLITS),
             calibration=_calibration(record),
             provenance=_provenance(model),

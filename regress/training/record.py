@@ -23,6 +23,14 @@ from regress.training.scores import Scores, evaluate_model, mean_r2, score, scor
 DETECTOR = DetectorNoise(bias=1.0, drift=0.0, jitter=0.001, clean=0.0)
 """What the figures ``as_detected`` are measured with: the bias and the jitter of a tracked face."""
 
+_FLOORS = {
+    "ridge": "rows as the dataset has them",
+    "ridge_same_rows": "the networks' own rows, displaced faces among them",
+    "calibrated_ridge": "rows as the dataset has them, less neutral frames",
+    "calibrated_ridge_same_rows": "the calibrated networks' own rows, displaced faces among them",
+}
+"""What each ridge regression of a record was trained on."""
+
 _NOISE_SEED = 68
 """Of the displaced test faces: every model is judged on the same ones."""
 
@@ -39,19 +47,20 @@ def training_record(
     """JSON data about a model; every figure unrounded.
 
     ``scores`` and ``summary`` are of the test split as the dataset has it: ``network`` and ``ridge`` see a
-    frame alone, ``calibrated`` and ``calibrated_ridge`` a neutral frame as well. Ridge is trained on faces as
-    the dataset has them, whatever noise the networks were trained with. ``as_detected`` is of the same faces
-    with detectors' bias and jitter.
+    frame alone, ``calibrated`` and ``calibrated_ridge`` a neutral frame as well. Those two ridges are trained on
+    faces as the dataset has them; where the networks' faces are displaced, ``ridge_same_rows`` and
+    ``calibrated_ridge_same_rows`` are trained on the very rows that the networks were (``floors`` says so).
+    ``as_detected`` is of the same faces with detectors' bias and jitter.
     """
     sets = [False] if model.calibrated is None else [False, True]
     scores = {
         "network": evaluate_model(model, dataset),
-        **_baselines(dataset, model.features, recipe, calibrated=False),
+        **_baselines(dataset, model.features, recipe, calibrated=False, seed=seed),
     }
     if model.calibrated is not None:
-        baselines = _baselines(dataset, model.features, recipe, calibrated=True)
         scores["calibrated"] = evaluate_model(model, dataset, calibrated=True)
-        scores["calibrated_ridge"] = baselines["ridge"]
+        baselines = _baselines(dataset, model.features, recipe, calibrated=True, seed=seed)
+        scores |= {f"calibrated_{name}": found for name, found in baselines.items() if name != "mean"}
     networks = {name: _network_records(fit) for name, fit in fits.items()}
     return {
         "recipe": {**dataclasses.asdict(recipe), "alphas": list(recipe.alphas)},
@@ -72,6 +81,7 @@ def training_record(
             "numpy": np.__version__,
             "scipy": scipy.__version__,
         },
+        "floors": {name: text for name, text in _FLOORS.items() if name in scores},
         "summary": {name: _summary(shapes) for name, shapes in scores.items()},
         "as_detected": {
             "calibrated" if calibrated else "network": _summary(
@@ -105,17 +115,23 @@ def _scores_as_detected(model: Model, dataset: KeypointDataset, *, calibrated: b
 
 
 def _baselines(
-    dataset: KeypointDataset, features: Features, recipe: Recipe, *, calibrated: bool
+    dataset: KeypointDataset, features: Features, recipe: Recipe, *, calibrated: bool, seed: int
 ) -> dict[str, dict[str, Scores]]:
     """Ridge on the same features, its strength chosen per shape, and the training mean; clipped."""
+    noise = recipe.calibrated_noise if calibrated else recipe.noise
     ridge = fit_baseline(dataset, features, mirror=recipe.mirror, calibrated=calibrated)
     faces = faces_of(dataset, "test", calibrated=calibrated)
-    true = faces.weights[:, OUTPUT_COLUMNS]
-    mean = np.broadcast_to(ridge.normalisation.target_mean, true.shape)
-    return {
-        "ridge": dict(zip(OUTPUTS, score(ridge.predict(faces.features(features)), true), strict=True)),
-        "mean": dict(zip(OUTPUTS, score(mean, true), strict=True)),
+    given, true = faces.features(features), faces.weights[:, OUTPUT_COLUMNS]
+    predicted = {
+        "ridge": ridge.predict(given),
+        "mean": np.broadcast_to(ridge.normalisation.target_mean, true.shape),
     }
+    if noise is not None:
+        same = fit_baseline(
+            dataset, features, mirror=recipe.mirror, noise=noise, calibrated=calibrated, seed=seed
+        )
+        predicted["ridge_same_rows"] = same.predict(given)
+    return {name: dict(zip(OUTPUTS, score(found, true), strict=True)) for name, found in predicted.items()}
 
 
 def _mean_over_networks(scores: dict[str, Scores]) -> float | None:

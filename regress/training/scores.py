@@ -6,10 +6,14 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.errors import InputError
+from regress.features import extract
 from regress.model import Model
 from regress.networks import evaluate
 from regress.training.dataset import KeypointDataset
 from regress.training.preparation import Faces, faces_of
+
+_BLOCK_ROWS = 4096
+"""Rows predicted at a time: 4096 x 620 hidden units are 20 MB."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,13 +68,34 @@ def evaluate_model(
 def score_faces(model: Model, faces: Faces) -> dict[str, Scores]:
     """Scores of a model's outputs on faces, by its calibrated networks where they have neutral frames."""
     columns = [BLENDSHAPE_INDEX[name] for name in model.outputs]
-    if faces.neutral is None:
-        predicted = model.predict(faces.points)[:, columns]
-    elif model.calibrated is None:
-        raise InputError("the model has no calibrated networks, so neutral frames are of no use to it")
-    else:
-        predicted = np.clip(evaluate(model.calibrated.networks, faces.features(model.features)), 0, 1)
+    predicted = predicted_outputs(model, faces.points, faces.neutral)
     return dict(zip(model.outputs, score(predicted, faces.weights[:, columns]), strict=True))
+
+
+def predicted_outputs(model: Model, points: np.ndarray, neutral: np.ndarray | None = None) -> np.ndarray:
+    """A model's weights (n, O) in [0, 1], in its own order, for faces that may each have a neutral frame.
+
+    Parameters
+    ----------
+    points : (n, 68, 2) float64
+    neutral : (n, 68, 2) float64 or None
+        A neutral frame of each face's person; where given, the calibrated networks answer.
+
+    Raises
+    ------
+    InputError
+        Where neutral frames are given to a model without calibrated networks.
+    """
+    if neutral is None:
+        return np.clip(model.predict_raw(points), 0, 1)
+    if model.calibrated is None:
+        raise InputError("the model has no calibrated networks, so neutral frames are of no use to it")
+    weights = np.empty((len(points), len(model.outputs)))
+    for start in range(0, len(points), _BLOCK_ROWS):
+        block = slice(start, start + _BLOCK_ROWS)
+        features = extract(model.features, points[block]) - extract(model.features, neutral[block])
+        weights[block] = np.clip(evaluate(model.calibrated.networks, features), 0, 1)
+    return weights
 
 
 def mean_r2(scores: dict[str, Scores], shapes: tuple[str, ...]) -> float | None:

@@ -65,8 +65,14 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
     return call
 
 
-def write_dataset(dataset: KeypointDataset, folder: Path, *, without: tuple[str, ...] = ()) -> None:
-    """Write what regress reads of a facegen dataset, in two shards."""
+def write_dataset(
+    dataset: KeypointDataset,
+    folder: Path,
+    *,
+    without: tuple[str, ...] = (),
+    more: dict[str, np.ndarray] | None = None,
+) -> None:
+    """Write what regress reads of a facegen dataset, in two shards; ``more`` columns hold lists of numbers."""
 
     def lists(values: np.ndarray) -> pa.Array:
         flat = values.reshape(len(values), -1).astype(np.float32)
@@ -79,6 +85,7 @@ def write_dataset(dataset: KeypointDataset, folder: Path, *, without: tuple[str,
         "split": pa.array(dataset.split.tolist()),
         "weights": lists(dataset.weights),
         "detected_2d": lists(dataset.points),
+        **{name: lists(values) for name, values in (more or {}).items()},
     }
     table = pa.table({name: values for name, values in columns.items() if name not in without})
     (folder / "keypoints").mkdir(parents=True)

@@ -1,8 +1,11 @@
 """Faces drawn with a pencil, so that tests of models need neither a rig nor a dataset."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
+from facegen.geometry import rotation_from_angles
 from regress.training import KeypointDataset
 
 SHAPE_MODES_SEED = 11
@@ -70,3 +73,37 @@ def drawn_dataset(rng: np.random.Generator, *, people: int, faces_each: int = 4)
         description={"spec_hash": "5" * 64, "rig": "pencil", "licence": "CC0-1.0"},
         sha256="d" * 64,
     )
+
+
+def drawn_heads(
+    rng: np.random.Generator, *, people: int, faces_each: int = 4
+) -> tuple[KeypointDataset, dict[str, np.ndarray]]:
+    """The same faces on heads that a camera sees: a dataset, and the columns that only facegen writes.
+
+    Returns
+    -------
+    dataset : KeypointDataset
+    columns : dict of str to array
+        ``points_2d``, ``points_3d`` (m), ``camera_from_head`` and ``intrinsics``; every face is on the camera's
+        axis, turned at random, and weights move its points in the head linearly.
+    """
+    flat = drawn_dataset(rng, people=people, faces_each=faces_each)
+    count = len(flat.person)
+    modes = np.random.default_rng(SHAPE_MODES_SEED).normal(size=(len(BLENDSHAPES), 68, 3)) * 0.03
+    likeness = np.repeat(rng.normal(size=(people, 68, 3)) * 0.01, faces_each, axis=0)
+    face = np.concatenate([drawn_face() * [1, -1], np.zeros((68, 1))], axis=1)
+    face[:, 2] = 0.6 - 0.6 * (face**2).sum(axis=1)  # a dome: turning it shifts its middle
+    points_m = 0.07 * (face + likeness + np.einsum("nk,kpd->npd", flat.weights, modes))
+    yaw, pitch = rng.normal(size=(2, count)) * 0.1
+    camera_from_head = np.tile(np.eye(4), (count, 1, 1))
+    camera_from_head[:, :3, :3] = np.diag([1.0, -1.0, -1.0]) @ rotation_from_angles(yaw, pitch, 0 * yaw)
+    camera_from_head[:, 2, 3] = rng.uniform(0.5, 0.9, size=count)
+    in_camera = points_m @ np.swapaxes(camera_from_head[:, :3, :3], 1, 2) + camera_from_head[:, None, :3, 3]
+    points_px = 600 * in_camera[..., :2] / in_camera[..., 2:] + [320, 240]
+    columns = {
+        "points_2d": points_px,
+        "points_3d": points_m,
+        "camera_from_head": camera_from_head,
+        "intrinsics": np.tile([600.0, 600.0, 320.0, 240.0], (count, 1)),
+    }
+    return replace(flat, points=points_px), columns

@@ -1,0 +1,195 @@
+"""What probes found, as the page prints it: a part for the networks alone, one for those beside a neutral frame."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+from markupsafe import Markup
+
+from regress.probes import Measured
+from regress.probes.crosstalk import WEIGHT, CrossTalk
+from regress.probes.observability import NOISE_PERCENT, Observability
+from regress.probes.people import PersonErrors
+from regress.probes.poses import PITCH_DEG, WITHIN_DEG, YAW_DEG, PoseErrors
+from regress.probes.stillness import JITTER_PERCENT, Stillness
+from regress.report.content import PARTLY_R2, SEEN_R2
+from regress.report.heatmap import leak_map, pose_map
+from regress.report.histogram import histogram
+from regress.report.portraits import portrait
+from regress.targets import NETWORKS, OUTPUTS, VISIBLE_SHAPES
+
+_VISIBLE = [OUTPUTS.index(name) for name in VISIBLE_SHAPES]
+_REGIONS = [network.region for network in NETWORKS for _ in network.outputs]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """Figures and drawings of one set of networks.
+
+    Parameters
+    ----------
+    title : str
+        Which landmarks it sees.
+    noise, pose, stillness : tuple of (region, tuple of (shape, figures))
+        Rows of tables; figures are floats in the order of the table's head.
+    pose_map, people, leaks : Markup
+        Drawings.
+    pose_worst : tuple of (str, float)
+        Visible shapes that turning costs most R2.
+    pose_loss, pose_mae_rise : float
+        Mean over the visible shapes.
+    person_median, person_high, person_worst : float
+        Of the mean absolute error: median, 95th percentile and the worst.
+    wink : (2,) float64
+    largest_leaks : tuple of (moved, output, change)
+    neutral_worst : tuple of (str, float)
+    neutral_mean : float
+        Mean over all shapes.
+    jitter : (J,) float64
+        Mean over the visible shapes.
+    worst : tuple of (drawing, text, tuple of (shape, true, predicted))
+    """
+
+    title: str
+    noise: tuple
+    pose: tuple
+    stillness: tuple
+    pose_map: Markup
+    people: Markup
+    leaks: Markup
+    pose_worst: tuple[tuple[str, float], ...]
+    pose_loss: float
+    pose_mae_rise: float
+    person_median: float
+    person_high: float
+    person_worst: float
+    wink: np.ndarray
+    largest_leaks: tuple[tuple[str, str, float], ...]
+    neutral_worst: tuple[tuple[str, float], ...]
+    neutral_mean: float
+    jitter: np.ndarray
+    worst: tuple
+
+
+@dataclass(frozen=True, kw_only=True)
+class Probed:
+    """Everything that the page says of probes.
+
+    Parameters
+    ----------
+    faces, people : int
+    pose_spread_deg : (2,) float64
+    movement_residual_mm : float
+    noise_percent, jitter_percent : tuple of float
+    within_deg, weight : float
+    two_ridges : bool
+        Whether the networks' rows were displaced, so that two ridge regressions are shown.
+    summary : tuple of (title, method, over, figures)
+        Mean R2 of every method at every level of noise.
+    parts : tuple of Part
+    """
+
+    faces: int
+    people: int
+    pose_spread_deg: np.ndarray
+    movement_residual_mm: float
+    noise_percent: tuple[float, ...]
+    jitter_percent: tuple[float, ...]
+    within_deg: float
+    weight: float
+    two_ridges: bool
+    summary: tuple
+    parts: tuple[Part, ...]
+
+
+def probed_of(measured: Measured) -> Probed:
+    """Prepare what was measured for the page."""
+    most = max(errors.mae[..., _VISIBLE].mean(axis=-1).max() for errors in measured.poses)
+    parts = zip(measured.poses, measured.people_errors, measured.cross_talk, measured.stillness, strict=True)
+    return Probed(
+        faces=measured.faces,
+        people=measured.people,
+        pose_spread_deg=measured.pose_spread_deg,
+        movement_residual_mm=1000 * measured.movement_residual_m,
+        noise_percent=NOISE_PERCENT,
+        jitter_percent=JITTER_PERCENT,
+        within_deg=WITHIN_DEG,
+        weight=WEIGHT,
+        two_ridges=any(one.method == "ridge, same rows" for one in measured.observability),
+        summary=_summary(measured.observability),
+        parts=tuple(_part(measured.observability, *found, most=float(most)) for found in parts),
+    )
+
+
+def grade(r2: float) -> str:
+    """``"seen"``, ``"partly"``, ``"hidden"`` or ``"unmoved"``: the class of a table's cell."""
+    if np.isnan(r2):
+        return "unmoved"
+    return "seen" if r2 >= SEEN_R2 else "partly" if r2 >= PARTLY_R2 else "hidden"
+
+
+def _title(calibrated: bool) -> str:
+    return "with a neutral frame" if calibrated else "a frame alone"
+
+
+def _summary(found: Sequence[Observability]) -> tuple:
+    return tuple(
+        (_title(one.calibrated), one.method, over, np.nanmean(one.r2[:, columns], axis=1))
+        for calibrated in (False, True)
+        for over, columns in (("visible", _VISIBLE), ("all", slice(None)))
+        for one in found
+        if one.calibrated == calibrated
+    )
+
+
+def _part(
+    observed: Sequence[Observability],
+    poses: PoseErrors,
+    people: PersonErrors,
+    talk: CrossTalk,
+    still: Stillness,
+    *,
+    most: float,
+) -> Part:
+    same = {one.method: one.r2 for one in observed if one.calibrated == poses.calibrated}
+    networks, floor = same["networks"], same.get("ridge, same rows", same["ridge, undisplaced rows"])
+    visible = np.zeros(len(OUTPUTS), dtype=bool)
+    visible[_VISIBLE] = True
+    return Part(
+        title=_title(poses.calibrated),
+        noise=_by_region(np.stack([networks, floor], axis=1).reshape(-1, len(OUTPUTS)).T),
+        pose=_by_region(np.stack([poses.frontal_r2, poses.turned_r2, poses.loss, poses.mae_rise], axis=1)),
+        stillness=_by_region(np.stack([still.neutral_mean, still.neutral_high, *still.jitter], axis=1)),
+        pose_map=Markup(
+            pose_map(poses.mae[..., _VISIBLE].mean(axis=-1), yaw_deg=YAW_DEG, pitch_deg=PITCH_DEG, most=most)
+        ),
+        people=Markup(histogram(people.mae)),
+        leaks=Markup(leak_map(talk.change, OUTPUTS, full=WEIGHT)),
+        pose_worst=_largest(np.where(visible, poses.loss, np.nan), 5),
+        pose_loss=float(np.nanmean(poses.loss[_VISIBLE])),
+        pose_mae_rise=float(poses.mae_rise[_VISIBLE].mean()),
+        person_median=float(np.median(people.mae)),
+        person_high=float(np.percentile(people.mae, 95)),
+        person_worst=float(people.mae[0]),
+        wink=talk.wink,
+        largest_leaks=talk.largest(12),
+        neutral_worst=_largest(still.neutral_mean, 5),
+        neutral_mean=float(still.neutral_mean.mean()),
+        jitter=still.jitter[:, _VISIBLE].mean(axis=1),
+        worst=tuple((Markup(portrait(face.points, f"Person {face.person}")), face) for face in people.worst),
+    )
+
+
+def _by_region(figures: np.ndarray) -> tuple:
+    """Rows (O, F) as (region, rows) of (shape, figures), in the networks' order."""
+    rows = zip(_REGIONS, OUTPUTS, figures.tolist(), strict=True)
+    return tuple(
+        (region, tuple((name, values) for _, name, values in group))
+        for region, group in groupby(rows, key=lambda row: row[0])
+    )
+
+
+def _largest(values: np.ndarray, count: int) -> tuple[tuple[str, float], ...]:
+    order = np.argsort(np.where(np.isnan(values), np.inf, -values), kind="stable")[:count]
+    return tuple((OUTPUTS[row], float(values[row])) for row in order if not np.isnan(values[row]))

@@ -1,0 +1,147 @@
+"""All probes on a trained model, as the page and the JSON file tell them."""
+
+import json
+import math
+import re
+
+import numpy as np
+import pytest
+
+from regress.errors import InputError
+from regress.model import save_model
+from regress.probes import figures_of, measure, read_faces
+from regress.probes.observability import NOISE_PERCENT
+from regress.report import write_report
+from regress.targets import OUTPUTS, VISIBLE_SHAPES
+from regress.training import Recipe, evaluate_model, read_dataset, train
+from regress.training.noise import DetectorNoise
+from tests.regress.conftest import write_dataset
+from tests.regress.drawn import drawn_heads
+
+NOISY = Recipe(
+    name="noisy",
+    alphas=(1.0, 10.0),
+    steps=4,
+    hidden=4,
+    noise=DetectorNoise(bias=0.5),
+    calibrated_noise=DetectorNoise(bias=1.0),
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("heads") / "drawn"
+    dataset, columns = drawn_heads(np.random.default_rng(8), people=50)
+    write_dataset(dataset, folder, more=columns)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def model(folder):
+    return train(read_dataset(folder), NOISY, seed=2)
+
+
+@pytest.fixture(scope="module")
+def measured(model, folder):
+    return measure(model, folder)
+
+
+@pytest.fixture(scope="module")
+def page(model, measured, tmp_path_factory):
+    return write_report(model, tmp_path_factory.mktemp("page") / "report.html", measured).read_text()
+
+
+def test_columns_are_read_as_they_were_written(folder):
+    dataset, columns = drawn_heads(np.random.default_rng(8), people=50)
+    faces = read_faces(folder)
+    np.testing.assert_allclose(faces.points_m, columns["points_3d"], atol=1e-7)
+    np.testing.assert_allclose(faces.camera_from_head, columns["camera_from_head"], atol=1e-7)
+    np.testing.assert_array_equal(faces.split, dataset.split)
+
+
+def test_noiseless_figures_are_those_of_an_evaluation(model, measured, folder):
+    scores = evaluate_model(model, read_dataset(folder), calibrated=True)
+    (found,) = (one for one in measured.observability if one.method == "networks" and one.calibrated)
+    for name, r2 in zip(OUTPUTS, found.r2[NOISE_PERCENT.index(0.0)], strict=True):
+        if scores[name].r2 is None:
+            assert math.isnan(r2)
+        else:
+            assert r2 == pytest.approx(scores[name].r2, abs=1e-4)
+
+
+def test_both_floors_are_told_apart(model, measured):
+    floors = {(one.method, one.calibrated): one.r2[0] for one in measured.observability}
+    for calibrated, begins in ((False, ""), (True, "calibrated_")):
+        for method, name in (("ridge, undisplaced rows", "ridge"), ("ridge, same rows", "ridge_same_rows")):
+            # the record scores all faces where nothing is compared with a neutral one, probes those beside one
+            tolerance = 1e-4 if calibrated else 0.15
+            recorded = [
+                model.record["scores"][shape][begins + name]["r2"]
+                for shape in OUTPUTS
+                if shape != "browInnerUp"
+            ]
+            found = np.delete(floors[method, calibrated], OUTPUTS.index("browInnerUp"))
+            np.testing.assert_allclose(found, recorded, atol=tolerance)
+    assert not np.allclose(
+        floors["ridge, same rows", True], floors["ridge, undisplaced rows", True], equal_nan=True
+    )
+    assert set(model.record["floors"]) == {
+        "ridge",
+        "ridge_same_rows",
+        "calibrated_ridge",
+        "calibrated_ridge_same_rows",
+    }
+
+
+def test_the_page_shows_every_probe(measured, page):
+    for title in (
+        "noise leaves",
+        "Turned heads",
+        "person to person",
+        "leaks into",
+        "One eye shut",
+        "worst faces",
+    ):
+        assert title in page
+    drawings = 1 + 3 + 1 + 31  # bars, regressions, mean and small curves
+    assert page.count("<svg") == drawings + 2 * (3 + len(measured.people_errors[0].worst))
+    assert "The test curve lies under the others" in page
+    start = page.index("What noise leaves")
+    first = re.search(r"networks</td>((?:<td>[^<]+</td>)+)", page[start:]).group(1)
+    shown = [float(text.replace("\N{MINUS SIGN}", "-")) for text in re.findall(r"<td>([^<]+)<", first)]
+    visible = [OUTPUTS.index(name) for name in VISIBLE_SHAPES]
+    assert shown == pytest.approx(np.nanmean(measured.observability[0].r2[:, visible], axis=1), abs=6e-4)
+
+
+def test_the_command_writes_page_and_figures(model, measured, folder, run, tmp_path):
+    save_model(model, tmp_path / "model")
+    page, figures = tmp_path / "report.html", tmp_path / "figures.json"
+    code, said, _ = run("report", tmp_path / "model", "--data", folder, "--out", page, "--figures", figures)
+    assert code == 0
+    assert said.strip() == str(page)
+    found = json.loads(figures.read_text())  # measured a second time: equal to the last digit
+    assert found == json.loads(json.dumps(figures_of(measured)))
+    assert len(found["poses"][0]["loss"]) == len(OUTPUTS)
+
+
+def test_figures_without_data_are_refused(quick_model_folder, run, tmp_path):
+    code, _, said = run("report", quick_model_folder, "--figures", tmp_path / "figures.json")
+    assert code == 2
+    assert "--data" in said
+
+
+def test_another_dataset_than_the_models_is_refused(quick_model, folder):
+    with pytest.raises(InputError, match=r"SHA-256 .*give the dataset that it was trained on"):
+        measure(quick_model, folder)
+
+
+def test_a_dataset_without_exact_points_is_refused(quick_model, dataset, dataset_folder):
+    with pytest.raises(InputError, match=r"lacks the column 'points_2d'.*leave --data out"):
+        read_faces(dataset_folder)
+
+
+def test_people_without_a_neutral_face_are_said(folder):
+    faces = read_faces(folder)
+    expressive = faces.take(np.flatnonzero(~faces.neutral))
+    with pytest.raises(InputError, match="no face of the test split beside a neutral one"):
+        expressive.beside_neutral("test")
