@@ -82,7 +82,7 @@ $(MODEL)/model.json: $(MADE)
 	$(BIN)/regress train $(OUT) --out $(MODEL)
 
 $(MODEL)/report.html: $(MODEL)/model.json
-	$(BIN)/regress report $(MODEL) --out $@
+	$(BIN)/regress report $(MODEL) --data $(OUT) --out $@
 
 $(MODEL)/exports/.made: $(MODEL)/model.json
 	$(BIN)/regress export $(MODEL) --out $(MODEL)/exports

@@ -42,14 +42,11 @@ class CrossTalk:
     change : (O, O) float64
         A row a moved shape (with what :func:`moved_with` says), a column an output; ``WEIGHT`` for what is moved
         and 0 elsewhere would be perfect.
-    wink : (2,) float64
-        One eye closed whole (weight 1), mean of both sides: change of that eye's blink, and of the other eye's.
     """
 
     method: str
     calibrated: bool
     change: np.ndarray
-    wink: np.ndarray
 
     def largest(self, count: int) -> tuple[tuple[str, str, float], ...]:
         """The largest leaks: the moved shape, the output, its mean change."""
@@ -75,14 +72,8 @@ def cross_talk(method: Method, neutral: ProbeFaces, moves: Movements) -> CrossTa
         below = {_ON_TOP[name]: WEIGHT} if name in _ON_TOP else {}
         moved = dict.fromkeys(moved_with(name), WEIGHT)
         change.append(outputs(**below, **moved) - outputs(**below))
-    left, right = OUTPUTS.index("eyeBlinkLeft"), OUTPUTS.index("eyeBlinkRight")
-    rest, left_shut, right_shut = outputs(), outputs(eyeBlinkLeft=1.0), outputs(eyeBlinkRight=1.0)
-    shut, open_ = (
-        (left_shut[a] - rest[a] + right_shut[b] - rest[b]) / 2 for a, b in ((left, right), (right, left))
-    )
     return CrossTalk(
         method=method.name,
         calibrated=method.calibrated,
         change=np.array(change),
-        wink=np.array([shut, open_]),
     )

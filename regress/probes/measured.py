@@ -17,6 +17,7 @@ from regress.probes.observability import NOISE_PERCENT, Observability, observabi
 from regress.probes.people import PersonErrors, person_errors
 from regress.probes.poses import PITCH_DEG, YAW_DEG, PoseErrors, pose_errors
 from regress.probes.stillness import JITTER_PERCENT, Stillness, stillness
+from regress.probes.winks import Winks, winks
 from regress.targets import OUTPUTS
 from regress.training import read_dataset
 
@@ -31,24 +32,27 @@ class Measured:
         Of the test split: faces with an expression, and people.
     pose_spread_deg : (2,) float64
         Standard deviation of yaw and pitch over the training faces.
-    movement_residual_m : float
-        See :class:`regress.probes.movements.Movements`.
+    movement_residual_m : float or None
+        See :class:`regress.probes.movements.Movements`; None where the dataset has no neutral faces.
     observability : tuple of Observability
         Networks first, then the ridge regressions.
     poses : tuple of PoseErrors
     people_errors : tuple of PersonErrors
     cross_talk : tuple of CrossTalk
+    winks : tuple of Winks
+        Both empty where the dataset has no neutral faces.
     stillness : tuple of Stillness
     """
 
     faces: int
     people: int
     pose_spread_deg: np.ndarray
-    movement_residual_m: float
+    movement_residual_m: float | None
     observability: tuple[Observability, ...]
     poses: tuple[PoseErrors, ...]
     people_errors: tuple[PersonErrors, ...]
     cross_talk: tuple[CrossTalk, ...]
+    winks: tuple[Winks, ...]
     stillness: tuple[Stillness, ...]
 
 
@@ -58,7 +62,7 @@ def measure(model: Model, folder: Path) -> Measured:
     Raises
     ------
     InputError
-        Where the dataset is another than the model's, or lacks a column or neutral faces.
+        Where the dataset is another than the model's, or lacks a column.
     """
     dataset = read_dataset(folder)
     expected = model.record.get("dataset", {}).get("keypoints_sha256")
@@ -68,21 +72,26 @@ def measure(model: Model, folder: Path) -> Measured:
             f"{expected}; give the dataset that it was trained on, whose test people it has not seen"
         )
     everyone = read_faces(folder)
-    seen, seen_neutral = everyone.beside_neutral("train")
-    faces, neutral = everyone.beside_neutral("test")
-    _, first = np.unique(neutral.person, return_index=True)
-    people = neutral.take(first)
-    moves = movements(seen, seen_neutral)
+    seen = everyone.take(np.flatnonzero(everyone.split == "train"))
     networks = networks_of(model)
+    if dataset.has_neutral_frames:
+        faces, neutral = everyone.beside_neutral("test")
+        _, first = np.unique(neutral.person, return_index=True)
+        people = neutral.take(first)
+        moves = movements(*everyone.beside_neutral("train"))
+    else:  # then the model has no networks that would look at a neutral frame
+        faces = neutral = everyone.take(np.flatnonzero(everyone.split == "test"))
+        people = moves = None
     return Measured(
         faces=len(faces.person),
-        people=len(people.person),
+        people=len(np.unique(faces.person)),
         pose_spread_deg=np.array([angle.std() for angle in seen.pose_deg]),
-        movement_residual_m=moves.residual_m,
+        movement_residual_m=None if moves is None else moves.residual_m,
         observability=observability((*networks, *ridges_of(model, dataset)), faces, neutral),
         poses=pose_errors(networks, faces, neutral),
         people_errors=tuple(person_errors(method, faces, neutral) for method in networks),
-        cross_talk=tuple(cross_talk(method, people, moves) for method in networks),
+        cross_talk=() if moves is None else tuple(cross_talk(method, people, moves) for method in networks),
+        winks=() if moves is None else tuple(winks(method, faces, neutral) for method in networks),
         stillness=tuple(stillness(method, faces, neutral, people) for method in networks),
     )
 

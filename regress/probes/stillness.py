@@ -6,6 +6,7 @@ import numpy as np
 
 from regress.probes.faces import ProbeFaces
 from regress.probes.methods import Method
+from regress.targets import OUTPUTS
 from regress.training.noise import displace
 
 JITTER_PERCENT = (0.1, 0.5)
@@ -24,8 +25,8 @@ class Stillness:
     method : str
     calibrated : bool
     neutral_mean, neutral_high : (O,) float64
-        Mean and 95th percentile of each output on neutral faces as their cameras see them. A method that sees a
-        neutral frame is given the same face frontally, so that what is left is the pose.
+        Mean and 95th percentile of each output on neutral faces as their cameras see them; NaN where a dataset has
+        none. A method that sees a neutral frame is given the same face frontally, so that what is left is the pose.
     jitter : (J, O) float64
         Standard deviation of each output over frames of a still face with an expression, root mean square over
         faces, at each of ``JITTER_PERCENT``.
@@ -38,7 +39,7 @@ class Stillness:
     jitter: np.ndarray
 
 
-def stillness(method: Method, faces: ProbeFaces, neutral: ProbeFaces, people: ProbeFaces) -> Stillness:
+def stillness(method: Method, faces: ProbeFaces, neutral: ProbeFaces, people: ProbeFaces | None) -> Stillness:
     """Ask a method about still faces.
 
     Parameters
@@ -46,16 +47,18 @@ def stillness(method: Method, faces: ProbeFaces, neutral: ProbeFaces, people: Pr
     faces, neutral
         With an expression, and row by row the same people's neutral ones.
     people
-        One neutral face a person.
+        One neutral face a person, where there are any.
     """
-    at_rest = method.predict(people.points_px, people.turned(yaw_deg=0, pitch_deg=0))
+    at_rest = np.full((1, len(OUTPUTS)), np.nan)
+    if people is not None:
+        at_rest = method.predict(people.points_px, people.turned(yaw_deg=0, pitch_deg=0))
     held, beside = faces.some(_FACES).points_px, neutral.some(_FACES).points_px
     held, beside = (np.repeat(points, _FRAMES, axis=0) for points in (held, beside))
     jitter = []
     for percent in JITTER_PERCENT:
         rng = np.random.default_rng(_NOISE_SEED)
         shown = displace(held, percent / 100 * rng.standard_normal(held.shape))
-        frames = method.predict(shown, beside).reshape(-1, _FRAMES, at_rest.shape[1])
+        frames = method.predict(shown, beside).reshape(-1, _FRAMES, len(OUTPUTS))
         jitter.append(np.sqrt(frames.var(axis=1).mean(axis=0)))
     return Stillness(
         method=method.name,

@@ -13,6 +13,7 @@ from regress.probes.observability import NOISE_PERCENT, Observability
 from regress.probes.people import PersonErrors
 from regress.probes.poses import PITCH_DEG, WITHIN_DEG, YAW_DEG, PoseErrors
 from regress.probes.stillness import JITTER_PERCENT, Stillness
+from regress.probes.winks import SHUT, Winks
 from regress.report.content import PARTLY_R2, SEEN_R2
 from regress.report.heatmap import leak_map, pose_map
 from regress.report.histogram import histogram
@@ -34,14 +35,14 @@ class Part:
     noise, pose, stillness : tuple of (region, tuple of (shape, figures))
         Rows of tables; figures are floats in the order of the table's head.
     pose_map, people, leaks : Markup
-        Drawings.
+        Drawings; no ``leaks`` without neutral faces.
     pose_worst : tuple of (str, float)
         Visible shapes that turning costs most R2.
     pose_loss, pose_mae_rise : float
         Mean over the visible shapes.
     person_median, person_high, person_worst : float
         Of the mean absolute error: median, 95th percentile and the worst.
-    wink : (2,) float64
+    wink : Winks or None
     largest_leaks : tuple of (moved, output, change)
     neutral_worst : tuple of (str, float)
     neutral_mean : float
@@ -57,14 +58,14 @@ class Part:
     stillness: tuple
     pose_map: Markup
     people: Markup
-    leaks: Markup
+    leaks: Markup | None
     pose_worst: tuple[tuple[str, float], ...]
     pose_loss: float
     pose_mae_rise: float
     person_median: float
     person_high: float
     person_worst: float
-    wink: np.ndarray
+    wink: Winks | None
     largest_leaks: tuple[tuple[str, str, float], ...]
     neutral_worst: tuple[tuple[str, float], ...]
     neutral_mean: float
@@ -82,7 +83,7 @@ class Probed:
     pose_spread_deg : (2,) float64
     movement_residual_mm : float
     noise_percent, jitter_percent : tuple of float
-    within_deg, weight : float
+    within_deg, weight, shut : float
     two_ridges : bool
         Whether the networks' rows were displaced, so that two ridge regressions are shown.
     summary : tuple of (title, method, over, figures)
@@ -98,6 +99,7 @@ class Probed:
     jitter_percent: tuple[float, ...]
     within_deg: float
     weight: float
+    shut: float
     two_ridges: bool
     summary: tuple
     parts: tuple[Part, ...]
@@ -106,16 +108,25 @@ class Probed:
 def probed_of(measured: Measured) -> Probed:
     """Prepare what was measured for the page."""
     most = max(errors.mae[..., _VISIBLE].mean(axis=-1).max() for errors in measured.poses)
-    parts = zip(measured.poses, measured.people_errors, measured.cross_talk, measured.stillness, strict=True)
+    nothing = (None,) * len(measured.poses)  # known of leaks and winks without neutral faces
+    parts = zip(
+        measured.poses,
+        measured.people_errors,
+        measured.cross_talk or nothing,
+        measured.winks or nothing,
+        measured.stillness,
+        strict=True,
+    )
     return Probed(
         faces=measured.faces,
         people=measured.people,
         pose_spread_deg=measured.pose_spread_deg,
-        movement_residual_mm=1000 * measured.movement_residual_m,
+        movement_residual_mm=1000 * (measured.movement_residual_m or 0.0),
         noise_percent=NOISE_PERCENT,
         jitter_percent=JITTER_PERCENT,
         within_deg=WITHIN_DEG,
         weight=WEIGHT,
+        shut=SHUT,
         two_ridges=any(one.method == "ridge, same rows" for one in measured.observability),
         summary=_summary(measured.observability),
         parts=tuple(_part(measured.observability, *found, most=float(most)) for found in parts),
@@ -147,7 +158,8 @@ def _part(
     observed: Sequence[Observability],
     poses: PoseErrors,
     people: PersonErrors,
-    talk: CrossTalk,
+    talk: CrossTalk | None,
+    wink: Winks | None,
     still: Stillness,
     *,
     most: float,
@@ -165,15 +177,15 @@ def _part(
             pose_map(poses.mae[..., _VISIBLE].mean(axis=-1), yaw_deg=YAW_DEG, pitch_deg=PITCH_DEG, most=most)
         ),
         people=Markup(histogram(people.mae)),
-        leaks=Markup(leak_map(talk.change, OUTPUTS, full=WEIGHT)),
+        leaks=talk and Markup(leak_map(talk.change, OUTPUTS, full=WEIGHT)),
         pose_worst=_largest(np.where(visible, poses.loss, np.nan), 5),
         pose_loss=float(np.nanmean(poses.loss[_VISIBLE])),
         pose_mae_rise=float(poses.mae_rise[_VISIBLE].mean()),
         person_median=float(np.median(people.mae)),
         person_high=float(np.percentile(people.mae, 95)),
         person_worst=float(people.mae[0]),
-        wink=talk.wink,
-        largest_leaks=talk.largest(12),
+        wink=wink,
+        largest_leaks=() if talk is None else talk.largest(12),
         neutral_worst=_largest(still.neutral_mean, 5),
         neutral_mean=float(still.neutral_mean.mean()),
         jitter=still.jitter[:, _VISIBLE].mean(axis=1),

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES
+from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS
 from facegen.geometry import rotation_from_angles
 from regress.training import KeypointDataset
 
@@ -90,6 +90,9 @@ def drawn_heads(
     flat = drawn_dataset(rng, people=people, faces_each=faces_each)
     count = len(flat.person)
     modes = np.random.default_rng(SHAPE_MODES_SEED).normal(size=(len(BLENDSHAPES), 68, 3)) * 0.03
+    for name, mode in zip(BLENDSHAPES, modes, strict=True):  # an eye's shapes leave the other eye's lids alone
+        if name.startswith("eye"):
+            mode[list(LANDMARK_GROUPS["right_eye" if name.endswith("Left") else "left_eye"])] = 0
     likeness = np.repeat(rng.normal(size=(people, 68, 3)) * 0.01, faces_each, axis=0)
     face = np.concatenate([drawn_face() * [1, -1], np.zeros((68, 1))], axis=1)
     face[:, 2] = 0.6 - 0.6 * (face**2).sum(axis=1)  # a dome: turning it shifts its middle

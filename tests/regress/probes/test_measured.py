@@ -1,5 +1,6 @@
 """All probes on a trained model, as the page and the JSON file tell them."""
 
+import dataclasses
 import json
 import math
 import re
@@ -138,6 +139,22 @@ def test_another_dataset_than_the_models_is_refused(quick_model, folder):
 def test_a_dataset_without_exact_points_is_refused(quick_model, dataset, dataset_folder):
     with pytest.raises(InputError, match=r"lacks the column 'points_2d'.*leave --data out"):
         read_faces(dataset_folder)
+
+
+def test_a_dataset_without_neutral_faces_has_the_other_probes(model, folder, tmp_path):
+    dataset, columns = drawn_heads(np.random.default_rng(8), people=50)
+    rows = np.flatnonzero(~dataset.neutral)
+    columns = {name: values[rows] for name, values in columns.items()}
+    write_dataset(dataset.take(rows), tmp_path / "data", more=columns)
+    given = read_dataset(tmp_path / "data")
+    record = {**model.record, "dataset": {**model.record["dataset"], "keypoints_sha256": given.sha256}}
+    alone = dataclasses.replace(model, calibrated=None, record=record)
+    found = measure(alone, tmp_path / "data")
+    assert found.cross_talk == ()
+    assert len(found.poses) == len(found.stillness) == 1
+    page = write_report(alone, tmp_path / "report.html", found).read_text()
+    assert "no neutral faces" in page
+    assert "leaks into" not in page
 
 
 def test_people_without_a_neutral_face_are_said(folder):

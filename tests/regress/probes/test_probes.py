@@ -17,6 +17,7 @@ from regress.probes.observability import NOISE_PERCENT, observability
 from regress.probes.people import person_errors
 from regress.probes.poses import PITCH_DEG, WITHIN_DEG, YAW_DEG, PoseErrors, pose_errors
 from regress.probes.stillness import JITTER_PERCENT, stillness
+from regress.probes.winks import winks
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 from regress.training.noise import OUTER_EYES
 from regress.training.preparation import OUTPUT_COLUMNS
@@ -116,7 +117,31 @@ def test_a_known_mixture_of_outputs_is_the_leak_that_is_found(everyone, held_out
                 talk.change[row], WEIGHT * mixture[together].sum(axis=0), atol=2e-3, err_msg=name
             )
     assert talk.largest(1)[0] == ("jawOpen", "mouthSmileLeft", pytest.approx(-0.3 * WEIGHT, abs=2e-3))
-    np.testing.assert_allclose(talk.wink, [1.0, 0.15], atol=2e-3)
+
+
+def test_a_wink_shuts_one_eye_and_leaves_the_face_neutral(held_out):
+    faces, neutral = held_out
+    blinks = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
+    faces = replace(faces, weights=faces.weights.copy())
+    faces.weights[:, blinks] = 0.0
+    faces.weights[:5, blinks] = [0.95, 1.0]
+    asked = []
+
+    def read(points, beside):
+        asked.append((points, beside))
+        said = np.zeros((len(points), len(OUTPUTS)))
+        said[:, OUTPUTS.index("eyeBlinkLeft")], said[:, OUTPUTS.index("eyeBlinkRight")] = 0.7, 0.1
+        return said
+
+    found = winks(method(read), faces, neutral)
+    assert found.count == 5
+    assert found.true == pytest.approx(0.975)
+    assert (found.shut, found.leak) == pytest.approx((0.4, 0.4))  # once 0.7 and 0.1, once the other way round
+    shut = frontal(faces.points_m, neutral)[:5]
+    for (points, beside), lids in zip(asked, (range(42, 48), range(36, 42)), strict=True):
+        np.testing.assert_allclose(points[:, list(lids)], shut[:, list(lids)], atol=1e-9)
+        rest = np.setdiff1d(np.arange(68), lids)
+        np.testing.assert_array_equal(points[:, rest], beside[:, rest])
 
 
 def test_gaze_moves_both_eyes_the_same_way():

@@ -1,0 +1,59 @@
+"""One eye shut: does the other eye's blink stay at rest?"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_GROUPS
+from regress.probes.faces import ProbeFaces, frontal
+from regress.probes.methods import Method
+from regress.targets import OUTPUTS
+
+SHUT = 0.9
+"""Both blinks reach this in the faces that lend their lids."""
+
+_SIDES = (("Left", "Right"), ("Right", "Left"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Winks:
+    """Blinks that one method sees on frontal faces of which one eye is shut.
+
+    The face is a person's neutral one with the lids of one eye from a face of the same person with both eyes shut:
+    lids close on the ball, which no sum of displacements gives, and few people of a dataset wink.
+
+    Parameters
+    ----------
+    method : str
+    calibrated : bool
+    count : int
+        Faces with both eyes shut, each of which gives two winks.
+    true, shut, leak : float
+        Mean true weight of the shut eye's blink, what is said of it, and what is said of the open eye's; NaN where
+        nobody shuts the eyes.
+    """
+
+    method: str
+    calibrated: bool
+    count: int
+    true: float
+    shut: float
+    leak: float
+
+
+def winks(method: Method, faces: ProbeFaces, neutral: ProbeFaces) -> Winks:
+    """Let everyone wink who shuts both eyes in ``faces``; ``neutral`` are the same people's neutral faces."""
+    both = np.minimum(*(faces.weights[:, BLENDSHAPE_INDEX[f"eyeBlink{side}"]] for side, _ in _SIDES))
+    rows = np.flatnonzero(both >= SHUT)
+    faces, neutral = faces.take(rows), neutral.take(rows)
+    said = {"true": [], "shut": [], "leak": []}
+    for side, other in _SIDES if len(rows) else ():
+        lids = list(LANDMARK_GROUPS[f"{side.lower()}_eye"])
+        points_m = neutral.points_m.copy()
+        points_m[:, lids] = faces.points_m[:, lids]
+        outputs = method.predict(frontal(points_m, neutral), frontal(neutral.points_m, neutral))
+        said["true"].append(faces.weights[:, BLENDSHAPE_INDEX[f"eyeBlink{side}"]])
+        said["shut"].append(outputs[:, OUTPUTS.index(f"eyeBlink{side}")])
+        said["leak"].append(outputs[:, OUTPUTS.index(f"eyeBlink{other}")])
+    means = {name: float(np.mean(values)) if values else float("nan") for name, values in said.items()}
+    return Winks(method=method.name, calibrated=method.calibrated, count=len(rows), **means)
