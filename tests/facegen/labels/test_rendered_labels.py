@@ -5,6 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
+from facegen.conventions import Visibility
+from facegen.headsets import Lens
 from facegen.labels import label_rendered
 from facegen.labels import rendered as module
 from facegen.sampling import draw_samples
@@ -66,3 +68,24 @@ def test_keypoints_do_not_change_with_units_shots_or_rooms(dataset):
     assert all(dark[view.name] and dark[view.name] not in view.lamps for view in other.scene.views)
     assert not {*dark.values()} & {lamp for view in other.views.values() for lamp in view.glints.lamps}
     assert other.headset.cameras[0].fx == dataset.headset.cameras[0].fx
+
+
+def test_what_the_rim_of_a_lens_covers_is_hidden(dataset):
+    block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(0, 1))
+
+    def labels(radius: float | None):
+        lens = Lens(aperture_radius=radius)
+        cameras = tuple(dataclasses.replace(camera, lens=lens) for camera in dataset.headset.cameras)
+        headset = dataclasses.replace(dataset.headset, cameras=cameras)
+        return label_rendered(dataset.spec, dataset.rig, headset, block).views["left_eye"]
+
+    clear, covered = labels(None), labels(0.25)
+    middle = (64 - 1) / 2
+    outside = np.linalg.norm(clear.points_2d - middle, axis=-1) > 0.25 * 64
+    assert (clear.visibility[outside] == Visibility.VISIBLE).any()
+    assert (clear.visibility[~outside] == Visibility.VISIBLE).any()
+    assert (covered.visibility[outside] == np.minimum(clear.visibility[outside], Visibility.HIDDEN)).all()
+    assert (covered.visibility[~outside] == clear.visibility[~outside]).all()
+    aside = np.linalg.norm(clear.glints.points_2d - middle, axis=-1) > 0.25 * 64
+    assert clear.glints.seen[aside].any()
+    assert (covered.glints.seen == (clear.glints.seen & ~aside)).all()

@@ -147,7 +147,13 @@ def test_coco_opens_in_pycocotools(rendered, tmp_path):
         assert not found[~labelled].any()
         assert annotation["num_keypoints"] == labelled.sum() > 0
         x, y, width, height = annotation["bbox"]
-        assert (0 <= x) & (x + width <= image["width"]) & (0 <= y) & (y + height <= image["height"])
+        # pixels are counted from the middle of the first one: the picture goes from -0.5 to its width - 0.5
+        assert (
+            (-0.5 <= x)
+            & (x + width < image["width"] - 0.5)
+            & (-0.5 <= y)
+            & (y + height < image["height"] - 0.5)
+        )
 
 
 def test_memory_does_not_grow_with_the_number_of_samples(rendered, tmp_path):
