@@ -21,6 +21,10 @@ from facegen.validation.ranges import impossible
 DEPTH_M = 1e-3
 """A visible landmark's depth must be this near to the best of the 3x3 pixels around it."""
 
+STRANDS = (Part.LASHES, Part.HAIR)
+STRANDS_M = 12e-3
+"""Strands hide no landmark (docs/conventions.md), and stand no further than this before their skin: a lash's length."""
+
 SIDECAR = "sample.json"
 
 
@@ -174,9 +178,14 @@ def _check_view(record: dict, name: str, grey: np.ndarray, layers: Layers) -> _W
 
 
 def depth_difference(layers: Layers, pixel: np.ndarray, depth_m: float) -> float:
-    """Smallest difference in metres between a depth and those of the 3x3 pixels around a point (x, y)."""
+    """Smallest difference in metres between a depth and those of the 3x3 pixels around a point (x, y).
+
+    0 where one of them shows a hair or lash that stands before the point: it hides no landmark, but its skin.
+    """
     if not np.isfinite(pixel).all():
         return float("inf")
     x, y = np.round(pixel).astype(int)
-    near = layers.depth[max(y - 1, 0) : max(y + 2, 0), max(x - 1, 0) : max(x + 2, 0)]
-    return float(np.min(np.abs(near.astype(np.float64) - depth_m), initial=np.inf))
+    around = slice(max(y - 1, 0), max(y + 2, 0)), slice(max(x - 1, 0), max(x + 2, 0))
+    difference = np.abs(layers.depth[around].astype(np.float64) - depth_m)
+    strands = np.isin(layers.part[around], STRANDS) & (layers.depth[around] < depth_m)
+    return float(np.min(np.where(strands & (difference < STRANDS_M), 0.0, difference), initial=np.inf))
