@@ -35,6 +35,8 @@ class RenderedSample:
         The session's unit of the headset.
     head_from_headset
         (4, 4) how it sits.
+    donning, slip
+        (6,) by how much it sits off, as `realised_fit` has them; the pose has both in it.
     views, shots
         Labels and circumstances by camera name.
     """
@@ -45,16 +47,18 @@ class RenderedSample:
     eyes: tuple[EyeGeometry, EyeGeometry]
     headset: Headset
     head_from_headset: np.ndarray
+    donning: np.ndarray
+    slip: np.ndarray
     views: dict[str, ViewLabels]
     shots: dict[str, Shot]
 
 
-def realised_donning(headset: Headset, samples: Samples) -> np.ndarray:
-    """(6,) metres and radians by which the headset sits off: this session's donning plus this frame's slip."""
+def realised_fit(headset: Headset, samples: Samples) -> tuple[np.ndarray, np.ndarray]:
+    """Donning and slip (6,) of one sample: metres along the head's x, y, z, radians of yaw, pitch and roll."""
     limits = headset.tolerances
     donning_sd = np.array([*np.multiply(limits.donning_mm, 1e-3), *np.radians(limits.donning_deg)])
     slip_sd = np.array([*np.multiply(limits.slip_mm, 1e-3), *np.radians(limits.slip_deg)])
-    return samples.donning[0] * donning_sd + samples.slip[0] * slip_sd
+    return samples.donning[0] * donning_sd, samples.slip[0] * slip_sd
 
 
 def session_unit(spec: Spec, headset: Headset, session: int) -> Headset:
@@ -77,7 +81,8 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
     session, sample = int(samples.session[0]), int(samples.sample[0])
     unit = session_unit(spec, headset, session)
     nose_bridge = neutral_landmarks(rig, samples.identity)[0, NOSE_BRIDGE]
-    fit = head_from_headset(unit, nose_bridge, realised_donning(headset, samples))
+    donning, slip = realised_fit(headset, samples)
+    fit = head_from_headset(unit, nose_bridge, donning + slip)
     look = draw_look(stream(spec.seed, "look", int(samples.person[0])), rig)
     scene = assemble(rig, face.vertices[0], (left, right), unit, fit, look=look)
     shots = {
@@ -101,6 +106,8 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
         eyes=eyes,
         headset=unit,
         head_from_headset=fit,
+        donning=donning,
+        slip=slip,
         views=views,
         shots=shots,
     )

@@ -54,6 +54,8 @@ def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> d
         "headset": {
             "name": rendered.headset.name,
             "head_from_headset": rendered.head_from_headset.tolist(),
+            "donning": rendered.donning.tolist(),
+            "slip": rendered.slip.tolist(),
             "lamps": [_lamp(lamp) for lamp in rendered.scene.lamps],
             "sensor": asdict(rendered.headset.sensor),
         },

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from facegen.conventions import Visibility
-from facegen.headsets import Lens
+from facegen.geometry import rotation_from_angles
+from facegen.headsets import Lens, Tolerances
 from facegen.labels import label_rendered
 from facegen.labels import rendered as module
 from facegen.sampling import draw_samples
@@ -68,6 +69,22 @@ def test_keypoints_do_not_change_with_units_shots_or_rooms(dataset):
     assert all(dark[view.name] and dark[view.name] not in view.lamps for view in other.scene.views)
     assert not {*dark.values()} & {lamp for view in other.views.values() for lamp in view.glints.lamps}
     assert other.headset.cameras[0].fx == dataset.headset.cameras[0].fx
+
+
+def test_donning_and_slip_make_the_pose(dataset):
+    block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(0, 1))
+    record = sample_record(
+        label_rendered(dataset.spec, dataset.rig, dataset.headset, block), rig="anny", dataset_hash=""
+    )
+    tight = dataclasses.replace(dataset.headset, tolerances=Tolerances())
+    rest = label_rendered(dataset.spec, dataset.rig, tight, block)
+    assert not rest.donning.any()
+    assert not rest.slip.any()
+    off = np.add(record["headset"]["donning"], record["headset"]["slip"])
+    assert 1e-4 < np.abs(off[:3]).max() < 2e-2
+    pose = np.array(record["headset"]["head_from_headset"])
+    assert np.allclose(pose[:3, 3], rest.head_from_headset[:3, 3] + off[:3])
+    assert np.allclose(pose[:3, :3], rotation_from_angles(*off[3:]))
 
 
 def test_what_the_rim_of_a_lens_covers_is_hidden(dataset):
