@@ -90,7 +90,8 @@ def drawn_heads(
     flat = drawn_dataset(rng, people=people, faces_each=faces_each)
     count = len(flat.person)
     modes = np.random.default_rng(SHAPE_MODES_SEED).normal(size=(len(BLENDSHAPES), 68, 3)) * 0.03
-    for name, mode in zip(BLENDSHAPES, modes, strict=True):  # an eye's shapes leave the other eye's lids alone
+    # an eye's shapes leave the other eye's lids alone
+    for name, mode in zip(BLENDSHAPES, modes, strict=True):
         if name.startswith("eye"):
             mode[list(LANDMARK_GROUPS["right_eye" if name.endswith("Left") else "left_eye"])] = 0
     likeness = np.repeat(rng.normal(size=(people, 68, 3)) * 0.01, faces_each, axis=0)
