@@ -21,7 +21,7 @@ BLENDER_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 """Blender's cameras look along -z with y up."""
 CLIP_M = (1e-3, 10.0)
 """Blender's default near plane of 0.1 m would hide a whole headset."""
-ABOUT_EQUAL = 1.5
+ABOUT_EQUAL = 1.3
 """Lamps whose powers differ by no more than this factor count as equal: units of one kind differ by 5 %."""
 NOTHING_M = 1e9
 """Cycles writes 1e10 where a ray meets nothing."""
