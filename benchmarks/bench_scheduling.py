@@ -5,11 +5,11 @@ Run on an idle machine, from the repository: python benchmarks/bench_scheduling.
 It prints its figures under a header with the machine and the versions. The array runs on a Slurm of its own
 (Debian: slurmctld slurmd slurm-client munge) and is left out where there is none.
 
-Result (2026-11-21, idle machine with 2 processors, AMD EPYC; bpy 4.5.15, NumPy 1.26.4; `--samples 100000 --pictures 20`):
-100,000 samples without pictures take one worker 25.7 s, two 15.0 s (1.71x), a Slurm array of one task a shard 48.0 s:
-each of its ten tasks starts Python anew. 20 samples of three 128x128 views take one worker 57.4 s, two 30.1 s with
-starting (1.91x), and 22.7 against 46.3 samples a minute once going (2.04x: alone, Blender's two threads share a
-processor); medians of 3.
+Result (2026-11-21, idle machine, 2 processors, AMD EPYC; bpy 4.5.15, NumPy 1.26.4; `--samples 100000 --pictures 20`):
+100,000 samples without pictures take one worker 25.7 s, two 15.0 s (1.71x), a Slurm array of ten tasks, one a shard,
+48.0 s: each task starts Python anew. 20 samples of three 128x128 views take one worker 57.4 s, two 30.1 s with starting
+(1.91x), and 22.7 against 46.3 samples a minute once going (2.04x: alone, Blender's two threads share a processor);
+medians of 3.
 """
 
 import argparse
