@@ -18,7 +18,6 @@ import platform
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
@@ -32,12 +31,12 @@ from facegen.sampling.gaze import axes_from_weights
 from regress import Model, load_model
 from regress.features import extract
 from regress.inputs import read_frames
-from regress.networks import fit_ridge
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 from regress.training import evaluate_model, read_dataset
+from regress.training.baseline import Baseline, fit_baseline
 from regress.training.dataset import KeypointDataset
 from regress.training.noise import OUTER_EYES, displace, draw_bias
-from regress.training.preparation import OUTPUT_COLUMNS, prepare
+from regress.training.preparation import OUTPUT_COLUMNS
 
 TAKES = {"range of motion": "livelink/alex_rom_3.csv", "speech": "livelink/S07-001.csv"}
 CLIPS = ("landmarks/pyfeat_clip_001.csv", "landmarks/pyfeat_clip_007.csv")
@@ -54,37 +53,12 @@ CLIP_NEUTRAL_FRAMES = 3
 SEED = 7
 
 
-@dataclass(frozen=True, kw_only=True)
-class CalibratedRidge:
-    """Ridge regression on the calibrated networks' features.
-
-    Parameters
-    ----------
-    coefficients : (E, O) float64
-        On raw features less the neutral frame's.
-    offset : (O,) float64
-    """
-
-    coefficients: np.ndarray
-    offset: np.ndarray
-
-    def predict(self, model: Model, points: np.ndarray, neutral: np.ndarray) -> np.ndarray:
-        """Weights (n, 52) of points (n, 68, 2), given neutral frames (m, 68, 2)."""
-        origin = np.median(extract(model.features, neutral), axis=0)
-        weights = np.zeros((len(points), len(BLENDSHAPES)))
-        found = (extract(model.features, points) - origin) @ self.coefficients + self.offset
-        weights[:, OUTPUT_COLUMNS] = np.clip(found, 0, 1)
-        return weights
-
-
-def ridge_of(model: Model, dataset: KeypointDataset) -> CalibratedRidge:
-    """The floor: strengths chosen per shape on the validation split."""
-    prepared = prepare(dataset, model.features, mirror=False, calibrated=True)
-    train, held = prepared.splits["train"], prepared.splits["validation"]
-    found = fit_ridge(train.inputs, train.targets, held.inputs, held.targets)
-    z = prepared.normalisation
-    coefficients = (prepared.rotation @ found.coefficients) / z.feature_std[:, None] * z.target_std
-    return CalibratedRidge(coefficients=coefficients, offset=z.target_mean - z.feature_mean @ coefficients)
+def predict_ridge(ridge: Baseline, model: Model, points: np.ndarray, neutral: np.ndarray) -> np.ndarray:
+    """The floor's weights (n, 52) of points (n, 68, 2), given neutral frames (m, 68, 2)."""
+    origin = np.median(extract(model.features, neutral), axis=0)
+    weights = np.zeros((len(points), len(BLENDSHAPES)))
+    weights[:, OUTPUT_COLUMNS] = ridge.predict(extract(model.features, points) - origin)
+    return weights
 
 
 def project(rig: Rig, identity: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -121,7 +95,7 @@ def judge(predicted: np.ndarray, true: np.ndarray, shapes: list[str]) -> dict[st
     return figures
 
 
-def replay(model: Model, ridge: CalibratedRidge, real: Path, people: int, step: int) -> list[dict]:
+def replay(model: Model, ridge: Baseline, real: Path, people: int, step: int) -> list[dict]:
     """Part a: a row for every take, noise and bias."""
     rig = load_rig("ict")
     rng = np.random.default_rng(SEED)
@@ -142,7 +116,7 @@ def replay(model: Model, ridge: CalibratedRidge, real: Path, people: int, step: 
                     seen = seen + noise_px * noise.standard_normal(points.shape)
                     neutral, frames = seen[:NEUTRAL_FRAMES], seen[NEUTRAL_FRAMES:]
                     by_model.append(model.calibrate(neutral).predict(frames))
-                    by_ridge.append(ridge.predict(model, frames, neutral))
+                    by_ridge.append(predict_ridge(ridge, model, frames, neutral))
                 true = np.broadcast_to(weights, (people, *weights.shape))
                 rows.append(
                     {
@@ -261,7 +235,8 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="write all figures here")
     arguments = parser.parse_args()
     model = load_model(arguments.model)
-    ridge = ridge_of(model, read_dataset(arguments.dataset))
+    dataset = read_dataset(arguments.dataset)
+    ridge = fit_baseline(dataset, model.features, mirror=False, calibrated=True)
     figures = {
         "replay": replay(model, ridge, arguments.real, arguments.people, arguments.step),
         "clips": clips(model, arguments.real),
