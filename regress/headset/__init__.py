@@ -1,0 +1,20 @@
+"""Networks that see the pictures of a headset's cameras; training alone needs PyTorch (the extra ``headset``)."""
+
+from regress.headset.graph import Estimates, HeadsetGraph
+from regress.headset.model import (
+    GAZE_OUTPUTS,
+    CameraInput,
+    HeadsetModel,
+    read_headset_model,
+    save_headset_model,
+)
+
+__all__ = [
+    "GAZE_OUTPUTS",
+    "CameraInput",
+    "Estimates",
+    "HeadsetGraph",
+    "HeadsetModel",
+    "read_headset_model",
+    "save_headset_model",
+]

@@ -1,0 +1,117 @@
+"""The trained graph, run by onnxruntime on one core."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+
+from regress.errors import ModelError
+from regress.headset.model import GRAPH_OUTPUTS, CameraInput
+
+_BLOCK_ROWS = 64
+"""Frames run at a time: more need more memory and are no faster."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimates:
+    """What a network says of n frames.
+
+    Parameters
+    ----------
+    weights : (n, 52) float32
+        In [0, 1], in ``BLENDSHAPES`` order.
+    deviation : (n, 52) float32
+        Predicted standard deviation of each weight.
+    gaze : (n, 2, 2) float32
+        Yaw and pitch of the left and the right eye's optical axis, radians, head frame.
+    shares : (n, cameras, 52) float32
+        How much each camera had to say; they add up to 1 over the cameras.
+    same_seat : (n,) float32
+        Probability that the neutral pictures come from the frame's own seat of the headset.
+    """
+
+    weights: np.ndarray
+    deviation: np.ndarray
+    gaze: np.ndarray
+    shares: np.ndarray
+    same_seat: np.ndarray
+
+
+class HeadsetGraph:
+    """A session of onnxruntime on a graph whose inputs and outputs ``HeadsetModel`` describes.
+
+    Parameters
+    ----------
+    source
+        Path of network.onnx, or its bytes.
+    cameras
+        The model's cameras, in its order.
+
+    Raises
+    ------
+    ModelError
+        Where onnxruntime cannot read the graph, or it lacks an input of a camera.
+    """
+
+    def __init__(self, source: str | os.PathLike[str] | bytes, cameras: tuple[CameraInput, ...]) -> None:
+        options = onnxruntime.SessionOptions()
+        options.intra_op_num_threads = options.inter_op_num_threads = 1
+        options.log_severity_level = 3
+        data = source if isinstance(source, bytes) else Path(source).read_bytes()
+        try:
+            self._session = onnxruntime.InferenceSession(data, options, providers=["CPUExecutionProvider"])
+        except Exception as error:  # onnxruntime's own classes share no public base
+            raise ModelError(f"network.onnx is not a graph that onnxruntime reads: {error}") from error
+        self._cameras = cameras
+        known = {value.name for value in self._session.get_inputs()}
+        lost = {f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")} - known
+        if lost:
+            raise ModelError(f"network.onnx has no input {', '.join(sorted(lost))}; model.json names them")
+
+    def run(
+        self,
+        pictures: dict[str, np.ndarray],
+        *,
+        neutral: dict[str, np.ndarray] | None = None,
+        present: np.ndarray | None = None,
+        calibrated: np.ndarray | None = None,
+    ) -> Estimates:
+        """Estimates of n frames.
+
+        Parameters
+        ----------
+        pictures : dict of (n, height, width) uint8
+            By camera; one that is left out counts as not present.
+        neutral : dict of (n, height, width) uint8 or None
+            Neutral pictures for each frame; None means uncalibrated.
+        present : (n, cameras) float or None
+            0 where a camera is not to be listened to.
+        calibrated : (n,) float or None
+            1 where the neutral pictures count; all, where they are given.
+        """
+        rows = len(next(iter(pictures.values())))
+        here = np.ones((rows, len(self._cameras)), np.float32)
+        if present is not None:
+            here *= np.asarray(present, np.float32)
+        known = np.full(rows, float(neutral is not None), np.float32)
+        if calibrated is not None:
+            known *= np.asarray(calibrated, np.float32)
+        blocks = []
+        for start in range(0, max(rows, 1), _BLOCK_ROWS):
+            block = slice(start, start + _BLOCK_ROWS)
+            feed = {"present": here[block].copy(), "calibrated": known[block]}
+            for column, camera in enumerate(self._cameras):
+                blank = np.zeros((len(known[block]), camera.height, camera.width), np.uint8)
+                if camera.name not in pictures:
+                    feed["present"][:, column] = 0
+                feed[f"pictures_{camera.name}"] = _rows(pictures, camera.name, block, blank)
+                feed[f"neutral_{camera.name}"] = _rows(neutral or {}, camera.name, block, blank)
+            blocks.append(self._session.run(GRAPH_OUTPUTS, feed))
+        joined = map(np.concatenate, zip(*blocks, strict=True))
+        return Estimates(**dict(zip(GRAPH_OUTPUTS, joined, strict=True)))
+
+
+def _rows(arrays: dict[str, np.ndarray], name: str, block: slice, blank: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(arrays[name][block]) if name in arrays else blank

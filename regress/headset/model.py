@@ -1,0 +1,197 @@
+"""What a model folder of a headset network says of itself: model.json, beside network.onnx."""
+
+import hashlib
+import json
+import os
+import tempfile
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from facegen.conventions import BLENDSHAPES
+from regress.errors import ModelError, OutputError
+from regress.model import check_place
+
+KIND = "headset"
+VERSION = 1
+
+GAZE_OUTPUTS = ("gazeYawLeft", "gazePitchLeft", "gazeYawRight", "gazePitchRight")
+"""Radians in the head frame: yaw to the subject's left, pitch upwards, of each eye's optical axis."""
+
+GRAPH_OUTPUTS = ("weights", "deviation", "gaze", "shares", "same_seat")
+"""Outputs of network.onnx, in order."""
+
+ARCHITECTURES = ("modular", "holistic")
+CALIBRATIONS = ("optional", "none")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CameraInput:
+    """One camera's pictures as the graph takes them.
+
+    Parameters
+    ----------
+    name
+        For example ``"left_eye"``; the graph's inputs are ``pictures_left_eye`` and ``neutral_left_eye``.
+    width, height
+        Pixels of the pictures.
+    mirrored_of
+        Camera whose encoder sees this one's pictures mirrored; None where the camera has its own.
+    """
+
+    name: str
+    width: int
+    height: int
+    mirrored_of: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeadsetModel:
+    """Description of a trained network; the network itself is network.onnx in the same folder.
+
+    The graph takes for n frames ``pictures_<camera>`` and ``neutral_<camera>`` (n, height, width) uint8,
+    ``present`` (n, cameras) and ``calibrated`` (n,) float32, 0 or 1. It gives ``weights`` (n, 52) in [0, 1],
+    ``deviation`` (n, 52) their predicted standard deviation, ``gaze`` (n, 2, 2) yaw and pitch in radians of the
+    left and the right eye, ``shares`` (n, cameras, 52) how much each camera had to say, and ``same_seat`` (n,)
+    the probability that the neutral pictures come from the seat of the headset that the frame has.
+
+    Parameters
+    ----------
+    headset
+        Name of the headset's layout.
+    cameras
+        In the order of ``present`` and ``shares``.
+    parts
+        For each camera the shapes that it is made to see (``regress.headset.parts``).
+    modulation
+        Factor on a camera's share of shapes outside its part (the paper's eq. 6).
+    architecture
+        One of ``ARCHITECTURES``.
+    calibration
+        ``"optional"``: neutral pictures help; ``"none"``: they are not looked at.
+    weights
+        Names of the columns of ``weights``, ``deviation`` and ``shares``.
+    outputs
+        Names of the graph's outputs.
+    training
+        Every setting and figure of the training, unrounded.
+    scores
+        Figures on unseen people (``regress.headset.evaluation``).
+    dataset_hash, rig, licences
+        Of the data that it learned from.
+    network_sha256
+        Of network.onnx; empty until the model is written.
+    """
+
+    headset: str
+    cameras: tuple[CameraInput, ...]
+    parts: dict[str, tuple[str, ...]]
+    modulation: float
+    architecture: str
+    calibration: str
+    weights: tuple[str, ...] = BLENDSHAPES
+    outputs: tuple[str, ...] = GRAPH_OUTPUTS
+    training: dict[str, Any] = field(default_factory=dict)
+    scores: dict[str, Any] = field(default_factory=dict)
+    dataset_hash: str = ""
+    rig: str = ""
+    licences: tuple[str, ...] = ()
+    network_sha256: str = ""
+
+    @property
+    def camera_names(self) -> tuple[str, ...]:
+        """Names of the cameras, in the order of ``present``."""
+        return tuple(camera.name for camera in self.cameras)
+
+
+def save_headset_model(model: HeadsetModel, graph: bytes, folder: str | os.PathLike[str]) -> HeadsetModel:
+    """Write a model folder whole, by one rename; a folder that is already a model is replaced.
+
+    Parameters
+    ----------
+    graph
+        Bytes of network.onnx.
+
+    Returns
+    -------
+    HeadsetModel
+        The model as written, with the graph's SHA-256.
+
+    Raises
+    ------
+    OutputError
+        Where the place cannot be written, or holds something that is not a model.
+    """
+    folder = Path(folder)
+    check_place(folder)
+    document = {"kind": KIND, "version": VERSION, **asdict(model)}
+    document["network_sha256"] = hashlib.sha256(graph).hexdigest()
+    text = json.dumps(document, indent=1, allow_nan=False) + "\n"
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        # the temporary folder holds the new model and later the old one; it goes, whatever happens
+        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
+            new, old = Path(temporary, "new"), Path(temporary, "old")
+            new.mkdir()
+            (new / "network.onnx").write_bytes(graph)
+            (new / "model.json").write_text(text)
+            if folder.exists():
+                folder.rename(old)  # a folder cannot be renamed over a full one
+            new.rename(folder)
+    except OSError as error:
+        raise OutputError(f"the model cannot be written to {folder}: {error.strerror or error}") from error
+    return read_headset_model(folder)
+
+
+def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
+    """Read and check model.json; the graph's bytes are checked against its SHA-256.
+
+    Raises
+    ------
+    ModelError
+        Where a file is missing or damaged, or the folder holds a model of another kind or version.
+    """
+    folder = Path(folder)
+    path, graph = folder / "model.json", folder / "network.onnx"
+    for needed in (path, graph):
+        if not needed.is_file():
+            raise ModelError(
+                f"{needed} does not exist; a headset model is a folder with model.json and network.onnx"
+            )
+    try:
+        document = json.loads(path.read_text())
+        kind, version = document.pop("kind", "keypoints"), document.pop("version", None)
+    except (ValueError, AttributeError, TypeError, OSError) as error:
+        raise ModelError(f"{path} is not a model's description: {error}") from error
+    if (kind, version) != (KIND, VERSION):
+        raise ModelError(
+            f"{path} describes a model of kind {kind!r}, version {version!r}; "
+            f"kind {KIND!r}, version {VERSION} is needed"
+        )
+    model = _model(document, path)
+    if hashlib.sha256(graph.read_bytes()).hexdigest() != model.network_sha256:
+        raise ModelError(f"{graph} is damaged or belongs to another model: its SHA-256 is not model.json's")
+    return model
+
+
+def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
+    try:
+        model = HeadsetModel(
+            **{
+                **document,
+                "cameras": tuple(CameraInput(**camera) for camera in document["cameras"]),
+                "parts": {name: tuple(shapes) for name, shapes in document["parts"].items()},
+                "weights": tuple(document["weights"]),
+                "outputs": tuple(document["outputs"]),
+                "licences": tuple(document["licences"]),
+            }
+        )
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ModelError(f"{path} is not a headset model's description: {error}") from error
+    for name, value, allowed in (
+        ("architecture", model.architecture, ARCHITECTURES),
+        ("calibration", model.calibration, CALIBRATIONS),
+    ):
+        if value not in allowed:
+            raise ModelError(f"{path} has {name} {value!r}; {' or '.join(allowed)} is needed")
+    return model

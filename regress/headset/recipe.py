@@ -1,0 +1,116 @@
+"""All settings of a headset network's training, in one place."""
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+from regress.errors import InputError
+from regress.headset.model import ARCHITECTURES
+
+WITHHOLDINGS = ("none", "combined", "regions")
+"""What training may leave out: ``combined`` drops frames with an open jaw (> .25) and closed lids (> .2);
+``regions`` keeps only frames in which one region moves (neutral, upper_face, lower_face)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeadsetRecipe:
+    """How a headset network is built and trained.
+
+    Parameters
+    ----------
+    architecture
+        ``"modular"``: one network a camera, blended per weight; ``"holistic"``: the same encoders, concatenated.
+    seed, epochs, batch, learning_rate, weight_decay
+        AdamW with a cosine schedule.
+    input_size
+        Side in pixels of what the encoders see.
+    code, hidden
+        Numbers of a camera's part code; hidden units of the holistic network.
+    modulation
+        Factor on a camera's share of shapes outside its part (the paper's eq. 6); modular only.
+    part_loss, part_loss_elsewhere
+        Weight of each camera's own error on the shapes of its part and on all others (eq. 4); modular only.
+    geometry_loss
+        Weight of the face's squared displacement error beside the weights' own; 0 leaves it out.
+    camera_dropout
+        Probability that a camera is absent from a training frame.
+    calibration, calibration_dropout
+        Whether neutral pictures are a second input, and the probability that a training frame has none.
+    other_seat, jitter_neutral
+        Of calibrated training frames, shares whose neutral pictures come from the other seat of the headset, and
+        from the same seat but displaced as if it were another.
+    mirror
+        Train on frames and their mirror images, where the headset is symmetric.
+    shift, scale, rotation_deg
+        Standard deviations of the random affine of each camera's pictures: of their width; of 1; degrees.
+    randomise
+        Strength of photometric randomisation (gamma, gain, ramp, vignette, blur, noise); 0 leaves it out.
+    withhold
+        One of ``WITHHOLDINGS``.
+    people
+        Train on the first so many people only (learning curve); 0 means all.
+    """
+
+    architecture: str = "modular"
+    seed: int = 0
+    epochs: int = 72
+    batch: int = 64
+    learning_rate: float = 2e-3
+    weight_decay: float = 1e-2
+    input_size: int = 64
+    code: int = 96
+    hidden: int = 192
+    modulation: float = 0.3
+    part_loss: float = 1.0
+    part_loss_elsewhere: float = 0.05
+    geometry_loss: float = 0.5
+    camera_dropout: float = 0.15
+    calibration: bool = True
+    calibration_dropout: float = 0.4
+    other_seat: float = 0.25
+    jitter_neutral: float = 0.15
+    mirror: bool = True
+    shift: float = 0.02
+    scale: float = 0.03
+    rotation_deg: float = 2.0
+    randomise: float = 0.0
+    withhold: str = "none"
+    people: int = 0
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be trained.
+
+        Raises
+        ------
+        InputError
+            Names the setting, its value and what is allowed.
+        """
+        for name, allowed in (("architecture", ARCHITECTURES), ("withhold", WITHHOLDINGS)):
+            value = getattr(self, name)
+            if value not in allowed:
+                raise InputError(f"{name} is {value!r}; {', '.join(allowed)} are allowed")
+        for name in ("epochs", "batch", "input_size", "code", "hidden"):
+            if getattr(self, name) < 1:
+                raise InputError(f"{name} is {getattr(self, name)}; 1 or more is allowed")
+        for name in ("camera_dropout", "calibration_dropout", "other_seat", "jitter_neutral", "modulation"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise InputError(f"{name} is {getattr(self, name)}; 0 to 1 is allowed")
+        if self.other_seat + self.jitter_neutral > 1:
+            raise InputError(
+                f"other_seat and jitter_neutral are {self.other_seat} and {self.jitter_neutral}; "
+                "together they may be 1 at most"
+            )
+        unsigned = (
+            "seed",
+            "learning_rate",
+            "weight_decay",
+            "part_loss",
+            "part_loss_elsewhere",
+            "geometry_loss",
+        )
+        for name in (*unsigned, "shift", "scale", "rotation_deg", "randomise", "people"):
+            if getattr(self, name) < 0:
+                raise InputError(f"{name} is {getattr(self, name)}; 0 or more is allowed")
+
+    def settings(self) -> dict[str, Any]:
+        """The fields as JSON data."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}

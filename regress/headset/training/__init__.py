@@ -1,0 +1,1 @@
+"""Training of headset networks: the one place that imports PyTorch."""
