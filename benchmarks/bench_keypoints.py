@@ -35,7 +35,7 @@ from facegen.geometry import apply_transform  # noqa: E402
 from facegen.labels import label_keypoints  # noqa: E402
 from facegen.labels.keypoints import AT_ONCE, KEYPOINT_TOLERANCE_M  # noqa: E402
 from facegen.raster import hidden_by_own  # noqa: E402
-from facegen.rigs import evaluate  # noqa: E402
+from facegen.rigs import evaluate, occluder  # noqa: E402
 from facegen.sampling import draw_samples  # noqa: E402
 from facegen.spec import load_spec  # noqa: E402
 from facegen.store import keypoint_table, resolve, write_shard  # noqa: E402
@@ -115,7 +115,7 @@ def stages(folder: Path, rig: str, rounds: int = 3) -> dict[str, float]:
             inputs = some.identity, some.weights, some.gaze
             faces = timed("evaluating", lambda i=inputs: evaluate(rig, *i, cage_only=True), AT_ONCE)
             points = apply_transform(some.camera_from_head, faces.landmarks)
-            mesh = faces.vertices, some.camera_from_head, rig.cage_faces
+            mesh = faces.vertices, some.camera_from_head, occluder(rig).faces
             timed(
                 "visibility",
                 lambda p=points, m=mesh: hidden_by_own(p, *m, tolerance_m=KEYPOINT_TOLERANCE_M),

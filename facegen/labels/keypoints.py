@@ -7,16 +7,16 @@ import numpy as np
 from facegen.conventions import FACE_WIDTH_LANDMARKS, Visibility
 from facegen.geometry import apply_transform
 from facegen.raster import hidden_by_own
-from facegen.rigs import EvaluatedFaces, Rig, evaluate
+from facegen.rigs import EvaluatedFaces, Rig, evaluate, occluder
 from facegen.sampling import Samples
 from facegen.spec import Spec
 
 KEYPOINT_TOLERANCE_M = 2e-3
-"""A cage face must be this much nearer to hide a landmark. The cage cuts up to 1 mm off the smooth surface between its
+"""A face must be this much nearer to hide a landmark. The cage cuts up to 1 mm off the smooth surface between its
 vertices (measured on the default rig), and lips and lids that touch lie within another millimetre."""
 
 AT_ONCE = 100
-"""Faces evaluated and labelled together: 8 MB of cages (default rig), which stay near the processor. 1,000 took a third
+"""Faces evaluated and labelled together: 10 MB of vertices (default rig), which stay near the processor. 1,000 took a third
 longer and ten times the memory; it is one chunk of `facegen.rigs.evaluate`."""
 
 
@@ -66,11 +66,14 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFace
     points_2d = project_pinhole(in_camera, samples.intrinsics)
     first, last = FACE_WIDTH_LANDMARKS
     face_width = np.linalg.norm(points_2d[:, first] - points_2d[:, last], axis=-1)
+    hiding, mesh = occluder(rig), faces.vertices
+    if mesh.shape[1] > len(hiding.vertices):
+        mesh = mesh[:, hiding.vertices]
     covered = hidden_by_own(
         in_camera,
-        faces.vertices[:, : rig.cage_vertices],
+        mesh,
         samples.camera_from_head,
-        rig.cage_faces,
+        hiding.faces,
         tolerance_m=KEYPOINT_TOLERANCE_M,
     )
     visibility = np.where(covered, Visibility.HIDDEN, Visibility.VISIBLE)

@@ -4,11 +4,13 @@ from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, visual_axis
 from facegen.rigs.files import load_rig, rigs_folder, save_rig
 from facegen.rigs.neutral import eye_centers, neutral_landmarks
+from facegen.rigs.occluder import Occluder, occluder
 from facegen.rigs.rig import Rig
 
 __all__ = [
     "EvaluatedFaces",
     "EyeGeometry",
+    "Occluder",
     "Rig",
     "evaluate",
     "eye_centers",
@@ -16,6 +18,7 @@ __all__ = [
     "lid_support_radius",
     "load_rig",
     "neutral_landmarks",
+    "occluder",
     "rigs_folder",
     "save_rig",
     "visual_axis",

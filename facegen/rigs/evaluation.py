@@ -7,6 +7,7 @@ import numpy as np
 
 from facegen.errors import InputError
 from facegen.rigs.lids import clamp_contact, close_lids
+from facegen.rigs.occluder import occluder
 from facegen.rigs.rig import Rig
 from facegen.rigs.threads import one_blas_thread
 
@@ -21,7 +22,7 @@ class EvaluatedFaces:
     Attributes
     ----------
     vertices
-        (n, V, 3), or (n, cage_vertices, 3) where only the cage was asked for.
+        (n, V, 3), or those of `facegen.rigs.occluder` (n, m, 3), the cage's first, where only the cage was asked for.
     landmarks
         (n, 68, 3).
     eye_center, eye_radius
@@ -40,7 +41,7 @@ def evaluate(
     """Shape of n faces.
 
     A row's result depends on this row alone, to the last bit: neither on the other rows nor on how many there
-    are, and the cage's vertices are the same with and without ``cage_only``.
+    are, and a vertex is the same with and without ``cage_only``.
 
     Parameters
     ----------
@@ -55,7 +56,7 @@ def evaluate(
         (n, 2, 3) optical axes of both eyes in the head frame, the subject's left first; closed lids lie on
         the cornea.
     cage_only
-        Leave out the vertices that only pictures need.
+        Leave out the vertices that only pictures need; those that hide keypoints stay (`facegen.rigs.occluder`).
 
     Raises
     ------
@@ -77,7 +78,8 @@ def evaluate(
             raise InputError(f"{name} holds values that are not finite numbers")
     gaze = gaze / np.sqrt(gaze[..., 0] ** 2 + gaze[..., 1] ** 2 + gaze[..., 2] ** 2)[..., None]
     padded = -(-people // CHUNK) * CHUNK
-    cage = np.empty((padded, rig.cage_vertices, 3))
+    kept = occluder(rig).vertices
+    cage = np.empty((padded, len(kept), 3))
     eye_center, eye_radius = np.empty((people, 2, 3)), np.empty((people, 2))
     with one_blas_thread():
         for start in range(0, people, CHUNK):
@@ -97,8 +99,9 @@ def evaluate(
         if not cage_only:
             # one row at a time: only pictures need these vertices, and they need one face
             rest = [_beyond_cage(rig, *row) for row in zip(identity, weights, strict=True)]
-            shape = (people, len(rig.vertices) - rig.cage_vertices, 3)
-            vertices = np.concatenate([vertices, np.reshape(rest, shape)], axis=1)
+            vertices = np.empty((people, *rig.vertices.shape))
+            vertices[:, rig.cage_vertices :] = np.reshape(rest, vertices[:, rig.cage_vertices :].shape)
+            vertices[:, kept] = cage[:people]
     close_lids(rig, vertices, weights=weights, eye_center=eye_center, eye_radius=eye_radius, gaze=gaze)
     return EvaluatedFaces(
         vertices=vertices,
@@ -110,9 +113,9 @@ def evaluate(
 
 @lru_cache(maxsize=4)
 def _cage_basis(rig: Rig) -> np.ndarray:
-    """Rows (K + 53, 3 V) that identity, weights and a 1 multiply to give the cage with straight lids."""
+    """Rows (K + 53, 3 m) that identity, weights and a 1 multiply to give the m kept vertices with straight lids."""
     rows = np.concatenate([rig.identity, rig.expression, rig.vertices[None]])
-    return np.ascontiguousarray(rows[:, : rig.cage_vertices].reshape(len(rows), -1))
+    return np.ascontiguousarray(rows[:, occluder(rig).vertices].reshape(len(rows), -1))
 
 
 def _beyond_cage(rig: Rig, identity: np.ndarray, weights: np.ndarray) -> np.ndarray:

@@ -46,7 +46,7 @@ def close_lids(
     rig
         The rig.
     vertices
-        (n, V, 3) or (n, cage_vertices, 3), head frame, metres.
+        (n, V, 3), or fewer, the cage's first and none of a lid beyond them; head frame, metres.
     weights
         (n, 52) as given to `facegen.rigs.evaluate`.
     eye_center, eye_radius, gaze
@@ -55,7 +55,7 @@ def close_lids(
     from facegen.rigs.lid_closing import close_eye  # imports Numba
 
     cornea_offset = cornea_center_offset(eye_radius)
-    for side, lids in enumerate(_lids(rig, vertices.shape[1] == rig.cage_vertices)):
+    for side, lids in enumerate(_lids(rig, vertices.shape[1] < len(rig.vertices))):
         close_eye(
             lids,
             vertices,
