@@ -16,7 +16,7 @@ KEYPOINT_TOLERANCE_M = 2e-3
 vertices (measured on the default rig), and lips and lids that touch lie within another millimetre."""
 
 AT_ONCE = 100
-"""Faces evaluated and labelled together: 10 MB of vertices (default rig), which stay near the processor. 1,000 took a third
+"""Faces evaluated and labelled together: 10 MB of vertices (default rig) stay near the processor. 1,000 took a third
 longer and ten times the memory; it is one chunk of `facegen.rigs.evaluate`."""
 
 
