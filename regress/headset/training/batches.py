@@ -1,0 +1,158 @@
+"""Training batches: frames paired with neutral pictures, displaced at random, now and then without a camera."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from regress.headset.arrays import HeadsetArrays
+from regress.headset.parts import encoder_owners, is_symmetric, mirror_partner
+from regress.headset.recipe import HeadsetRecipe
+from regress.headset.training.resampling import reduced, warp_matrix
+from regress.headset.training.targets import MIRROR, MIRROR_SIGN, outputs_of
+
+_SEAT = 2.5
+"""A neutral picture displaced as if from another seat is displaced this many times as far as a frame: donning
+scatters by 1.5 to 2 mm, five pixels of 96 in an eye camera."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Batch:
+    """What the networks see of n frames, and what they should say.
+
+    Parameters
+    ----------
+    pictures, neutral : (n, cameras, size, size) uint8
+        Mirrored where the camera uses another's encoder.
+    present : (n, cameras) float32
+    calibrated, same_seat : (n,) float32
+        0 or 1; ``same_seat`` counts where ``calibrated``.
+    outputs : (n, 56) float32
+        Weights and gaze.
+    """
+
+    pictures: np.ndarray
+    neutral: np.ndarray
+    present: np.ndarray
+    calibrated: np.ndarray
+    same_seat: np.ndarray
+    outputs: np.ndarray
+
+
+class Frames:
+    """Pictures and labels of arrays as batches are made of them, reduced to what the encoders need."""
+
+    def __init__(self, arrays: HeadsetArrays, recipe: HeadsetRecipe, rows: np.ndarray) -> None:
+        names = tuple(camera.name for camera in arrays.cameras)
+        self.rows = rows
+        self.outputs = outputs_of(arrays)
+        self._recipe = recipe
+        self._pictures = [reduced(arrays.pictures[name], recipe.input_size) for name in names]
+        self._flipped = [owner is not None for owner in encoder_owners(names).values()]
+        self._mirror = recipe.mirror and is_symmetric(names)
+        self._partner = [names.index(mirror_partner(name)) if self._mirror else 0 for name in names]
+        self._own_seat = arrays.neutral_rows()
+        self._other_seat = arrays.neutral_rows(other_seat=True)
+
+    def draw_epoch(self, random: np.random.Generator) -> Iterator[Batch]:
+        """All training rows once, in batches; the last few are left out where they do not fill one."""
+        order = random.permutation(self.rows)
+        size = min(self._recipe.batch, len(order))
+        for start in range(0, len(order) - size + 1, size):
+            yield self._draw_batch(random, order[start : start + size])
+
+    def plain_batch(self, rows: np.ndarray, *, calibrated: bool = False) -> Batch:
+        """Rows as they are: nothing displaced, every camera present, neutral pictures of the own seat if asked."""
+        count, cameras = len(rows), len(self._pictures)
+        still = _Affine(np.zeros((count, cameras, 2)), np.ones((count, cameras)), np.zeros((count, cameras)))
+        known = (self._own_seat[rows] >= 0) & calibrated
+        straight = np.zeros(count, bool)
+        return Batch(
+            pictures=self._warped(rows, still, straight),
+            neutral=self._warped(np.where(known, self._own_seat[rows], -1), still, straight),
+            present=np.ones((count, cameras), np.float32),
+            calibrated=known.astype(np.float32),
+            same_seat=known.astype(np.float32),
+            outputs=self.outputs[rows],
+        )
+
+    def _draw_batch(self, random: np.random.Generator, rows: np.ndarray) -> Batch:
+        recipe, count, cameras = self._recipe, len(rows), len(self._pictures)
+        mirrored = (random.random(count) < 0.5) & self._mirror
+        kind, calibrated = random.random(count), random.random(count) >= recipe.calibration_dropout
+        other = (kind < recipe.other_seat) & (self._other_seat[rows] >= 0)
+        frame = _draw_affine(random, recipe, np.ones(count), cameras)
+        seat = _draw_affine(random, recipe, np.where(other, 1.0, _SEAT), cameras)
+        displaced = other | (kind >= 1 - recipe.jitter_neutral)
+        neutral_rows = np.where(other, self._other_seat[rows], self._own_seat[rows])
+        calibrated &= (neutral_rows >= 0) & recipe.calibration
+        present = random.random((count, cameras)) >= recipe.camera_dropout
+        present[~present.any(axis=1)] = True
+        outputs = self.outputs[rows]
+        return Batch(
+            pictures=self._warped(rows, frame, mirrored),
+            neutral=self._warped(
+                np.where(calibrated, neutral_rows, -1), _where(displaced, seat, frame), mirrored
+            ),
+            present=present.astype(np.float32),
+            calibrated=calibrated.astype(np.float32),
+            same_seat=(~displaced).astype(np.float32),
+            outputs=np.where(mirrored[:, None], outputs[:, MIRROR] * MIRROR_SIGN, outputs),
+        )
+
+    def _warped(self, rows: np.ndarray, affine: "_Affine", mirrored: np.ndarray) -> np.ndarray:
+        """Pictures (n, cameras, size, size) uint8 of rows; -1 gives black ones."""
+        size = self._recipe.input_size
+        found = np.zeros((len(rows), len(self._pictures), size, size), np.uint8)
+        for place, row in enumerate(rows):
+            if row < 0:
+                continue
+            for camera, flipped in enumerate(self._flipped):
+                source = self._pictures[self._partner[camera] if mirrored[place] else camera]
+                height, width = source.shape[1:]
+                matrix = warp_matrix(
+                    width,
+                    height,
+                    size,
+                    shift=affine.shift[place, camera],
+                    scale=affine.scale[place, camera],
+                    angle_rad=affine.angle_rad[place, camera],
+                    flipped=bool(flipped != mirrored[place]),
+                )
+                found[place, camera] = cv2.warpAffine(
+                    source[row],
+                    matrix,
+                    (size, size),
+                    flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+                    borderMode=cv2.BORDER_REPLICATE,
+                )
+        return found
+
+
+@dataclass(frozen=True)
+class _Affine:
+    shift: np.ndarray
+    scale: np.ndarray
+    angle_rad: np.ndarray
+
+
+def _draw_affine(
+    random: np.random.Generator, recipe: HeadsetRecipe, factor: np.ndarray, cameras: int
+) -> _Affine:
+    """Displacements of each row's cameras, ``factor`` (n,) times the recipe's."""
+    count, factor = len(factor), factor[:, None]
+    return _Affine(
+        factor[..., None] * recipe.shift * random.standard_normal((count, cameras, 2)),
+        np.exp(factor * recipe.scale * random.standard_normal((count, cameras))),
+        factor * np.deg2rad(recipe.rotation_deg) * random.standard_normal((count, cameras)),
+    )
+
+
+def _where(condition: np.ndarray, first: _Affine, second: _Affine) -> _Affine:
+    chosen = condition[:, None]
+    return _Affine(
+        np.where(chosen[..., None], first.shift, second.shift),
+        np.where(chosen, first.scale, second.scale),
+        np.where(chosen, first.angle_rad, second.angle_rad),
+    )

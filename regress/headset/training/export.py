@@ -1,0 +1,117 @@
+"""A trained network as one ONNX graph, preprocessing included, checked against PyTorch."""
+
+import io
+import warnings
+
+import numpy as np
+import onnxruntime
+import torch
+from torch import nn
+
+from regress.errors import ModelError
+from regress.headset.model import GRAPH_OUTPUTS, CameraInput
+from regress.headset.training.networks import HeadsetNetwork
+from regress.headset.training.resampling import resampling_matrix
+from regress.headset.training.targets import WEIGHTS, Targets
+
+TOLERANCE = 1e-4
+"""Largest difference between the graph and PyTorch that is let through."""
+
+_OPSET = 17
+
+
+class Deployed(nn.Module):
+    """Pictures as cameras give them to weights, deviations and gaze: what the graph computes."""
+
+    def __init__(
+        self, network: HeadsetNetwork, cameras: tuple[CameraInput, ...], targets: Targets, input_size: int
+    ) -> None:
+        super().__init__()
+        self.network = network
+        self.register_buffer("mean", torch.from_numpy(targets.mean))
+        self.register_buffer("std", torch.from_numpy(targets.std))
+        for column, camera in enumerate(cameras):
+            flipped = camera.mirrored_of is not None
+            rows = resampling_matrix(camera.height, input_size)
+            columns = resampling_matrix(camera.width, input_size, flipped=flipped)
+            self.register_buffer(f"rows_{column}", torch.from_numpy(rows))
+            self.register_buffer(f"columns_{column}", torch.from_numpy(np.ascontiguousarray(columns.T)))
+
+    def forward(self, *inputs: torch.Tensor) -> tuple[torch.Tensor, ...]:
+        """Outputs ``GRAPH_OUTPUTS`` of each camera's pictures and neutral ones, ``present``, ``calibrated``."""
+        *seen, present, calibrated = inputs
+        answer = self.network(self._squares(seen[0::2]), self._squares(seen[1::2]), present, calibrated)
+        said = answer.blended.mean * self.std + self.mean
+        deviation = torch.sqrt(answer.blended.variance) * self.std
+        # yaw and pitch of the left eye, then of the right
+        gaze = said[:, WEIGHTS:].reshape(-1, 2, 2)
+        weights, shares = said[:, :WEIGHTS].clamp(0, 1), answer.blended.shares[..., :WEIGHTS]
+        return weights, deviation[:, :WEIGHTS], gaze, shares, torch.sigmoid(answer.seat)
+
+    def _squares(self, pictures: list[torch.Tensor] | tuple[torch.Tensor, ...]) -> torch.Tensor:
+        squares = [
+            getattr(self, f"rows_{column}") @ seen.float() @ getattr(self, f"columns_{column}")
+            for column, seen in enumerate(pictures)
+        ]
+        return torch.stack(squares, dim=1)
+
+
+def export_graph(
+    network: HeadsetNetwork, cameras: tuple[CameraInput, ...], targets: Targets, input_size: int
+) -> tuple[bytes, float]:
+    """The graph's bytes, and its largest difference from PyTorch on random frames.
+
+    Raises
+    ------
+    ModelError
+        Where the difference is above ``TOLERANCE``.
+    """
+    deployed = Deployed(network, cameras, targets, input_size).eval()
+    names = [f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")]
+    names += ["present", "calibrated"]
+    buffer = io.BytesIO()
+    with warnings.catch_warnings():
+        # The exporter that needs no further package is called deprecated, and warns of what tracing fixes.
+        warnings.simplefilter("ignore")
+        torch.onnx.export(
+            deployed,
+            _probe(cameras, 2),
+            buffer,
+            input_names=names,
+            output_names=list(GRAPH_OUTPUTS),
+            dynamic_axes={name: {0: "frames"} for name in (*names, *GRAPH_OUTPUTS)},
+            opset_version=_OPSET,
+            dynamo=False,
+        )
+    graph = buffer.getvalue()
+    difference = _difference(deployed, graph, names, _probe(cameras, 7))
+    if not difference <= TOLERANCE:
+        raise ModelError(
+            f"the exported graph differs from PyTorch by {difference:.2g}; {TOLERANCE} is allowed"
+        )
+    return graph, difference
+
+
+def _probe(cameras: tuple[CameraInput, ...], count: int) -> tuple[torch.Tensor, ...]:
+    """Random frames, some without a camera, some without a neutral picture."""
+    random = np.random.default_rng(count)
+    seen = [
+        torch.from_numpy(random.integers(0, 256, (count, camera.height, camera.width), dtype=np.uint8))
+        for camera in cameras
+        for _ in range(2)
+    ]
+    present = (random.random((count, len(cameras))) < 0.7).astype(np.float32)
+    present[0] = 1
+    return *seen, torch.from_numpy(present), torch.from_numpy((np.arange(count) % 2).astype(np.float32))
+
+
+def _difference(deployed: Deployed, graph: bytes, names: list[str], probe: tuple[torch.Tensor, ...]) -> float:
+    with torch.no_grad():
+        expected = deployed(*probe)
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads, options.log_severity_level = 1, 3
+    session = onnxruntime.InferenceSession(graph, options, providers=["CPUExecutionProvider"])
+    feed = {name: value.numpy() for name, value in zip(names, probe, strict=True)}
+    found = session.run(GRAPH_OUTPUTS, feed)
+    pairs = zip(found, expected, strict=True)
+    return float(max(np.abs(one - other.numpy()).max() for one, other in pairs))

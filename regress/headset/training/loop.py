@@ -1,0 +1,201 @@
+"""The training loop: epochs of batches, a checkpoint after each."""
+
+import hashlib
+import json
+import math
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from regress.errors import InputError, Interrupted
+from regress.headset.arrays import HeadsetArrays
+from regress.headset.recipe import HeadsetRecipe
+from regress.headset.training.batches import Batch, Frames
+from regress.headset.training.losses import total_loss
+from regress.headset.training.networks import NETWORKS, Answer, HeadsetNetwork, HolisticNetwork
+from regress.headset.training.photometry import draw_photometry
+from regress.headset.training.targets import WEIGHTS, Targets, target_scale
+
+Progress = Callable[[int, int, dict[str, float]], None]
+"""Called with epochs done, epochs in all and the epoch's figures."""
+
+_SCALE_ROWS = 512
+"""Training rows from which the pictures' mean and spread are taken."""
+
+
+class Training:
+    """A network on its way: the same arrays and recipe give the same one on one machine, stopped or not.
+
+    Parameters
+    ----------
+    arrays, recipe
+        What it learns from, and how.
+    checkpoint
+        File that holds the state after each epoch; where it exists, training goes on from it. None keeps none.
+    """
+
+    def __init__(self, arrays: HeadsetArrays, recipe: HeadsetRecipe, checkpoint: Path | None = None) -> None:
+        torch.set_num_threads(1)  # other splits of a sum end in other last bits
+        torch.manual_seed(recipe.seed)
+        rows = arrays.kept_rows("train", withhold=recipe.withhold, people=recipe.people)
+        self.recipe = recipe
+        self.history: list[dict[str, float]] = []
+        self._checkpoint = checkpoint
+        self._frames = Frames(arrays, recipe, rows)
+        self._validation = arrays.rows("validation")
+        self.targets = target_scale(self._frames.outputs[rows])
+        self._mean, self._std = torch.from_numpy(self.targets.mean), torch.from_numpy(self.targets.std)
+        self._gram = _scaled_gram(arrays, self.targets, rows)
+        names = tuple(camera.name for camera in arrays.cameras)
+        self.network = NETWORKS[recipe.architecture](names, recipe)
+        self._set_scales()
+        self._optimizer = torch.optim.AdamW(
+            self.network.parameters(), lr=recipe.learning_rate, weight_decay=recipe.weight_decay
+        )
+        self._key = _key(arrays, recipe, rows)
+        if checkpoint is not None and checkpoint.exists():
+            self._resume(checkpoint)
+
+    @property
+    def rows(self) -> np.ndarray:
+        """Training rows of the arrays."""
+        return self._frames.rows
+
+    def run(self, progress: Progress | None = None) -> HeadsetNetwork:
+        """Train what is left to train.
+
+        Raises
+        ------
+        Interrupted
+            On Ctrl-C; the checkpoint holds all whole epochs.
+        """
+        try:
+            while len(self.history) < self.recipe.epochs:
+                self._run_epoch(len(self.history))
+                if self._checkpoint is not None:
+                    self._save(self._checkpoint)
+                if progress is not None:
+                    progress(len(self.history), self.recipe.epochs, self.history[-1])
+        except KeyboardInterrupt:
+            kept = "nothing was kept" if self._checkpoint is None else "run the same command again to go on"
+            raise Interrupted(
+                f"training was stopped after {len(self.history)} of {self.recipe.epochs} epochs; {kept}"
+            ) from None
+        return self.network.eval()
+
+    def _run_epoch(self, epoch: int) -> None:
+        random = np.random.default_rng([self.recipe.seed, epoch])
+        batches = len(self.rows) // min(self.recipe.batch, len(self.rows))
+        self.network.train()
+        losses = []
+        for number, batch in enumerate(self._frames.draw_epoch(random)):
+            done = (epoch + number / batches) / self.recipe.epochs
+            for group in self._optimizer.param_groups:
+                group["lr"] = self.recipe.learning_rate * 0.5 * (1 + math.cos(math.pi * done))
+            self._optimizer.zero_grad(set_to_none=True)
+            loss = self._loss(batch, random)
+            loss.backward()
+            self._optimizer.step()
+            losses.append(float(loss.detach()))
+        self.history.append({"loss": float(np.mean(losses)), "validation": self._validation_error()})
+
+    def _loss(self, batch: Batch, random: np.random.Generator) -> torch.Tensor:
+        pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
+        if self.recipe.randomise:
+            pictures, neutral = draw_photometry(random, pictures, neutral, self.recipe.randomise)
+        calibrated = torch.from_numpy(batch.calibrated)
+        answer = self.network(pictures, neutral, torch.from_numpy(batch.present), calibrated)
+        return total_loss(
+            self.network,
+            answer,
+            self._wanted(batch),
+            calibrated=calibrated,
+            same_seat=torch.from_numpy(batch.same_seat),
+            gram=self._gram,
+            recipe=self.recipe,
+        )
+
+    def _wanted(self, batch: Batch) -> torch.Tensor:
+        return (torch.from_numpy(batch.outputs) - self._mean) / self._std
+
+    def _validation_error(self) -> float:
+        """Mean squared z-score without calibration; 1 is as good as the training mean. 0 rows give 0."""
+        self.network.eval()
+        squares = [0.0]
+        with torch.no_grad():
+            for start in range(0, len(self._validation), 256):
+                batch = self._frames.plain_batch(self._validation[start : start + 256])
+                answer = answer_to(self.network, batch)
+                squares += (answer.blended.mean - self._wanted(batch)).square().mean(dim=1).tolist()
+        return float(np.mean(squares[1:] or squares))
+
+    def _set_scales(self) -> None:
+        """Give encoders the spread of training pictures, and a holistic network the mean ones."""
+        rows = self.rows[:: max(1, len(self.rows) // _SCALE_ROWS)]
+        batch = self._frames.plain_batch(rows, calibrated=True)
+        pictures, neutral = batch.pictures.astype(np.float32), batch.neutral.astype(np.float32)
+        known = batch.calibrated > 0
+        for column, camera in enumerate(self.network.cameras):
+            if self.network.owners[camera] is not None:
+                continue
+            differences = (pictures - neutral)[known, column]
+            self.network.encoder(camera).set_scale(
+                float(pictures[:, column].mean()),
+                max(float(pictures[:, column].std()), 1.0),
+                max(float(differences.std()), 1.0) if known.any() else 1.0,
+            )
+        if isinstance(self.network, HolisticNetwork):
+            self.network.mean_pictures.copy_(torch.from_numpy(pictures.mean(axis=0)))
+
+    def _save(self, path: Path) -> None:
+        temporary = path.with_name(f"{path.name}.{os.getpid()}.part")
+        state = {
+            "key": self._key,
+            "history": self.history,
+            "network": self.network.state_dict(),
+            "optimizer": self._optimizer.state_dict(),
+        }
+        path.parent.mkdir(parents=True, exist_ok=True)
+        torch.save(state, temporary)
+        temporary.replace(path)
+
+    def _resume(self, path: Path) -> None:
+        try:
+            state = torch.load(path, weights_only=True)
+            key = state["key"]
+        except Exception as error:  # whatever a damaged file makes the unpickler raise
+            raise InputError(f"{path} is not a checkpoint of a training: {error}; remove it") from error
+        if key != self._key:
+            raise InputError(
+                f"{path} is the checkpoint of a training with other settings or data; "
+                "remove it, or repeat that training's command"
+            )
+        self.history = state["history"]
+        self.network.load_state_dict(state["network"])
+        self._optimizer.load_state_dict(state["optimizer"])
+
+
+def answer_to(network: HeadsetNetwork, batch: Batch) -> Answer:
+    """A network's answer to a batch as it is."""
+    pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
+    return network(pictures, neutral, torch.from_numpy(batch.present), torch.from_numpy(batch.calibrated))
+
+
+def _scaled_gram(arrays: HeadsetArrays, targets: Targets, rows: np.ndarray) -> torch.Tensor:
+    std = targets.std[:WEIGHTS].astype(np.float64)
+    gram = arrays.face.gram_mm2() * std * std[:, None]
+    scores = (arrays.weights[rows] - targets.mean[:WEIGHTS]) / std
+    spread = float(((scores @ gram) * scores).sum(axis=1).mean())
+    return torch.from_numpy((gram / max(spread, 1e-12)).astype(np.float32))
+
+
+def _key(arrays: HeadsetArrays, recipe: HeadsetRecipe, rows: np.ndarray) -> str:
+    """Of everything that a state must share with a training to go on with it."""
+    said: dict[str, Any] = {"recipe": recipe.settings(), "arrays": arrays.description}
+    labels = [arrays.weights, arrays.gaze, np.asarray(rows)]
+    text = json.dumps(said, sort_keys=True).encode() + b"".join(array.tobytes() for array in labels)
+    return hashlib.sha256(text).hexdigest()

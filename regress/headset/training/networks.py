@@ -1,0 +1,135 @@
+"""The modular and the holistic network: part codes to outputs."""
+
+from dataclasses import dataclass
+
+import torch
+from torch import nn
+
+from regress.headset.parts import encoder_owners
+from regress.headset.recipe import HeadsetRecipe
+from regress.headset.training.blend import LEAST_MODULATION, Blended, blend
+from regress.headset.training.encoders import Encoder
+from regress.headset.training.targets import MIRROR, MIRROR_SIGN, OUTPUTS, part_mask
+
+_COUNT = len(OUTPUTS)
+_LOG_VARIANCE = (-6.0, 3.0)
+"""Of z-scores: a standard deviation of .05 to 4.5 times the training one."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Z-scores of n frames.
+
+    Parameters
+    ----------
+    blended
+        The network's answer.
+    means, log_variances : (n, cameras, outputs), or (n, 1, outputs) of a holistic network
+        What each camera says for itself.
+    seat : (n,)
+        Logit that the neutral pictures come from the frame's own seat.
+    """
+
+    blended: Blended
+    means: torch.Tensor
+    log_variances: torch.Tensor
+    seat: torch.Tensor
+
+
+class HeadsetNetwork(nn.Module):
+    """Encoders of all cameras; a camera with a partner on the other side shares its encoder, mirrored.
+
+    Parameters
+    ----------
+    cameras
+        Names, in order.
+    recipe
+        Sizes and modulation.
+    """
+
+    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe) -> None:
+        super().__init__()
+        self.owners = encoder_owners(cameras)
+        self.cameras = cameras
+        own = [camera for camera in cameras if self.owners[camera] is None]
+        self.encoders = nn.ModuleDict({camera: Encoder(recipe.input_size, recipe.code) for camera in own})
+        self.register_buffer("mirror", torch.from_numpy(MIRROR.copy()))
+        self.register_buffer("mirror_sign", torch.from_numpy(MIRROR_SIGN.copy()))
+
+    def encoder(self, camera: str) -> Encoder:
+        """The encoder that sees a camera's pictures."""
+        return self.encoders[self.owners[camera] or camera]
+
+    def codes(
+        self, pictures: torch.Tensor, neutral: torch.Tensor, calibrated: torch.Tensor
+    ) -> list[torch.Tensor]:
+        """Part code (n, code) of each camera from pictures (n, cameras, size, size) in grey levels."""
+        return [
+            self.encoder(camera)(pictures[:, column], neutral[:, column], calibrated)
+            for column, camera in enumerate(self.cameras)
+        ]
+
+
+class ModularNetwork(HeadsetNetwork):
+    """Each camera says every output with a variance; the answers are blended."""
+
+    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe) -> None:
+        super().__init__(cameras, recipe)
+        self.heads = nn.ModuleDict({name: nn.Linear(recipe.code, 2 * _COUNT + 1) for name in self.encoders})
+        part = torch.stack([torch.from_numpy(part_mask(camera)) for camera in cameras])
+        self.register_buffer("part", part)
+        self.register_buffer("modulation", torch.where(part, 1.0, max(recipe.modulation, LEAST_MODULATION)))
+
+    def forward(
+        self,
+        pictures: torch.Tensor,
+        neutral: torch.Tensor,
+        present: torch.Tensor,
+        calibrated: torch.Tensor,
+    ) -> Answer:
+        """Answer to (n, cameras, size, size) pictures and neutral ones, ``present`` (n, cameras)."""
+        means, log_variances, seat = [], [], 0.0
+        for column, code in enumerate(self.codes(pictures, neutral, calibrated)):
+            camera = self.cameras[column]
+            owner = self.owners[camera]
+            said = self.heads[owner or camera](code)
+            mean, log_variance = said[:, :_COUNT], said[:, _COUNT : 2 * _COUNT].clamp(*_LOG_VARIANCE)
+            if owner is not None:
+                mean = mean[:, self.mirror] * self.mirror_sign
+                log_variance = log_variance[:, self.mirror]
+            means.append(mean)
+            log_variances.append(log_variance)
+            seat = seat + present[:, column] * said[:, -1]
+        mean, log_variance = torch.stack(means, dim=1), torch.stack(log_variances, dim=1)
+        return Answer(blend(mean, log_variance, self.modulation, present), mean, log_variance, seat)
+
+
+class HolisticNetwork(HeadsetNetwork):
+    """All part codes together go through one hidden layer; a missing camera shows its mean training picture."""
+
+    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe) -> None:
+        super().__init__(cameras, recipe)
+        self.hidden = nn.Sequential(nn.Linear(recipe.code * len(cameras), recipe.hidden), nn.ReLU())
+        self.head = nn.Linear(recipe.hidden, 2 * _COUNT + 1)
+        self.register_buffer("mean_pictures", torch.zeros(len(cameras), recipe.input_size, recipe.input_size))
+
+    def forward(
+        self,
+        pictures: torch.Tensor,
+        neutral: torch.Tensor,
+        present: torch.Tensor,
+        calibrated: torch.Tensor,
+    ) -> Answer:
+        """Answer to (n, cameras, size, size) pictures and neutral ones, ``present`` (n, cameras)."""
+        here = present[..., None, None]
+        seen = here * pictures + (1 - here) * self.mean_pictures
+        compared = here * neutral + (1 - here) * self.mean_pictures  # no difference where no camera is
+        said = self.head(self.hidden(torch.cat(self.codes(seen, compared, calibrated), dim=1)))
+        mean, log_variance = said[:, :_COUNT], said[:, _COUNT : 2 * _COUNT].clamp(*_LOG_VARIANCE)
+        cameras = len(self.cameras)
+        shares = torch.full_like(mean[:, None], 1 / cameras).expand(-1, cameras, -1)
+        blended = Blended(mean, torch.exp(log_variance), shares)
+        return Answer(blended, mean[:, None], log_variance[:, None], said[:, -1])
+
+
+NETWORKS: dict[str, type[HeadsetNetwork]] = {"modular": ModularNetwork, "holistic": HolisticNetwork}

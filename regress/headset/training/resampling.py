@@ -1,0 +1,72 @@
+"""From a camera's pictures to the encoders' squares: once for training, by the same rule inside the exported graph."""
+
+import cv2
+import numpy as np
+
+OVERSIZE = 1.5
+"""Pictures wider than this many times the encoder's input are reduced to it first, each pixel by its area:
+sampling them linearly at once would alias."""
+
+
+def reduced(pictures: np.ndarray, size: int) -> np.ndarray:
+    """Pictures (n, h, w) uint8, each side at most ``OVERSIZE`` times ``size``."""
+    height, width = (_reduced_side(side, size) for side in pictures.shape[1:])
+    if (height, width) == pictures.shape[1:]:
+        return pictures
+    return np.stack(
+        [cv2.resize(picture, (width, height), interpolation=cv2.INTER_AREA) for picture in pictures]
+    )
+
+
+def resampling_matrix(side: int, size: int, *, flipped: bool = False) -> np.ndarray:
+    """(size, side) float32: takes one side's pixels to the encoder's; ``rows @ picture @ columns.T`` is its input.
+
+    Parameters
+    ----------
+    side, size
+        Pixels of the camera's picture and of the encoder's input.
+    flipped
+        Mirror this side.
+    """
+    middle = _reduced_side(side, size)
+    matrix = _linear(middle, size) @ _area(side, middle)
+    return (matrix[::-1] if flipped else matrix).astype(np.float32)
+
+
+def warp_matrix(
+    width: int, height: int, size: int, *, shift: np.ndarray, scale: float, angle_rad: float, flipped: bool
+) -> np.ndarray:
+    """(2, 3) float64: takes the encoder's pixels to a picture's, as ``cv2.WARP_INVERSE_MAP`` wants it.
+
+    Without displacement it samples the picture where ``resampling_matrix`` does.
+
+    Parameters
+    ----------
+    width, height
+        Of the reduced picture.
+    shift : (2,) float
+        Of the picture's width and height.
+    scale, angle_rad
+        About the picture's middle.
+    """
+    side = np.diag([-1.0 if flipped else 1.0, 1.0])
+    turn = np.array([[np.cos(angle_rad), -np.sin(angle_rad)], [np.sin(angle_rad), np.cos(angle_rad)]])
+    linear = scale * np.diag([width / size, height / size]) @ turn @ side
+    middle = np.array([width - 1, height - 1]) / 2 + np.asarray(shift) * (width, height)
+    return np.column_stack([linear, middle - linear @ np.full(2, (size - 1) / 2)])
+
+
+def _reduced_side(side: int, size: int) -> int:
+    return min(side, round(OVERSIZE * size))
+
+
+def _linear(side: int, size: int) -> np.ndarray:
+    places = np.clip((np.arange(size) + 0.5) * side / size - 0.5, 0, side - 1)
+    return np.clip(1 - np.abs(places[:, None] - np.arange(side)), 0, None)
+
+
+def _area(side: int, size: int) -> np.ndarray:
+    edges = np.arange(size + 1) * side / size
+    pixels = np.arange(side)
+    overlap = np.minimum(edges[1:, None], pixels + 1) - np.maximum(edges[:-1, None], pixels)
+    return np.clip(overlap, 0, None) * size / side
