@@ -1,16 +1,27 @@
 """The same predictions in a fraction of the time: buffers made once, networks in float32."""
 
+import itertools
 import math
+import os
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, FACE_WIDTH_LANDMARKS, LANDMARK_COUNT
 from regress.errors import InputError
 from regress.features import ANCHORS
 from regress.model.model import Model
+from regress.networks import FoldedNetworks
 
 _BLOCK = 512
 """Frames of a batch computed at once: 620 hidden units of each are 1.3 MB, which stays in a core's cache."""
+
+_PARTS = 4
+"""Products that a batch's output weights are cut into: zero outside each network's block, they take 40 % less so."""
+
+_FEWEST_BLOCKS = 8
+"""Blocks from which on threads pay."""
 
 
 class FastPredictor:
@@ -52,6 +63,11 @@ class FastPredictor:
         self._b2[rows] = networks.b2
         self._features = np.empty(len(mean), np.float32)
         self._hidden = np.empty(len(networks.b1), np.float32)
+        # tanh(a) = 1 - 2 / (1 + exp(2a)): five times as fast as NumPy's tanh on blocks (AVX2), no faster on one face
+        self._twice_w1, self._twice_b1 = 2 * self._w1, 2 * self._b1[:, None]
+        self._rows = rows
+        self._parts = _parts(networks)
+        self._sum_b2 = (networks.b2 + networks.block_w2.sum(axis=1)).astype(np.float32)[:, None]
 
     def predict_frame(self, points: np.ndarray) -> np.ndarray:
         """Blendshape weights of one face.
@@ -90,12 +106,14 @@ class FastPredictor:
         np.maximum(weights, 0, out=weights)
         return np.minimum(weights, 1, out=weights)
 
-    def predict(self, points: np.ndarray) -> np.ndarray:
+    def predict(self, points: np.ndarray, *, threads: int | None = None) -> np.ndarray:
         """Blendshape weights of faces.
 
         Parameters
         ----------
         points : (n, 68, 2) float
+        threads
+            That share the blocks, whose results do not depend on it; None: as many as there are cores.
 
         Returns
         -------
@@ -105,11 +123,26 @@ class FastPredictor:
         points = np.asarray(points, dtype=np.float64)
         if points.ndim != 3 or points.shape[1:] != (LANDMARK_COUNT, 2):
             raise InputError(f"points have shape {points.shape}; (n, 68, 2) is needed")
-        weights = np.empty((len(points), len(BLENDSHAPES)), np.float32)
-        with np.errstate(invalid="ignore", divide="ignore"):  # faces with missing points become NaN
-            for start in range(0, len(points), _BLOCK):
-                weights[start : start + _BLOCK] = self._predict_block(points[start : start + _BLOCK])
-        weights[np.isnan(weights).any(axis=1)] = np.nan
+        weights = np.zeros((len(points), len(BLENDSHAPES)), np.float32)
+        starts = range(0, len(points), _BLOCK)
+
+        def fill(start: int) -> None:
+            # faces with missing points become NaN; a sigmoid's tail overflows to its limit
+            with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+                block = self._predict_block(points[start : start + _BLOCK])
+            weights[start : start + _BLOCK, self._rows] = block
+            weights[start : start + _BLOCK][np.isnan(block).any(axis=1)] = np.nan
+
+        if len(starts) < _FEWEST_BLOCKS:
+            for start in starts:
+                fill(start)
+            return weights
+        # one BLAS thread each: products cut among several would end in other last bits
+        with (
+            threadpool_limits(limits=1, user_api="blas"),
+            ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool,
+        ):
+            list(pool.map(fill, starts))
         return weights
 
     def _predict_block(self, points: np.ndarray) -> np.ndarray:
@@ -123,11 +156,15 @@ class FastPredictor:
         features, width = along[:-1], along[-1]
         features /= np.where(width > 0, width, np.nan)
         features -= self._mean32[:, None]
-        hidden = self._w1 @ features
-        hidden += self._b1[:, None]
-        np.tanh(hidden, out=hidden)
-        weights = self._w2 @ hidden
-        weights += self._b2[:, None]
+        hidden = self._twice_w1 @ features
+        hidden += self._twice_b1
+        np.exp(hidden, out=hidden)
+        hidden += 1
+        np.reciprocal(hidden, out=hidden)
+        weights = np.empty((len(self._rows), hidden.shape[1]), np.float32)
+        for outputs, units, w2 in self._parts:
+            np.matmul(w2, hidden[units], out=weights[outputs])
+        weights += self._sum_b2
         return np.clip(weights, 0, 1, out=weights).T
 
     def _mapped(self, planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -167,3 +204,16 @@ class FastPredictor:
         m00, m01 = (yy * xu - xy * yu) / spread, (yy * xv - xy * yv) / spread
         m10, m11 = (xx * yu - xy * xu) / spread, (xx * yv - xy * xv) / spread
         return complex(m00 + m11, m01 - m10) / 2, complex(m00 - m11, m01 + m10) / 2
+
+
+def _parts(networks: FoldedNetworks) -> list[tuple[slice, slice, np.ndarray]]:
+    """Outputs of some networks that follow one another, their hidden units, and -2 times the weights between."""
+    owners, hidden = networks.network_of_output, networks.hidden
+    count = len(networks.b1) // hidden
+    ends = np.linspace(0, count, min(_PARTS, count) + 1).astype(int)
+    parts = []
+    for first, last in itertools.pairwise(ends.tolist()):
+        outputs = slice(*np.searchsorted(owners, [first, last]).tolist())
+        units = slice(first * hidden, last * hidden)
+        parts.append((outputs, units, -2 * networks.block_w2[outputs, units].astype(np.float32)))
+    return parts

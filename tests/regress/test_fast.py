@@ -39,6 +39,14 @@ def test_batches_of_more_than_a_block(model: Model, dataset):
     check_same(model, points)
 
 
+def test_threads_change_no_bit(quick_model: Model, dataset):
+    points = np.resize(dataset.points, (8 * 512 + 3, 68, 2)).copy()
+    points[4000, 3] = np.nan
+    fast = FastPredictor(quick_model)
+    np.testing.assert_array_equal(fast.predict(points, threads=3), fast.predict(points, threads=1))
+    np.testing.assert_allclose(fast.predict(points), quick_model.predict(points), atol=AGREE)
+
+
 def test_missing_points_and_faces_without_extent_give_rows_of_nan_and_spare_their_neighbours(
     model: Model, dataset
 ):

@@ -16,6 +16,7 @@ def test_bench_times_each_way_or_says_why_not(run, quick_model_folder, monkeypat
         "NumPy, 200 frames",
         "fast, one frame",
         "fast, 200 frames",
+        "fast, 200 frames, all cores",
         "ONNX, one frame",
         "C, one frame",
         "JavaScript, one frame",
@@ -32,5 +33,5 @@ def test_bench_prints_a_line_each(run, quick_model_folder, monkeypatch):
     monkeypatch.setattr(timing, "BATCH_FRAMES", 200)
     code, out, err = run("bench", quick_model_folder)
     assert code == 0, err
-    assert len(out.splitlines()) == 7
+    assert len(out.splitlines()) == 8
     assert "failed" not in out
