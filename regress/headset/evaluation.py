@@ -1,0 +1,304 @@
+"""How good a headset network is on people it never saw, against exact labels; needs no PyTorch."""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from regress.errors import InputError
+from regress.headset.arrays import HeadsetArrays
+from regress.headset.geometry import FaceGeometry
+from regress.headset.graph import Estimates, HeadsetGraph
+from regress.headset.model import HeadsetModel
+
+CALIBRATIONS = ("none", "same_seat", "other_seat")
+HELD_OUT = "combined"
+"""Component of frames in which the jaw opens while the lids close: reported apart from ordinary frames."""
+
+_SCORED = [column for column, name in enumerate(BLENDSHAPES) if name != "tongueOut"]
+_BLINK = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Condition:
+    """What a network is given of each frame.
+
+    Parameters
+    ----------
+    calibration
+        One of ``CALIBRATIONS``: whose neutral pictures it sees.
+    cameras
+        Cameras that are there; None means all.
+    fallback
+        Answer without calibration where the network says that the neutral pictures come from another seat.
+    """
+
+    calibration: str = "none"
+    cameras: tuple[str, ...] | None = None
+    fallback: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Summary:
+    """Figures over frames; None where they are undefined.
+
+    Parameters
+    ----------
+    rows
+        Frames.
+    geometry_mm
+        Mean distance of the face's vertices from their true places.
+    r2
+        Mean over the 51 shapes that cameras can see (not tongueOut) of the share of variance explained.
+    mae, rmse
+        Of the 51 weights.
+    blink_r2
+        Mean of both lids.
+    gaze_deg
+        Mean angle between predicted and true optical axes.
+    """
+
+    rows: int
+    geometry_mm: float
+    r2: float | None
+    mae: float
+    rmse: float
+    blink_r2: float | None
+    gaze_deg: float
+
+
+def estimate(
+    graph: HeadsetGraph, model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray, condition: Condition
+) -> Estimates:
+    """What a network says of rows of arrays under a condition.
+
+    Raises
+    ------
+    InputError
+        Where the arrays' cameras are not the model's, or a row has no neutral picture of the kind asked for.
+    """
+    _check_cameras(model, arrays)
+    pictures = {name: arrays.pictures[name][rows] for name in condition.cameras or model.camera_names}
+    if condition.calibration == "none":
+        return graph.run(pictures)
+    source = arrays.neutral_rows(other_seat=condition.calibration == "other_seat")[rows]
+    if (source < 0).any():
+        raise InputError(
+            f"sample {arrays.sample[rows][source < 0][0]} has no neutral picture of "
+            f"{condition.calibration.replace('_', ' ')}; evaluate without calibration"
+        )
+    neutral = {name: arrays.pictures[name][source] for name in pictures}
+    answer = graph.run(pictures, neutral=neutral)
+    if not condition.fallback:
+        return answer
+    calibrated = answer.same_seat >= 0.5
+    settled = graph.run(pictures, neutral=neutral, calibrated=calibrated)
+    return Estimates(**{**vars(settled), "same_seat": answer.same_seat})
+
+
+def r2_of(predicted: np.ndarray, true: np.ndarray) -> np.ndarray:
+    """Share of each column's variance explained, (O,) float64; NaN where a column does not move."""
+    true = np.asarray(true, np.float64)
+    variance = true.var(axis=0)
+    wrong = np.mean((np.asarray(predicted, np.float64) - true) ** 2, axis=0)
+    return np.where(variance > 0, 1 - wrong / np.where(variance > 0, variance, 1), np.nan)
+
+
+def gaze_error_deg(predicted: np.ndarray, true: np.ndarray) -> np.ndarray:
+    """Angle (n, 2) float64 in degrees between gaze directions (n, 2, 2): yaw and pitch of both eyes, radians."""
+    one, other = _axis(predicted), _axis(true)
+    # the sine as well: the cosine alone loses small angles
+    crossed = np.linalg.norm(np.cross(one, other), axis=-1)
+    return np.rad2deg(np.arctan2(crossed, np.sum(one * other, axis=-1)))
+
+
+def summary(
+    face: FaceGeometry, weights: np.ndarray, gaze: np.ndarray, true_weights: np.ndarray, true_gaze: np.ndarray
+) -> Summary:
+    """Figures of predicted weights (n, 52) and gaze (n, 2, 2)."""
+    error = (np.asarray(weights, np.float64) - true_weights)[:, _SCORED]
+    r2 = r2_of(weights, true_weights)
+    return Summary(
+        rows=len(weights),
+        geometry_mm=float(face.error_mm(weights, true_weights).mean()),
+        r2=_mean(r2[_SCORED]),
+        mae=float(np.abs(error).mean()),
+        rmse=float(np.sqrt(np.mean(error**2))),
+        blink_r2=_mean(r2[_BLINK]),
+        gaze_deg=float(gaze_error_deg(gaze, true_gaze).mean()),
+    )
+
+
+def evaluate(
+    graph: HeadsetGraph, model: HeadsetModel, arrays: HeadsetArrays, *, split: str = "test"
+) -> dict[str, Any]:
+    """All figures of a network on a split, as JSON data, unrounded.
+
+    Frames count that are not neutral themselves; those of the component ``HELD_OUT`` count apart.
+
+    Returns
+    -------
+    dict
+        ``conditions`` and ``held_out``: summaries by condition; ``floors``: of the training mean and of the
+        resting face; ``shapes``: R2, MAE and RMSE by shape and calibration; ``cameras``: R2 of each shape from
+        one camera alone; ``components`` and ``people``: geometry error in mm by condition; ``deviation``: how
+        honest the predicted standard deviations are; ``seat``: how often the network names the seat rightly.
+
+    Raises
+    ------
+    InputError
+        Where the split has no such row, or the arrays are of other cameras.
+    """
+    _check_cameras(model, arrays)
+    rows = np.flatnonzero((arrays.split == split) & ~arrays.neutral)
+    if not len(rows):
+        raise InputError(f"the arrays have no {split} row with an expression; choose another split")
+    held_out = arrays.component[rows] == HELD_OUT
+    true, true_gaze = arrays.weights[rows], arrays.gaze[rows].reshape(-1, 2, 2)
+    found = {
+        name: estimate(graph, model, arrays, rows, condition)
+        for name, condition in conditions(model, arrays, rows).items()
+    }
+
+    def figures(chosen: np.ndarray) -> dict[str, Any]:
+        if not chosen.any():
+            return {}
+        return {
+            name: asdict(
+                summary(arrays.face, said.weights[chosen], said.gaze[chosen], true[chosen], true_gaze[chosen])
+            )
+            for name, said in found.items()
+        }
+
+    ordinary = ~held_out if (~held_out).any() else held_out
+    errors = {name: arrays.face.error_mm(said.weights, true) for name, said in found.items()}
+    return {
+        "split": split,
+        "rows": len(rows),
+        "people": len(np.unique(arrays.person[rows])),
+        "dataset_hash": arrays.description.get("dataset_hash", ""),
+        "conditions": figures(ordinary),
+        "held_out": figures(held_out),
+        "floors": _floors(model, arrays, rows[ordinary]),
+        "shapes": _shapes(found, true, ordinary),
+        "cameras": {
+            name: _named(r2_of(found[f"only_{name}"].weights[ordinary], true[ordinary]))
+            for name in model.camera_names
+            if f"only_{name}" in found
+        },
+        "components": _grouped(arrays.component[rows], errors),
+        "people_mm": _grouped(arrays.person[rows][ordinary], {k: v[ordinary] for k, v in errors.items()}),
+        "deviation": _honesty(found["uncalibrated"], true),
+        "seat": {
+            name: float(np.mean(found[name].same_seat >= 0.5)) for name in CALIBRATIONS[1:] if name in found
+        },
+    }
+
+
+def conditions(model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray) -> dict[str, Condition]:
+    """The conditions that a network can be judged under on these rows, by name."""
+    cameras = model.camera_names
+    found = {"uncalibrated": Condition()}
+    if model.calibration != "none":
+        for name in CALIBRATIONS[1:]:
+            if (arrays.neutral_rows(other_seat=name == "other_seat")[rows] >= 0).all():
+                found[name] = Condition(calibration=name)
+                found[f"{name}_fallback"] = Condition(calibration=name, fallback=True)
+    if len(cameras) > 1:
+        for lost in cameras:
+            found[f"without_{lost}"] = Condition(cameras=tuple(name for name in cameras if name != lost))
+        for only in cameras:
+            found[f"only_{only}"] = Condition(cameras=(only,))
+    return found
+
+
+def share_better(error: np.ndarray, rival_error: np.ndarray) -> float:
+    """Share of frames in which the first error (n,) is smaller; ties count half."""
+    return float(np.mean((error < rival_error) + 0.5 * (error == rival_error)))
+
+
+def _check_cameras(model: HeadsetModel, arrays: HeadsetArrays) -> None:
+    needed = {camera.name: (camera.width, camera.height) for camera in model.cameras}
+    there = {camera.name: (camera.width, camera.height) for camera in arrays.cameras}
+    for name, (width, height) in needed.items():
+        if there.get(name) != (width, height):
+            has = ", ".join(f"{other} {w}x{h}" for other, (w, h) in there.items())
+            raise InputError(
+                f"the model needs camera {name} of {width}x{height} pixels; the arrays have {has}"
+            )
+
+
+def _floors(model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray) -> dict[str, Any]:
+    true, gaze = arrays.weights[rows], arrays.gaze[rows].reshape(-1, 2, 2)
+    mean = np.asarray(model.training.get("mean_weights", true.mean(axis=0)), np.float64)
+    mean_gaze = np.asarray(model.training.get("mean_gaze", arrays.gaze[rows].mean(axis=0)), np.float64)
+    said = {"mean": (mean, mean_gaze), "rest": (np.zeros(len(BLENDSHAPES)), np.zeros(4))}
+    return {
+        name: asdict(
+            summary(
+                arrays.face,
+                np.broadcast_to(weights, true.shape),
+                np.broadcast_to(angles.reshape(2, 2), gaze.shape),
+                true,
+                gaze,
+            )
+        )
+        for name, (weights, angles) in said.items()
+    }
+
+
+def _shapes(found: dict[str, Estimates], true: np.ndarray, rows: np.ndarray) -> dict[str, Any]:
+    table: dict[str, Any] = {name: {} for name in BLENDSHAPES}
+    for condition in ("uncalibrated", *CALIBRATIONS[1:]):
+        if condition not in found:
+            continue
+        predicted, wanted = found[condition].weights[rows], true[rows]
+        error = predicted - wanted
+        columns = zip(
+            BLENDSHAPES,
+            _named(r2_of(predicted, wanted)).values(),
+            np.abs(error).mean(axis=0).tolist(),
+            np.sqrt(np.square(error).mean(axis=0)).tolist(),
+            strict=True,
+        )
+        for name, r2, mae, rmse in columns:
+            table[name][condition] = {"r2": r2, "mae": mae, "rmse": rmse}
+    return table
+
+
+def _grouped(keys: np.ndarray, errors: dict[str, np.ndarray]) -> dict[str, Any]:
+    return {
+        str(key): {
+            "rows": int((keys == key).sum()),
+            **{name: float(error[keys == key].mean()) for name, error in errors.items()},
+        }
+        for key in np.unique(keys)
+    }
+
+
+def _honesty(said: Estimates, true: np.ndarray) -> dict[str, float | None]:
+    """Mean squared error over predicted variance (1 is honest), and how error and deviation correlate."""
+    error, deviation = (said.weights - true)[:, _SCORED], said.deviation[:, _SCORED]
+    alike = np.corrcoef(np.abs(error).ravel(), deviation.ravel())[0, 1] if deviation.std() > 0 else np.nan
+    return {
+        "squared_error_over_variance": float(np.mean(error**2) / np.mean(deviation**2)),
+        "correlation": None if np.isnan(alike) else float(alike),
+    }
+
+
+def _axis(gaze: np.ndarray) -> np.ndarray:
+    yaw, pitch = np.moveaxis(np.asarray(gaze, np.float64), -1, 0)
+    return np.stack([np.sin(yaw) * np.cos(pitch), np.sin(pitch), np.cos(yaw) * np.cos(pitch)], axis=-1)
+
+
+def _named(values: np.ndarray) -> dict[str, float | None]:
+    return {
+        name: None if np.isnan(value) else float(value)
+        for name, value in zip(BLENDSHAPES, values, strict=True)
+    }
+
+
+def _mean(values: np.ndarray) -> float | None:
+    known = values[~np.isnan(values)]
+    return float(known.mean()) if len(known) else None
