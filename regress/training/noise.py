@@ -76,7 +76,7 @@ def draw_bias(rng: np.random.Generator, count: int) -> np.ndarray:
     """
     offsets = np.empty((count, LANDMARK_COUNT, 2))
     for group, numbers in LANDMARK_GROUPS.items():
-        along = np.linspace(0, 1, len(numbers))
+        along = (np.arange(len(numbers)) + 0.5) / len(numbers)  # with ends, short groups bend by more
         bends = np.sqrt(2) * np.cos(np.pi * np.outer(np.arange(1, _BENDS + 1), along))
         together = rng.standard_normal((count, 1, 2)) * np.sqrt(_TOGETHER)
         smooth = np.einsum("ckd,kn->cnd", rng.standard_normal((count, _BENDS, 2)), bends)
