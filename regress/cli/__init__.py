@@ -14,6 +14,7 @@ from regress.cli.bench import bench
 from regress.cli.edges import edges
 from regress.cli.evaluate import evaluate
 from regress.cli.export import export
+from regress.cli.headset import headset
 from regress.cli.predict import predict
 from regress.cli.report import report
 from regress.cli.train import train
@@ -34,6 +35,7 @@ app.command()(export)
 app.command()(report)
 app.command()(bench)
 app.command()(edges)
+app.add_typer(headset)
 
 
 def _print_version(wanted: bool) -> None:

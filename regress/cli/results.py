@@ -21,10 +21,12 @@ class Format(StrEnum):
     livelink = "livelink"
 
 
-def write_table(prediction: Prediction, chosen: Format, out: Path | None) -> None:
-    """Write a table to a file, or to standard output."""
+def write_table(
+    prediction: Prediction, chosen: Format, out: Path | None, *, rotations: np.ndarray | None = None
+) -> None:
+    """Write a table to a file, or to standard output; ``rotations`` (n, 9) are Live Link's angles."""
     if chosen is Format.livelink:
-        text = live_link_csv(prediction.weights, _known_times(prediction))
+        text = live_link_csv(prediction.weights, _known_times(prediction), rotations=rotations)
     else:
         text = prediction_csv(prediction)
     if out is None:

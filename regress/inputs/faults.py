@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from enum import Enum
 
 import numpy as np
@@ -110,12 +111,12 @@ def told(faults: list[Fault | None]) -> list[str]:
     for fault in Fault:
         rows = [row for row, found in enumerate(faults, start=1) if found is fault]
         if rows:
-            lines.append(f"{len(rows)} of {len(faults)} rows have {fault.value}: {_numbers(rows)}")
+            lines.append(f"{len(rows)} of {len(faults)} rows have {fault.value}: {joined_runs(rows)}")
     return lines
 
 
-def _numbers(rows: list[int]) -> str:
-    """Row numbers with runs joined: ``3, 7-9``."""
+def joined_runs(rows: Sequence[int]) -> str:
+    """Ascending numbers with runs joined: ``3, 7-9``."""
     runs: list[list[int]] = []
     for row in rows:
         if runs and row == runs[-1][1] + 1:

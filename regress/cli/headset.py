@@ -1,0 +1,14 @@
+"""``regress headset``: networks that see the pictures of a headset's cameras."""
+
+import typer
+
+from regress.cli.headset_predict import predict
+
+headset = typer.Typer(
+    name="headset",
+    help="The pictures of a headset's cameras in, 52 avatar blendshape weights and the gaze out.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+headset.command()(predict)

@@ -1,0 +1,107 @@
+"""What `regress headset predict` sees: the cameras' frames and the neutral pictures that its options name."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from regress.cli.talk import say
+from regress.errors import InputError
+from regress.headset.footage import Footage, line_up
+from regress.headset.neutral import calmest_frame, neutral_of_frame, read_neutral
+from regress.headset.predictor import HeadsetPredictor
+from regress.headset.recordings import read_recording, read_rendered
+
+
+def camera_paths(
+    predictor: HeadsetPredictor, pairs: Sequence[str], short: dict[str, Path]
+) -> dict[str, Path]:
+    """Paths by camera, of all options.
+
+    Raises
+    ------
+    InputError
+        Where a pair is no pair, or names a camera twice or one that the model does not have.
+    """
+    paths = dict(short)
+    for pair in pairs:
+        name, sign, path = pair.partition("=")
+        if not (sign and name and path):
+            raise InputError(f"--camera {pair!r} is not NAME=PATH, as --camera mouth=take/mouth")
+        if name in paths:
+            raise InputError(f"camera {name} is given twice: {paths[name]} and {path}")
+        paths[name] = Path(path)
+    for name in paths:
+        if name not in predictor.sizes:
+            raise InputError(f"the model has no camera {name!r}; it has {', '.join(predictor.sizes)}")
+    return paths
+
+
+def read_footage(
+    predictor: HeadsetPredictor,
+    dataset: Path | None,
+    paths: dict[str, Path],
+    *,
+    from_start: bool,
+    fps: float | None,
+) -> Footage:
+    """The cameras' frames, side by side, from a dataset or from a path each.
+
+    Raises
+    ------
+    InputError
+        Where neither or both are given, or they cannot be read.
+    """
+    if (dataset is None) == (not paths):
+        raise InputError(
+            f"give either a dataset or the cameras' paths ({', '.join(predictor.sizes)}), as --camera NAME=PATH"
+        )
+    if dataset is not None and not (dataset / "renders").is_dir():
+        raise InputError(f"{dataset} is no dataset with pictures: it has no folder renders")
+    recordings = {}
+    for name, (width, height) in predictor.sizes.items():
+        if dataset is not None:
+            recordings[name] = read_rendered(dataset, name, width=width, height=height)
+        elif name in paths:
+            recordings[name] = read_recording(paths[name], name, width=width, height=height)
+    return line_up(recordings, predictor.sizes, from_start=from_start, still=dataset is not None, fps=fps)
+
+
+def neutral_pictures(
+    predictor: HeadsetPredictor, footage: Footage, neutral: str, *, still: bool
+) -> dict[str, np.ndarray] | None:
+    """Neutral pictures (h, w) by camera as the option asks for them; None where frames are to be seen alone.
+
+    Raises
+    ------
+    InputError
+        Where the model, the footage or the option has no use for them.
+    """
+    if neutral == "none":
+        return None
+    if predictor.model.calibration == "none":
+        raise InputError("the model was trained without calibration, so a neutral frame is of no use to it")
+    if still:
+        raise InputError(
+            "a dataset has many people: --neutral is for a recording of one; regress headset evaluate "
+            "gives each person's own"
+        )
+    present = footage.present
+    if neutral == "auto":
+        usable = present[:, footage.given].all(axis=1)
+        found = calmest_frame(predictor.predict(footage.pictures, present=present).weights, usable)
+        if not found.sure:
+            say(f"{footage.source}: no neutral frame found, weights are not calibrated: {found.reason}")
+            return None
+        say(f"{footage.source}: frame {footage.numbers[found.row]} is taken for neutral: {found.reason}")
+        return neutral_of_frame(footage, found.row)
+    if neutral.isdecimal() and int(neutral) in footage.numbers:
+        return neutral_of_frame(footage, int(np.flatnonzero(footage.numbers == int(neutral))[0]))
+    if Path(neutral).is_dir():
+        sizes = zip(predictor.sizes.items(), footage.given, strict=True)
+        return read_neutral(Path(neutral), {name: size for (name, size), there in sizes if there})
+    first, last = footage.numbers[[0, -1]]
+    raise InputError(
+        f"--neutral {neutral!r} is neither a frame of {footage.source} ({first}-{last}), nor a folder; "
+        f"auto and none are allowed too"
+    )

@@ -1,0 +1,225 @@
+"""``regress headset predict``: the pictures of a headset's cameras in, a table of weights out."""
+
+import dataclasses
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from facegen.conventions import LANDMARK_COUNT
+from regress.adjustment import read_adjustments
+from regress.cli.headset_input import camera_paths, neutral_pictures, read_footage
+from regress.cli.results import Format, write_avatar, write_confidence, write_table
+from regress.cli.talk import say
+from regress.errors import InputError
+from regress.headset.film import check_film_name, write_film
+from regress.headset.footage import Footage
+from regress.headset.performance import ASSUMED_FPS, Performance, perform
+from regress.headset.predictor import load_headset_predictor
+from regress.inputs import Frames
+from regress.predict import Output, Prediction, prediction_csv
+from regress.retargeting import read_retargeting, shipped_targets
+from regress.smoothing import OneEuro
+
+GAZE_COLUMNS = ("left_eye_yaw_deg", "left_eye_pitch_deg", "right_eye_yaw_deg", "right_eye_pitch_deg")
+"""Of the CSV, behind the weights: yaw to the subject's left, pitch upwards, in the head frame."""
+
+
+def predict(
+    model: Annotated[Path, typer.Argument(help="Model folder of `regress headset train`.")],
+    dataset: Annotated[
+        Path | None,
+        typer.Argument(
+            help="A facegen dataset: the pictures under its renders/. Otherwise name the cameras' paths."
+        ),
+    ] = None,
+    camera: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--camera", metavar="NAME=PATH", help="A camera's folder of pictures, or film; for each camera."
+        ),
+    ] = None,
+    left_eye: Annotated[
+        Path | None, typer.Option("--left-eye", help="Short for --camera left_eye=PATH.")
+    ] = None,
+    right_eye: Annotated[
+        Path | None, typer.Option("--right-eye", help="Short for --camera right_eye=PATH.")
+    ] = None,
+    mouth: Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")] = None,
+    from_start: Annotated[
+        bool,
+        typer.Option(
+            "--from-start", help="Match first frames, not numbers: eyes of one take, mouth of another."
+        ),
+    ] = False,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="File to write, with --gltf the animated .glb; standard output without."),
+    ] = None,
+    table_format: Annotated[
+        Format, typer.Option("--format", help="csv, or livelink for the columns of the Live Link Face app.")
+    ] = Format.csv,
+    retarget: Annotated[
+        str | None,
+        typer.Option(
+            "--retarget",
+            metavar="|".join((*shipped_targets(), "FILE.toml")),
+            help="Weights of another avatar's shapes in place of ARKit's.",
+        ),
+    ] = None,
+    gltf: Annotated[
+        Path | None,
+        typer.Option(help="Avatar (.glb, .vrm) to which an animation of its morph targets is added."),
+    ] = None,
+    trust: Annotated[
+        Path | None,
+        typer.Option("--confidence", help="CSV to write with the trust in each ARKit weight, 0 to 1."),
+    ] = None,
+    neutral: Annotated[
+        str,
+        typer.Option(
+            "--neutral",
+            metavar="FRAME|FOLDER|auto|none",
+            help="The person's neutral face: a frame by its number, a folder with CAMERA.png for each camera, or "
+            "auto, which looks for it.",
+        ),
+    ] = "none",
+    strict: Annotated[
+        bool, typer.Option("--strict", help="Fail where a given camera has no usable picture in a frame.")
+    ] = False,
+    smooth: Annotated[int, typer.Option("--smooth", min=1, help="Frames of a moving average over time.")] = 1,
+    cutoff_hz: Annotated[
+        float | None,
+        typer.Option(
+            "--one-euro", min=1e-3, help="One-Euro smoothing with this cutoff in Hz at rest; try 1."
+        ),
+    ] = None,
+    beta: Annotated[
+        float, typer.Option("--beta", min=0, help="One-Euro: Hz more for each unit of weight a second.")
+    ] = OneEuro.beta,
+    fps: Annotated[
+        float | None, typer.Option("--fps", min=1e-3, help="Frames a second; goes before a film's own.")
+    ] = None,
+    adjust: Annotated[
+        Path | None,
+        typer.Option(
+            "--adjust", "--calibration", help="JSON with gain, offset, dead_zone, low and high by shape."
+        ),
+    ] = None,
+    amplify_eyes: Annotated[
+        float, typer.Option("--amplify-eyes", min=0, help="Factor on blink, wide and squint of each eye.")
+    ] = 1.0,
+    left_right_blend: Annotated[
+        float,
+        typer.Option("--left-right-blend", min=0, max=1, help="0 leaves left and right, 1 averages them."),
+    ] = 0.0,
+    mirror: Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")] = False,
+    video: Annotated[
+        Path | None, typer.Option("--video", help="Film to write: the cameras' pictures and the avatar.")
+    ] = None,
+    rig: Annotated[str, typer.Option("--rig", help="Built rig that is the avatar of --video.")] = "anny",
+) -> None:
+    """Predict the 52 blendshape weights and the gaze of every frame of a headset's cameras.
+
+    A camera may be left out, and a picture that is missing, black, frozen or of another shape leaves its camera out of
+    that frame: what that is, and in which frames, is said, and the confidence falls. A frame without any picture has
+    empty cells. A neutral frame makes weights far better as long as the headset stays where it sits; the network sees
+    when it does not, and goes on without.
+
+    Example: regress headset predict models/headset --left-eye take/left --right-eye take/right --mouth take/mouth
+    --neutral 0 --out weights.csv
+    """
+    predictor = load_headset_predictor(model)
+    output = Output(
+        smooth=smooth,
+        one_euro=None if cutoff_hz is None else OneEuro(cutoff_hz=cutoff_hz, beta=beta),
+        adjustments={} if adjust is None else read_adjustments(adjust),
+        left_right_blend=left_right_blend,
+        mirror=mirror,
+        retargeting=None if retarget is None else read_retargeting(retarget),
+    )
+    if (table_format is Format.livelink or video is not None) and retarget is not None:
+        raise InputError("--format livelink and --video take ARKit's shapes: leave out --retarget")
+    if table_format is Format.livelink and gltf is not None:
+        raise InputError("--format livelink has the app's own columns: leave out --gltf")
+    if gltf is not None and out is None:
+        raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
+    if trust is not None and not predictor.model.scores:
+        raise InputError(f"{model} has no scores on a test split, from which confidence is made")
+    if video is not None:
+        check_film_name(video)
+    short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
+    paths = camera_paths(
+        predictor, camera or [], {name: path for name, path in short.items() if path is not None}
+    )
+    footage = read_footage(predictor, dataset, paths, from_start=from_start, fps=fps)
+    needed = output.one_euro is not None or table_format is Format.livelink or gltf is not None
+    if needed and footage.time_s is None:
+        raise InputError(f"{footage.source} does not say when its frames were taken; give --fps")
+    if strict and not footage.present[:, footage.given].all():
+        raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
+    for note in footage.notes:
+        say(note)
+    pictures = neutral_pictures(predictor, footage, neutral, still=dataset is not None)
+    performance = perform(predictor, footage, pictures, output=output, amplify_eyes=amplify_eyes)
+    if performance.reseated is not None:
+        say(
+            f"frame {footage.numbers[performance.reseated]}: the headset does not sit as in the neutral pictures; "
+            f"weights are not calibrated from here on, for want of a neutral frame of the new seat"
+        )
+    if video is not None:
+        rate = fps or (ASSUMED_FPS if footage.time_s is None else _rate(footage.time_s))
+        text = prediction_csv(_prediction(performance, footage, gaze=False))
+        write_film(video, footage, text, rig=rig, fps=rate)
+        say(f"film in {video}")
+    _write(performance, footage, table_format, out, gltf, trust)
+
+
+def _prediction(performance: Performance, footage: Footage, *, gaze: bool) -> Prediction:
+    """The performance as the tables take it; there are no landmarks behind it."""
+    frames = Frames(
+        points=np.full((len(footage.numbers), LANDMARK_COUNT, 2), np.nan),
+        labels=tuple(map(str, footage.numbers)),
+        time_s=footage.time_s,
+        source=footage.source,
+    )
+    prediction = Prediction(weights=performance.weights, frames=frames, names=performance.names)
+    if not gaze:
+        return prediction
+    columns = np.hstack([performance.weights, np.degrees(performance.gaze)])
+    return dataclasses.replace(prediction, weights=columns, names=(*performance.names, *GAZE_COLUMNS))
+
+
+def _write(
+    performance: Performance,
+    footage: Footage,
+    table_format: Format,
+    out: Path | None,
+    gltf: Path | None,
+    trust: Path | None,
+) -> None:
+    plain = _prediction(performance, footage, gaze=False)
+    if trust is not None:
+        write_confidence(plain, performance.confidence, trust)
+    if gltf is not None:
+        write_avatar(plain, gltf, out)
+    elif table_format is Format.livelink:
+        write_table(plain, table_format, out, rotations=_rotations(performance.gaze))
+    else:
+        write_table(_prediction(performance, footage, gaze=True), table_format, out)
+
+
+def _rotations(gaze: np.ndarray) -> np.ndarray:
+    """Live Link's nine angles (n, 9) in radians: none of the head, and the eyes' with the app's signs.
+
+    In its recordings an eye's yaw is -0.60 times lookOut less lookIn of the left eye, and pitch -0.56 times
+    lookUp less lookDown (4,030 frames of one take, correlations of .996 and more).
+    """
+    angles = np.zeros((len(gaze), 9))
+    angles[:, [3, 4, 6, 7]] = -gaze
+    return angles
+
+
+def _rate(time_s: np.ndarray) -> float:
+    return 1 / float(np.median(np.diff(time_s))) if len(time_s) > 1 else ASSUMED_FPS

@@ -1,0 +1,134 @@
+"""From footage to weights, gaze and confidence: calibration, a change of seat, and what a person asked for."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import SIDES
+from regress.adjustment import ShapeAdjustment, adjust, mirror
+from regress.headset.confidence import confidence
+from regress.headset.footage import Footage
+from regress.headset.graph import Estimates
+from regress.headset.predictor import HeadsetPredictor
+from regress.headset.seats import seat_change
+from regress.predict import Output
+from regress.smoothing import EYES_FASTER, OneEuroStream, moving_average, one_euro
+
+ASSUMED_FPS = 30.0
+"""Frames a second where nobody says: only the patience with a changed seat depends on it."""
+
+AMPLIFIED = tuple(f"{stem}{side.title()}" for side in SIDES for stem in ("eyeBlink", "eyeWide", "eyeSquint"))
+"""Shapes of the lids, which the paper lets people exaggerate."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Performance:
+    """What a recording shows.
+
+    Parameters
+    ----------
+    names
+        Of the k columns of ``weights``.
+    weights : (n, k) float64
+        NaN where no camera has a picture.
+    gaze : (n, 4) float64
+        Left yaw, left pitch, right yaw, right pitch in radians, yaw to the subject's left; NaN as well.
+    confidence : (n, 52) float64 or None
+        Of the ARKit weights; 0 where no camera has a picture. None for a model without scores.
+    reseated
+        Row from which the neutral pictures were no longer used; None where they were to the end.
+    """
+
+    names: tuple[str, ...]
+    weights: np.ndarray
+    gaze: np.ndarray
+    confidence: np.ndarray | None
+    reseated: int | None = None
+
+
+def estimate_footage(
+    predictor: HeadsetPredictor, footage: Footage, neutral: Mapping[str, np.ndarray] | None = None
+) -> tuple[Estimates, int | None]:
+    """Run the network on footage, calibrated as long as the headset stays in the seat of the neutral pictures.
+
+    Returns
+    -------
+    estimates
+    reseated
+        Row from which frames are not calibrated.
+    """
+    present = footage.present
+    if neutral is None:
+        return predictor.predict(footage.pictures, present=present), None
+    estimates = predictor.predict(footage.pictures, present=present, neutral=neutral)
+    reseated = seat_change(estimates.same_seat, present.any(axis=1), fps=_fps(footage))
+    if reseated is None:
+        return estimates, None
+    calibrated = np.arange(len(present)) < reseated
+    return predictor.predict(
+        footage.pictures, present=present, neutral=neutral, calibrated=calibrated
+    ), reseated
+
+
+def perform(
+    predictor: HeadsetPredictor,
+    footage: Footage,
+    neutral: Mapping[str, np.ndarray] | None = None,
+    *,
+    output: Output | None = None,
+    amplify_eyes: float = 1.0,
+) -> Performance:
+    """Weights, gaze and confidence of footage, finished as asked.
+
+    Parameters
+    ----------
+    neutral
+        Pictures (h, w) of every camera in use.
+    output
+        What happens after the network; nothing by default. Smoothing of landmarks has no meaning here.
+    amplify_eyes
+        Factor on blink, wide and squint of each eye, before everything but smoothing.
+
+    Raises
+    ------
+    InputError
+        Where One-Euro smoothing is asked for and times are not known.
+    """
+    output = output or Output()
+    estimates, reseated = estimate_footage(predictor, footage, neutral)
+    seen = footage.present.any(axis=1)
+    weights = np.where(seen[:, None], np.clip(estimates.weights.astype(np.float64), 0, 1), np.nan)
+    gaze = np.where(seen[:, None], estimates.gaze.astype(np.float64).reshape(-1, 4), np.nan)
+    weights, gaze = _smoothed(weights, gaze, footage.time_s, output)
+    if amplify_eyes != 1:
+        weights = adjust(weights, dict.fromkeys(AMPLIFIED, ShapeAdjustment(gain=amplify_eyes)))
+    trust = None
+    if predictor.model.scores:
+        trust = confidence(predictor.model, estimates.deviation, footage.present)
+    if output.mirror:
+        gaze = gaze[:, [2, 3, 0, 1]] * [-1, 1, -1, 1]
+        trust = None if trust is None else mirror(trust)
+    return Performance(
+        names=output.names, weights=output.finish(weights), gaze=gaze, confidence=trust, reseated=reseated
+    )
+
+
+def _smoothed(
+    weights: np.ndarray, gaze: np.ndarray, time_s: np.ndarray | None, output: Output
+) -> tuple[np.ndarray, np.ndarray]:
+    if output.smooth > 1:
+        weights = moving_average(weights, output.smooth)
+        # that mean is of numbers from 0 to 1
+        gaze = (2 * moving_average(gaze / (2 * np.pi) + 0.5, output.smooth) - 1) * np.pi
+    if output.one_euro is not None and time_s is not None:
+        weights = one_euro(weights, time_s, output.one_euro)
+        stream = OneEuroStream(output.one_euro, np.full(4, EYES_FASTER * output.one_euro.cutoff_hz))
+        gaze = np.array([stream.step(float(time), row) for time, row in zip(time_s, gaze, strict=True)])
+    return weights, gaze
+
+
+def _fps(footage: Footage) -> float:
+    if footage.time_s is None or len(footage.time_s) < 2:
+        return ASSUMED_FPS
+    return 1 / float(np.median(np.diff(footage.time_s)))

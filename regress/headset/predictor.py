@@ -1,0 +1,73 @@
+"""A headset network ready to be used: what its folder says, and its graph."""
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from regress.headset.graph import Estimates, HeadsetGraph
+from regress.headset.model import HeadsetModel, read_headset_model
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class HeadsetPredictor:
+    """A loaded model folder.
+
+    Parameters
+    ----------
+    model
+        What the folder says of the network.
+    graph
+        Runs it.
+    """
+
+    model: HeadsetModel
+    graph: HeadsetGraph
+
+    @property
+    def sizes(self) -> dict[str, tuple[int, int]]:
+        """Width and height of each camera's pictures, in the model's order."""
+        return {camera.name: (camera.width, camera.height) for camera in self.model.cameras}
+
+    def predict(
+        self,
+        pictures: Mapping[str, np.ndarray],
+        *,
+        present: np.ndarray | None = None,
+        neutral: Mapping[str, np.ndarray] | None = None,
+        calibrated: np.ndarray | None = None,
+    ) -> Estimates:
+        """Estimates of n frames, all compared with the same neutral pictures.
+
+        Parameters
+        ----------
+        pictures
+            (n, h, w) uint8 by camera; one that is left out is not present.
+        present : (n, cameras) bool, optional
+            Which pictures count.
+        neutral
+            (h, w) uint8 by camera; without them no frame is calibrated.
+        calibrated : (n,) bool, optional
+            Which frames are compared with the neutral pictures; all by default.
+        """
+        count = len(next(iter(pictures.values())))
+        repeated = neutral and {
+            name: np.broadcast_to(picture, (count, *picture.shape)) for name, picture in neutral.items()
+        }
+        return self.graph.run(
+            dict(pictures), present=present, neutral=repeated or None, calibrated=calibrated
+        )
+
+
+def load_headset_predictor(folder: str | os.PathLike[str]) -> HeadsetPredictor:
+    """Load a model folder of ``regress headset train``.
+
+    Raises
+    ------
+    ModelError
+        Where it is none, or damaged.
+    """
+    model = read_headset_model(folder)
+    return HeadsetPredictor(model=model, graph=HeadsetGraph(Path(folder) / "network.onnx", model.cameras))

@@ -1,0 +1,39 @@
+"""Whether the headset still sits as it did when the neutral pictures were taken."""
+
+import numpy as np
+
+PATIENCE_S = 0.5
+"""How long the running mean must say that the seat has changed: a blink or a shaken head is shorter."""
+
+
+def seat_change(same_seat: np.ndarray, usable: np.ndarray, *, fps: float) -> int | None:
+    """Row from which the seat is no longer that of the neutral pictures; None where it stays.
+
+    A running mean over `PATIENCE_S` that is below one half for as long tells a new seat; it counts from the
+    frame at which the mean fell. A headset that comes back to its old seat exactly does not happen.
+
+    Parameters
+    ----------
+    same_seat : (n,) float
+        Probabilities by the network.
+    usable : (n,) bool
+        Frames that have pictures to judge by; others are left out.
+    fps
+        Frames a second.
+    """
+    rows = np.flatnonzero(usable)
+    window = max(1, round(PATIENCE_S * fps))
+    if len(rows) < window:
+        return int(rows[0]) if len(rows) and float(np.mean(same_seat[rows])) < 0.5 else None
+    sums = np.cumsum(np.concatenate([[0.0], same_seat[rows].astype(np.float64)]))
+    counts = np.minimum(np.arange(1, len(rows) + 1), window)
+    mean = (sums[1:] - sums[np.arange(1, len(rows) + 1) - counts]) / counts
+    low = 0
+    for place in range(window - 1, len(rows)):
+        low = low + 1 if mean[place] < 0.5 else 0
+        if low == window:
+            began = place - window + 1
+            return int(
+                rows[0 if began == window - 1 else began]
+            )  # from the first whole window on: never the same
+    return None

@@ -1,0 +1,238 @@
+"""`regress headset predict`, as a person runs it."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPES
+from facegen.formats import read_live_link
+from tests.regress.headset.takes import pictures, write_pictures, write_take
+from tests.regress.headset.tiny import NAMES, OWNER, write_tiny_model
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_tiny_model(tmp_path_factory.mktemp("models") / "tiny")
+
+
+@pytest.fixture
+def take(tmp_path: Path) -> list[str]:
+    """Options of a sound take of 12 frames, its own brightness a camera: 0.2, 0.4 and 0.6."""
+    means = dict(zip(NAMES, (51, 102, 153), strict=True))
+    return write_take(tmp_path / "take", {name: pictures([mean] * 12) for name, mean in means.items()})
+
+
+def _rows(text: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def test_a_take_becomes_a_table_with_gaze_and_confidence(run, model: Path, take: list[str], tmp_path: Path):
+    code, out, said = run(
+        "headset", "predict", model, *take, "--fps", 30, "--confidence", tmp_path / "trust.csv"
+    )
+    assert (code, said) == (0, "")
+    rows = _rows(out)
+    assert list(rows[0])[:2] == ["frame", "time_s"]
+    assert list(rows[0])[2:54] == list(BLENDSHAPES)
+    assert list(rows[0])[54:] == [
+        "left_eye_yaw_deg",
+        "left_eye_pitch_deg",
+        "right_eye_yaw_deg",
+        "right_eye_pitch_deg",
+    ]
+    assert [row["frame"] for row in rows] == [str(number) for number in range(12)]
+    expected = {"left_eye": 0.2, "right_eye": 0.4, "mouth": 0.6}
+    for shape in BLENDSHAPES:
+        assert float(rows[5][shape]) == pytest.approx(expected[OWNER[shape]], abs=0.005)
+    assert float(rows[5]["left_eye_yaw_deg"]) == pytest.approx(np.degrees(0.02), abs=0.02)
+    trust = _rows((tmp_path / "trust.csv").read_text())
+    assert len(trust) == 12
+    assert all(float(trust[0][shape]) > 0.5 for shape in BLENDSHAPES)
+
+
+def test_the_three_short_options_are_cameras_too(run, model: Path, take: list[str], tmp_path: Path):
+    folder = tmp_path / "take"
+    short = [
+        "--left-eye",
+        folder / "left_eye",
+        "--right-eye",
+        folder / "right_eye",
+        "--mouth",
+        folder / "mouth",
+    ]
+    assert run("headset", "predict", model, *short)[1] == run("headset", "predict", model, *take)[1]
+
+
+def test_every_fault_is_one_sentence_and_the_other_cameras_go_on(run, model: Path, tmp_path: Path):
+    stacks = {name: pictures([100] * 40, seed=seed) for seed, name in enumerate(NAMES)}
+    stacks["mouth"][10:30] = stacks["mouth"][9]  # frozen
+    stacks["left_eye"][5] = 3  # black
+    options = write_take(tmp_path, stacks)
+    (tmp_path / "right_eye" / "frame_0007.png").unlink()
+    (tmp_path / "right_eye" / "frame_0008.png").write_bytes(b"\x89PNG")
+    cv2.imwrite(str(tmp_path / "right_eye" / "frame_0020.png"), np.full((50, 20), 99, np.uint8))
+    code, out, said = run("headset", "predict", model, *options, "--confidence", tmp_path / "trust.csv")
+    assert code == 0
+    assert said.splitlines() == [
+        "left_eye: 1 of 40 frames have a black picture: 5",
+        "right_eye: 1 of 40 frames have no picture: 7",
+        "right_eye: 1 of 40 frames have a file that is no picture: 8",
+        "right_eye: 1 of 40 frames have a picture of another shape: 20",
+        "mouth: 20 of 40 frames have the picture of before again, while other cameras go on: 10-29",
+    ]
+    rows, trust = _rows(out), _rows((tmp_path / "trust.csv").read_text())
+    at_fault = {"left_eye": {5}, "right_eye": {7, 8, 20}, "mouth": set(range(10, 30))}
+    for row in range(40):
+        for shape in BLENDSHAPES:
+            gone = row in at_fault[OWNER[shape]]
+            assert float(rows[row][shape]) == pytest.approx(0 if gone else 100 / 255, abs=0.005)
+            assert (float(trust[row][shape]) <= 0.1) == gone
+    code, out, said = run("headset", "predict", model, *options, "--strict", "--out", tmp_path / "w.csv")
+    assert code == 2
+    assert "without --strict the other cameras' pictures count" in said
+    assert not (tmp_path / "w.csv").exists()
+
+
+def test_a_camera_may_be_left_out(run, model: Path, take: list[str]):
+    code, out, said = run("headset", "predict", model, *take[:4])
+    assert code == 0
+    assert said == "mouth: not given; its shapes come from the other cameras as far as these know them\n"
+    assert float(_rows(out)[0]["jawOpen"]) == 0
+
+
+def test_eyes_of_one_take_and_the_mouth_of_another(run, model: Path, take: list[str], tmp_path: Path):
+    other = write_take(tmp_path / "other", {"mouth": pictures([200] * 9)}, first=700)
+    code, _, said = run("headset", "predict", model, *take[:4], *other)
+    assert code == 2
+    assert "--from-start matches takes of different recordings" in said
+    code, out, said = run("headset", "predict", model, *take[:4], *other, "--from-start")
+    assert code == 0
+    assert said.startswith("the cameras have different numbers of frames (")
+    assert len(said.splitlines()) == 1
+    rows = _rows(out)
+    assert len(rows) == 9
+    assert float(rows[8]["jawOpen"]) == pytest.approx(200 / 255, abs=0.005)
+    assert float(rows[8]["eyeBlinkLeft"]) == pytest.approx(0.2, abs=0.005)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--camera", "nose=take"], "the model has no camera 'nose'; it has left_eye, right_eye, mouth"),
+        (["--camera", "mouth"], "--camera 'mouth' is not NAME=PATH, as --camera mouth=take/mouth"),
+        (["--camera", "mouth=a", "--mouth", "b"], "camera mouth is given twice: b and a"),
+        (
+            [],
+            "give either a dataset or the cameras' paths (left_eye, right_eye, mouth), as --camera NAME=PATH",
+        ),
+        (["nowhere"], "nowhere is no dataset with pictures: it has no folder renders"),
+        (["TAKE", "--neutral", "99"], "is neither a frame of"),
+        (["TAKE", "--one-euro", "1"], "does not say when its frames were taken; give --fps"),
+        (["TAKE", "--format", "livelink"], "does not say when its frames were taken; give --fps"),
+        (["TAKE", "--retarget", "vrm1", "--video", "a.mp4"], "leave out --retarget"),
+        (["TAKE", "--video", "a.gif"], "is no film's name"),
+    ],
+)
+def test_what_cannot_be_done_is_one_sentence(
+    run, model: Path, take: list[str], words: list[str], message: str
+):
+    words = take + words[1:] if words[:1] == ["TAKE"] else words
+    code, out, said = run("headset", "predict", model, *words)
+    assert code == 2
+    assert message in said
+    assert len(said.splitlines()) == 1
+    assert out == ""
+
+
+def test_a_model_of_keypoints_is_told_apart(run, quick_model_folder: Path, take: list[str]):
+    code, _, said = run("headset", "predict", quick_model_folder, *take)
+    assert code == 2
+    assert "headset" in said
+
+
+def test_neutral_frames_by_number_by_folder_and_found(run, model: Path, tmp_path: Path):
+    rng = np.random.default_rng(1)
+    means = np.where(rng.random(80) < 0.5, 60, 60 + rng.uniform(10, 90, 80))
+    means[3] = 60
+    options = write_take(
+        tmp_path / "take", {name: pictures(means, seed=seed) for seed, name in enumerate(NAMES)}
+    )
+    by_number = run("headset", "predict", model, *options, "--neutral", 3)
+    for seed, name in enumerate(NAMES):
+        write_pictures(tmp_path / "neutral", pictures(means, seed=seed)[3][None], name=f"{name}.png")
+    assert run("headset", "predict", model, *options, "--neutral", tmp_path / "neutral") == by_number
+    found = run("headset", "predict", model, *options, "--neutral", "auto")
+    assert found[0] == by_number[0] == 0
+    assert "is taken for neutral: 20 calm frames of 80 agree to 0.00" in found[2]
+    for row, other in zip(_rows(found[1]), _rows(by_number[1]), strict=True):
+        assert float(row["jawOpen"]) == pytest.approx(float(other["jawOpen"]), abs=0.005)
+    assert float(_rows(by_number[1])[3]["jawOpen"]) == 0
+
+
+def test_a_new_seat_is_said_once_with_its_frame(run, model: Path, tmp_path: Path):
+    means = [60.0] * 40 + [170.0] * 40
+    options = write_take(tmp_path, {name: pictures(means, seed=seed) for seed, name in enumerate(NAMES)})
+    code, out, said = run("headset", "predict", model, *options, "--neutral", 0, "--fps", 30)
+    assert code == 0
+    assert len(said.splitlines()) == 1
+    frame = int(said.removeprefix("frame ").partition(":")[0])
+    assert 40 <= frame <= 55
+    assert float(_rows(out)[79]["jawOpen"]) == pytest.approx(170 / 255, abs=0.01)
+
+
+def test_live_link_columns_hold_the_gaze(run, model: Path, take: list[str], tmp_path: Path):
+    table = tmp_path / "take.csv"
+    code, _, _ = run("headset", "predict", model, *take, "--fps", 30, "--format", "livelink", "--out", table)
+    assert code == 0
+    read = read_live_link(table)
+    assert read.weights[:, BLENDSHAPES.index("jawOpen")] == pytest.approx(0.6, abs=0.005)
+    row = _rows(table.read_text())[0]
+    assert float(row["LeftEyeYaw"]) == pytest.approx(-0.02, abs=0.001)
+    assert float(row["RightEyePitch"]) == pytest.approx(-0.08, abs=0.002)
+    assert float(row["HeadYaw"]) == 0
+
+
+def test_adjustments_are_those_of_regress_predict(run, model: Path, take: list[str], tmp_path: Path):
+    path = tmp_path / "adjust.json"
+    path.write_text(json.dumps({"format": "regress-adjustment", "shapes": {"jawOpen": {"gain": 0.5}}}))
+    for option in ("--adjust", "--calibration"):
+        out = run("headset", "predict", model, *take, option, path)[1]
+        assert float(_rows(out)[0]["jawOpen"]) == pytest.approx(0.3, abs=0.005)
+
+
+def test_a_dataset_is_predicted_by_sample(run, model: Path, tmp_path: Path):
+    for name in NAMES:
+        for sample, picture in enumerate(pictures([100] * 5)):
+            folder = tmp_path / "set" / "renders" / "000" / f"{sample:06d}"
+            write_pictures(folder, picture[None], name=f"{name}.png")
+    code, out, said = run("headset", "predict", model, tmp_path / "set")
+    assert (code, said, len(_rows(out))) == (0, "", 5)
+    code, _, said = run("headset", "predict", model, tmp_path / "set", "--neutral", "auto")
+    assert code == 2
+    assert "a dataset has many people" in said
+
+
+@pytest.mark.slow
+def test_a_film_shows_the_cameras_beside_the_avatar(run, model: Path, take: list[str], tmp_path: Path):
+    film = tmp_path / "take.mp4"
+    code, _, said = run("headset", "predict", model, *take[:4], "--fps", 10, "--video", film)
+    assert code == 0, said
+    reader = cv2.VideoCapture(str(film))
+    assert reader.get(cv2.CAP_PROP_FPS) == 10
+    frames = [frame for there, frame in iter(reader.read, (False, None)) if there]
+    reader.release()
+    assert len(frames) == 12
+    height, width = frames[0].shape[:2]
+    assert height == 480
+    assert width > 800
+    # the right eye (0.4 of white) lies at the left, the left eye (0.2) beside it, and no mouth below
+    side = height // 2
+    assert frames[0][60:160, 20 : side - 20].mean() == pytest.approx(102, abs=8)
+    assert frames[0][60:160, side + 20 : 2 * side - 20].mean() == pytest.approx(51, abs=8)
+    assert frames[0][side + 60 :, 20 : 2 * side - 20].max() < 90
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["take", "take.mp4"]

@@ -1,0 +1,192 @@
+"""Recordings side by side: what is matched, what is wrong with it, and that the rest goes on."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from regress.errors import InputError
+from regress.headset.faults import FROZEN_FRAMES, Fault, frozen_frames, picture_fault, told_faults
+from regress.headset.footage import line_up
+from regress.headset.recordings import read_recording, read_rendered
+from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
+
+SIZES = {"left_eye": (WIDTH, HEIGHT), "right_eye": (WIDTH, HEIGHT), "mouth": (WIDTH, HEIGHT)}
+
+
+@given(first=st.integers(0, 10**6), step=st.integers(1, 3), lost=st.sets(st.integers(0, 29), max_size=8))
+@settings(max_examples=40, deadline=None)
+def test_a_number_that_one_camera_lacks_is_missing_there_alone(first: int, step: int, lost: set[int]):
+    numbers = first + step * np.arange(30)
+    kept = [place for place in range(30) if place not in lost]
+    eye, mouth = pictures([100] * 30), pictures([120] * 30, seed=1)
+    footage = line_up(
+        {
+            "left_eye": recording("left_eye", eye, numbers=numbers),
+            "mouth": recording("mouth", mouth[kept], numbers=numbers[kept]),
+        },
+        SIZES,
+    )
+    assert footage.numbers.tolist() == numbers.tolist()
+    assert footage.present[:, 0].all()
+    assert not footage.present[:, 1].any()
+    assert np.flatnonzero(~footage.present[:, 2]).tolist() == sorted(lost)
+    assert np.array_equal(footage.pictures["mouth"][kept], mouth[kept])
+    assert not footage.pictures["mouth"][sorted(lost)].any()
+    assert any("right_eye: not given" in note for note in footage.notes)
+    assert any("mouth" in note and "no picture" in note for note in footage.notes) == bool(lost)
+
+
+def test_numbers_that_all_cameras_lack_are_frames_without_pictures():
+    numbers = [0, 1, 2, 6, 7]
+    both = {
+        name: recording(name, pictures([100] * 5, seed=2), numbers=numbers) for name in ("left_eye", "mouth")
+    }
+    footage = line_up(both, SIZES, fps=10)
+    assert footage.numbers.tolist() == list(range(8))
+    assert footage.present.any(axis=1).tolist() == [True] * 3 + [False] * 3 + [True] * 2
+    assert footage.time_s == pytest.approx(np.arange(8) / 10)
+    assert "mouth: 3 of 8 frames have no picture: 3-5" in footage.notes
+
+
+def test_clock_times_for_numbers_are_no_grid():
+    numbers = [1_700_000_000_000 + 33 * place + place % 2 for place in range(20)]
+    both = {name: recording(name, pictures([100] * 20), numbers=numbers) for name in ("left_eye", "mouth")}
+    assert line_up(both, SIZES).numbers.tolist() == numbers
+
+
+def test_takes_of_different_recordings_are_matched_from_the_start():
+    eye = recording("left_eye", pictures([100] * 9), numbers=range(9))
+    mouth = recording("mouth", pictures([90] * 12), numbers=range(500, 512))
+    with pytest.raises(InputError, match=r"nothing in common \(left_eye 0-8, mouth 500-511\); --from-start"):
+        line_up({"left_eye": eye, "mouth": mouth}, SIZES)
+    footage = line_up({"left_eye": eye, "mouth": mouth}, SIZES, from_start=True)
+    assert len(footage.numbers) == 9
+    assert np.array_equal(footage.pictures["mouth"], mouth.pictures[:9])
+    assert footage.notes[0] == (
+        "the cameras have different numbers of frames (left_eye has 9, mouth has 12); the first 9 count"
+    )
+
+
+@given(start=st.integers(1, 20), length=st.integers(1, 25), seed=st.integers(0, 99))
+@settings(max_examples=40, deadline=None)
+def test_a_camera_is_frozen_where_it_repeats_for_long_while_others_move(start: int, length: int, seed: int):
+    rng = np.random.default_rng(seed)
+    frozen, moving = (rng.integers(0, 255, (50, 6, 6), dtype=np.uint8) for _ in range(2))
+    frozen[start : start + length] = frozen[start - 1]
+    there = np.ones(50, dtype=bool)
+    found = frozen_frames({"eye": frozen, "mouth": moving}, {"eye": there, "mouth": there})
+    expected = list(range(start, start + length)) if length > FROZEN_FRAMES else []
+    assert np.flatnonzero(found["eye"]).tolist() == expected
+    assert not found["mouth"].any()
+
+
+def test_a_scene_in_which_nothing_moves_is_not_frozen_nor_is_a_camera_alone():
+    still = np.repeat(pictures([100]), 40, axis=0)
+    there = np.ones(40, dtype=bool)
+    assert not any(
+        f.any() for f in frozen_frames({"a": still, "b": still}, {"a": there, "b": there}).values()
+    )
+    assert not frozen_frames({"a": still}, {"a": there})["a"].any()
+
+
+def test_black_and_flat_pictures_are_told_from_dark_ones():
+    rng = np.random.default_rng(4)
+    assert picture_fault(rng.normal(8, 3, (96, 96)).clip(0, 255).astype(np.uint8)) is Fault.BLACK
+    assert picture_fault(np.full((96, 96), 255, dtype=np.uint8)) is Fault.FLAT
+    assert picture_fault(pictures([60])[0]) is None
+
+
+def test_sentences_list_runs_and_end():
+    faults = [Fault.BLACK if number % 3 else None for number in range(60)]
+    (line,) = told_faults("mouth", range(60), faults)
+    assert line.startswith("mouth: 40 of 60 frames have a black picture: 1-2, 4-5, ")
+    assert line.endswith(" and 12 more")
+    assert told_faults("mouth", [1, 2], [Fault.BLACK] * 2) == [
+        "mouth: 2 of 2 frames have a black picture: all of them"
+    ]
+
+
+def test_folders_are_read_by_number_scaled_and_with_their_faults(tmp_path: Path):
+    large = np.array([cv2.resize(one, (WIDTH * 3, HEIGHT * 3)) for one in pictures([90] * 11)])
+    folder = write_pictures(tmp_path / "eye", large, name="{}.png")  # 10.png sorts before 2.png
+    (folder / "5.png").write_bytes(b"not a picture")
+    (folder / "6.png").write_bytes(b"")
+    cv2.imwrite(str(folder / "7.png"), np.full((30, 20), 99, dtype=np.uint8))
+    cv2.imwrite(str(folder / "8.png"), np.zeros((HEIGHT, WIDTH), dtype=np.uint8))
+    (folder / "notes.txt").write_text("12")
+    found = read_recording(folder, "left_eye", width=WIDTH, height=HEIGHT)
+    assert found.numbers.tolist() == list(range(11))
+    faults = {number: fault for number, fault in enumerate(found.faults) if fault}
+    assert faults == {5: Fault.UNREADABLE, 6: Fault.UNREADABLE, 7: Fault.SHAPE, 8: Fault.BLACK}
+    assert found.scaled_from == (WIDTH * 3, HEIGHT * 3)
+    assert found.pictures.shape == (11, HEIGHT, WIDTH)
+    footage = line_up({"left_eye": found}, SIZES)
+    assert "left_eye: pictures of 48 x 36 are scaled to 16 x 12" in footage.notes
+    assert "left_eye: 1 of 11 frames have a picture of another shape: 7" in footage.notes
+
+
+def test_files_without_numbers_of_their_own_are_counted(tmp_path: Path):
+    folder = write_pictures(tmp_path / "eye", pictures([90] * 3), name="take1_{:c}.png", first=ord("a"))
+    found = read_recording(folder, "left_eye", width=WIDTH, height=HEIGHT)
+    assert (found.numbers.tolist(), found.numbered) == ([0, 1, 2], False)
+
+
+def test_films_are_read_with_their_rate(tmp_path: Path):
+    film = tmp_path / "eye.avi"
+    writer = cv2.VideoWriter(str(film), cv2.VideoWriter_fourcc(*"MJPG"), 25, (WIDTH * 8, HEIGHT * 8))
+    stack = pictures(np.linspace(60, 120, 12))
+    for one in stack:
+        large = cv2.resize(one, (WIDTH * 8, HEIGHT * 8), interpolation=cv2.INTER_NEAREST)
+        writer.write(cv2.cvtColor(large, cv2.COLOR_GRAY2BGR))
+    writer.release()
+    found = read_recording(film, "left_eye", width=WIDTH, height=HEIGHT)
+    assert (len(found.numbers), found.fps, found.numbered) == (12, 25, False)
+    assert found.pictures.mean(axis=(1, 2)) == pytest.approx(stack.mean(axis=(1, 2)), abs=2)
+    footage = line_up({"left_eye": found}, SIZES)
+    assert footage.time_s == pytest.approx(np.arange(12) / 25)
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("nowhere", "does not exist; a folder of left_eye's pictures or a film of them is needed"),
+        ("empty", r"has no pictures of left_eye; \.png"),
+        ("words.txt", "is neither a folder nor a film"),
+        ("broken.mp4", "cannot be read as a film"),
+    ],
+)
+def test_what_is_no_recording_is_refused(tmp_path: Path, name: str, message: str):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "words.txt").write_text("words")
+    (tmp_path / "broken.mp4").write_bytes(b"\0" * 100)
+    with pytest.raises(InputError, match=message):
+        read_recording(tmp_path / name, "left_eye", width=WIDTH, height=HEIGHT)
+
+
+def test_a_dataset_is_read_by_sample_and_none_of_it_is_frozen(tmp_path: Path):
+    same = np.repeat(pictures([100]), 20, axis=0)
+    for camera, stack in {"left_eye": same, "mouth": pictures([100] * 20)}.items():
+        for sample, picture in enumerate(stack):
+            folder = tmp_path / "renders" / "000" / f"{3 * sample:06d}"
+            write_pictures(folder, picture[None], name=f"{camera}.png")
+    found = {
+        name: read_rendered(tmp_path, name, width=WIDTH, height=HEIGHT) for name in ("left_eye", "mouth")
+    }
+    footage = line_up(found, SIZES, still=True)
+    assert footage.numbers.tolist() == list(range(0, 60, 3))
+    assert footage.present[:, [0, 2]].all()
+    with pytest.raises(InputError, match="has no rendered pictures of right_eye"):
+        read_rendered(tmp_path, "right_eye", width=WIDTH, height=HEIGHT)
+
+
+def test_footage_without_a_usable_picture_is_refused():
+    black = np.zeros((3, HEIGHT, WIDTH), dtype=np.uint8)
+    found = recording("mouth", black, faults=(Fault.BLACK,) * 3)
+    with pytest.raises(
+        InputError, match=r"no picture is usable: .*mouth: 3 of 3 frames have a black picture: all"
+    ):
+        line_up({"mouth": found}, SIZES)

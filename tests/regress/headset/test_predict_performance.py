@@ -1,0 +1,159 @@
+"""From footage to weights: calibration, seats, neutral frames, confidence, and what people ask for."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
+from regress.errors import InputError
+from regress.headset.footage import Footage, line_up
+from regress.headset.neutral import calmest_frame, neutral_of_frame, read_neutral
+from regress.headset.performance import AMPLIFIED, perform
+from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.headset.seats import seat_change
+from regress.predict import Output
+from regress.smoothing import OneEuro
+from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
+from tests.regress.headset.tiny import BLIND, NAMES, OWNER, PLAIN, STD, write_tiny_model
+
+
+@pytest.fixture(scope="module")
+def predictor(tmp_path_factory: pytest.TempPathFactory) -> HeadsetPredictor:
+    return load_headset_predictor(write_tiny_model(tmp_path_factory.mktemp("models") / "tiny"))
+
+
+def _footage(
+    predictor: HeadsetPredictor, means: dict[str, list[float]], *, fps: float | None = 30
+) -> Footage:
+    stacks = {name: pictures(values, seed=seed) for seed, (name, values) in enumerate(means.items())}
+    return line_up({name: recording(name, stack) for name, stack in stacks.items()}, predictor.sizes, fps=fps)
+
+
+def test_each_camera_drives_its_shapes_and_an_absent_one_lowers_confidence(predictor: HeadsetPredictor):
+    footage = _footage(predictor, {"left_eye": [51, 102], "mouth": [153, 204]})
+    made = perform(predictor, footage)
+    for name, values in {"left_eye": [0.2, 0.4], "right_eye": [0, 0], "mouth": [0.6, 0.8]}.items():
+        columns = [OWNER[shape] == name for shape in BLENDSHAPES]
+        assert made.weights[:, columns] == pytest.approx(
+            np.array(values)[:, None] * np.ones(sum(columns)), abs=0.01
+        )
+        # what the deviation says, and no more than the best other camera explains alone: 0.8 its own shapes, 0.1 others
+        trust = 0.1 if name == "right_eye" else min(0.8, 1 - (PLAIN / STD) ** 2)
+        expected = min(trust, 1 - (BLIND / STD) ** 2) if name == "right_eye" else trust
+        assert made.confidence[:, columns] == pytest.approx(max(expected, 0.0), abs=1e-6)
+    assert made.gaze[:, 0] == pytest.approx([0.02, 0.04], abs=0.002)
+
+
+def test_frames_without_pictures_have_no_weights_and_no_confidence(predictor: HeadsetPredictor):
+    both = {name: recording(name, pictures([99] * 4), numbers=[0, 1, 2, 4]) for name in NAMES}
+    made = perform(predictor, line_up(both, predictor.sizes))
+    assert np.isnan(made.weights).all(axis=1).tolist() == [False, False, False, True, False]
+    assert np.isnan(made.gaze).any(axis=1).tolist() == [False, False, False, True, False]
+    assert not made.confidence[3].any()
+    assert (made.confidence[[0, 1, 2, 4]] > 0.8).all()
+
+
+def test_calibration_is_the_difference_from_the_neutral_frame(predictor: HeadsetPredictor):
+    footage = _footage(predictor, {name: [60, 90, 110] for name in NAMES})
+    made = perform(predictor, footage, neutral_of_frame(footage, 0))
+    expected = np.repeat(np.array([[0], [30], [50]]) / 255, 52, axis=1)
+    assert made.weights == pytest.approx(expected, abs=0.005)
+    assert made.reseated is None
+
+
+def test_a_reseated_headset_is_seen_and_goes_on_uncalibrated(predictor: HeadsetPredictor):
+    fps, change = 20, 30
+    means = [60.0] * change + [160.0] * 40
+    footage = _footage(predictor, {name: means for name in NAMES}, fps=fps)
+    neutral = neutral_of_frame(footage, 0)
+    made = perform(predictor, footage, neutral)
+    assert change <= made.reseated <= change + fps / 2
+    assert made.weights[: change - 1] == pytest.approx(0, abs=0.005)
+    assert made.weights[made.reseated :] == pytest.approx(160 / 255, abs=0.005)
+
+
+@given(low=st.integers(0, 60), length=st.integers(0, 40), fps=st.sampled_from([10, 30]))
+@settings(max_examples=60, deadline=None)
+def test_a_seat_changes_only_where_it_stays_changed(low: int, length: int, fps: int):
+    same = np.full(120, 0.95)
+    same[low : low + length] = 0.02
+    found = seat_change(same, np.ones(120, dtype=bool), fps=fps)
+    if length < fps / 2:
+        assert found is None
+    if length > fps:
+        assert abs(found - low) <= fps / 2
+    # frames without pictures say nothing
+    usable = np.ones(120, dtype=bool)
+    usable[low : low + length] = False
+    assert seat_change(same, usable, fps=fps) is None
+
+
+def test_the_calmest_frame_is_found_and_doubt_is_told():
+    rng = np.random.default_rng(3)
+    weights = rng.uniform(0.3, 0.8, size=(80, 52))
+    calm = rng.choice(80, 30, replace=False)
+    weights[calm] = 0.1 + rng.uniform(0, 0.02, size=(30, 52))
+    usable = np.ones(80, dtype=bool)
+    usable[calm[:3]] = False
+    found = calmest_frame(weights, usable)
+    assert found.sure
+    assert found.row in set(calm[3:])
+    assert not calmest_frame(weights[:20], usable[:20]).sure
+    weights[:] = 0.9
+    weights[:10], weights[70:] = 0.1, 0.4  # as by a new seat in between
+    assert "early and late" in calmest_frame(weights, np.ones(80, dtype=bool)).reason
+    with pytest.raises(InputError, match="none can be the neutral one"):
+        calmest_frame(weights, np.zeros(80, dtype=bool))
+
+
+def test_a_neutral_frame_needs_every_camera_in_use(predictor: HeadsetPredictor, tmp_path: Path):
+    takes = {
+        "left_eye": recording("left_eye", pictures([99] * 3)),
+        "mouth": recording("mouth", pictures([99] * 2), numbers=[1, 2]),
+    }
+    footage = line_up(takes, predictor.sizes)
+    with pytest.raises(InputError, match="frame 0 cannot be the neutral one: mouth has no picture there"):
+        neutral_of_frame(footage, 0)
+    assert set(neutral_of_frame(footage, 1)) == {"left_eye", "mouth"}
+    write_pictures(tmp_path, pictures([99]), name="left_eye.png")
+    assert set(read_neutral(tmp_path, {"left_eye": (WIDTH, HEIGHT)})) == {"left_eye"}
+    with pytest.raises(InputError, match=r"has no neutral picture of mouth; mouth\.png is looked for"):
+        read_neutral(tmp_path, {"mouth": (WIDTH, HEIGHT)})
+    write_pictures(tmp_path, np.zeros((1, HEIGHT, WIDTH), dtype=np.uint8), name="mouth.png")
+    with pytest.raises(InputError, match="it is a black picture"):
+        read_neutral(tmp_path, {"mouth": (WIDTH, HEIGHT)})
+
+
+def test_amplified_lids_alone_change_and_stay_weights(predictor: HeadsetPredictor):
+    footage = _footage(predictor, {name: [51, 153] for name in NAMES})
+    plain, strong = perform(predictor, footage), perform(predictor, footage, amplify_eyes=2)
+    lids = [name in AMPLIFIED for name in BLENDSHAPES]
+    assert sum(lids) == 6
+    assert strong.weights[:, lids] == pytest.approx(np.minimum(2 * plain.weights[:, lids], 1))
+    assert np.array_equal(strong.weights[:, np.logical_not(lids)], plain.weights[:, np.logical_not(lids)])
+
+
+def test_a_mirror_exchanges_weights_gaze_and_confidence(predictor: HeadsetPredictor):
+    footage = _footage(predictor, {"left_eye": [51, 102], "mouth": [153, 204]})
+    plain, turned = perform(predictor, footage), perform(predictor, footage, output=Output(mirror=True))
+    order = list(MIRRORED_BLENDSHAPES)
+    assert np.array_equal(turned.weights, plain.weights[:, order])
+    assert np.array_equal(turned.confidence, plain.confidence[:, order])
+    left_yaw, left_pitch, right_yaw, right_pitch = plain.gaze.T
+    assert turned.gaze == pytest.approx(np.stack([-right_yaw, right_pitch, -left_yaw, left_pitch], axis=1))
+
+
+@pytest.mark.parametrize("output", [Output(smooth=4), Output(one_euro=OneEuro(cutoff_hz=1.0, beta=0.5))])
+def test_smoothing_calms_weights_and_gaze_alike(predictor: HeadsetPredictor, output: Output):
+    rng = np.random.default_rng(0)
+    means = (128 + rng.normal(0, 12, 60)).tolist()
+    footage = _footage(predictor, {name: means for name in NAMES})
+    plain, calm = perform(predictor, footage), perform(predictor, footage, output=output)
+    blink = BLENDSHAPE_INDEX["eyeBlinkLeft"]
+    assert calm.weights[10:, blink].std() < 0.8 * plain.weights[10:, blink].std()
+    assert calm.gaze[10:].std() < plain.gaze[10:].std()
+    assert calm.gaze[10:, 0].std() < 0.8 * plain.gaze[10:, 0].std()
+    assert calm.gaze[10:].mean(axis=0) == pytest.approx(plain.gaze[10:].mean(axis=0), abs=0.005)
