@@ -4,7 +4,7 @@ from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, visual_axis
 from facegen.rigs.files import load_rig, rigs_folder, save_rig
 from facegen.rigs.neutral import eye_centers, neutral_landmarks
-from facegen.rigs.occluder import Occluder, occluder
+from facegen.rigs.occluder import Occluder, closed_cage, occluder
 from facegen.rigs.rig import Rig
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "EyeGeometry",
     "Occluder",
     "Rig",
+    "closed_cage",
     "evaluate",
     "eye_centers",
     "eye_geometry",

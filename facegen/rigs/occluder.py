@@ -1,4 +1,4 @@
-"""The reduced mesh that hides keypoints: the rig's cage, with the rendered surface itself along the jaw."""
+"""The reduced mesh that hides keypoints: the rig's cage, eyes closed, and the rendered surface itself along the jaw."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -25,7 +25,7 @@ class Occluder:
 
 @lru_cache(maxsize=8)
 def occluder(rig: Rig) -> Occluder:
-    """The mesh that stands for the head in occlusion tests of keypoints; the cage itself where nothing is subdivided.
+    """The mesh that stands for the head in occlusion tests of keypoints; the closed cage where nothing is subdivided.
 
     Where fine and coarse faces meet, their edges part by as much as the cage cuts off: rays that slip through there
     are among the flags that differ.
@@ -37,12 +37,32 @@ def occluder(rig: Rig) -> Occluder:
         near = np.setdiff1d(rig.cage_faces[about], [-1])
     still = ~np.isin(rig.faces[fine], rig.lid_vertices[rig.lid_vertices >= 0]).any(axis=(1, 2))
     replaced = about & (fine[:, 0] >= 0) & still  # lids move the cage's vertices alone
-    faces = np.concatenate([rig.cage_faces[~replaced], rig.faces[fine[replaced]].reshape(-1, 4)])
+    faces = [rig.cage_faces[~replaced], rig.faces[fine[replaced]].reshape(-1, 4), _eye_fans(rig)]
+    faces = np.concatenate(faces)
     cage = np.arange(rig.cage_vertices)
     vertices = np.concatenate([cage, np.setdiff1d(faces, [*cage, -1])])
     row = np.full(len(rig.vertices) + 1, -1, np.int32)  # the last entry serves the padding
     row[vertices] = np.arange(len(vertices))
     return Occluder(vertices=vertices, faces=row[faces])
+
+
+@lru_cache(maxsize=8)
+def closed_cage(rig: Rig) -> np.ndarray:
+    """The cage's faces (c, 4), padded with -1, and what closes its eyes."""
+    return np.concatenate([rig.cage_faces, _eye_fans(rig)])
+
+
+def _eye_fans(rig: Rig) -> np.ndarray:
+    """Triangles (f, 4) from the outer canthi to the lids' margins: the cage has neither eyeballs nor cavities.
+
+    Without them, far landmarks are seen through the eyes of turned heads. All touch the outer canthus, so that none
+    stands before it.
+    """
+    margins = (*rig.upper_lid, *rig.lower_lid)
+    fans = [
+        np.stack(np.broadcast_arrays(margin[-1], margin[:-1], margin[1:], -1), axis=1) for margin in margins
+    ]
+    return np.concatenate(fans).astype(np.int32)
 
 
 def _fine_faces(rig: Rig) -> np.ndarray:

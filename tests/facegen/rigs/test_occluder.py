@@ -1,22 +1,29 @@
 """The reduced mesh that hides keypoints hides what the rendered mesh hides."""
 
 import numpy as np
+import pytest
 
 from facegen.conventions import Part, Visibility
 from facegen.geometry import apply_transform
 from facegen.labels import label_keypoints
 from facegen.labels.keypoints import KEYPOINT_TOLERANCE_M
 from facegen.raster import hidden_by_own
-from facegen.rigs import Rig, evaluate, occluder
+from facegen.rigs import Rig, closed_cage, evaluate, occluder
 from facegen.sampling import draw_samples, plan_dataset
 from facegen.spec import parse_spec
 
-FACES = 200
+FACES = 150
+WIDE = {
+    "yaw_deg": {"uniform": [-40, 40]},
+    "pitch_deg": {"uniform": [-25, 25]},
+    "roll_deg": {"uniform": [-20, 20]},
+}
 
 
-def test_flags_are_those_of_the_whole_mesh(rig: Rig) -> None:
-    """99 % of them, as people come by the default spec; `benchmarks/bench_visibility.py` has 10,000 faces."""
-    table = {"version": 1, "kind": "still", "seed": 11, "people": FACES // 2, "rig": rig.name}
+@pytest.mark.parametrize("head", [{}, WIDE], ids=["default", "wide"])
+def test_flags_are_those_of_the_whole_mesh(rig: Rig, head: dict) -> None:
+    """99 % of them; `benchmarks/bench_visibility.py` has 10,000 faces."""
+    table = {"version": 1, "kind": "still", "seed": 11, "people": FACES // 2, "rig": rig.name, "head": head}
     spec = parse_spec(table | {"still": {"neutral": 1, "faces": 1}}, where="test")
     samples = draw_samples(plan_dataset(spec), rig, 0).rows(slice(0, FACES))
     faces = evaluate(rig, samples.identity, samples.weights, samples.gaze)
@@ -27,7 +34,7 @@ def test_flags_are_those_of_the_whole_mesh(rig: Rig) -> None:
     points = apply_transform(camera, faces.landmarks)
     expected = hidden_by_own(points, faces.vertices, camera, whole, tolerance_m=KEYPOINT_TOLERANCE_M)
     seen = flags != Visibility.OUTSIDE
-    assert 0.1 < expected.mean() < 0.4
+    assert 0.1 < expected.mean() < 0.5
     assert np.mean((flags == Visibility.HIDDEN)[seen] == expected[seen]) >= 0.99
 
 
@@ -40,9 +47,9 @@ def test_stands_for_each_face_of_the_cage_once(rig: Rig) -> None:
     assert added < 0.2 * rig.cage_vertices
     area, cage_area = (
         _area(rig.vertices[reduced.vertices], reduced.faces),
-        _area(rig.vertices, rig.cage_faces),
+        _area(rig.vertices, closed_cage(rig)),
     )
-    np.testing.assert_allclose(area, cage_area, rtol=0.005)
+    np.testing.assert_allclose(area, cage_area, rtol=0.002)
 
 
 def _area(vertices: np.ndarray, faces: np.ndarray) -> float:
