@@ -13,9 +13,11 @@ from pathlib import Path
 import numpy as np
 
 from regress.exporters import export_model
+from regress.headset.predictor import HeadsetPredictor
 from regress.model import FastPredictor, Model
 
 BATCH_FRAMES = 20_000
+HEADSET_BATCH_FRAMES = 64
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,6 +78,39 @@ def time_model(model: Model, faces: np.ndarray) -> tuple[Timing, ...]:
             _time_c(folder, faces),
             _time_javascript(folder, faces),
         )
+
+
+def time_headset(predictor: HeadsetPredictor) -> tuple[Timing, ...]:
+    """Time a headset's network on pictures of noise, on one core, uncalibrated and with neutral pictures."""
+    import onnxruntime
+
+    rng = np.random.default_rng(0)
+    note = f"onnxruntime {onnxruntime.__version__}, {len(predictor.sizes)} cameras"
+
+    def noise(count: int) -> dict[str, np.ndarray]:
+        return {
+            name: rng.integers(0, 256, (count, height, width), dtype=np.uint8)
+            for name, (width, height) in predictor.sizes.items()
+        }
+
+    one, batch, neutral = noise(1), noise(HEADSET_BATCH_FRAMES), {name: p[0] for name, p in noise(1).items()}
+    return (
+        Timing(
+            name="ONNX, one frame",
+            microseconds=_best(lambda: predictor.predict(one), repeat=100),
+            note=note,
+        ),
+        Timing(
+            name="ONNX, calibrated",
+            microseconds=_best(lambda: predictor.predict(one, neutral=neutral), repeat=100),
+            note=note,
+        ),
+        Timing(
+            name=f"ONNX, {HEADSET_BATCH_FRAMES} frames",
+            microseconds=_best(lambda: predictor.predict(batch), repeat=1) / HEADSET_BATCH_FRAMES,
+            note=f"{note}, a frame's share",
+        ),
+    )
 
 
 def _time_onnx(folder: Path, faces: np.ndarray) -> Timing:

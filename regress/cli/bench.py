@@ -8,21 +8,25 @@ from typing import Annotated
 import numpy as np
 import typer
 
+from regress.headset.predictor import is_headset_model, load_headset_predictor
 from regress.model import load_model
-from regress.timing import time_model
+from regress.timing import time_headset, time_model
 
 
 def bench(
-    model: Annotated[Path, typer.Argument(help="Model folder, as `regress train` writes it")],
+    model: Annotated[Path, typer.Argument(help="Model folder of `regress train` or `regress headset train`")],
     as_json: Annotated[bool, typer.Option("--json", help="Unrounded figures for programs.")] = False,
 ) -> None:
-    """Time a model in NumPy and in each export that can run here, preprocessing included.
+    """Time a model in NumPy and in each export that can run here, or a headset's network, preprocessing included.
 
     Example: regress bench models/default
     """
-    loaded = load_model(model)
-    noise = np.random.default_rng(0).normal(size=(100, 68, 2)) * 0.01
-    timings = time_model(loaded, (loaded.features.mean_shape + noise) * 300 + 900)
+    if is_headset_model(model):
+        timings = time_headset(load_headset_predictor(model))
+    else:
+        loaded = load_model(model)
+        noise = np.random.default_rng(0).normal(size=(100, 68, 2)) * 0.01
+        timings = time_model(loaded, (loaded.features.mean_shape + noise) * 300 + 900)
     if as_json:
         typer.echo(json.dumps([dataclasses.asdict(timing) for timing in timings]))
         return

@@ -2,7 +2,10 @@
 
 import typer
 
+from regress.cli.headset_evaluate import evaluate
+from regress.cli.headset_export import export
 from regress.cli.headset_predict import predict
+from regress.cli.headset_train import train
 
 headset = typer.Typer(
     name="headset",
@@ -11,4 +14,7 @@ headset = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+headset.command()(train)
+headset.command()(evaluate)
 headset.command()(predict)
+headset.command()(export)

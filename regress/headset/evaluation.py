@@ -280,10 +280,10 @@ def _grouped(keys: np.ndarray, errors: dict[str, np.ndarray]) -> dict[str, Any]:
 def _honesty(said: Estimates, true: np.ndarray) -> dict[str, float | None]:
     """Mean squared error over predicted variance (1 is honest), and how error and deviation correlate."""
     error, deviation = (said.weights - true)[:, _SCORED], said.deviation[:, _SCORED]
-    alike = np.corrcoef(np.abs(error).ravel(), deviation.ravel())[0, 1] if deviation.std() > 0 else np.nan
+    alike = np.corrcoef(np.abs(error).ravel(), deviation.ravel())[0, 1] if np.ptp(deviation) > 0 else np.nan
     return {
         "squared_error_over_variance": float(np.mean(error**2) / np.mean(deviation**2)),
-        "correlation": None if np.isnan(alike) else float(alike),
+        "correlation": alike,
     }
 
 

@@ -1,5 +1,6 @@
 """A headset network ready to be used: what its folder says, and its graph."""
 
+import json
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from regress.headset.graph import Estimates, HeadsetGraph
-from regress.headset.model import HeadsetModel, read_headset_model
+from regress.headset.model import KIND, HeadsetModel, read_headset_model
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -59,6 +60,14 @@ class HeadsetPredictor:
         return self.graph.run(
             dict(pictures), present=present, neutral=repeated or None, calibrated=calibrated
         )
+
+
+def is_headset_model(folder: str | os.PathLike[str]) -> bool:
+    """Whether a folder says of itself that it is a headset network's; False as well where it says nothing."""
+    try:
+        return json.loads((Path(folder) / "model.json").read_bytes()).get("kind") == KIND
+    except (OSError, ValueError, AttributeError):
+        return False
 
 
 def load_headset_predictor(folder: str | os.PathLike[str]) -> HeadsetPredictor:

@@ -10,12 +10,7 @@ from facegen.conventions import BLENDSHAPES
 from regress.headset.model import GRAPH_OUTPUTS, CameraInput, HeadsetModel, save_headset_model
 from regress.headset.parts import part_of
 
-CAMERAS = (
-    CameraInput(name="left_eye", width=16, height=12),
-    CameraInput(name="right_eye", width=16, height=12, mirrored_of="left_eye"),
-    CameraInput(name="mouth", width=16, height=12),
-)
-NAMES = tuple(camera.name for camera in CAMERAS)
+NAMES = ("left_eye", "right_eye", "mouth")
 OWNER = {shape: next(name for name in NAMES if shape in part_of(name)) for shape in BLENDSHAPES}
 """Camera whose mean brightness, 0 to 1, is the weight."""
 
@@ -26,7 +21,7 @@ STD = 0.25
 """Of every shape in the test split that the scores speak of."""
 
 
-def tiny_graph() -> bytes:
+def tiny_graph(width: int, height: int) -> bytes:
     """Weight = mean of its camera's picture / 255, less the neutral picture's where calibrated.
 
     Gaze is 0.1, 0.2, 0.3, 0.4 times the left eye's mean; the seat changes where the left eye's mean is a quarter from
@@ -87,11 +82,9 @@ def tiny_graph() -> bytes:
         helper.make_node("Reshape", ["same", "all"], ["same_seat"]),
     ]
     pictures = [
-        helper.make_tensor_value_info(
-            f"{kind}_{camera.name}", TensorProto.UINT8, ["n", camera.height, camera.width]
-        )
+        helper.make_tensor_value_info(f"{kind}_{name}", TensorProto.UINT8, ["n", height, width])
         for kind in ("pictures", "neutral")
-        for camera in CAMERAS
+        for name in NAMES
     ]
     flags = [
         helper.make_tensor_value_info("present", TensorProto.FLOAT, ["n", 3]),
@@ -109,12 +102,13 @@ def tiny_graph() -> bytes:
     return model.SerializeToString()
 
 
-def write_tiny_model(folder: Path, **changes: object) -> Path:
+def write_tiny_model(folder: Path, *, width: int = 16, height: int = 12, **changes: object) -> Path:
     """Write the model's folder."""
+    cameras = [CameraInput(name=name, width=width, height=height) for name in NAMES]
     alone = {name: {shape: 0.8 if OWNER[shape] == name else 0.1 for shape in BLENDSHAPES} for name in NAMES}
     settings = {
         "headset": "tracking3",
-        "cameras": CAMERAS,
+        "cameras": tuple(cameras),
         "parts": {name: part_of(name) for name in NAMES},
         "modulation": 0.3,
         "architecture": "modular",
@@ -130,5 +124,5 @@ def write_tiny_model(folder: Path, **changes: object) -> Path:
         "licences": ("CC0-1.0",),
         **changes,
     }
-    save_headset_model(HeadsetModel(**settings), tiny_graph(), folder)
+    save_headset_model(HeadsetModel(**settings), tiny_graph(width, height), folder)
     return folder

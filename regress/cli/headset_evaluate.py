@@ -1,0 +1,58 @@
+"""``regress headset evaluate``: a model's figures on arrays."""
+
+import json
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from facegen.conventions import BLENDSHAPES, SPLITS
+from regress.headset.arrays import read_arrays
+from regress.headset.evaluation import evaluate as evaluate_model
+from regress.headset.predictor import load_headset_predictor
+
+SplitName = StrEnum("SplitName", list(SPLITS))
+
+_COLUMNS = ("rows", "geometry_mm", "r2", "mae", "rmse", "blink_r2", "gaze_deg")
+
+
+def evaluate(
+    model: Annotated[Path, typer.Argument(help="Model folder of `regress headset train`.")],
+    arrays: Annotated[Path, typer.Argument(help="Folder that `facegen pack --format arrays` made.")],
+    split: Annotated[SplitName, typer.Option("--split", help="Whose faces to score.")] = SplitName.test,
+    as_json: Annotated[bool, typer.Option("--json", help="Unrounded figures for programs.")] = False,
+) -> None:
+    """Print how well a model does against exact labels: calibrated or not, camera by camera, shape by shape.
+
+    Example: regress headset evaluate models/headset datasets/out/headset-test-arrays
+    """
+    predictor = load_headset_predictor(model)
+    found = evaluate_model(predictor.graph, predictor.model, read_arrays(arrays), split=split.value)
+    if as_json:
+        typer.echo(json.dumps(found, allow_nan=False))
+        return
+    tables = {"ordinary frames": found["conditions"], "combinations held out": found["held_out"]}
+    for title, conditions in tables.items():
+        if conditions:
+            typer.echo(f"{title:<24} " + " ".join(f"{name:>11}" for name in _COLUMNS))
+            for name, figures in (*conditions.items(), *(found["floors"] if title[0] == "o" else {}).items()):
+                typer.echo(f"{_said(name):<24} " + " ".join(_cell(figures[column]) for column in _COLUMNS))
+            typer.echo("")
+    cameras = list(found["cameras"])
+    calibrated = [name for name in ("uncalibrated", "same_seat") if name in found["shapes"][BLENDSHAPES[0]]]
+    typer.echo(f"{'R2':<20} " + " ".join(f"{_said(name):>16}" for name in (*calibrated, *cameras)))
+    for shape in BLENDSHAPES:
+        r2 = [found["shapes"][shape][name]["r2"] for name in calibrated]
+        r2 += [found["cameras"][name][shape] for name in cameras]
+        typer.echo(f"{shape:<20} " + " ".join(f"{_cell(value):>16}" for value in r2))
+
+
+def _said(name: str) -> str:
+    return {"mean": "floor: training mean", "rest": "floor: resting face"}.get(name, name.replace("_", " "))
+
+
+def _cell(value: Any) -> str:
+    if value is None:
+        return f"{'-':>11}"
+    return f"{value:11d}" if isinstance(value, int) else f"{value:11.3f}"

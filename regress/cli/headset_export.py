@@ -1,0 +1,34 @@
+"""``regress headset export``: a network's graph, and what a program must know to run it."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regress.errors import OutputError
+from regress.files import write_whole
+from regress.headset.export import interface_of
+from regress.headset.predictor import load_headset_predictor
+
+
+def export(
+    model: Annotated[Path, typer.Argument(help="Model folder of `regress headset train`.")],
+    out: Annotated[Path, typer.Option("--out", help="Folder for the files.")] = Path(),
+    name: Annotated[str, typer.Option("--name", help="What the files are called.")] = "headset",
+) -> None:
+    """Write the ONNX graph, and a JSON with its cameras, inputs, outputs and shapes' names.
+
+    Pictures go in as the cameras give them: the graph holds all that happens to them. Example: regress headset export
+    models/headset --out exports
+    """
+    predictor = load_headset_predictor(model)
+    graph = (model / "network.onnx").read_bytes()
+    text = json.dumps(interface_of(predictor.model, graph=f"{name}.onnx"), indent=1) + "\n"
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        paths = [write_whole(out / f"{name}.onnx", graph), write_whole(out / f"{name}.json", text)]
+    except OSError as error:
+        raise OutputError(f"the export cannot be written to {out}: {error.strerror or error}") from error
+    for path in paths:
+        typer.echo(f"{path} ({path.stat().st_size:,} bytes)")

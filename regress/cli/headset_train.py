@@ -1,0 +1,129 @@
+"""``regress headset train``: from arrays of pictures to a model."""
+
+import dataclasses
+import time
+from collections.abc import Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regress.cli.talk import progress, say
+from regress.errors import InputError
+from regress.headset.arrays import read_arrays
+from regress.headset.model import ARCHITECTURES
+from regress.headset.recipe import WITHHOLDINGS, HeadsetRecipe
+
+Architecture = StrEnum("Architecture", list(ARCHITECTURES))
+Withholding = StrEnum("Withholding", list(WITHHOLDINGS))
+
+_PLAIN = HeadsetRecipe()
+
+
+def train(
+    arrays: Annotated[Path, typer.Argument(help="Folder that `facegen pack --format arrays` made.")],
+    out: Annotated[
+        Path, typer.Option("--out", help="Model folder to write; an older model there is replaced.")
+    ],
+    architecture: Annotated[
+        Architecture,
+        typer.Option("--architecture", help="A network per camera, blended, or one that sees all."),
+    ] = Architecture.modular,
+    seed: Annotated[
+        int, typer.Option("--seed", min=0, help="Seed of the start, order and changes of pictures.")
+    ] = 0,
+    epochs: Annotated[int, typer.Option("--epochs", min=1, help="Passes over the frames.")] = _PLAIN.epochs,
+    calibration: Annotated[
+        bool,
+        typer.Option("--calibration/--no-calibration", help="Whether neutral pictures are a second input."),
+    ] = True,
+    modulation: Annotated[
+        float, typer.Option("--modulation", help="Factor on a camera's say outside its part; 0 is none.")
+    ] = _PLAIN.modulation,
+    part_loss: Annotated[
+        float, typer.Option("--part-loss", help="Weight of each camera's own error on its part.")
+    ] = _PLAIN.part_loss,
+    camera_dropout: Annotated[
+        float, typer.Option("--camera-dropout", help="Share of frames that a camera is absent from.")
+    ] = _PLAIN.camera_dropout,
+    randomise: Annotated[
+        float,
+        typer.Option("--randomise", help="Strength of photometric randomisation, for other cameras; try 1."),
+    ] = _PLAIN.randomise,
+    withhold: Annotated[
+        Withholding,
+        typer.Option("--withhold", help="Frames to train without, to see what is learned from others."),
+    ] = Withholding.none,
+    people: Annotated[
+        int, typer.Option("--people", min=0, help="Train on the first so many people; 0 is all.")
+    ] = 0,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="NAME=VALUE", help="Any other setting of the recipe, as learning_rate=1e-3."
+        ),
+    ] = None,
+) -> None:
+    """Train a network on pictures with exact labels, on one core; a second run goes on where the first was stopped.
+
+    Example: regress headset train datasets/out/headset-arrays --out models/headset
+    """
+    recipe = _recipe(
+        {
+            "architecture": architecture.value,
+            "seed": seed,
+            "epochs": epochs,
+            "calibration": calibration,
+            "modulation": modulation,
+            "part_loss": part_loss,
+            "camera_dropout": camera_dropout,
+            "randomise": randomise,
+            "withhold": withhold.value,
+            "people": people,
+        },
+        settings or [],
+    )
+    try:
+        from regress.headset.training import train_headset
+    except ModuleNotFoundError as error:
+        if error.name != "torch":
+            raise
+        raise InputError(
+            "PyTorch is not installed, which only training needs: pip install 'facegen[headset]'"
+        ) from error
+    frames = read_arrays(arrays)
+    began = time.monotonic()
+    with progress() as draw:
+        model = train_headset(
+            frames, recipe, out, progress=lambda done, total, _: draw("epochs", done, total)
+        )
+    record = model.training
+    say(
+        f"trained on {record['rows']} frames of {record['people']} people in {time.monotonic() - began:.0f} s"
+    )
+    for name, figures in model.scores.get("conditions", {}).items():
+        if name in ("uncalibrated", "same_seat"):
+            r2 = "undefined" if figures["r2"] is None else f"{figures['r2']:.3f}"
+            said = name.replace("_", " ")
+            say(
+                f"{said:>14}: {figures['geometry_mm']:.3f} mm, R2 {r2}, gaze {figures['gaze_deg']:.2f} degrees"
+            )
+    say(f"model in {out}")
+
+
+def _recipe(chosen: dict[str, object], pairs: Sequence[str]) -> HeadsetRecipe:
+    """The recipe of the options and of ``NAME=VALUE`` pairs, whose values have the type of the default."""
+    defaults = dataclasses.asdict(_PLAIN)
+    others = [name for name in defaults if name not in chosen]
+    for pair in pairs:
+        name, sign, text = pair.partition("=")
+        if not sign or name not in others:
+            raise InputError(f"--set {pair!r} is not NAME=VALUE with one of {', '.join(others)}")
+        try:
+            words = {"true": True, "false": False}
+            chosen[name] = words[text] if isinstance(defaults[name], bool) else type(defaults[name])(text)
+        except (ValueError, KeyError):
+            kind = {bool: "true or false", int: "a whole number", float: "a number"}[type(defaults[name])]
+            raise InputError(f"--set {name} is {text!r}; {kind} is needed") from None
+    return HeadsetRecipe(**chosen)

@@ -1,0 +1,132 @@
+"""`regress headset train | evaluate | export` and `regress bench`, as a person runs them."""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+import pytest
+
+from facegen.conventions import BLENDSHAPES
+from regress import timing
+from regress.headset.arrays import HeadsetArrays
+from regress.headset.evaluation import evaluate
+from regress.headset.predictor import load_headset_predictor
+from tests.regress.headset.drawn import SIDE
+from tests.regress.headset.tiny import NAMES, write_tiny_model
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_tiny_model(tmp_path_factory.mktemp("models") / "tiny", width=SIDE, height=SIDE)
+
+
+def test_training_by_command_keeps_every_setting(run, arrays_folder: Path, tmp_path: Path):
+    pytest.importorskip("torch")
+    words = (
+        "--architecture holistic --seed 3 --epochs 2 --modulation 0.1 --camera-dropout 0.2 --randomise 0.5"
+    )
+    settings = ["--set", "input_size=16", "--set", "code=8", "--set", "hidden=8", "--set", "mirror=false"]
+    out = tmp_path / "model"
+    code, _, said = run(
+        "headset", "train", arrays_folder, "--out", out, *words.split(), *settings, "--no-calibration"
+    )
+    assert code == 0, said
+    assert "epochs: 2 of 2" in said
+    assert "uncalibrated: " in said
+    assert "same seat" not in said
+    recipe = load_headset_predictor(out).model.training["recipe"]
+    wanted = {"architecture": "holistic", "seed": 3, "epochs": 2, "modulation": 0.1, "camera_dropout": 0.2}
+    wanted |= {"randomise": 0.5, "input_size": 16, "code": 8, "mirror": False, "calibration": False}
+    assert {name: recipe[name] for name in wanted} == wanted
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--set", "epoch=2"], "--set 'epoch=2' is not NAME=VALUE with one of batch, "),
+        (["--set", "batch=few"], "--set batch is 'few'; a whole number is needed"),
+        (["--set", "mirror=maybe"], "--set mirror is 'maybe'; true or false is needed"),
+        (["--camera-dropout", "2"], "camera_dropout is 2.0; 0 to 1 is allowed"),
+    ],
+)
+def test_settings_that_cannot_be_are_one_sentence(
+    run, arrays_folder: Path, tmp_path: Path, words: list[str], message
+):
+    code, _, said = run("headset", "train", arrays_folder, "--out", tmp_path / "model", *words)
+    assert (code, message in said, len(said.splitlines())) == (2, True, 1)
+    assert not list(tmp_path.iterdir())
+
+
+def test_without_pytorch_training_names_the_extra_and_the_rest_works(
+    run, model: Path, arrays_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    for name in list(sys.modules):
+        if name.startswith("regress.headset.training"):
+            monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "torch", None)
+    code, _, said = run("headset", "train", arrays_folder, "--out", tmp_path / "model")
+    assert (code, len(said.splitlines())) == (2, 1)
+    assert "pip install 'facegen[headset]'" in said
+    assert run("headset", "evaluate", model, arrays_folder)[0] == 0
+
+
+def test_evaluation_prints_and_gives_all_figures(
+    run, model: Path, arrays_folder: Path, arrays: HeadsetArrays
+):
+    code, out, _ = run("headset", "evaluate", model, arrays_folder, "--json")
+    assert code == 0
+    predictor = load_headset_predictor(model)
+    assert json.loads(out) == evaluate(predictor.graph, predictor.model, arrays)
+    code, out, _ = run("headset", "evaluate", model, arrays_folder, "--split", "validation")
+    assert code == 0
+    lines = {line.partition("  ")[0]: line for line in out.splitlines()}
+    for name in (
+        "ordinary frames",
+        "uncalibrated",
+        "same seat",
+        "without mouth",
+        "floor: resting face",
+        *BLENDSHAPES,
+    ):
+        assert name in lines
+    assert "combinations held out" in lines
+
+
+def test_arrays_of_other_cameras_are_refused(run, arrays_folder: Path, tmp_path: Path):
+    other = write_tiny_model(tmp_path / "other")
+    code, _, said = run("headset", "evaluate", other, arrays_folder)
+    assert code == 2
+    assert "the model needs camera left_eye of 16x12 pixels; the arrays have left_eye 24x24" in said
+
+
+def test_an_export_runs_by_what_its_description_says(run, model: Path, tmp_path: Path):
+    code, out, _ = run("headset", "export", model, "--out", tmp_path / "exports", "--name", "face")
+    assert code == 0
+    assert len(out.splitlines()) == 2
+    description = json.loads((tmp_path / "exports" / "face.json").read_text())
+    session = onnxruntime.InferenceSession(tmp_path / "exports" / description["graph"])
+    rng = np.random.default_rng(0)
+    feed = {
+        name: rng.integers(
+            0, 2 if one["type"] == "float32" else 256, [5 if n == "n" else n for n in one["shape"]]
+        ).astype(one["type"])
+        for name, one in description["inputs"].items()
+    }
+    assert set(feed) == {value.name for value in session.get_inputs()}
+    found = dict(zip(description["outputs"], session.run(list(description["outputs"]), feed), strict=True))
+    for name, one in description["outputs"].items():
+        assert list(found[name].shape) == [5 if n == "n" else n for n in one["shape"]]
+        assert str(found[name].dtype) == one["type"]
+    assert description["shapes"] == list(BLENDSHAPES)
+    assert [camera["name"] for camera in description["cameras"]] == list(NAMES)
+
+
+def test_bench_times_a_headset_model(run, model: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(timing, "HEADSET_BATCH_FRAMES", 8)
+    code, out, _ = run("bench", model, "--json")
+    assert code == 0
+    timings = {entry["name"]: entry["microseconds"] for entry in json.loads(out)}
+    assert list(timings) == ["ONNX, one frame", "ONNX, calibrated", "ONNX, 8 frames"]
+    assert all(0 < taken < 1e6 for taken in timings.values())
