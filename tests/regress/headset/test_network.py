@@ -1,0 +1,166 @@
+"""Networks and their graph: mirrored faces, missing cameras, neutral pictures, resampling, equality with PyTorch."""
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch")
+
+from hypothesis import given  # noqa: E402
+from hypothesis import strategies as st  # noqa: E402
+
+from facegen.conventions import MIRRORED_BLENDSHAPES  # noqa: E402
+from regress.errors import ModelError  # noqa: E402
+from regress.headset import CameraInput, HeadsetGraph  # noqa: E402
+from regress.headset.recipe import HeadsetRecipe  # noqa: E402
+from regress.headset.training import export  # noqa: E402
+from regress.headset.training.export import export_graph  # noqa: E402
+from regress.headset.training.networks import NETWORKS  # noqa: E402
+from regress.headset.training.resampling import reduced, resampling_matrix, warp_matrix  # noqa: E402
+from regress.headset.training.targets import OUTPUTS, target_scale  # noqa: E402
+
+CAMERAS = (
+    CameraInput(name="left_eye", width=40, height=40),
+    CameraInput(name="right_eye", width=40, height=40, mirrored_of="left_eye"),
+    CameraInput(name="mouth", width=52, height=30),
+)
+SIZE = 16
+
+
+def network(architecture: str, seed: int = 0, **settings):
+    """An untrained network whose normalisations have seen something."""
+    recipe = HeadsetRecipe(architecture=architecture, input_size=SIZE, code=12, hidden=20, **settings)
+    torch.manual_seed(seed)
+    made = NETWORKS[architecture](tuple(camera.name for camera in CAMERAS), recipe)
+    for encoder in made.encoders.values():
+        encoder.set_scale(100.0, 60.0, 40.0)
+        encoder.switch.data.normal_()
+    seen = torch.rand(2, 32, 3, SIZE, SIZE) * 255
+    made.train()(seen[0], seen[1], torch.ones(32, 3), torch.arange(32).float() % 2)
+    return made.eval()
+
+
+def targets():
+    return target_scale(np.random.default_rng(0).random((30, len(OUTPUTS))).astype(np.float32))
+
+
+@pytest.fixture(scope="module", params=["modular", "holistic"])
+def graph(request: pytest.FixtureRequest) -> HeadsetGraph:
+    exported, difference = export_graph(network(request.param), CAMERAS, targets(), SIZE)
+    assert difference < 1e-4
+    return HeadsetGraph(exported, CAMERAS)
+
+
+def frames(count: int, seed: int = 1) -> dict[str, np.ndarray]:
+    random = np.random.default_rng(seed)
+    return {c.name: random.integers(0, 256, (count, c.height, c.width), dtype=np.uint8) for c in CAMERAS}
+
+
+def test_outputs_have_the_shapes_and_ranges_of_the_contract(graph: HeadsetGraph):
+    said = graph.run(frames(70), neutral=frames(70, seed=2))
+    assert said.weights.shape == said.deviation.shape == (70, 52)
+    assert (said.gaze.shape, said.shares.shape, said.same_seat.shape) == ((70, 2, 2), (70, 3, 52), (70,))
+    assert said.weights.min() >= 0
+    assert said.weights.max() <= 1
+    assert (said.deviation > 0).all()
+    np.testing.assert_allclose(said.shares.sum(axis=1), 1, atol=1e-4)
+    assert ((said.same_seat >= 0) & (said.same_seat <= 1)).all()
+
+
+def test_a_missing_cameras_pictures_do_not_matter(graph: HeadsetGraph):
+    pictures = frames(3)
+    whole = graph.run(pictures)
+    without = graph.run({name: seen for name, seen in pictures.items() if name != "mouth"})
+    black = graph.run({**pictures, "mouth": 0 * pictures["mouth"]}, present=np.tile([1, 1, 0], (3, 1)))
+    np.testing.assert_array_equal(without.weights, black.weights)
+    assert np.abs(without.weights - whole.weights).max() > 1e-4
+
+
+def test_neutral_pictures_matter_only_to_calibrated_frames(graph: HeadsetGraph):
+    pictures, neutral = frames(4), frames(4, seed=3)
+    alone, both = graph.run(pictures), graph.run(pictures, neutral=neutral, calibrated=np.array([0, 1, 0, 1]))
+    np.testing.assert_allclose(both.weights[::2], alone.weights[::2], atol=1e-6)
+    assert (np.abs(both.weights[1::2] - alone.weights[1::2]).max(axis=1) > 1e-3).all()
+
+
+def test_frames_do_not_see_each_other(graph: HeadsetGraph):
+    pictures = frames(5)
+    one = graph.run({name: seen[3:4] for name, seen in pictures.items()})
+    np.testing.assert_allclose(graph.run(pictures).weights[3], one.weights[0], atol=1e-5)
+
+
+def test_the_eyes_of_a_mirrored_face_give_mirrored_answers():
+    """Without the mouth, whose own picture is not built to be mirrored."""
+    exported, _ = export_graph(network("modular"), CAMERAS, targets(), SIZE)
+    graph = HeadsetGraph(exported, CAMERAS)
+    pictures = {name: seen for name, seen in frames(6).items() if name != "mouth"}
+    flipped = {"left_eye": pictures["right_eye"][..., ::-1], "right_eye": pictures["left_eye"][..., ::-1]}
+    said, mirrored = graph.run(pictures), graph.run(flipped)
+    np.testing.assert_allclose(mirrored.weights, said.weights[:, MIRRORED_BLENDSHAPES], atol=1e-5)
+    np.testing.assert_allclose(mirrored.deviation, said.deviation[:, MIRRORED_BLENDSHAPES], atol=1e-5)
+    np.testing.assert_allclose(mirrored.gaze, said.gaze[:, ::-1] * (-1, 1), atol=1e-5)
+
+
+def test_modulation_keeps_a_camera_out_of_other_parts():
+    shares = {}
+    for modulation in (1.0, 0.0):
+        exported, _ = export_graph(network("modular", modulation=modulation), CAMERAS, targets(), SIZE)
+        shares[modulation] = HeadsetGraph(exported, CAMERAS).run(frames(4)).shares
+    mouth_by_eye = shares[0.0][:, :2, 17]  # jawOpen
+    assert mouth_by_eye.max() < 0.01 < shares[1.0][:, :2, 17].max()
+
+
+def test_a_graph_that_differs_from_the_network_is_not_let_through(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(export, "TOLERANCE", -1.0)
+    with pytest.raises(ModelError, match="differs from PyTorch"):
+        export_graph(network("modular"), CAMERAS, targets(), SIZE)
+
+
+@given(side=st.integers(8, 200), size=st.integers(4, 64), flipped=st.booleans())
+def test_resampling_keeps_grey_and_order(side: int, size: int, flipped: bool):
+    matrix = resampling_matrix(side, size, flipped=flipped)
+    np.testing.assert_allclose(matrix.sum(axis=1), 1, atol=1e-5)
+    assert matrix.min() >= 0
+    ramp = matrix @ np.arange(side)
+    inner = np.diff(ramp[::-1] if flipped else ramp)
+    assert (inner >= -1e-5).all()
+    # the picture's middle stays in the middle
+    assert ramp.mean() == pytest.approx((side - 1) / 2, abs=0.5)
+
+
+@pytest.mark.parametrize("side", [40, 96, 250])
+@pytest.mark.parametrize("flipped", [False, True])
+def test_training_samples_pictures_where_the_graph_does(side: int, flipped: bool):
+    random = np.random.default_rng(side)
+    picture = cv2.GaussianBlur(random.integers(0, 256, (side, side), dtype=np.uint8), (0, 0), side / 30)
+    small = reduced(picture[None], 64)[0]
+    matrix = warp_matrix(
+        small.shape[1], small.shape[0], 64, shift=np.zeros(2), scale=1.0, angle_rad=0.0, flipped=flipped
+    )
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    warped = cv2.warpAffine(small, matrix, (64, 64), flags=flags, borderMode=cv2.BORDER_REPLICATE)
+    rows, columns = resampling_matrix(side, 64), resampling_matrix(side, 64, flipped=flipped)
+    expected = rows @ picture.astype(np.float32) @ columns.T
+    assert np.abs(warped - expected).max() <= 1.5  # two roundings to whole grey levels
+    assert np.abs(warped - expected[:, ::-1]).max() > 5
+
+
+def test_a_displacement_moves_the_picture_the_way_it_says():
+    picture = np.zeros((60, 60), np.uint8)
+    picture[28:32, 28:32] = 255
+    moved = warp_matrix(60, 60, 60, shift=np.array([0.1, 0.0]), scale=1.0, angle_rad=0.0, flipped=False)
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    found = cv2.warpAffine(picture, moved, (60, 60), flags=flags)
+    assert np.argwhere(found > 128)[:, 1].mean() == pytest.approx(29.5 - 6)
+
+
+def test_cameras_in_the_other_order_share_the_encoder_the_other_way_round():
+    cameras = (
+        replace(CAMERAS[1], mirrored_of=None),
+        replace(CAMERAS[0], mirrored_of="right_eye"),
+        CAMERAS[2],
+    )
+    made = NETWORKS["modular"](tuple(camera.name for camera in cameras), HeadsetRecipe(input_size=SIZE))
+    assert list(made.encoders) == ["right_eye", "mouth"]

@@ -1,0 +1,218 @@
+"""Training of headset networks on drawn arrays: it learns, repeats, goes on after a stop, and says what it did."""
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch")
+
+from regress.errors import InputError, Interrupted  # noqa: E402
+from regress.headset import HeadsetGraph, read_headset_model  # noqa: E402
+from regress.headset.arrays import HeadsetArrays  # noqa: E402
+from regress.headset.evaluation import evaluate, share_better  # noqa: E402
+from regress.headset.graph import Estimates  # noqa: E402
+from regress.headset.model import HeadsetModel  # noqa: E402
+from regress.headset.recipe import HeadsetRecipe  # noqa: E402
+from regress.headset.training import train_headset  # noqa: E402
+from regress.headset.training.batches import Frames  # noqa: E402
+from regress.headset.training.targets import MIRROR, MIRROR_SIGN  # noqa: E402
+
+QUICK = HeadsetRecipe(input_size=16, code=48, hidden=64, epochs=16, batch=16, learning_rate=4e-3)
+
+
+@pytest.fixture(scope="module", params=["modular", "holistic"])
+def trained(
+    request: pytest.FixtureRequest, arrays: HeadsetArrays, tmp_path_factory: pytest.TempPathFactory
+) -> tuple[HeadsetModel, Path]:
+    folder = tmp_path_factory.mktemp("models") / request.param
+    return train_headset(arrays, replace(QUICK, architecture=request.param), folder), folder
+
+
+def test_it_learns_what_unseen_people_do(trained: tuple[HeadsetModel, Path]):
+    scores = trained[0].scores
+    found, floor = scores["conditions"], scores["floors"]["mean"]
+    # two seconds of training: a modular network is at .71 and .69 of the floor then, a holistic one at .88 and 1.01
+    share = {"modular": 0.8, "holistic": 0.95}[trained[0].architecture]
+    assert found["uncalibrated"]["geometry_mm"] < share * floor["geometry_mm"]
+    assert found["uncalibrated"]["gaze_deg"] < (share + 0.1) * floor["gaze_deg"]
+    assert found["uncalibrated"]["r2"] > 0.1
+    assert floor["r2"] < 0.01
+    assert set(scores["cameras"]) == {"left_eye", "right_eye", "mouth"}
+    assert scores["cameras"]["mouth"]["jawOpen"] > scores["cameras"]["left_eye"]["jawOpen"]
+    assert set(scores["held_out"]) == set(found)
+
+
+def test_the_folder_says_all_there_is_to_say(trained: tuple[HeadsetModel, Path], arrays: HeadsetArrays):
+    model, folder = trained
+    assert sorted(path.name for path in folder.parent.iterdir()) == [folder.name]
+    assert sorted(path.name for path in folder.iterdir()) == ["model.json", "network.onnx"]
+    assert read_headset_model(folder) == model
+    assert model.training["recipe"]["architecture"] == model.architecture == folder.name
+    assert len(model.training["history"]) == QUICK.epochs
+    assert model.training["rows"] == len(arrays.rows("train"))
+    assert model.training["onnx_difference"] < 1e-4
+    assert [camera.mirrored_of for camera in model.cameras] == [None, "left_eye", None]
+    again = evaluate(HeadsetGraph(folder / "network.onnx", model.cameras), model, arrays)
+    assert again == model.scores
+
+
+def test_a_stopped_training_goes_on_to_the_same_model(arrays: HeadsetArrays, tmp_path: Path):
+    recipe = replace(QUICK, epochs=3)
+    train_headset(arrays, recipe, tmp_path / "whole")
+
+    def stop(done: int, total: int, figures: dict[str, float]) -> None:
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(Interrupted, match="2 of 3 epochs"):
+        train_headset(arrays, recipe, tmp_path / "stopped", progress=stop)
+    assert not (tmp_path / "stopped").exists()
+    with pytest.raises(InputError, match="other settings"):
+        train_headset(arrays, replace(recipe, seed=1), tmp_path / "stopped")
+    epochs = []
+    model = train_headset(arrays, recipe, tmp_path / "stopped", progress=lambda done, *_: epochs.append(done))
+    assert epochs == [3]
+    assert model.training["resumed_after_epochs"] == 2
+    graphs = [(tmp_path / name / "network.onnx").read_bytes() for name in ("whole", "stopped")]
+    assert graphs[0] == graphs[1]
+
+
+def test_a_file_that_is_no_checkpoint_is_refused(arrays: HeadsetArrays, tmp_path: Path):
+    (tmp_path / ".model.checkpoint").write_bytes(b"nonsense")
+    with pytest.raises(InputError, match="not a checkpoint"):
+        train_headset(arrays, QUICK, tmp_path / "model")
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [{"calibration": False}, {"randomise": 1.0}, {"part_loss": 0.0, "geometry_loss": 0.0, "mirror": False}],
+)
+def test_settings_train(arrays: HeadsetArrays, tmp_path: Path, settings: dict):
+    model = train_headset(arrays, replace(QUICK, epochs=1, **settings), tmp_path / "model")
+    assert np.isfinite(model.training["history"][0]["loss"])
+    assert ("same_seat" in model.scores["conditions"]) == settings.get("calibration", True)
+    assert model.training["recipe"] == replace(QUICK, epochs=1, **settings).settings()
+
+
+def test_batches_pair_frames_with_neutral_pictures_of_the_same_person(arrays: HeadsetArrays):
+    still = {"shift": 0.0, "scale": 0.0, "rotation_deg": 0.0, "mirror": False, "camera_dropout": 0.0}
+    recipe = HeadsetRecipe(
+        input_size=24, batch=len(arrays.rows("train")), other_seat=0.5, jitter_neutral=0, **still
+    )
+    frames = Frames(arrays, recipe, arrays.rows("train"))
+    (batch,) = frames.draw_epoch(np.random.default_rng(0))
+    left, mouth = arrays.pictures["left_eye"].astype(int), arrays.pictures["mouth"].astype(int)
+    own, other = arrays.neutral_rows(), arrays.neutral_rows(other_seat=True)
+    for place in range(len(batch.outputs)):
+        unlike = np.abs(left - batch.pictures[place, 0]) + np.abs(mouth - batch.pictures[place, 2])
+        row = int(np.argmin(unlike.sum(axis=(1, 2))))
+        np.testing.assert_array_equal(batch.pictures[place, 0], left[row])
+        np.testing.assert_array_equal(batch.outputs[place, :52], arrays.weights[row])
+        neutral = left[(own if batch.same_seat[place] else other)[row]]
+        expected = neutral if batch.calibrated[place] else 0 * neutral
+        np.testing.assert_array_equal(batch.neutral[place, 0], expected)
+    assert 0.3 < batch.same_seat.mean() < 0.7
+    assert 0.45 < batch.calibrated.mean() < 0.75
+
+
+def test_a_mirrored_frame_is_the_frame_of_the_mirrored_face(arrays: HeadsetArrays):
+    still = {"shift": 0.0, "scale": 0.0, "rotation_deg": 0.0, "camera_dropout": 0.0}
+    recipe = HeadsetRecipe(input_size=24, batch=len(arrays.rows("train")), **still)
+    frames = Frames(arrays, recipe, arrays.rows("train"))
+    (batch,) = frames.draw_epoch(np.random.default_rng(0))
+    left, right, mouth = (arrays.pictures[name].astype(int) for name in ("left_eye", "right_eye", "mouth"))
+    counted = [0, 0]
+    for place in range(len(batch.outputs)):
+        seen = batch.pictures[place].astype(int)
+        # a face whose mouth rests has the neutral face's mouth picture: the eyes tell them apart
+        plain = (np.abs(mouth - seen[2]) + np.abs(left - seen[0])).sum(axis=(1, 2))
+        turned = (np.abs(mouth - seen[2][:, ::-1]) + np.abs(left - seen[1])).sum(axis=(1, 2))
+        mirrored = bool(turned.min() < plain.min())
+        row = int(np.argmin(turned if mirrored else plain))
+        # the right eye goes through the left's encoder mirrored: its slot holds a left eye's picture
+        expected = (right[row][:, ::-1], left[row]) if mirrored else (left[row], right[row][:, ::-1])
+        np.testing.assert_array_equal(seen[:2], expected)
+        outputs = np.concatenate([arrays.weights[row], arrays.gaze[row]])
+        np.testing.assert_allclose(
+            batch.outputs[place], outputs[MIRROR] * MIRROR_SIGN if mirrored else outputs
+        )
+        counted[mirrored] += 1
+    assert min(counted) > 20
+
+
+class Oracle:
+    """Says the truth, given the right neutral pictures; and so shows what evaluation asks for."""
+
+    def __init__(self, arrays: HeadsetArrays, rows: np.ndarray) -> None:
+        self.arrays, self.rows, self.asked = arrays, rows, []
+
+    def run(self, pictures, *, neutral=None, present=None, calibrated=None) -> Estimates:
+        self.asked.append((sorted(pictures), None if neutral is None else neutral["mouth"], calibrated))
+        rows, cameras = self.rows, len(self.arrays.cameras)
+        return Estimates(
+            weights=self.arrays.weights[rows],
+            deviation=np.full((len(rows), 52), 0.1, np.float32),
+            gaze=self.arrays.gaze[rows].reshape(-1, 2, 2),
+            shares=np.full((len(rows), cameras, 52), 1 / cameras, np.float32),
+            same_seat=np.full(len(rows), 0.2, np.float32),
+        )
+
+
+def test_evaluation_asks_for_what_it_reports(arrays: HeadsetArrays, trained: tuple[HeadsetModel, Path]):
+    rows = np.flatnonzero((arrays.split == "test") & ~arrays.neutral)
+    oracle = Oracle(arrays, rows)
+    scores = evaluate(oracle, trained[0], arrays)
+    assert scores["rows"] == len(rows)
+    for figures in scores["conditions"].values():
+        assert (figures["geometry_mm"], figures["r2"], figures["mae"]) == (0, 1, 0)
+        assert figures["gaze_deg"] < 1e-6
+    assert scores["components"]["combined"]["uncalibrated"] == 0
+    assert "neutral" not in scores["components"]
+    assert scores["seat"] == {"same_seat": 0.0, "other_seat": 0.0}
+    mouths = [neutral for _, neutral, _ in oracle.asked if neutral is not None]
+    np.testing.assert_array_equal(mouths[0], arrays.pictures["mouth"][arrays.neutral_rows()[rows]])
+    other = arrays.neutral_rows(other_seat=True)[rows]
+    assert any(np.array_equal(seen, arrays.pictures["mouth"][other]) for seen in mouths)
+    assert any(calibrated is not None and not calibrated.any() for *_, calibrated in oracle.asked)
+    assert ["left_eye", "mouth"] in [cameras for cameras, *_ in oracle.asked]
+
+
+def test_evaluation_refuses_other_cameras_and_empty_splits(arrays, trained: tuple[HeadsetModel, Path]):
+    model, folder = trained
+    graph = HeadsetGraph(folder / "network.onnx", model.cameras)
+    with pytest.raises(InputError, match="no nowhere row"):
+        evaluate(graph, model, arrays, split="nowhere")
+    with pytest.raises(InputError, match="needs camera left_eye"):
+        evaluate(graph, model, replace(arrays, cameras=arrays.cameras[1:]))
+
+
+def test_the_share_of_better_frames_counts_ties_half():
+    assert share_better(np.array([1.0, 2.0, 3.0, 3.0]), np.array([2.0, 1.0, 3.0, 4.0])) == 0.625
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"architecture": "other"}, "architecture is 'other'; modular, holistic"),
+        ({"withhold": "all"}, "withhold is 'all'"),
+        ({"epochs": 0}, "epochs is 0"),
+        ({"modulation": 1.5}, "modulation is 1.5"),
+        ({"other_seat": 0.7, "jitter_neutral": 0.7}, "together"),
+        ({"randomise": -1.0}, "randomise is -1.0"),
+    ],
+)
+def test_impossible_settings_are_refused(settings: dict, message: str):
+    with pytest.raises(InputError, match=message):
+        HeadsetRecipe(**settings)
+
+
+def test_nothing_but_training_loads_torch():
+    code = (
+        "import sys, regress.headset, regress.headset.evaluation, regress.headset.clusters, regress.cli\n"
+        "assert 'torch' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
