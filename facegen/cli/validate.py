@@ -54,6 +54,11 @@ def validate(
             print(f"removed {place}")
         wrong = sum(verdict.wrong.values())
         print(f"{verdict.shards} shards and {verdict.renders} rendered samples checked, {wrong} things wrong")
+        if verdict.renders and not opened.spec.render.truth:
+            print(
+                f"facegen: {dataset} has no EXR files (render.truth = false), so no label was held against depths",
+                file=sys.stderr,
+            )
     if verdict.wrong and repaired is None:
         raise typer.Exit(ExitCode.INVALID)
     if verdict.missing or (repaired is not None and not _only_extras(verdict)):

@@ -134,5 +134,7 @@ def _mirror_angle(source: np.ndarray, observer: np.ndarray, between: np.ndarray)
         )
         low, high = np.where(g < 0.0, angle, low), np.where(g < 0.0, high, angle)
         step = angle - g / np.where(slope == 0.0, np.inf, slope)
-        angle = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
+        before, angle = angle, np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
+        if np.array_equal(before, angle, equal_nan=True):
+            break  # all further steps would find the same: six do, mostly
     return np.where(exists, angle, np.nan)

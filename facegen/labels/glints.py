@@ -198,7 +198,10 @@ def _within(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The part of a mesh that may reach into a box: a tenth of a head, so that 12 lamps cost little."""
     vertices, triangles = mesh
-    corners = vertices[triangles]
-    near = ((corners.max(axis=1) >= low) & (corners.min(axis=1) <= high)).all(axis=-1)
+    # a triangle reaches in where, along each axis, some corner is past the low side and some before the high one; six
+    # bits a vertex tell, and gathering these costs a fiftieth of gathering corners
+    sides = np.concatenate([vertices >= low, vertices <= high], axis=1)
+    bits = np.packbits(sides, axis=1, bitorder="little")[:, 0]
+    near = (bits[triangles[:, 0]] | bits[triangles[:, 1]] | bits[triangles[:, 2]]) == 0b111111
     used, renumbered = np.unique(triangles[near], return_inverse=True)
     return vertices[used], renumbered.reshape(-1, 3)

@@ -1,6 +1,7 @@
 """One rendered sample before it is rendered: its scene, and every label that its pictures will carry."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from facegen.labels.views import ViewLabels, label_view, occluders
 from facegen.randomness import stream
 from facegen.rigs import EyeGeometry, Rig, evaluate, eye_geometry, neutral_landmarks
 from facegen.sampling import Samples, Shot, draw_shot
-from facegen.scene import Scene, View, assemble, draw_look, tear_lines
+from facegen.scene import Look, Scene, View, assemble, draw_look, tear_lines
 from facegen.spec import Spec
 
 NOSE_BRIDGE = 27
@@ -53,17 +54,28 @@ class RenderedSample:
     shots: dict[str, Shot]
 
 
-def realised_fit(headset: Headset, samples: Samples) -> tuple[np.ndarray, np.ndarray]:
+def realised_fit(spec: Spec, headset: Headset, samples: Samples) -> tuple[np.ndarray, np.ndarray]:
     """Donning and slip (6,) of one sample: metres along the head's x, y, z, radians of yaw, pitch and roll."""
     limits = headset.tolerances
     donning_sd = np.array([*np.multiply(limits.donning_mm, 1e-3), *np.radians(limits.donning_deg)])
     slip_sd = np.array([*np.multiply(limits.slip_mm, 1e-3), *np.radians(limits.slip_deg)])
-    return samples.donning[0] * donning_sd, samples.slip[0] * slip_sd
+    return samples.donning[0] * donning_sd, samples.slip[0] * slip_sd * spec.sensor.slip
 
 
 def session_unit(spec: Spec, headset: Headset, session: int) -> Headset:
     """The unit of a headset that is worn in a session."""
-    return draw_unit(headset, stream(spec.seed, "unit", session), scale=spec.sensor.tolerances)
+    return _unit(spec.seed, headset, session, spec.sensor.tolerances)
+
+
+@lru_cache(maxsize=8)
+def _unit(seed: int, headset: Headset, session: int, scale: float) -> Headset:
+    # kept: a session's samples stand side by side, and checking a new unit takes longer than labelling a view
+    return draw_unit(headset, stream(seed, "unit", session), scale=scale)
+
+
+@lru_cache(maxsize=8)
+def _look(seed: int, person: int, rig: Rig) -> Look:
+    return draw_look(stream(seed, "look", person), rig)
 
 
 def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> RenderedSample:
@@ -81,9 +93,9 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
     session, sample = int(samples.session[0]), int(samples.sample[0])
     unit = session_unit(spec, headset, session)
     nose_bridge = neutral_landmarks(rig, samples.identity)[0, NOSE_BRIDGE]
-    donning, slip = realised_fit(headset, samples)
+    donning, slip = realised_fit(spec, headset, samples)
     fit = head_from_headset(unit, nose_bridge, donning + slip)
-    look = draw_look(stream(spec.seed, "look", int(samples.person[0])), rig)
+    look = _look(spec.seed, int(samples.person[0]), rig)
     scene = assemble(rig, face.vertices[0], (left, right), unit, fit, look=look)
     shots = {
         view.name: draw_shot(spec, view.name, view.lamps, session=session, sample=sample)

@@ -12,7 +12,7 @@ from facegen.sampling.cameras import draw_head_rotation, draw_keypoint_camera
 from facegen.sampling.detector import draw_dropped
 from facegen.sampling.expression import COMPONENT_NAMES as STILL_COMPONENTS
 from facegen.sampling.expression import draw_faces
-from facegen.sampling.gaze import axes_from_weights
+from facegen.sampling.gaze import AHEAD, axes_from_weights
 from facegen.sampling.motion import KINDS, draw_takes
 from facegen.sampling.plan import Places, Plan
 from facegen.spec import Spec, draw
@@ -75,7 +75,7 @@ def draw_single_frames(plan: Plan, rig: Rig, block: int, places: Places, identit
         faces = draw_faces(spec, rng, eye_centers(rig, identity))
         weights, gaze, component = faces.weights, faces.gaze, faces.component
         weights[places.neutral] = 0.0
-        gaze[places.neutral] = (0.0, 0.0, 1.0)
+        gaze[places.neutral] = AHEAD
         component[places.neutral] = COMPONENT_NAMES.index("neutral")
     else:
         weights = plan.recording[places.frame % plan.frames]

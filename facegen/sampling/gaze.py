@@ -10,6 +10,9 @@ FULL_YAW_RAD = np.radians(30.0)
 FULL_PITCH_RAD = np.radians(25.0)
 """Eye rotations at which an eyeLook* weight reaches 1."""
 
+AHEAD = (0.0, 0.0, 1.0)
+"""Optical axis of an eye at rest."""
+
 _LEFT, _RIGHT = 0, 1
 _LOOKS = [index for name, index in BLENDSHAPE_INDEX.items() if name.startswith("eyeLook")]
 

@@ -82,8 +82,8 @@ def split_of(spec: Spec, unit: np.ndarray) -> np.ndarray:
     A random partition of all of them by the spec's shares.
     """
     total = spec.people
-    if spec.split == "session" and spec.kind == "sequence":  # elsewhere everyone has one session
-        total *= spec.sequence.sessions
+    if spec.split == "session" and spec.kind != "playback":  # which is one session
+        total *= (spec.sequence if spec.kind == "sequence" else spec.still).sessions
     everyone = _split_of_everyone(spec.seed, total, tuple(spec.split_shares))
     return everyone[np.minimum(unit, total - 1)]
 

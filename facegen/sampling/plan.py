@@ -65,7 +65,7 @@ def plan_dataset(spec: Spec) -> Plan:
         If the recording cannot be read, or has not the frames asked for.
     """
     if spec.kind == "still":
-        return Plan(spec=spec, frames=spec.still.neutral + spec.still.faces)
+        return Plan(spec=spec, frames=spec.still.sessions * (spec.still.neutral + spec.still.faces))
     if spec.kind == "sequence":
         script = write_script(spec)
         return Plan(spec=spec, frames=spec.sequence.sessions * script.session_frames, script=script)
@@ -99,14 +99,15 @@ def block_places(plan: Plan, block: int) -> Places:
             neutral=np.zeros(BLOCK, bool),
         )
     # a still is a clip of one frame
+    session, face = np.divmod(sample, plan.frames // plan.spec.still.sessions)
     return Places(
         sample=sample,
         person=person,
-        session=person,
+        session=session,
         clip=sample,
         frame=nothing,
         time_s=np.zeros(BLOCK),
-        neutral=within < plan.spec.still.neutral,
+        neutral=face < plan.spec.still.neutral,
     )
 
 

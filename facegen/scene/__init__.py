@@ -5,10 +5,11 @@ from facegen.scene.eyes import eye_meshes
 from facegen.scene.lids import tear_lines
 from facegen.scene.looks import Look, draw_look
 from facegen.scene.materials import MATERIALS, material_values
-from facegen.scene.scene import Lamp, Layers, Mesh, Scene, View
+from facegen.scene.scene import Glimpse, Lamp, Layers, Mesh, Scene, View
 
 __all__ = [
     "MATERIALS",
+    "Glimpse",
     "Lamp",
     "Layers",
     "Look",

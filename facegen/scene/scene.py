@@ -115,3 +115,23 @@ class Layers:
     normal: np.ndarray
     part: np.ndarray
     uv: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Glimpse:
+    """A view without what is true at its pixels' centres: enough to develop a picture, at half the time.
+
+    Attributes
+    ----------
+    radiance
+        As in `Layers`.
+    normal
+        (h, w, 3) float32, camera frame (OpenCV), averaged over each pixel and so at most of length 1; 0 where there is
+        nothing. Through the cornea it is that of the iris.
+    albedo
+        (h, w) float32, share of the light that surfaces reflect, averaged over each pixel.
+    """
+
+    radiance: np.ndarray
+    normal: np.ndarray
+    albedo: np.ndarray

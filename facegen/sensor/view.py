@@ -7,7 +7,7 @@ import numpy as np
 from facegen.headsets import HeadsetCamera, Sensor
 from facegen.randomness import stream
 from facegen.sampling import Shot
-from facegen.scene import Layers
+from facegen.scene import Glimpse, Layers
 from facegen.sensor.development import develop
 from facegen.sensor.lens import transmission
 from facegen.sensor.motion import blurred
@@ -15,14 +15,18 @@ from facegen.sensor.room import room_light
 
 
 def develop_view(
-    layers: Layers, camera: HeadsetCamera, camera_from_head: np.ndarray, sensor: Sensor, shot: Shot
+    layers: Layers | Glimpse,
+    camera: HeadsetCamera,
+    camera_from_head: np.ndarray,
+    sensor: Sensor,
+    shot: Shot,
 ) -> np.ndarray:
     """Grey picture (h, w) uint8 of a view's layers.
 
     Parameters
     ----------
     layers
-        What is true of the view: radiance with glints, and normals and parts for the light of the room.
+        What a renderer gave, with glints in its radiance; the room's light falls on its surfaces.
     camera
         Its lens, at the picture's size.
     camera_from_head

@@ -4,8 +4,10 @@ import dataclasses
 import difflib
 import hashlib
 import json
+import operator
 import tomllib
 from collections.abc import Iterator
+from functools import reduce
 from pathlib import Path
 from typing import Any, get_args
 
@@ -19,6 +21,16 @@ from facegen.spec.spec import Clips, Spec
 
 LABEL_VERSION = 2
 """Raised with every change that alters labels or pixels for the same spec; part of every hash (see CHANGELOG.md)."""
+
+_LATE_KEYS: dict[str, Any] = {
+    "still.sessions": 1,
+    "landmarks.sliding_contour": False,
+    "sensor.slip": 1.0,
+    "render.subsurface": True,
+    "render.truth": True,
+    **{f"expression.mixture.{name}": 0.0 for name in ("upper_face", "lower_face", "combined")},
+}
+"""Keys that are younger than some datasets, and values that change nothing: with these they stay out of the hash."""
 
 _ADAPTER = TypeAdapter(Spec)
 
@@ -111,13 +123,22 @@ def spec_hash(spec: Spec, *, asset_sha256: dict[str, str]) -> str:
 
     Which samples are rendered does not matter to any one of them and stays out, so a dataset can grow pictures.
     """
-    table = spec_table(spec)
+    table = _without_late_keys(spec_table(spec))
     table["render"].pop("samples")
     table["render"].pop("headset")  # what it says is among the assets; where it lies does not matter
     if spec.playback is not None:
         table["playback"].pop("recording")  # likewise
     content = {"spec": table, "assets": asset_sha256, "label_version": LABEL_VERSION}
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def _without_late_keys(table: dict[str, Any]) -> dict[str, Any]:
+    for path, default in _LATE_KEYS.items():
+        *outer, key = path.split(".")
+        inner = reduce(operator.getitem, outer, table)
+        if inner[key] == default:
+            del inner[key]
+    return table
 
 
 def _records(record: Any) -> Iterator[Any]:

@@ -22,12 +22,14 @@ def _default(value: object) -> Distribution:
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
 class Still:
-    """``kind = "still"``: every person shows some neutral faces, then some expressions."""
+    """``kind = "still"``: in each session every person shows some neutral faces, then some expressions."""
 
+    sessions: Annotated[int, Field(ge=1, le=1000)] = 1
+    """Sessions of each person: the headset is put on anew, its unit and the room are others."""
     neutral: Annotated[int, Field(ge=0)] = 1
-    """Neutral faces of each person; they come first."""
+    """Neutral faces of each session; they come first."""
     faces: Annotated[int, Field(ge=0)] = 9
-    """Faces with an expression, after the neutral ones."""
+    """Faces with an expression in each session, after the neutral ones."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -117,6 +119,12 @@ class Mixture:
     """Three shapes at 0.75 or more, the eyes turned as far now and then."""
     divergent: Weight = 0.0
     """A sparse face whose eyes do not look the same way."""
+    upper_face: Weight = 0.0
+    """About a third of the shapes of brows, lids, nose and cheekSquint, and any gaze; all else rests."""
+    lower_face: Weight = 0.0
+    """About a third of the shapes of jaw, mouth, cheekPuff and tongue; the eyes are open and look ahead."""
+    combined: Weight = 0.0
+    """jawOpen above 0.35 with both eyes 0.3 to 0.8 closed, in a dense face: made to be withheld from training."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -219,6 +227,8 @@ class Sensor:
     """Standard deviation of the exposure from picture to picture."""
     motion_deg_s: Annotated[float, Field(ge=0, le=2000)] = 15.0
     """Standard deviation, across and along, of how fast the face moves in the picture while it is exposed."""
+    slip: Annotated[float, Field(ge=0, le=10)] = 1.0
+    """Factor on how far the headset slips within a session."""
     room: Literal["drawn", "dark", "dim", "bright_office", "flashing_screen"] = "drawn"
     """Room whose light leaks in; drawn means one for each session, in sequences the same as the pupils' rooms."""
     room_light: Annotated[float, Field(ge=0, le=100)] = 1.0
@@ -243,6 +253,10 @@ class Render:
     """Light paths per pixel."""
     denoise: bool = True
     """Whether the renderer's denoiser is used."""
+    subsurface: bool = True
+    """Whether skin scatters light below its surface; without, shadows are harder."""
+    truth: bool = True
+    """Whether an EXR file with radiance, depth, normals and parts stands beside each picture."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)

@@ -62,6 +62,11 @@ class Dataset:
         """Number of keypoint shards when the dataset is complete."""
         return -(-self.plan.samples // SHARD_ROWS)
 
+    @property
+    def picture_kinds(self) -> tuple[str, ...]:
+        """Extensions of a rendered view's files: exr and png, or png alone where the spec wants no truth."""
+        return ("exr", "png") if self.spec.render.truth else ("png",)
+
     def samples_to_render(self, ranges: str | None = None) -> list[int]:
         """Numbers of the samples to render: ``ranges`` (``"0-99,140"``) or, without, the spec's own."""
         text = self.spec.render.samples if ranges is None else ranges

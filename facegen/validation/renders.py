@@ -44,7 +44,7 @@ def check_render(dataset: Dataset, number: int, samples: Samples) -> Iterator[Fi
     folder = dataset.folder.render(number)
     place = str(folder.relative_to(dataset.folder.path))
     views = dataset.headset.camera_names
-    files = frozenset(f"{view}.{kind}" for view in views for kind in ("png", "exr"))
+    files = frozenset(f"{view}.{kind}" for view in views for kind in dataset.picture_kinds)
     present = frozenset(entry.name for entry in folder.iterdir())
     for name in sorted(present - files - {SIDECAR}):
         inner = f"{place}/{name}"
@@ -103,8 +103,8 @@ def _check_sidecar(
     for name, what, kind in _check_labels(dataset, record, samples):
         yield SIDECAR, f"{name}: {what}", kind
     for view in dataset.headset.camera_names:
-        if f"{view}.png" in pictures and f"{view}.exr" in pictures:
-            yield from _check_view(record, view, pictures[f"{view}.png"], pictures[f"{view}.exr"])
+        if all(f"{view}.{kind}" in pictures for kind in dataset.picture_kinds):
+            yield from _check_view(record, view, pictures[f"{view}.png"], pictures.get(f"{view}.exr"))
 
 
 def _sha256(path: Path) -> str:
@@ -140,7 +140,7 @@ def _impossible(dataset: Dataset, record: dict) -> Iterator[tuple[str, int, str]
     )
 
 
-def _check_view(record: dict, name: str, grey: np.ndarray, layers: Layers) -> _Wrong:
+def _check_view(record: dict, name: str, grey: np.ndarray, layers: Layers | None) -> _Wrong:
     try:
         view = record["views"][name]
         numbers = {key: value for key, value in view["camera"].items() if key != "distortion"}
@@ -151,16 +151,11 @@ def _check_view(record: dict, name: str, grey: np.ndarray, layers: Layers) -> _W
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         yield SIDECAR, f"views.{name} cannot be used ({error!r})", "unreadable"
         return
-    if grey.shape != (camera.height, camera.width) or layers.depth.shape != grey.shape:
-        shapes = f"{grey.shape} and {layers.depth.shape}"
-        yield name, f"pictures are {shapes}, the camera says {camera.height, camera.width}", "pixels"
+    shapes = [grey.shape, *([layers.depth.shape] if layers else ())]
+    if any(shape != (camera.height, camera.width) for shape in shapes):
+        said = " and ".join(map(str, shapes))
+        yield name, f"pictures are {said}, the camera says {camera.height, camera.width}", "pixels"
         return
-    unknown = np.setdiff1d(layers.part, [int(part) for part in Part])
-    if unknown.size:
-        yield f"{name}.exr", f"has pixels of the unknown part {int(unknown[0])}", "range"
-    surface = layers.depth[layers.part != Part.BACKGROUND]
-    if not (np.isfinite(surface) & (surface > 0)).all():
-        yield f"{name}.exr", "has pixels that show a surface without a depth", "range"
     with np.errstate(invalid="ignore"):
         error = np.linalg.norm(project(camera, points) - labelled, axis=-1)
     allowed = REPROJECTION_PX + FAR_SHARE * np.linalg.norm(labelled, axis=-1)
@@ -171,6 +166,14 @@ def _check_view(record: dict, name: str, grey: np.ndarray, layers: Layers) -> _W
             f"views.{name}: landmark {landmark} in 3D projects {distance} from its 2D label",
             "label",
         )
+    if layers is None:
+        return
+    unknown = np.setdiff1d(layers.part, [int(part) for part in Part])
+    if unknown.size:
+        yield f"{name}.exr", f"has pixels of the unknown part {int(unknown[0])}", "range"
+    surface = layers.depth[layers.part != Part.BACKGROUND]
+    if not (np.isfinite(surface) & (surface > 0)).all():
+        yield f"{name}.exr", "has pixels that show a surface without a depth", "range"
     for landmark in np.flatnonzero(visible):
         difference = depth_difference(layers, labelled[landmark], points[landmark, 2])
         if not difference <= DEPTH_M:

@@ -48,7 +48,7 @@ def save_blend(dataset: Dataset, number: int, path: Path, *, view: str | None = 
     with output_errors(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            open_renderer().save(
+            open_renderer(subsurface=render.subsurface).save(
                 made.scene,
                 view,
                 part.absolute(),

@@ -63,8 +63,14 @@ def develop_dataset(
     Raises
     ------
     InputError
-        If a sample has not been rendered, or ``out`` holds pictures of another dataset or of other settings.
+        If the dataset keeps no radiance, a sample has not been rendered, or ``out`` holds pictures of another dataset
+        or of other settings.
     """
+    if not dataset.spec.render.truth:
+        raise InputError(
+            f"{dataset.folder.path}: has no EXR files and so no radiance to develop, because its spec says "
+            f"render.truth = false; make it anew with true"
+        )
     rendered = set(dataset.folder.rendered())
     numbers = sorted(rendered) if numbers is None else numbers
     missing = sorted(set(numbers) - rendered)

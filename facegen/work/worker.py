@@ -88,6 +88,7 @@ class Worker:
             "device": str(self._renderer.device),
             "samples_per_pixel": dataset.spec.render.samples_per_pixel,
             "denoise": dataset.spec.render.denoise,
+            "subsurface": dataset.spec.render.subsurface,
         }
         record["sha256"] = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
         with staging(dataset.folder, f"sample-{number}") as stage:
@@ -104,11 +105,12 @@ class Worker:
         settings = self.dataset.spec.render
         if self._renderer is None:
             on_phase("start Blender")
-            self._renderer = open_renderer(threads=self.threads)
+            self._renderer = open_renderer(threads=self.threads, subsurface=settings.subsurface)
         files = {}
         for view in rendered.scene.views:
             on_phase(f"render {view.name}")
-            layers = self._renderer.render(
+            render = self._renderer.render if settings.truth else self._renderer.glimpse
+            layers = render(
                 rendered.scene,
                 view.name,
                 samples=settings.samples_per_pixel,
@@ -125,7 +127,8 @@ class Worker:
                 rendered.shots[view.name],
             )
             files[f"{view.name}.png"] = png_bytes(grey)
-            files[f"{view.name}.exr"] = exr_bytes(layers)
+            if settings.truth:
+                files[f"{view.name}.exr"] = exr_bytes(layers)
         return files
 
 

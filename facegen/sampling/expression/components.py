@@ -13,11 +13,14 @@ from facegen.sampling.expression.acted import (
     draw_speech,
 )
 from facegen.sampling.expression.shapes import (
+    draw_combined,
     draw_dense,
     draw_divergent,
     draw_extreme,
+    draw_lower_face,
     draw_single,
     draw_sparse,
+    draw_upper_face,
 )
 
 
@@ -35,11 +38,17 @@ class Component:
         stay as drawn.
     conjugate
         Whether both eyes look at one point.
+    looking
+        Whether the eyes look around; otherwise straight ahead, as in neutral faces.
+    subtle
+        Whether a share of the faces is scaled down; what must be strong is not.
     """
 
     draw: Callable[..., np.ndarray]
     living: bool
     conjugate: bool = True
+    looking: bool = True
+    subtle: bool = True
 
 
 COMPONENTS: dict[str, Component] = {
@@ -53,6 +62,9 @@ COMPONENTS: dict[str, Component] = {
     "dense": Component(draw=draw_dense, living=False),
     "extreme": Component(draw=draw_extreme, living=False),
     "divergent": Component(draw=draw_divergent, living=False, conjugate=False),
+    "upper_face": Component(draw=draw_upper_face, living=False),
+    "lower_face": Component(draw=draw_lower_face, living=False, looking=False),
+    "combined": Component(draw=draw_combined, living=False, subtle=False),
 }
 """Every component; its name is a key of ``[expression.mixture]``, and what each shows is said there."""
 

@@ -12,6 +12,7 @@ from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, close_lips, 
 from facegen.sampling.expression.sides import draw_shapes
 from facegen.sampling.expression.templates import CLOSING
 from facegen.sampling.gaze import (
+    AHEAD,
     axes_from_target,
     diverge,
     draw_deviation,
@@ -73,15 +74,15 @@ def draw_faces(spec: Spec, streams: Callable[[str], np.random.Generator], eye_ce
         if len(rows):
             rng = streams(f"expression {name}")
             weights[rows] = part.draw(rng, len(rows), correlation=settings.left_right_correlation)
-    living, conjugate = (
+    living, conjugate, looking, subtle = (
         np.array([getattr(part, trait) for part in COMPONENTS.values()])[component]
-        for trait in ("living", "conjugate")
+        for trait in ("living", "conjugate", "looking", "subtle")
     )
     alive = np.flatnonzero(living)
     weights[alive] = draw_lips(streams("expression lips"), weights[alive])
     rng = streams("expression rest")
     closing = weights[:, CLOSING].copy()
-    weights *= draw_subtlety(settings, rng, size)[:, None]
+    weights *= np.where(subtle, draw_subtlety(settings, rng, size), 1.0)[:, None]
     weights[:, CLOSING] = closing
     weights = 1 - (1 - weights) * (1 - draw_resting(settings, rng, size) * living[:, None])
     weights[alive] = fade(weights[alive])
@@ -91,6 +92,7 @@ def draw_faces(spec: Spec, streams: Callable[[str], np.random.Generator], eye_ce
     gaze = axes_from_target(target, eye_center)
     apart = np.flatnonzero(~conjugate)
     gaze[apart] = diverge(gaze[apart], draw_deviation(streams("gaze apart"), len(apart)))
+    gaze[~looking] = AHEAD
     for column, value in weights_from_axes(gaze).items():
         weights[:, column] = value
     down, up = rng.random((2, size)) * living

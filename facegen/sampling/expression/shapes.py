@@ -14,6 +14,12 @@ SPARSE_SHAPES = (1, 6)
 """Fewest and most shapes of a sparse face; a pair counts once."""
 DENSE_SHARE, DENSE_STRENGTH = 0.35, 0.7
 """Share of the shapes that move in a dense face, and the strongest weight there."""
+REGION_SHARE = 0.35
+"""Share of a region's shapes that move in a face of one region."""
+UPPER_FACE = ("brow", "eye", "noseSneer", "cheekSquint")
+"""How the names of the shapes begin that the cameras at the eyes see; all others are the lower face."""
+COMBINED_JAW, COMBINED_BLINK = 0.35, (0.3, 0.8)
+"""Least jawOpen of a combined face, and from where to where both eyes are closed."""
 EXTREME_SHAPES, EXTREME_FROM, EXTREME_GAZE = 3, 0.75, 0.25
 """Shapes of an extreme face, the weakest weight there, and the share of faces with eyes turned as far."""
 
@@ -21,6 +27,10 @@ _JAW, _TONGUE = BLENDSHAPE_INDEX["jawOpen"], BLENDSHAPE_INDEX["tongueOut"]
 _LOOKS = tuple(index for index, name in enumerate(BLENDSHAPES) if name.startswith("eyeLook"))
 _FIRST = np.setdiff1d(np.arange(len(BLENDSHAPES)), (*RIGHT, *_LOOKS))
 """Every pair once, and the shapes without a side; eyes are turned by the gaze."""
+_IS_UPPER = np.array([BLENDSHAPES[index].startswith(UPPER_FACE) for index in _FIRST])
+_BLINKS, _WIDES = (
+    [BLENDSHAPE_INDEX[name + side] for side in ("Left", "Right")] for name in ("eyeBlink", "eyeWide")
+)
 
 
 def draw_single(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
@@ -75,6 +85,30 @@ def draw_extreme(rng: np.random.Generator, size: int, *, correlation: float) -> 
 def draw_divergent(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
     """A sparse face; that its eyes look apart is drawn with the gaze."""
     return draw_sparse(rng, size, correlation=correlation)
+
+
+def draw_upper_face(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """Shapes of the upper face through their whole range, independent of each other, over a resting mouth."""
+    return _draw_active(rng, _draw_share(rng, size) & _IS_UPPER, correlation=correlation)
+
+
+def draw_lower_face(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """Shapes of the lower face through their whole range, independent of each other, below resting eyes."""
+    return _draw_active(rng, _draw_share(rng, size) & ~_IS_UPPER, correlation=correlation)
+
+
+def draw_combined(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """A dense face with an open jaw and both eyes half closed: a combination for tests that training withholds."""
+    weights = draw_dense(rng, size, correlation=correlation)
+    weights[:, _JAW] = COMBINED_JAW + (1 - COMBINED_JAW) * (1 - rng.random(size))
+    least, most = COMBINED_BLINK
+    weights[:, _BLINKS] = least + (most - least) * draw_sides(rng, size, correlation=correlation)
+    weights[:, _WIDES] = 0.0
+    return weights
+
+
+def _draw_share(rng: np.random.Generator, size: int) -> np.ndarray:
+    return rng.random((size, len(_FIRST))) < REGION_SHARE
 
 
 def _draw_active(rng: np.random.Generator, first: np.ndarray, *, correlation: float) -> np.ndarray:
