@@ -1,5 +1,7 @@
 """From a camera's pictures to the encoders' squares: once for training, by the same rule inside the exported graph."""
 
+import math
+
 import cv2
 import numpy as np
 
@@ -49,11 +51,12 @@ def warp_matrix(
     scale, angle_rad
         About the picture's middle.
     """
-    side = np.diag([-1.0 if flipped else 1.0, 1.0])
-    turn = np.array([[np.cos(angle_rad), -np.sin(angle_rad)], [np.sin(angle_rad), np.cos(angle_rad)]])
-    linear = scale * np.diag([width / size, height / size]) @ turn @ side
-    middle = np.array([width - 1, height - 1]) / 2 + np.asarray(shift) * (width, height)
-    return np.column_stack([linear, middle - linear @ np.full(2, (size - 1) / 2)])
+    # spelt out: this runs for every picture of every batch
+    cosine, sine, side = math.cos(angle_rad), math.sin(angle_rad), -1.0 if flipped else 1.0
+    across, down, half = scale * width / size, scale * height / size, (size - 1) / 2
+    a, b, c, d = across * cosine * side, -across * sine, down * sine * side, down * cosine
+    x, y = (width - 1) / 2 + shift[0] * width, (height - 1) / 2 + shift[1] * height
+    return np.array([[a, b, x - half * (a + b)], [c, d, y - half * (c + d)]])
 
 
 def _reduced_side(side: int, size: int) -> int:
