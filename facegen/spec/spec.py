@@ -205,6 +205,8 @@ class Landmarks:
     """Share of frames, for each part of the face, in which the whole part is found a long way off."""
     dropped: Annotated[float, Field(ge=0, le=0.5)] = 0.0
     """Share of frames in which no face is found (NaN); in clips they come in runs."""
+    sliding_contour: bool = False
+    """Whether there are ``contour_2d`` and ``contour_3d`` too: the 17 jaw points, slid to the outline where hidden."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
