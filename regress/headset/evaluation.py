@@ -283,7 +283,7 @@ def _honesty(said: Estimates, true: np.ndarray) -> dict[str, float | None]:
     alike = np.corrcoef(np.abs(error).ravel(), deviation.ravel())[0, 1] if np.ptp(deviation) > 0 else np.nan
     return {
         "squared_error_over_variance": float(np.mean(error**2) / np.mean(deviation**2)),
-        "correlation": alike,
+        "correlation": None if np.isnan(alike) else float(alike),
     }
 
 

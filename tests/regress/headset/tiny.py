@@ -119,6 +119,7 @@ def write_tiny_model(folder: Path, *, width: int = 16, height: int = 12, **chang
             },
             "cameras": alone,
         },
+        "training": {"people": 20, "rows": 100, "recipe": {"epochs": 0}},
         "rig": "anny",
         "dataset_hash": "0" * 64,
         "licences": ("CC0-1.0",),

@@ -1,0 +1,99 @@
+"""``regress headset report``: what a headset network can do, as one page."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from regress.cli.headset_evaluate import SplitName
+from regress.cli.talk import say
+from regress.errors import OutputError
+from regress.files import write_whole
+from regress.headset.arrays import read_arrays
+from regress.headset.comparison import compare
+from regress.headset.evaluation import evaluate
+from regress.headset.predictor import load_headset_predictor
+from regress.headset.worst import worst_frames
+from regress.report.headset_page import Judged, write_headset_report
+from regress.timing import time_headset
+
+
+def report(
+    model: Annotated[Path, typer.Argument(help="Model folder of `regress headset train`.")],
+    out: Annotated[Path, typer.Option("--out", help="HTML file to write.")] = Path("report.html"),
+    data: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--data", help="Folder of arrays to measure on; may be given again, the main one first."
+        ),
+    ] = None,
+    against: Annotated[
+        list[Path] | None,
+        typer.Option("--against", help="Another model to compare with; may be given again."),
+    ] = None,
+    curve: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--curve", help="A model trained on fewer people, for the learning curve; may be given again."
+        ),
+    ] = None,
+    split: Annotated[SplitName, typer.Option("--split", help="Whose faces to score.")] = SplitName.test,
+    figures: Annotated[
+        Path | None, typer.Option("--figures", help="JSON file for all that was measured, unrounded.")
+    ] = None,
+    timed: Annotated[
+        bool, typer.Option("--time/--no-time", help="Time a frame; without it equal input gives equal bytes.")
+    ] = True,
+) -> None:
+    """Write one HTML file with a headset network's figures and its worst frames: it opens without a network.
+
+    Example: regress headset report models/headset --data datasets/out/headset-test-arrays --against models/holistic
+    --out report.html
+    """
+    predictor = load_headset_predictor(model)
+    rivals = [(path.name, load_headset_predictor(path)) for path in against or ()]
+    fewer = [(path.name, load_headset_predictor(path)) for path in curve or ()]
+    folders = [(path.name, read_arrays(path)) for path in data or ()]
+    judged, points = [], []
+    for title, arrays in folders:
+        judged.append(
+            Judged(
+                title=title,
+                figures=evaluate(predictor.graph, predictor.model, arrays, split=split.value),
+                rivals=tuple(
+                    (name, compare(predictor, rival, arrays, split=split.value)) for name, rival in rivals
+                ),
+                worst=worst_frames(predictor, arrays, split=split.value),
+            )
+        )
+    for name, one in [*fewer, *([(model.name, predictor)] if fewer else [])]:
+        found = one.model.scores
+        if folders:
+            found = evaluate(one.graph, one.model, folders[0][1], split=split.value)
+        points.append((name, one.model.training["people"], one.model.training["rows"], found))
+    timings = [(timing.name, timing.microseconds) for timing in time_headset(predictor)] if timed else []
+    typer.echo(
+        write_headset_report(predictor.model, out, judged, name=model.name, curve=points, timings=timings)
+    )
+    if figures is not None:
+        _write_figures(figures, judged, points, timings)
+
+
+def _write_figures(
+    path: Path, judged: list[Judged], points: list[Any], timings: list[tuple[str, float]]
+) -> None:
+    document = {
+        "data": {one.title: one.figures for one in judged},
+        "against": {one.title: dict(one.rivals) for one in judged},
+        "curve": [
+            {"model": title, "people": people, "rows": rows, "figures": figures}
+            for title, people, rows, figures in points
+        ],
+        "microseconds": dict(timings),
+    }
+    try:
+        write_whole(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
+    except OSError as error:
+        raise OutputError(f"the figures cannot be written to {path}: {error.strerror or error}") from error
+    say(f"figures in {path}")

@@ -1,0 +1,254 @@
+"""A headset network's report as one HTML page: figures on arrays, a rival, people, frames that go wrong."""
+
+import base64
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from facegen.conventions import BLENDSHAPES
+from regress.errors import ModelError, OutputError
+from regress.files import write_whole
+from regress.headset.model import HeadsetModel
+from regress.headset.worst import WorstFrame
+from regress.report.axes import figure
+from regress.report.content import PARTLY_R2, SEEN_R2, Headline
+from regress.report.headset_tables import (
+    Table,
+    components_table,
+    conditions_table,
+    curve_table,
+    people_table,
+    percent,
+    rivals_table,
+    shapes_table,
+)
+from regress.report.histogram import histogram
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Judged:
+    """What was measured on one folder of arrays.
+
+    Parameters
+    ----------
+    title
+        What the frames are.
+    figures
+        Of ``regress.headset.evaluation.evaluate``.
+    rivals
+        Title of another model, and figures of ``regress.headset.comparison.compare`` against it.
+    worst
+        Frames with the largest errors.
+    """
+
+    title: str
+    figures: dict[str, Any]
+    rivals: tuple[tuple[str, dict[str, Any]], ...] = ()
+    worst: tuple[WorstFrame, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Section:
+    """Tables of one folder of arrays, ready for the page."""
+
+    title: str
+    lead: str
+    conditions: Table
+    held_out: Table | None
+    shapes: Table
+    components: Table
+    people: Table
+    histogram: Markup
+    honesty: str
+    rivals: tuple[tuple[str, tuple[tuple[str, Table], ...]], ...]
+    worst: tuple[tuple[WorstFrame, tuple[tuple[str, Markup], ...]], ...]
+
+
+def write_headset_report(
+    model: HeadsetModel,
+    path: Path,
+    judged: Sequence[Judged] = (),
+    *,
+    name: str,
+    curve: Sequence[tuple[str, int, int, dict[str, Any]]] = (),
+    timings: Sequence[tuple[str, float]] = (),
+) -> Path:
+    """Write the page.
+
+    Parameters
+    ----------
+    model, name
+        The model and what to call it.
+    judged
+        What was measured; without anything the figures of the model's own training data stand.
+    curve
+        Models trained on fewer people: title, people, frames, evaluation.
+    timings
+        Microseconds a frame, by how the network was run.
+
+    Raises
+    ------
+    ModelError
+        Where there is nothing to report.
+    OutputError
+        Where the file cannot be written.
+    """
+    if not judged:
+        if not model.scores:
+            raise ModelError("the model has no figures of its own; give --data to measure some")
+        judged = [Judged(title="the test split of its training data", figures=model.scores)]
+    environment = Environment(
+        loader=PackageLoader("regress.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    page = environment.get_template("headset.html").render(
+        name=name,
+        lead=_lead(model, judged[0]),
+        headlines=_headlines(judged[0].figures, timings),
+        sections=[_section(one, name) for one in judged],
+        curve=curve_table(curve) if curve else None,
+        timings=[(how, f"{microseconds / 1000:.2f} ms") for how, microseconds in timings],
+        hidden=_hidden(judged[0].figures),
+        provenance=_provenance(model),
+        seen_r2=SEEN_R2,
+        partly_r2=PARTLY_R2,
+        figure=figure,
+    )
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return write_whole(path, page)
+    except OSError as error:
+        raise OutputError(f"the report cannot be written to {path}: {error.strerror or error}") from error
+
+
+def _section(judged: Judged, name: str) -> Section:
+    figures = judged.figures
+    errors = np.array([person["uncalibrated"] for person in figures["people_mm"].values()])
+    rivals = tuple(
+        (
+            title,
+            tuple(
+                (what, rivals_table(compared[key], names=(name, title)))
+                for what, key in (
+                    ("Ordinary frames", "conditions"),
+                    ("An open jaw and closing lids", "held_out"),
+                    ("By component, no neutral picture", "components"),
+                )
+                if compared[key]
+            ),
+        )
+        for title, compared in judged.rivals
+    )
+    return Section(
+        title=judged.title,
+        lead=f"{figures['rows']:,} frames of {figures['people']:,} people ({figures['split']} split).",
+        conditions=conditions_table(figures["conditions"], figures["floors"]),
+        held_out=conditions_table(figures["held_out"], {}) if figures["held_out"] else None,
+        shapes=shapes_table(figures),
+        components=components_table(figures),
+        people=people_table(figures),
+        histogram=Markup(histogram(errors)),
+        honesty=_honesty(figures),
+        rivals=rivals,
+        worst=tuple(
+            (one, tuple((camera, _image(picture, camera)) for camera, picture in one.pictures.items()))
+            for one in judged.worst
+        ),
+    )
+
+
+def _lead(model: HeadsetModel, first: Judged) -> str:
+    cameras = ", ".join(camera.name.replace("_", " ") for camera in model.cameras)
+    return (
+        f"A {model.architecture} network turns the pictures of {len(model.cameras)} cameras of the headset "
+        f"{model.headset} ({cameras}) into {len(model.weights)} avatar weights and the gaze. Trained on "
+        f"{model.training.get('rows', 0):,} synthetic frames of {model.training.get('people', 0):,} people. The first "
+        f"figures are of {first.title}: {first.figures['people']:,} people that it has never seen."
+    )
+
+
+def _headlines(figures: dict[str, Any], timings: Sequence[tuple[str, float]]) -> list[Headline]:
+    found, rest = figures["conditions"], figures["floors"]["rest"]
+    alone, calibrated = found["uncalibrated"], found.get("same_seat")
+    beside = "" if calibrated is None else f"; with a neutral picture {figure(calibrated['geometry_mm'])}"
+    r2 = "" if calibrated is None else f"; with a neutral picture {_known(calibrated['r2'])}"
+    lines = [
+        Headline(
+            value=f"{alone['geometry_mm']:.2f} mm",
+            caption=f"mean error of the face's vertices{beside}; a resting face {figure(rest['geometry_mm'])}",
+        ),
+        Headline(value=_known(alone["r2"]), caption=f"mean R² of 51 shapes{r2}"),
+        Headline(value=_known(alone["blink_r2"]), caption="R² of the eyes' blink"),
+        Headline(value=f"{alone['gaze_deg']:.1f}°", caption="mean angle between predicted and true gaze"),
+    ]
+    if timings:
+        lines.append(
+            Headline(value=f"{timings[0][1] / 1000:.2f} ms", caption="a frame in onnxruntime on one core")
+        )
+    return lines
+
+
+def _hidden(figures: dict[str, Any]) -> list[str]:
+    """Shapes that the cameras show neither without nor with a neutral picture."""
+    shapes = figures["shapes"]
+    return [
+        shape
+        for shape in BLENDSHAPES
+        if all((one["r2"] if one["r2"] is not None else 0.0) < PARTLY_R2 for one in shapes[shape].values())
+    ]
+
+
+def _honesty(figures: dict[str, Any]) -> str:
+    deviation, seat = figures["deviation"], figures["seat"]
+    said = (
+        f"Squared errors are {deviation['squared_error_over_variance']:.2f} times the variance that the network "
+        f"predicts for them; 1 is honest."
+    )
+    if deviation["correlation"] is not None:
+        said += f" Errors and predicted deviations correlate with {deviation['correlation']:.2f}."
+    if seat:
+        same, other = seat.get("same_seat"), seat.get("other_seat")
+        if same is not None:
+            said += f" It takes {percent(same)} of the neutral pictures of the same seat for such"
+            said += "." if other is None else f", and {percent(other)} of those of another seat."
+    return said
+
+
+def _provenance(model: HeadsetModel) -> list[tuple[str, str]]:
+    record = model.training
+    recipe = ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in record.get("recipe", {}).items())
+    rows = [
+        ("headset", model.headset),
+        ("rig of the data", model.rig),
+        ("dataset", model.dataset_hash),
+        ("licence of the data", "; ".join(model.licences)),
+        ("network SHA-256", model.network_sha256),
+        ("recipe", recipe),
+    ]
+    if "parameters" in record:
+        rows.append(("parameters", f"{record['parameters']:,}"))
+    if "cpu_s" in record:
+        rows.append(("processor time of the training", f"{record['cpu_s'] / 60:.1f} minutes"))
+    if "onnx_difference" in record:
+        rows.append(("largest difference of ONNX and PyTorch", f"{record['onnx_difference']:.1e}"))
+    rows += [(name, version) for name, version in record.get("versions", {}).items()]
+    return [(term, value) for term, value in rows if value]
+
+
+def _image(picture: np.ndarray, description: str) -> Markup:
+    """A grey picture (h, w) inside the page, as PNG."""
+    data = base64.b64encode(cv2.imencode(".png", picture)[1]).decode()
+    return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(description, data)
+
+
+def _known(value: float | None) -> str:
+    return figure(float("nan") if value is None else value)

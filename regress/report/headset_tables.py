@@ -1,0 +1,159 @@
+"""Tables of a headset network's report: figures of an evaluation, row by row, as text and shades."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES
+from regress.report.axes import figure
+from regress.report.content import PARTLY_R2, SEEN_R2
+
+MAIN = ("uncalibrated", "same_seat", "same_seat_fallback", "other_seat", "other_seat_fallback")
+"""Conditions in the order of the page; those of lost and single cameras follow."""
+
+WORDS = {
+    "uncalibrated": "no neutral picture",
+    "same_seat": "neutral picture, same seat",
+    "same_seat_fallback": "the same, unless the network doubts the seat",
+    "other_seat": "neutral picture of another seat",
+    "other_seat_fallback": "the same, unless the network doubts the seat",
+    "mean": "floor: always the training mean",
+    "rest": "floor: always the resting face",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cell:
+    """One figure and its shade: a class of the page, or none."""
+
+    text: str
+    shade: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """A head and rows of the same length; the first cell of each is its name."""
+
+    head: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    tinted: bool = False
+
+
+def conditions_table(found: dict[str, Any], floors: dict[str, Any]) -> Table:
+    """Every condition's summary, floors last."""
+    head = ("given", "frames", "error in mm", "mean R²", "MAE", "RMSE", "blink R²", "gaze in degrees")
+    keys = ("geometry_mm", "r2", "mae", "rmse", "blink_r2", "gaze_deg")
+    rows = [
+        (Cell(text=said(name)), Cell(text=f"{figures['rows']:,}"), *(cell(figures[key]) for key in keys))
+        for name, figures in (*_ordered(found), *floors.items())
+    ]
+    return Table(head=head, rows=tuple(rows))
+
+
+def shapes_table(figures: dict[str, Any]) -> Table:
+    """R2, MAE and RMSE of every shape, without and with calibration, and R2 from each camera alone."""
+    shapes, cameras = figures["shapes"], figures["cameras"]
+    known = [name for name in MAIN if name in shapes[BLENDSHAPES[0]]]
+    short = {"uncalibrated": "alone", "same_seat": "calibrated", "other_seat": "other seat"}
+    head = (
+        "shape",
+        *(f"R² {short[name]}" for name in known),
+        *(f"R² {camera.replace('_', ' ')} only" for camera in cameras),
+        *(f"{what} {short[name]}" for what in ("MAE", "RMSE") for name in known[:2]),
+    )
+    rows = [
+        (
+            Cell(text=shape),
+            *(r2_cell(shapes[shape][name]["r2"]) for name in known),
+            *(r2_cell(cameras[camera][shape]) for camera in cameras),
+            *(cell(shapes[shape][name][what]) for what in ("mae", "rmse") for name in known[:2]),
+        )
+        for shape in BLENDSHAPES
+    ]
+    return Table(head=head, rows=tuple(rows), tinted=True)
+
+
+def components_table(figures: dict[str, Any]) -> Table:
+    """Geometry error of each component of the sampler, by the main conditions."""
+    components = figures["components"]
+    known = [name for name in MAIN if name in next(iter(components.values()))]
+    rows = [
+        (
+            Cell(text=name.replace("_", " ")),
+            Cell(text=f"{one['rows']:,}"),
+            *(cell(one[condition]) for condition in known),
+        )
+        for name, one in components.items()
+    ]
+    return Table(head=("component", "frames", *map(said, known)), rows=tuple(rows))
+
+
+def people_table(figures: dict[str, Any]) -> Table:
+    """Median, bad and worst geometry error of a person, by condition."""
+    people = list(figures["people_mm"].values())
+    rows = []
+    for name in (name for name in MAIN if name in people[0]):
+        errors = np.array([one[name] for one in people])
+        values = (*np.percentile(errors, (5, 50, 95)), errors.max())
+        rows.append((Cell(text=said(name)), *(cell(float(value)) for value in values)))
+    return Table(
+        head=("given", "one in twenty below", "median", "one in twenty above", "worst"), rows=tuple(rows)
+    )
+
+
+def rivals_table(entries: dict[str, Any], *, names: tuple[str, str]) -> Table:
+    """Geometry error of two networks, how much less the first has, and how often."""
+    head = ("given", "frames", *names, "difference", "better frames", "better people")
+    rows = [
+        (
+            Cell(text=said(name)),
+            Cell(text=f"{one['rows']:,}"),
+            cell(one["geometry_mm"]),
+            cell(one["rival_mm"]),
+            Cell(text=percent(one["geometry_mm"] / one["rival_mm"] - 1, signed=True)),
+            Cell(text=percent(one["better"])),
+            Cell(text=percent(one["people"])),
+        )
+        for name, one in _ordered(entries)
+    ]
+    return Table(head=head, rows=tuple(rows))
+
+
+def curve_table(points: Sequence[tuple[str, int, int, dict[str, Any]]]) -> Table:
+    """Figures by how many people a model was trained on: title, people, frames, evaluation."""
+    head = ("model", "people", "frames", "error in mm", "mean R²", "calibrated, mm", "calibrated, R²")
+    rows = []
+    for title, people, frames, figures in sorted(points, key=lambda point: point[1:3]):
+        found = figures["conditions"]
+        cells = [cell(found.get(name, {}).get(key)) for name in MAIN[:2] for key in ("geometry_mm", "r2")]
+        rows.append((Cell(text=title), Cell(text=f"{people:,}"), Cell(text=f"{frames:,}"), *cells))
+    return Table(head=head, rows=tuple(rows))
+
+
+def said(name: str) -> str:
+    """A condition or component in words."""
+    return WORDS.get(name, name.replace("_", " "))
+
+
+def cell(value: float | None) -> Cell:
+    """A figure with three decimals; a dash where there is none."""
+    return Cell(text=figure(float("nan") if value is None else value))
+
+
+def r2_cell(value: float | None) -> Cell:
+    """The same, shaded by how well a shape is seen."""
+    grade = "" if value is None else "seen" if value >= SEEN_R2 else "partly" if value >= PARTLY_R2 else ""
+    return Cell(text=cell(value).text, shade=grade)
+
+
+def percent(share: float, *, signed: bool = False) -> str:
+    """A share as per cent with one decimal."""
+    return f"{100 * share:{'+' if signed else ''}.1f} %".replace("-", "\N{MINUS SIGN}")
+
+
+def _ordered(found: dict[str, Any]) -> Iterable[tuple[str, Any]]:
+    """Main conditions first, then the others as they are."""
+    names = [name for name in MAIN if name in found]
+    return [(name, found[name]) for name in (*names, *(name for name in found if name not in names))]

@@ -1,0 +1,137 @@
+"""`regress headset report`: one page with every figure, a rival, a learning curve and the worst frames."""
+
+import base64
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPES
+from regress.headset.arrays import HeadsetArrays
+from regress.headset.comparison import compare
+from regress.headset.evaluation import evaluate
+from regress.headset.predictor import load_headset_predictor
+from regress.headset.worst import worst_frames
+from tests.regress.headset.drawn import SIDE
+from tests.regress.headset.tiny import NAMES, write_tiny_model
+
+
+@pytest.fixture(scope="module")
+def models(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """Two models that are the same but for what they say of their training."""
+    folder = tmp_path_factory.mktemp("models")
+    few = {"people": 5, "rows": 30}
+    return (
+        write_tiny_model(folder / "many", width=SIDE, height=SIDE),
+        write_tiny_model(folder / "few", width=SIDE, height=SIDE, training=few),
+    )
+
+
+class Outline(HTMLParser):
+    """Open tags and addresses of a page; complains of tags that do not close."""
+
+    EMPTY = frozenset({"meta", "line", "rect", "path", "img"})
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.addresses, self.pictures = [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        named = dict(attrs)
+        self.addresses += [value for key, value in attrs if key in ("src", "href") and tag != "img"]
+        if tag == "img":
+            self.pictures.append((named["alt"], named["src"]))
+        if tag not in self.EMPTY:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        pass
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def test_the_page_is_whole_and_fetches_nothing(
+    run, models: tuple[Path, Path], arrays_folder: Path, arrays: HeadsetArrays, tmp_path: Path
+):
+    many, few = models
+    out, figures = tmp_path / "deep" / "report.html", tmp_path / "figures.json"
+    words = ["--data", arrays_folder, "--data", arrays_folder, "--against", few, "--curve", few, "--no-time"]
+    code, printed, said = run("headset", "report", many, *words, "--out", out, "--figures", figures)
+    assert (code, printed.strip()) == (0, str(out)), said
+    page = out.read_text()
+    outline = Outline()
+    outline.feed(page)
+    assert outline.open == outline.addresses == []
+    assert not re.search(r"https?://|@import|url\(", page)
+    for word in (
+        *BLENDSHAPES,
+        "Against few",
+        "floor: always the resting face",
+        "combined",
+        "dense",
+        "only mouth",
+    ):
+        assert word in page
+    document = json.loads(figures.read_text())
+    predictor = load_headset_predictor(many)
+    found = evaluate(predictor.graph, predictor.model, arrays)
+    assert document["data"] == {"arrays": found}
+    assert [(one["model"], one["people"]) for one in document["curve"]] == [("few", 5), ("many", 20)]
+    assert f"{found['conditions']['uncalibrated']['geometry_mm']:.3f}" in page
+    assert f"{found['shapes']['jawOpen']['same_seat']['r2']:.3f}".replace("-", "−") in page
+    # the worst frames' own pictures, three cameras each, in both sections
+    worst = worst_frames(predictor, arrays)
+    assert len(outline.pictures) == 2 * 3 * len(worst)
+    name, source = outline.pictures[0]
+    data = base64.b64decode(source.removeprefix("data:image/png;base64,"))
+    picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
+    row = int(np.flatnonzero(arrays.sample == worst[0].sample)[0])
+    assert np.array_equal(picture, arrays.pictures[name][row])
+    again = tmp_path / "again.html"
+    run("headset", "report", many, *words, "--out", again)
+    assert again.read_bytes() == out.read_bytes()
+
+
+def test_a_model_is_reported_by_its_own_scores_without_data(
+    run, models: tuple[Path, Path], arrays_folder, tmp_path
+):
+    many, _ = models
+    predictor = load_headset_predictor(many)
+    from regress.headset.arrays import read_arrays
+
+    scored = write_tiny_model(
+        tmp_path / "scored",
+        width=SIDE,
+        height=SIDE,
+        scores=evaluate(predictor.graph, predictor.model, read_arrays(arrays_folder)),
+    )
+    code, _, said = run("headset", "report", scored, "--out", tmp_path / "report.html")
+    assert code == 0, said
+    assert "a frame in onnxruntime on one core" in (tmp_path / "report.html").read_text()
+    bare = write_tiny_model(tmp_path / "bare", scores={})
+    code, _, said = run("headset", "report", bare, "--out", tmp_path / "none.html")
+    assert (code, len(said.splitlines())) == (2, 1)
+    assert "give --data to measure some" in said
+
+
+def test_comparison_is_antisymmetric_and_even_with_itself(models: tuple[Path, Path], arrays: HeadsetArrays):
+    one = load_headset_predictor(models[0])
+    even = compare(one, one, arrays)
+    assert all(entry["better"] == entry["people"] == 0.5 for part in even.values() for entry in part.values())
+    assert set(even["components"]) == {"combined", "dense", "lower_face", "upper_face"}
+    assert set(even["conditions"]) >= {"uncalibrated", "same_seat", *(f"without_{name}" for name in NAMES)}
+
+
+def test_worst_frames_are_the_worst_of_different_people(models: tuple[Path, Path], arrays: HeadsetArrays):
+    found = worst_frames(load_headset_predictor(models[0]), arrays, count=4)
+    errors = [frame.geometry_mm for frame in found]
+    assert errors == sorted(errors, reverse=True)
+    assert len({frame.person for frame in found}) == len(found) == 4
+    predictor = load_headset_predictor(models[0])
+    people = evaluate(predictor.graph, predictor.model, arrays)["people_mm"]
+    assert all(frame.geometry_mm > people[str(frame.person)]["uncalibrated"] for frame in found[:1])
