@@ -6,6 +6,7 @@ import numpy as np
 
 from facegen.conventions import FACE_WIDTH_LANDMARKS, Visibility
 from facegen.geometry import apply_transform
+from facegen.labels.contour import JAW, label_contour
 from facegen.raster import hidden_by_own
 from facegen.rigs import EvaluatedFaces, Rig, evaluate, occluder
 from facegen.sampling import Samples
@@ -36,6 +37,9 @@ class Keypoints:
         (n, 68) uint8, `facegen.conventions.Visibility`.
     face_width
         (n,) pixels between the landmarks at both ends of the jaw.
+    contour_3d, contour_2d
+        (n, 17, 3) and (n, 17, 2) the sliding contour of the jaw (`facegen.labels.contour`), as ``points_3d`` and
+        ``points_2d``; (n, 0, ...) where the spec does not ask for it.
     """
 
     points_3d: np.ndarray
@@ -43,6 +47,8 @@ class Keypoints:
     detected_2d: np.ndarray
     visibility: np.ndarray
     face_width: np.ndarray
+    contour_3d: np.ndarray
+    contour_2d: np.ndarray
 
 
 def project_pinhole(points_camera: np.ndarray, intrinsics: np.ndarray) -> np.ndarray:
@@ -78,6 +84,10 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFace
     )
     visibility = np.where(covered, Visibility.HIDDEN, Visibility.VISIBLE)
     size = np.array([spec.camera.width_px, spec.camera.height_px])
+    contour = np.empty((len(points_2d), 0, 3))
+    if spec.landmarks.sliding_contour:
+        jaw = faces.landmarks[:, JAW], covered[:, JAW]
+        contour = label_contour(rig, mesh, samples.camera_from_head, *jaw, tolerance_m=KEYPOINT_TOLERANCE_M)
     inside = ((points_2d >= -0.5) & (points_2d < size - 0.5)).all(axis=-1) & (in_camera[..., 2] > 0)
     return Keypoints(
         points_3d=faces.landmarks,
@@ -85,6 +95,8 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFace
         detected_2d=points_2d + samples.detector_noise * face_width[:, None, None],
         visibility=np.where(inside, visibility, Visibility.OUTSIDE).astype(np.uint8),
         face_width=face_width,
+        contour_3d=contour,
+        contour_2d=project_pinhole(apply_transform(samples.camera_from_head, contour), samples.intrinsics),
     )
 
 

@@ -23,7 +23,7 @@ def chosen_columns(dataset: Dataset, options: Options) -> list[str]:
     InputError
         If there is no such column.
     """
-    names = keypoint_schema(dataset.rig.components).names
+    names = _schema(dataset).names
     unknown = sorted(set(options.columns or ()) - set(names))
     if unknown:
         raise InputError(f"--columns: {unknown[0]!r} is none of {', '.join(names)}")
@@ -33,7 +33,7 @@ def chosen_columns(dataset: Dataset, options: Options) -> list[str]:
 def write_keypoints(dataset: Dataset, part: Part, options: Options, path: Path) -> None:
     """Write one file; one shard of the dataset is in memory at a time."""
     columns = chosen_columns(dataset, options)
-    schema = keypoint_schema(dataset.rig.components)
+    schema = _schema(dataset)
     about = {"licence": read_json(dataset.folder.dataset_json)["licence"], "spec_hash": dataset.hash}
     schema = pa.schema([schema.field(name) for name in columns], metadata=about)
     numbers = np.asarray(part.samples, np.int64)
@@ -44,6 +44,10 @@ def write_keypoints(dataset: Dataset, part: Part, options: Options, path: Path) 
             )
             rows = table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS))
             writer.write_table(rows.replace_schema_metadata(None).cast(schema), row_group_size=SHARD_ROWS)
+
+
+def _schema(dataset: Dataset) -> pa.Schema:
+    return keypoint_schema(dataset.rig.components, sliding_contour=dataset.spec.landmarks.sliding_contour)
 
 
 KEYPOINTS = Format(

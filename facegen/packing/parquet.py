@@ -20,15 +20,20 @@ SHARD_SAMPLES = 1000
 ROW_GROUP = 100
 """Rows written, and held in memory, at a time: about 6 MB of 256 px pictures."""
 
-_LABELS = ("sample", "person", "session", "clip", "frame", "time_s", "split", "neutral", "sex", "age_years")
+_LABELS = (
+    *("sample", "person", "session", "clip", "frame", "time_s", "split", "neutral", "component", "sex"),
+    "age_years",
+)
 _KEYPOINTS = ("points_2d", "detected_2d", "points_3d", "visibility", "camera_from_head", "intrinsics")
+_CONTOUR = ("contour_2d", "contour_3d")
 _PICTURE = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
 
 
 def row_schema(dataset: Dataset, views: tuple[str, ...]) -> pa.Schema:
     """Columns of a pack with these views; labels are typed and described as in the keypoint shards."""
-    keypoints = keypoint_schema(dataset.rig.components)
-    fields = [keypoints.field(name) for name in (*_LABELS, "weights", "identity", *_KEYPOINTS)]
+    contour = dataset.spec.landmarks.sliding_contour
+    keypoints = keypoint_schema(dataset.rig.components, sliding_contour=contour)
+    fields = [keypoints.field(name) for name in (*_LABELS, "weights", "identity", *_keypoints(dataset))]
     for view in views:
         notes = {
             "description": f"landmarks in the picture of camera {view}; NaN behind it",
@@ -54,17 +59,22 @@ def write_rows(dataset: Dataset, part: Part, options: Options, path: Path) -> No
         for start in range(0, len(part.samples), ROW_GROUP):
             numbers = part.samples[start : start + ROW_GROUP]
             rows = [
-                _row(s, views) for s in read_rendered(dataset, numbers, [f"{view}.png" for view in views])
+                _row(s, views, _keypoints(dataset))
+                for s in read_rendered(dataset, numbers, [f"{view}.png" for view in views])
             ]
             writer.write_table(pa.Table.from_pylist(rows, schema=schema), row_group_size=ROW_GROUP)
 
 
-def _row(sample: RenderedFiles, views: tuple[str, ...]) -> dict:
+def _keypoints(dataset: Dataset) -> tuple[str, ...]:
+    return (*_KEYPOINTS, *_CONTOUR) if dataset.spec.landmarks.sliding_contour else _KEYPOINTS
+
+
+def _row(sample: RenderedFiles, views: tuple[str, ...], keypoints: tuple[str, ...]) -> dict:
     record, row = sample.record, {"record": sample.text.decode()}
     row |= {name: record[name] for name in _LABELS}
     row["weights"] = [record["weights"][name] for name in BLENDSHAPES]
     row["identity"] = record["identity"]
-    row |= {name: _flat(record["keypoints"][name]) for name in _KEYPOINTS}
+    row |= {name: _flat(record["keypoints"][name]) for name in keypoints}
     for view in views:
         row[view] = {"bytes": sample.pictures[f"{view}.png"], "path": f"{sample.number:06d}.{view}.png"}
         row[f"{view}_points_2d"] = _flat(record["views"][view]["points_2d"])

@@ -18,14 +18,22 @@ def _field(name: str, kind: pa.DataType, description: str, *, shape: str = "", u
     return pa.field(name, kind, nullable=False, metadata=notes)
 
 
-def keypoint_schema(components: int) -> pa.Schema:
-    """Columns of a shard whose rig has that many identity components; every column says its unit and shape."""
+def keypoint_schema(components: int, *, sliding_contour: bool = False) -> pa.Schema:
+    """Columns of a shard whose rig has that many identity components; every column says its unit and shape.
+
+    ``sliding_contour`` as in the spec's ``[landmarks]``: it adds two columns.
+    """
 
     def floats(width: int) -> pa.DataType:
         return pa.list_(pa.float32(), width)
 
     # a rig without identities has lists without entries; of a fixed size of 0, Arrow 22 dies by a division by 0
     identity = floats(components) if components else pa.list_(pa.float32())
+    slid = "landmarks 0-16, slid to the face's outline where the face hides them"
+    contour = [
+        _field("contour_2d", floats(34), slid, shape="17 2", unit="px"),
+        _field("contour_3d", floats(51), f"{slid}, in the head frame", shape="17 3", unit="m"),
+    ]
     return pa.schema(
         [
             _field("sample", pa.int64(), "number of the sample in the dataset"),
@@ -65,6 +73,7 @@ def keypoint_schema(components: int) -> pa.Schema:
             _field("points_3d", floats(204), "landmarks in the head frame", shape="68 3", unit="m"),
             _field("visibility", pa.list_(pa.uint8(), 68), "0 outside the picture, 1 hidden, 2 visible"),
             _field("face_width", pa.float32(), "distance between landmarks 0 and 16", unit="px"),
+            *(contour if sliding_contour else ()),
         ]
     )
 
@@ -72,7 +81,8 @@ def keypoint_schema(components: int) -> pa.Schema:
 def keypoint_table(samples: Samples, keypoints: Keypoints, *, image_size: tuple[int, int]) -> pa.Table:
     """Table of labelled samples; float64 becomes float32 here, cameras and times stay float64."""
     n = len(samples.sample)
-    schema = keypoint_schema(samples.identity.shape[1])
+    sliding_contour = keypoints.contour_2d.shape[1] > 0
+    schema = keypoint_schema(samples.identity.shape[1], sliding_contour=sliding_contour)
     columns = {
         "sample": samples.sample,
         "person": samples.person,
@@ -97,6 +107,8 @@ def keypoint_table(samples: Samples, keypoints: Keypoints, *, image_size: tuple[
         "points_3d": keypoints.points_3d,
         "visibility": keypoints.visibility,
         "face_width": keypoints.face_width,
+        "contour_2d": keypoints.contour_2d,
+        "contour_3d": keypoints.contour_3d,
     }
     return pa.table([_column(columns[field.name], field.type) for field in schema], schema=schema)
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, SIDES, SPLITS
 from facegen.geometry import Camera
-from facegen.labels import Glints, RenderedSample, ViewLabels
+from facegen.labels import Glints, Keypoints, RenderedSample, ViewLabels
 from facegen.rigs import EyeGeometry, visual_axis
 from facegen.sampling import COMPONENT_NAMES, Shot
 from facegen.scene import Lamp, View
@@ -47,6 +47,7 @@ def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> d
             "detected_2d": numbers(keypoints.detected_2d[0]),
             "points_3d": numbers(keypoints.points_3d[0]),
             "visibility": numbers(keypoints.visibility[0]),
+            **_contour(keypoints),
             "camera_from_head": samples.camera_from_head[0].tolist(),
             "intrinsics": samples.intrinsics[0].tolist(),
         },
@@ -64,6 +65,12 @@ def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> d
             for view in rendered.scene.views
         },
     }
+
+
+def _contour(keypoints: Keypoints) -> dict:
+    if not keypoints.contour_2d.shape[1]:
+        return {}
+    return {name: numbers(getattr(keypoints, name)[0]) for name in ("contour_2d", "contour_3d")}
 
 
 def _by_side(rendered: RenderedSample) -> zip:

@@ -33,7 +33,8 @@ def check_shard(dataset: Dataset, number: int) -> Iterator[Finding]:
         kind = "checksum" if "crc" in str(error).lower() else "unreadable"
         yield finding(f"cannot be read as Parquet ({error})", kind)
         return
-    if not _has_columns(table.schema, keypoint_schema(dataset.rig.components)):
+    contour = dataset.spec.landmarks.sliding_contour
+    if not _has_columns(table.schema, keypoint_schema(dataset.rig.components, sliding_contour=contour)):
         yield finding("has other columns than this version of facegen writes", "label")
         return
     expected = shard_samples(number, total=dataset.plan.samples)

@@ -25,6 +25,7 @@ def turned() -> Spec:
         "people": 300,
         "head": {"yaw_deg": {"uniform": [-60, 60]}, "pitch_deg": {"uniform": [-30, 30]}},
         "camera": {"fov_deg": 25, "offset_px": {"uniform": [-150, 150]}},
+        "landmarks": {"sliding_contour": True},
     }
     return parse_spec(table, where="test")
 
