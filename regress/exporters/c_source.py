@@ -52,6 +52,8 @@ def _values(formula: Formula, name: str) -> dict[str, object]:
         "licence": comment(formula.about["licence"]),
         "dataset": comment(f"{formula.about['dataset']} (SHA-256 {formula.about['dataset_sha256']})"),
         "recipe": comment(formula.about["recipe"]),
+        "depth": _wrapped(f"{value:.17g}" for value in formula.depth),
+        "turn": _wrapped(f"{value:.17g}" for value in formula.turn),
         "aligned": int(formula.alignment == "affine"),
         "point_count": LANDMARK_COUNT,
         "weight_count": len(BLENDSHAPES),

@@ -1,7 +1,9 @@
 """What every exported file computes, as plain arrays: the form between a model and the exporters.
 
-A face's 68 points become 52 weights in four steps; an exporter only writes them down in its language:
+A face's 68 points become 52 weights in five steps; an exporter only writes them down in its language:
 
+0. ``points = points - depth (turn points)``, depth a column and turn a row of 68: the turn of the head is undone. Both
+   are 0 where a model leaves it;
 1. ``map``: with P the anchor points less their mean and R the reference, ``inverse(P'P) P'R`` (2 x 2), or
    the identity where ``alignment`` is ``"none"``;
 2. ``features``: lengths of the edges under the map, over the face's width under the map, less
@@ -17,12 +19,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, FACE_WIDTH_LANDMARKS
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, FACE_WIDTH_LANDMARKS, LANDMARK_COUNT
 from regress import __version__
-from regress.features import ANCHORS
+from regress.features import ANCHORS, turn_weights
 from regress.model import Model
 
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 """Of the JSON and NPZ files; raised by any change that breaks a reader."""
 
 WEIGHT_RANGE = (0.0, 1.0)
@@ -78,6 +80,8 @@ class Formula:
 
     Parameters
     ----------
+    depth, turn : (68,) float64
+        What undoes a turn of the head; zeros where it is left.
     alignment
         ``"affine"`` or ``"none"``.
     anchors : (A,) int64
@@ -95,6 +99,8 @@ class Formula:
         Words for people and tools: ``recipe``, ``dataset``, ``dataset_sha256``, ``licence``, ``program``.
     """
 
+    depth: np.ndarray
+    turn: np.ndarray
     alignment: str
     anchors: np.ndarray
     reference: np.ndarray
@@ -124,8 +130,12 @@ class Formula:
 
 def formula_of(model: Model) -> Formula:
     """Write a model down as a formula."""
-    reference = model.features.mean_shape[list(ANCHORS)]
+    features = model.features
+    reference = features.mean_shape[list(ANCHORS)]
+    depth = np.zeros(LANDMARK_COUNT) if features.depth is None else features.depth
     return Formula(
+        depth=depth,
+        turn=turn_weights(features.mean_shape, depth) if depth.any() else depth,
         alignment=model.features.alignment,
         anchors=np.array(ANCHORS, dtype=np.int64),
         reference=reference - reference.mean(axis=0),

@@ -39,6 +39,8 @@ def _values(formula: Formula, name: str) -> dict[str, str]:
         "licence": comment(formula.about["licence"]),
         "dataset": comment(f"{formula.about['dataset']} (SHA-256 {formula.about['dataset_sha256']})"),
         "recipe": comment(formula.about["recipe"]),
+        "depth": _listed(formula.depth.tolist()),
+        "turn": _listed(formula.turn.tolist()),
         "aligned": json.dumps(formula.alignment == "affine"),
         "names": _listed(BLENDSHAPES),
         "name_types": "\n".join(f"  {json.dumps(blendshape)}," for blendshape in BLENDSHAPES),

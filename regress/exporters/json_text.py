@@ -3,9 +3,10 @@
 ===================  =====================================================================================
 key                  what
 ===================  =====================================================================================
-format, version      ``"regress-networks"`` and 1; a change that breaks readers raises the version
+format, version      ``"regress-networks"`` and 2; a change that breaks readers raises the version
 about                recipe, dataset and its SHA-256, licence, program version
 names                the 52 blendshapes in the order of the result
+depth, turn          68 numbers each, all 0 where a model does not undo the head's turn
 alignment            ``"affine"``, or ``"none"``: then A below is the identity
 anchors              indices (0-67) of the landmarks that are aligned
 reference            where each anchor is in the mean face, about their own mean
@@ -18,7 +19,10 @@ constant             names that no network gives, and their value (``tongueOut``
 weight_range         [0, 1]: what results are clipped to
 ===================  =====================================================================================
 
-To evaluate, with P the 31 anchor points of a face less their mean (rows) and R ``reference``:
+To evaluate:
+0. put back what a turn of the head moves, x and y alike: m = sum of ``turn[k]`` point k, then point k = point k -
+   ``depth[k]`` m;
+and with P the 31 anchor points of the face less their mean (rows) and R ``reference``:
 1. A = inverse(P'P) P'R, a 2 x 2 matrix (the identity where ``alignment`` is ``"none"``);
 2. length of a pair (i, j) = | (point j - point i) A |, points being rows;
 3. feature e = length of edge e / length of ``width_landmarks`` - ``feature_mean[e]``;
@@ -42,6 +46,8 @@ def export_json(formula: Formula, name: str) -> dict[str, bytes]:
         "version": FORMAT_VERSION,
         "about": formula.about,
         "names": list(BLENDSHAPES),
+        "depth": formula.depth.tolist(),
+        "turn": formula.turn.tolist(),
         "alignment": formula.alignment,
         "anchors": formula.anchors.tolist(),
         "reference": formula.reference.tolist(),

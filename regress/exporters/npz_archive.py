@@ -2,6 +2,7 @@
 
 Points to weights, for ``points`` (n, 68, 2), with ``z = numpy.load(path)``::
 
+    points = points - z["depth"][:, None] * (z["turn"] @ points)[:, None]    # a turn of the head is undone
     a = points[:, z["anchors"]] - points[:, z["anchors"]].mean(1, keepdims=True)
     map = numpy.linalg.inv(a.mT @ a) @ (a.mT @ z["reference"])    # (n, 2, 2); a.mT swaps the last two axes
     map = map if z["alignment"] == "affine" else numpy.eye(2)
@@ -30,6 +31,8 @@ def export_npz(formula: Formula, name: str) -> dict[str, bytes]:
     np.savez(  # not compressed: weights do not shrink, and zlib's versions differ in bytes
         content,
         about=np.array(json.dumps({"format_version": FORMAT_VERSION, **formula.about}, sort_keys=True)),
+        depth=formula.depth.astype(np.float64),
+        turn=formula.turn.astype(np.float64),
         alignment=np.array(formula.alignment),
         names=np.array(BLENDSHAPES),
         anchors=formula.anchors.astype(np.int64),

@@ -77,7 +77,8 @@ def build_networks_graph(formula: Formula) -> onnx.ModelProto:
     onnx.ModelProto
         Input ``features`` float32 (n, E): lengths of the edges after the alignment, over the face's width.
         Output as in `build_graph`. Its metadata also holds, as JSON, what it takes to measure them:
-        ``alignment``, ``anchors``, ``reference``, ``edges`` and ``width_landmarks``, as `json_text` says.
+        ``depth``, ``turn``, ``alignment``, ``anchors``, ``reference``, ``edges`` and ``width_landmarks``, as
+        `json_text` says.
     """
     graph = _Graph()
     graph.constant("feature_mean", formula.feature_mean)
@@ -86,6 +87,8 @@ def build_networks_graph(formula: Formula) -> onnx.ModelProto:
     about = {
         "names": list(BLENDSHAPES),
         **formula.about,
+        "depth": formula.depth.tolist(),
+        "turn": formula.turn.tolist(),
         "alignment": formula.alignment,
         "anchors": formula.anchors.tolist(),
         "reference": formula.reference.tolist(),
@@ -151,12 +154,13 @@ def _features(graph: _Graph, formula: Formula) -> None:
     }.items():
         graph.constant(key, [value], dtype=np.int64)
 
-    graph.node("Gather", ["points", "starts"], "start_points", axis=1)
-    graph.node("Gather", ["points", "ends"], "end_points", axis=1)
+    points = _undone(graph, formula) if formula.depth.any() else "points"
+    graph.node("Gather", [points, "starts"], "start_points", axis=1)
+    graph.node("Gather", [points, "ends"], "end_points", axis=1)
     graph.node("Sub", ["end_points", "start_points"], "edges")
     measured = "edges"
     if formula.alignment == "affine":
-        _alignment(graph, formula)
+        _alignment(graph, formula, points)
         graph.node("Div", ["edges", "spread"], "edges_unit")
         measured = graph.node("MatMul", ["edges_unit", "map"], "edges_aligned")
     graph.node("Mul", [measured, measured], "edges_squared")
@@ -169,8 +173,19 @@ def _features(graph: _Graph, formula: Formula) -> None:
     graph.node("Sub", ["ratios", "feature_mean"], "features")
 
 
-def _alignment(graph: _Graph, formula: Formula) -> None:
-    """Append the nodes from ``points`` to ``map`` (n, 2, 2) and ``spread`` (n, 1, 1).
+def _undone(graph: _Graph, formula: Formula) -> str:
+    """Append the nodes from ``points`` to points without the turn of the head; give their name."""
+    graph.constant("depth", formula.depth[:, None])
+    graph.constant("turn", formula.turn[None])
+    graph.node("ReduceMean", ["points"], "middle", axes=[1], keepdims=1)
+    graph.node("Sub", ["points", "middle"], "points_centred")
+    graph.node("MatMul", ["turn", "points_centred"], "turned")
+    graph.node("Mul", ["depth", "turned"], "moved")
+    return graph.node("Sub", ["points_centred", "moved"], "points_put_back")
+
+
+def _alignment(graph: _Graph, formula: Formula, points: str) -> None:
+    """Append the nodes from points (their name) to ``map`` (n, 2, 2) and ``spread`` (n, 1, 1).
 
     With anchors P and reference R, both about their means, the best linear map is inverse(P'P) P'R. Lengths
     are divided by another length, so adjugate(P'P) P'R does as well, and no determinant is divided by.
@@ -179,7 +194,7 @@ def _alignment(graph: _Graph, formula: Formula) -> None:
     graph.constant("reference", formula.reference)
     graph.constant("quarter_turn", [[0.0, 1.0], [-1.0, 0.0]])  # J: adjugate(M) = J M J' for symmetric M
     graph.constant("quarter_turn_back", [[0.0, -1.0], [1.0, 0.0]])
-    graph.node("Gather", ["points", "anchors"], "anchor_points", axis=1)
+    graph.node("Gather", [points, "anchors"], "anchor_points", axis=1)
     graph.node("ReduceMean", ["anchor_points"], "centre", axes=[1], keepdims=1)
     graph.node("Sub", ["anchor_points", "centre"], "centred")
     graph.node("Mul", ["centred", "centred"], "centred_squared")

@@ -1,4 +1,4 @@
-"""From 68 points to the 178 numbers the networks see: alignment, edge lengths, face width."""
+"""From 68 points to the 178 numbers the networks see: turn, alignment, edge lengths, face width."""
 
 from regress.features.alignment import ANCHORS, align_affine, align_similarity, mean_shape
 from regress.features.distances import edge_distances
@@ -10,6 +10,7 @@ from regress.features.reference_shape import (
     make_reference_shape,
     mirrored_edges,
 )
+from regress.features.turn import depths_of, turn_weights, undo_turn
 
 __all__ = [
     "ALIGNMENTS",
@@ -19,10 +20,13 @@ __all__ = [
     "align_affine",
     "align_similarity",
     "delaunay_edges",
+    "depths_of",
     "edge_distances",
     "extract",
     "load_reference_shape",
     "make_reference_shape",
     "mean_shape",
     "mirrored_edges",
+    "turn_weights",
+    "undo_turn",
 ]

@@ -6,6 +6,7 @@ import numpy as np
 
 from regress.features.alignment import align_affine
 from regress.features.distances import edge_distances
+from regress.features.turn import undo_turn
 
 ALIGNMENTS = ("affine", "none")
 """``affine``: to the mean shape by the anchors; ``none``: lengths over width ignore place, size and roll."""
@@ -25,6 +26,9 @@ class Features:
         Landmark indices, sorted.
     reference_name, reference_sha256
         The reference shape that the edges came from.
+    depth : (68,) float64 or None
+        How far the mean face's points stand out, face widths; a turn of the head is undone by it before the
+        alignment. None: it is not.
     """
 
     alignment: str
@@ -32,6 +36,7 @@ class Features:
     edges: np.ndarray
     reference_name: str
     reference_sha256: str
+    depth: np.ndarray | None = None
 
 
 def extract(features: Features, points: np.ndarray) -> np.ndarray:
@@ -47,6 +52,8 @@ def extract(features: Features, points: np.ndarray) -> np.ndarray:
     (n, E) float64
         Edge lengths in face widths.
     """
+    if features.depth is not None:
+        points = undo_turn(points, features.mean_shape, features.depth)
     if features.alignment == "affine":
         points = align_affine(points, features.mean_shape)
     distances = edge_distances(points, features.edges)

@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, FACE_WIDTH_LANDMARKS, LANDMARK_COUNT
 from regress.errors import InputError
-from regress.features import ANCHORS
+from regress.features import ANCHORS, turn_weights
 from regress.model.model import Model
 from regress.networks import FoldedNetworks
 
@@ -49,6 +49,9 @@ class FastPredictor:
         target = features.mean_shape[self._anchors].copy().view(np.complex128)[:, 0]
         self._target = target - target.mean()
         self._target_axes = np.stack([self._target.real, self._target.imag]).astype(np.float32)
+        self._depth = self._turn = None
+        if features.depth is not None:
+            self._depth, self._turn = features.depth, turn_weights(features.mean_shape, features.depth)
         first, last = np.concatenate([features.edges, [FACE_WIDTH_LANDMARKS]]).T
         self._first, self._last = np.ascontiguousarray(first), np.ascontiguousarray(last)
         self._mean = mean = model.normalisation.feature_mean
@@ -89,6 +92,8 @@ class FastPredictor:
         if not math.isfinite(points.sum()):
             return np.full(len(BLENDSHAPES), np.nan, np.float32)
         plane = points.view(np.complex128)[:, 0]
+        if self._depth is not None:
+            plane = plane - self._depth * self._turn.dot(plane)
         edges = plane.take(self._last) - plane.take(self._first)
         if self._aligned:
             straight, mirrored = self._map(plane)
@@ -176,6 +181,9 @@ class FastPredictor:
         if not np.isfinite(x).all() or not np.isfinite(y).all():
             finite = np.isfinite(x).all(axis=0) & np.isfinite(y).all(axis=0)
             x, y = np.where(finite, x, np.nan), np.where(finite, y, np.nan)
+        if self._depth is not None:
+            depth, turn = self._depth.astype(np.float32)[:, None], self._turn.astype(np.float32)
+            x, y = x - depth * (turn @ x), y - depth * (turn @ y)
         if not self._aligned:
             return x, y
         ax, ay = x.take(self._anchors, 0), y.take(self._anchors, 0)

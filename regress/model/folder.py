@@ -18,7 +18,8 @@ from regress.model.model import Calibrated, Model, Normalisation
 from regress.networks import FoldedNetworks
 from regress.targets import Network, observability
 
-SCHEMA = 1
+SCHEMAS = (1, 2)
+"""Those read; the last one is written. 1 knows no array ``depth``: its readers would take turned heads as they are."""
 
 _CALIBRATED = "calibrated_"
 """Begins the names of the arrays that compare with a neutral frame."""
@@ -93,8 +94,10 @@ def load_model(folder: str | os.PathLike[str]) -> Model:
         schema, expected = document["schema"], document["weights_sha256"]
     except (ValueError, KeyError, TypeError, OSError) as error:
         raise ModelError(f"{document_path} is not a model's description: {error}") from error
-    if schema != SCHEMA:
-        raise ModelError(f"{document_path} has schema {schema!r}; this version reads {SCHEMA}")
+    if schema not in SCHEMAS:
+        raise ModelError(
+            f"{document_path} has schema {schema!r}; this version reads {' and '.join(map(str, SCHEMAS))}"
+        )
     weights = weights_path.read_bytes()
     if hashlib.sha256(weights).hexdigest() != expected:
         raise ModelError(
@@ -106,7 +109,7 @@ def load_model(folder: str | os.PathLike[str]) -> Model:
 
 def _document(model: Model, weights_sha256: str) -> dict[str, Any]:
     return {
-        "schema": SCHEMA,
+        "schema": SCHEMAS[-1],
         "recipe": model.recipe,
         "blendshapes": list(BLENDSHAPES),
         "networks": [dataclasses.asdict(network) for network in model.table],
@@ -115,6 +118,7 @@ def _document(model: Model, weights_sha256: str) -> dict[str, Any]:
         "features": {
             "kind": "edge lengths over face width",
             "alignment": model.features.alignment,
+            "turn": "undone by the array depth" if model.features.depth is not None else "left as it is",
             "edges": model.features.edges.tolist(),
             "reference_name": model.features.reference_name,
             "reference_sha256": model.features.reference_sha256,
@@ -132,7 +136,8 @@ def _arrays(model: Model) -> dict[str, np.ndarray]:
     if model.calibrated is not None:
         calibrated = {**_fields(model.calibrated.networks), **_fields(model.calibrated.normalisation)}
         arrays |= {_CALIBRATED + name: array for name, array in calibrated.items()}
-    return {**arrays, "mean_shape": model.features.mean_shape}
+    depth = {} if model.features.depth is None else {"depth": model.features.depth}
+    return {**arrays, "mean_shape": model.features.mean_shape, **depth}
 
 
 def _fields(record: FoldedNetworks | Normalisation) -> dict[str, np.ndarray]:
@@ -160,6 +165,7 @@ def _model(document: dict[str, Any], arrays: dict[str, np.ndarray], path: Path) 
                 edges=np.array(described["edges"], dtype=np.int64),
                 reference_name=described["reference_name"],
                 reference_sha256=described["reference_sha256"],
+                depth=arrays.get("depth"),
             ),
             normalisation=_taken(Normalisation, arrays),
             networks=_taken(FoldedNetworks, arrays),

@@ -15,6 +15,8 @@ class Recipe:
         What the command line calls it.
     alignment
         One of ``regress.features.ALIGNMENTS``.
+    undo_turn
+        Undo the head's turn by the mean face's depth before the alignment (``regress.features.turn``).
     hidden
         Hidden units of each network.
     start
@@ -45,6 +47,7 @@ class Recipe:
 
     name: str
     alignment: str = "affine"
+    undo_turn: bool = True
     hidden: int = 20
     start: str = "ridge_knots"
     mirror: bool = True
@@ -70,6 +73,7 @@ RECIPES: dict[str, Recipe] = {
     "exact": Recipe(name="exact"),
     "paper": Recipe(
         name="paper",
+        undo_turn=False,
         start="nguyen_widrow",
         mirror=False,
         steps=1000,

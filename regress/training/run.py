@@ -3,7 +3,7 @@
 import dataclasses
 from dataclasses import dataclass
 
-from regress.features import Features, load_reference_shape, mean_shape
+from regress.features import Features, depths_of, load_reference_shape, mean_shape
 from regress.model import Calibrated, Model
 from regress.networks import FoldedNetworks, fold
 from regress.targets import NETWORKS
@@ -37,6 +37,7 @@ def train(
         edges=reference.edges,
         reference_name=reference.name,
         reference_sha256=reference.sha256,
+        depth=depths_of(reference) if recipe.undo_turn else None,
     )
     alone = _fit_set(dataset, features, recipe, calibrated=False, seed=seed, progress=progress)
     compared = None

@@ -8,15 +8,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from regress.errors import InputError
+from regress.features import depths_of, load_reference_shape
 from regress.model import FastPredictor, Model
 
 AGREE = 1e-5
 
 
-@pytest.fixture(scope="module", params=["affine", "none"])
+@pytest.fixture(scope="module", params=["turn", "affine", "none"])
 def model(request, quick_model: Model) -> Model:
-    """The weights do not fit features without alignment, which does not matter here: both must say the same."""
-    features = dataclasses.replace(quick_model.features, alignment=request.param)
+    """The weights fit one kind of features, which does not matter here: both must say the same."""
+    features = dataclasses.replace(
+        quick_model.features,
+        alignment="none" if request.param == "none" else "affine",
+        depth=depths_of(load_reference_shape()) if request.param == "turn" else None,
+    )
     return dataclasses.replace(quick_model, features=features)
 
 

@@ -1,5 +1,7 @@
 """Features: what they ignore, what they mirror, where their edges come from."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,6 +14,7 @@ from regress.features import (
     Features,
     align_affine,
     delaunay_edges,
+    depths_of,
     edge_distances,
     extract,
     load_reference_shape,
@@ -27,8 +30,10 @@ FACES = drawn_faces(np.random.default_rng(0), 30)
 
 
 def _features(alignment: str) -> Features:
+    """``turn`` is the affine alignment after the head's turn is undone."""
     return Features(
-        alignment=alignment,
+        alignment="affine" if alignment == "turn" else alignment,
+        depth=depths_of(REFERENCE) if alignment == "turn" else None,
         mean_shape=mean_shape(FACES),
         edges=REFERENCE.edges,
         reference_name=REFERENCE.name,
@@ -64,16 +69,19 @@ def test_points_that_do_not_give_178_edges_are_refused():
         make_reference_shape(np.random.default_rng(0).normal(size=(68, 3)), name="noise", source="")
 
 
+@pytest.mark.parametrize("alignment", ["affine", "turn"])
 @settings(max_examples=25, deadline=None)
 @given(
     matrix=st.lists(st.floats(-3, 3), min_size=4, max_size=4),
     shift=st.tuples(st.floats(-1e3, 1e3), st.floats(-1e3, 1e3)),
 )
-def test_affinely_aligned_features_ignore_every_affine_map(matrix: list[float], shift: tuple[float, float]):
+def test_affinely_aligned_features_ignore_every_affine_map(
+    alignment: str, matrix: list[float], shift: tuple[float, float]
+):
     matrix = np.reshape(matrix, (2, 2))
     if np.linalg.cond(matrix) > 20:
         return
-    features = _features("affine")
+    features = _features(alignment)
     moved = FACES @ matrix + shift
     assert np.allclose(extract(features, moved), extract(features, FACES), atol=1e-8)
 
@@ -88,7 +96,21 @@ def test_unaligned_features_ignore_place_size_and_roll(roll: float, scale: float
     assert np.allclose(extract(features, scale * FACES @ turn + [x, y]), extract(features, FACES), atol=1e-7)
 
 
-@pytest.mark.parametrize("alignment", ["affine", "none"])
+@settings(max_examples=25, deadline=None)
+@given(yaw=st.floats(-0.6, 0.6), pitch=st.floats(-0.6, 0.6))
+def test_a_turned_mean_face_has_the_features_of_a_frontal_one(yaw: float, pitch: float):
+    frontal = REFERENCE.points * [1, -1, 1]
+    features = dataclasses.replace(_features("turn"), mean_shape=mean_shape(frontal[None, :, :2]))
+    about_y = [[np.cos(yaw), 0, np.sin(yaw)], [0, 1, 0], [-np.sin(yaw), 0, np.cos(yaw)]]
+    about_x = [[1, 0, 0], [0, np.cos(pitch), np.sin(pitch)], [0, -np.sin(pitch), np.cos(pitch)]]
+    turned = frontal @ np.array(about_y).T @ np.array(about_x).T
+    wanted = extract(features, frontal[None, :, :2])
+    assert np.allclose(extract(features, turned[None, :, :2]), wanted, atol=1e-8)
+    left = extract(dataclasses.replace(features, depth=None), turned[None, :, :2])
+    assert np.abs(left - wanted).max() >= 0.05 * max(abs(yaw), abs(pitch))
+
+
+@pytest.mark.parametrize("alignment", ["affine", "none", "turn"])
 def test_a_mirrored_face_has_mirrored_features(alignment: str):
     features = _features(alignment)
     partner = mirrored_edges(features.edges)
@@ -117,7 +139,7 @@ def test_a_face_with_a_missing_point_or_without_width_gives_nan():
     faces = FACES[:3].copy()
     faces[0, 40] = np.nan
     faces[1] = 7.0
-    for alignment in ("affine", "none"):
+    for alignment in ("affine", "none", "turn"):
         values = extract(_features(alignment), faces)
         assert np.isnan(values[:2]).all()
         assert np.isfinite(values[2]).all()

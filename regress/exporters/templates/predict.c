@@ -16,6 +16,14 @@ const char *const ${name}_names[${GUARD}_WEIGHTS] = {
 $names
 };
 
+/* How far each landmark of the mean face stands out, and what finds a turn of the head in a face; 0 where it is left. */
+static const double depth[${GUARD}_POINTS] = {
+$depth
+};
+static const double turn[${GUARD}_POINTS] = {
+$turn
+};
+
 /* Landmarks that expressions hardly move, and where the mean face has them, about their own mean. */
 static const unsigned char anchor[ANCHORS] = {
 $anchors
@@ -55,10 +63,24 @@ static const float output_bias[${GUARD}_WEIGHTS] = {
 $output_bias
 };
 
+/* Near points move against far ones when the head turns: each is put back, as far as it stands out. */
+static void undo_turn(const float points[${GUARD}_POINTS][2], double face[${GUARD}_POINTS][2])
+{
+    double moved[2] = {0, 0};
+    int i, a;
+
+    for (i = 0; i < ${GUARD}_POINTS; i++)
+        for (a = 0; a < 2; a++)
+            moved[a] += turn[i] * (double)points[i][a];
+    for (i = 0; i < ${GUARD}_POINTS; i++)
+        for (a = 0; a < 2; a++)
+            face[i][a] = (double)points[i][a] - depth[i] * moved[a];
+}
+
 /* Linear part of the affine map that lays the anchors upon the reference by least squares, but for a factor:
  * features are ratios of lengths, so the determinant and the translation drop out. Anchors on one line have no such
  * map: NaN. */
-static void align(const float points[${GUARD}_POINTS][2], double map[2][2])
+static void align(double points[${GUARD}_POINTS][2], double map[2][2])
 {
     double centre[2] = {0, 0}, moment[2][2] = {{0, 0}, {0, 0}}, cross[2][2] = {{0, 0}, {0, 0}};
     double spread, determinant;
@@ -71,12 +93,12 @@ static void align(const float points[${GUARD}_POINTS][2], double map[2][2])
     }
     for (i = 0; i < ANCHORS; i++)
         for (a = 0; a < 2; a++)
-            centre[a] += (double)points[anchor[i]][a] / ANCHORS;
+            centre[a] += points[anchor[i]][a] / ANCHORS;
     for (i = 0; i < ANCHORS; i++)
         for (a = 0; a < 2; a++) {
-            const double offset = (double)points[anchor[i]][a] - centre[a];
+            const double offset = points[anchor[i]][a] - centre[a];
             for (b = 0; b < 2; b++) {
-                moment[a][b] += offset * ((double)points[anchor[i]][b] - centre[b]);
+                moment[a][b] += offset * (points[anchor[i]][b] - centre[b]);
                 cross[a][b] += offset * reference[i][b];
             }
         }
@@ -90,10 +112,10 @@ static void align(const float points[${GUARD}_POINTS][2], double map[2][2])
     }
 }
 
-static double aligned_length(const float points[${GUARD}_POINTS][2], double map[2][2], int i)
+static double aligned_length(double points[${GUARD}_POINTS][2], double map[2][2], int i)
 {
-    const double x = (double)points[edge[i][1]][0] - (double)points[edge[i][0]][0];
-    const double y = (double)points[edge[i][1]][1] - (double)points[edge[i][0]][1];
+    const double x = points[edge[i][1]][0] - points[edge[i][0]][0];
+    const double y = points[edge[i][1]][1] - points[edge[i][0]][1];
     const double u = x * map[0][0] + y * map[1][0];
     const double v = x * map[0][1] + y * map[1][1];
 
@@ -115,14 +137,15 @@ static float tangent(float x)
 
 void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])
 {
-    double map[2][2], width, missing = 0;
+    double face[${GUARD}_POINTS][2], map[2][2], width, missing = 0;
     float feature[FEATURES], hidden[HIDDEN];
     int i, j;
 
-    align(points, map);
-    width = aligned_length(points, map, FEATURES);
+    undo_turn(points, face);
+    align(face, map);
+    width = aligned_length(face, map, FEATURES);
     for (i = 0; i < FEATURES; i++)
-        feature[i] = (float)(aligned_length(points, map, i) / width - feature_mean[i]);
+        feature[i] = (float)(aligned_length(face, map, i) / width - feature_mean[i]);
     for (i = 0; i < FEATURES; i++)
         missing += 0 * (double)feature[i]; /* NaN as soon as one point is not finite */
     for (j = 0; j < HIDDEN; j++)

@@ -13,6 +13,10 @@ export const names = Object.freeze($names);
 
 const aligned = $aligned;
 
+/* How far each landmark of the mean face stands out, and what finds a turn of the head in a face; 0 where it is left. */
+const depth = $depth;
+const turn = $turn;
+
 /* Landmarks that expressions hardly move, and where the mean face has them, about their own mean. */
 const anchors = $anchors;
 const reference = $reference;
@@ -43,6 +47,7 @@ const map = new Float64Array(4);
  */
 export function predict(points, weights = new Float32Array(names.length)) {
   flatten(points);
+  undoTurn();
   align();
   const width = alignedLength(featureCount);
   let missing = 0;
@@ -77,6 +82,19 @@ function flatten(points) {
   } else {
     throw new RangeError("points has length " + points.length + "; 136 numbers or 68 pairs are needed");
   }
+}
+
+/* Near points move against far ones when the head turns: each is put back, as far as it stands out. */
+function undoTurn() {
+  let x = 0, y = 0;
+  turn.forEach((weight, i) => {
+    x += weight * flat[2 * i];
+    y += weight * flat[2 * i + 1];
+  });
+  depth.forEach((far, i) => {
+    flat[2 * i] -= far * x;
+    flat[2 * i + 1] -= far * y;
+  });
 }
 
 /* Linear part of the affine map that lays the anchors upon the reference by least squares, but for a factor:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from regress import Model, load_model
-from regress.features import Features, delaunay_edges, extract
+from regress.features import Features, delaunay_edges, depths_of, extract, load_reference_shape
 from regress.model import Normalisation
 from regress.networks import FoldedNetworks
 from regress.targets import NETWORKS
@@ -15,7 +15,7 @@ from tests.regress.drawn import drawn_face, drawn_faces
 HIDDEN = 20
 
 
-def random_model(rng: np.random.Generator, *, alignment: str = "affine") -> Model:
+def random_model(rng: np.random.Generator, *, alignment: str = "affine", turned: bool = True) -> Model:
     """A model whose hidden units and outputs swing as trained ones do: half of the outputs hit a bound."""
     features = Features(
         alignment=alignment,
@@ -23,6 +23,7 @@ def random_model(rng: np.random.Generator, *, alignment: str = "affine") -> Mode
         edges=delaunay_edges(drawn_face() + rng.normal(size=(68, 2)) * 1e-3),
         reference_name="drawn",
         reference_sha256="0" * 64,
+        depth=depths_of(load_reference_shape()) if turned else None,
     )
     raw = extract(features, drawn_faces(rng, 500))
     mean, std = raw.mean(axis=0), raw.std(axis=0)
@@ -51,9 +52,14 @@ def random_model(rng: np.random.Generator, *, alignment: str = "affine") -> Mode
     )
 
 
-@pytest.fixture(scope="session", params=["affine", "none"])
+@pytest.fixture(
+    scope="session",
+    params=[("affine", True), ("affine", False), ("none", False)],
+    ids=["turn", "affine", "none"],
+)
 def model(request) -> Model:
-    return random_model(np.random.default_rng(5), alignment=request.param)
+    alignment, turned = request.param
+    return random_model(np.random.default_rng(5), alignment=alignment, turned=turned)
 
 
 @pytest.fixture(scope="session")

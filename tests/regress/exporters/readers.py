@@ -11,13 +11,14 @@ import onnxruntime
 
 
 def read_json(paths: tuple[Path, ...]):
-    """Follow the four steps that ``json_text`` documents, in float64."""
+    """Follow the five steps that ``json_text`` documents, in float64."""
     document = json.loads(paths[0].read_text())
-    assert (document["format"], document["version"]) == ("regress-networks", 1)
+    assert (document["format"], document["version"]) == ("regress-networks", 2)
 
     def predict(points: np.ndarray) -> np.ndarray:
         rows = []
         for face in points.astype(np.float64):
+            face = face - np.outer(document["depth"], np.array(document["turn"]) @ face)
             matrix = np.eye(2)
             if document["alignment"] == "affine":
                 anchors = face[document["anchors"]]
@@ -50,6 +51,7 @@ def read_npz(paths: tuple[Path, ...]):
 
     def predict(points: np.ndarray) -> np.ndarray:
         points = points.astype(np.float64)
+        points = points - z["depth"][:, None] * (z["turn"] @ points)[:, None]
         a = points[:, z["anchors"]] - points[:, z["anchors"]].mean(1, keepdims=True)
         t = a.swapaxes(1, 2)
         matrix = np.linalg.inv(t @ a) @ (t @ z["reference"]) if z["alignment"] == "affine" else np.eye(2)
@@ -79,11 +81,13 @@ def read_onnx_networks(paths: tuple[Path, ...]):
     session = onnxruntime.InferenceSession(paths[0], providers=["CPUExecutionProvider"])
     about = session.get_modelmeta().custom_metadata_map
     known = {
-        key: json.loads(about[key]) for key in ("names", "anchors", "reference", "edges", "width_landmarks")
+        key: json.loads(about[key])
+        for key in ("names", "depth", "turn", "anchors", "reference", "edges", "width_landmarks")
     }
 
     def predict(points: np.ndarray) -> np.ndarray:
         points = points.astype(np.float64)
+        points = points - np.array(known["depth"])[:, None] * (known["turn"] @ points)[:, None]
         matrix = np.eye(2)
         if about["alignment"] == "affine":
             anchors = points[:, known["anchors"]]
