@@ -1,0 +1,410 @@
+"""The second paper's tables on exact truth: networks on headset pictures, modular against holistic.
+
+    python benchmarks/headset_networks.py models/headset-* --data ordinary=ARRAYS [--data slip=ARRAYS ...]
+        [--clusters TRAINING_ARRAYS] [--drawn 60] [--json FILE]
+
+Models that differ by nothing but their seed are one row: mean, and standard deviation over seeds. A modular model's
+rivals are the holistic ones with the same other settings and seed. The first data are the main ones. `--clusters`
+repeats the paper's figure 4 on exact weights: faces replaced by the nearest of K cluster centres, of each camera's
+part, or 3 K of the whole face. `--drawn` frames are drawn from the front with predicted and with true weights, and
+compared as pictures. Prints Markdown; the results stand in docs/headset-networks.md.
+"""
+
+import argparse
+import json
+from collections import defaultdict
+from collections.abc import Callable, Iterable
+from dataclasses import fields
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES
+from facegen.preview import pictures, play_weights
+from facegen.rigs import load_rig
+from regress.headset.arrays import HeadsetArrays, read_arrays
+from regress.headset.clusters import cluster_error_mm
+from regress.headset.comparison import compare
+from regress.headset.evaluation import HELD_OUT, Condition, estimate, evaluate
+from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.headset.recipe import HeadsetRecipe
+from regress.timing import time_headset
+
+CLUSTERS = (25, 100, 400)
+SHOWN_PX = 240
+"""Height of the drawn faces."""
+
+Figures = dict[str, dict]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("models", nargs="+", type=Path)
+    parser.add_argument("--data", action="append", required=True, metavar="NAME=ARRAYS")
+    parser.add_argument("--clusters", type=Path)
+    parser.add_argument("--drawn", type=int, default=0)
+    parser.add_argument("--json", type=Path)
+    arguments = parser.parse_args()
+    models = {path: load_headset_predictor(path) for path in arguments.models}
+    data = {name: read_arrays(path) for name, path in (pair.split("=", 1) for pair in arguments.data)}
+    found = {
+        name: {path: evaluate(one.graph, one.model, arrays) for path, one in models.items()}
+        for name, arrays in data.items()
+    }
+    groups = defaultdict(list)
+    for path, one in models.items():
+        groups[label(one)].append(path)
+    main_name = next(iter(data))
+    print_main(groups, found[main_name], f"{main_name}: ordinary frames")
+    print_losses(groups, found[main_name])
+    rivals = {name: print_rivals(models, arrays, name) for name, arrays in data.items()}
+    if len(data) > 1:
+        print_data(groups, found)
+    for key, paths in groups.items():
+        if key in ("modular", "holistic"):
+            print_shapes(key, [found[main_name][path] for path in paths])
+    print_curve(models, found[main_name])
+    drawn = print_drawn(models, groups, data[main_name], arguments.drawn) if arguments.drawn else {}
+    clusters = print_clusters(data[main_name], read_arrays(arguments.clusters)) if arguments.clusters else {}
+    times = print_times(models, groups)
+    if arguments.json:
+        document = {
+            "figures": {name: {str(path): one for path, one in by.items()} for name, by in found.items()},
+            "rivals": rivals,
+            "drawn": drawn,
+            "clusters": clusters,
+            "microseconds": times,
+        }
+        arguments.json.write_text(json.dumps(document, indent=1))
+
+
+def label(one: HeadsetPredictor) -> str:
+    """The architecture, and what else differs from the default recipe but the seed."""
+    recipe = one.model.training["recipe"]
+    plain = HeadsetRecipe()
+    changed = [
+        f"{field.name.replace('_', ' ')} {recipe[field.name]}"
+        for field in fields(plain)
+        if field.name not in ("architecture", "seed") and recipe.get(field.name) != getattr(plain, field.name)
+    ]
+    return ", ".join([recipe["architecture"], *changed])
+
+
+def print_main(groups: dict[str, list[Path]], found: dict[Path, Figures], title: str) -> None:
+    columns = {
+        "mm": ("uncalibrated", "geometry_mm"),
+        "R²": ("uncalibrated", "r2"),
+        "MAE": ("uncalibrated", "mae"),
+        "RMSE": ("uncalibrated", "rmse"),
+        "blink R²": ("uncalibrated", "blink_r2"),
+        "gaze °": ("uncalibrated", "gaze_deg"),
+        "calibrated mm": ("same_seat", "geometry_mm"),
+        "calibrated R²": ("same_seat", "r2"),
+        "reseated mm": ("other_seat", "geometry_mm"),
+        "reseated, fallback mm": ("other_seat_fallback", "geometry_mm"),
+        "same seat, fallback mm": ("same_seat_fallback", "geometry_mm"),
+    }
+    rows = [
+        [
+            key,
+            len(paths),
+            *(
+                spread(found[path]["conditions"].get(c, {}).get(k) for path in paths)
+                for c, k in columns.values()
+            ),
+        ]
+        for key, paths in groups.items()
+    ]
+    floors = next(iter(found.values()))["floors"]
+    for name, figures in floors.items():
+        rows.append(
+            [
+                f"floor: {name}",
+                "",
+                *(spread([figures[k]] if c == "uncalibrated" else []) for c, k in columns.values()),
+            ]
+        )
+    print_table(title, ["network", "seeds", *columns], rows)
+
+
+def print_losses(groups: dict[str, list[Path]], found: dict[Path, Figures]) -> None:
+    """Geometry error with a camera lost, and on combinations held out."""
+    lost = [name for name in next(iter(found.values()))["conditions"] if name.startswith("without_")]
+    rows = []
+    for key, paths in groups.items():
+        plain = [found[path]["conditions"]["uncalibrated"]["geometry_mm"] for path in paths]
+        cells = [key, spread(plain)]
+        for name in lost:
+            values = [found[path]["conditions"][name]["geometry_mm"] for path in paths]
+            cells.append(f"{spread(values)} ({np.mean(values) / np.mean(plain) - 1:+.0%})")
+        held = [found[path]["held_out"].get("uncalibrated", {}).get("geometry_mm") for path in paths]
+        rows.append([*cells, spread(held)])
+    head = ["network", "all cameras", *(name.replace("_", " ") for name in lost), "held-out combinations"]
+    print_table("Lost cameras and combinations, geometry error in mm", head, rows)
+
+
+def print_rivals(models: dict[Path, HeadsetPredictor], arrays: HeadsetArrays, data: str) -> dict[str, list]:
+    """Modular against holistic models of equal other settings and seed."""
+    rivals = defaultdict(list)
+    for one in models.values():
+        for other in models.values():
+            mine, theirs = (dict(model.model.training["recipe"]) for model in (one, other))
+            if (mine.pop("architecture"), theirs.pop("architecture")) != ("modular", "holistic"):
+                continue
+            # settings that only a modular network has
+            for name in ("modulation", "part_loss", "part_loss_elsewhere", "hidden"):
+                mine.pop(name, None), theirs.pop(name, None)
+            if mine == theirs:
+                rivals[label(one)].append(compare(one, other, arrays))
+    rows = []
+    for key, pairs in rivals.items():
+        for part, condition in (
+            ("conditions", "uncalibrated"),
+            ("conditions", "same_seat"),
+            ("conditions", "without_left_eye"),
+            ("held_out", "uncalibrated"),
+            *(("components", name) for name in pairs[0]["components"] if name != HELD_OUT),
+        ):
+            entries = [pair[part][condition] for pair in pairs if condition in pair[part]]
+            if entries:
+                less = [100 * (entry["geometry_mm"] / entry["rival_mm"] - 1) for entry in entries]
+                means = (np.mean([entry[name] for entry in entries]) for name in ("geometry_mm", "rival_mm"))
+                shares = (
+                    spread((100 * entry[name] for entry in entries), 1) for name in ("better", "people")
+                )
+                what = condition.replace("_", " ") if part != "held_out" else "held-out combinations"
+                cells = (f"{mean:.3f}" for mean in means)
+                rows.append([key, what, entries[0]["rows"], len(entries), *cells, spread(less, 1), *shares])
+    head = [
+        "modular network",
+        "frames",
+        "rows",
+        "seeds",
+        "modular mm",
+        "holistic mm",
+        "difference %",
+        "better frames %",
+        "better people %",
+    ]
+    print_table(f"{data}: modular against holistic of the same settings and seed", head, rows)
+    return rivals
+
+
+def print_data(groups: dict[str, list[Path]], found: dict[str, dict[Path, Figures]]) -> None:
+    """Geometry error and R2 on each set of data."""
+    head, rows = ["network"], []
+    for name in found:
+        head += [f"{name} mm", "R²", "gaze °", "calibrated mm"]
+    for key, paths in groups.items():
+        cells = [key]
+        for by in found.values():
+            for condition, figure in (
+                ("uncalibrated", "geometry_mm"),
+                ("uncalibrated", "r2"),
+                ("uncalibrated", "gaze_deg"),
+                ("same_seat", "geometry_mm"),
+            ):
+                cells.append(spread(by[path]["conditions"].get(condition, {}).get(figure) for path in paths))
+        rows.append(cells)
+    print_table("Other pictures", head, rows)
+
+
+def print_shapes(key: str, figures: list[Figures]) -> None:
+    """R2 of each shape: alone, calibrated, and from each camera by itself; both sides of the face together."""
+    cameras = list(figures[0]["cameras"])
+    rows = []
+    for shape in BLENDSHAPES:
+        if (
+            shape.endswith("Right")
+            and shape.replace("Right", "Left") in BLENDSHAPES
+            and not shape.startswith(("jaw", "mouthR"))
+        ):
+            continue
+        cells = [figures[0]["shapes"][shape]["uncalibrated"]["r2"]]
+        if cells[0] is None:
+            continue
+        of = [
+            spread((one["shapes"][shape].get(c, {}).get("r2") for one in figures), 2)
+            for c in ("uncalibrated", "same_seat")
+        ]
+        alone = [spread((one["cameras"][camera][shape] for one in figures), 2) for camera in cameras]
+        mae = [
+            spread((one["shapes"][shape].get(c, {}).get("mae") for one in figures), 3)
+            for c in ("uncalibrated", "same_seat")
+        ]
+        rows.append([shape, *of, *alone, *mae])
+    head = [
+        "shape",
+        "R²",
+        "calibrated",
+        *(f"{camera.replace('_', ' ')} only" for camera in cameras),
+        "MAE",
+        "calibrated",
+    ]
+    print_table(f"What each camera sees: {key} (left shapes stand for both sides)", head, rows)
+
+
+def print_curve(models: dict[Path, HeadsetPredictor], found: dict[Path, Figures]) -> None:
+    """By how many people the models were trained on, where that differs."""
+    points = defaultdict(list)
+    for path, one in models.items():
+        record = one.model.training
+        points[(record["people"], record["rows"], record["recipe"]["architecture"])].append(
+            found[path]["conditions"]
+        )
+    if len({people for people, _, _ in points}) < 2:
+        return
+    rows = [
+        [
+            architecture,
+            people,
+            frames,
+            *(
+                spread(one.get(c, {}).get(k) for one in of)
+                for c, k in (
+                    ("uncalibrated", "geometry_mm"),
+                    ("uncalibrated", "r2"),
+                    ("same_seat", "geometry_mm"),
+                )
+            ),
+        ]
+        for (people, frames, architecture), of in sorted(points.items())
+    ]
+    print_table("By people in training", ["network", "people", "frames", "mm", "R²", "calibrated mm"], rows)
+
+
+def print_drawn(
+    models: dict[Path, HeadsetPredictor], groups: dict[str, list[Path]], arrays: HeadsetArrays, count: int
+) -> Figures:
+    """RMSE and SSIM of the face drawn from the front with predicted weights against true ones."""
+    rows = np.flatnonzero((arrays.split == "test") & ~arrays.neutral)
+    rows = rows[np.linspace(0, len(rows) - 1, count).round().astype(int)]
+    rig = load_rig(arrays.description["rig"])
+
+    def drawn(weights: np.ndarray) -> list[np.ndarray]:
+        played = play_weights(rig, weights.astype(np.float64), np.arange(len(weights)) / 30, title="frames")
+        return list(pictures(played, height_px=SHOWN_PX, landmarks=False))
+
+    true = drawn(arrays.weights[rows])
+    result, table = {}, []
+    for key, paths in groups.items():
+        for path in paths:
+            one = models[path]
+            conditions = {"uncalibrated": Condition(), "calibrated": Condition(calibration="same_seat")}
+            if one.model.calibration == "none":
+                conditions.pop("calibrated")
+            result[str(path)] = {
+                name: picture_errors(
+                    true, drawn(np.clip(estimate(one.graph, one.model, arrays, rows, how).weights, 0, 1))
+                )
+                for name, how in conditions.items()
+            }
+        cells = [
+            spread((result[str(path)].get(name, {}).get(what) for path in paths), 4)
+            for name in ("uncalibrated", "calibrated")
+            for what in ("rmse", "ssim")
+        ]
+        table.append([key, len(paths), *cells])
+    rest = picture_errors(true, drawn(np.zeros((len(rows), len(BLENDSHAPES)))))
+    table.append(["floor: rest", "", f"{rest['rmse']:.4f}", f"{rest['ssim']:.4f}", "", ""])
+    head = ["network", "seeds", "RMSE", "SSIM", "calibrated RMSE", "calibrated SSIM"]
+    print_table(
+        f"Drawn faces: {count} frames, {SHOWN_PX} pixels high, face pixels only, grey levels 0 to 1",
+        head,
+        table,
+    )
+    return result
+
+
+def picture_errors(true: list[np.ndarray], found: list[np.ndarray]) -> dict[str, float]:
+    """Means over pictures: RMSE in 0 to 1, and SSIM (Wang et al. 2004), where either picture shows the face."""
+    rmse, ssim = [], []
+    for one, other in zip(true, found, strict=True):
+        grey = [cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY) for picture in (one, other)]
+        face = (grey[0] < 255) | (grey[1] < 255)  # the background is white
+        rmse.append(np.sqrt(np.mean((grey[0][face] / 255 - grey[1][face] / 255) ** 2)))
+        _, likeness = cv2.quality.QualitySSIM_compute(*grey)
+        ssim.append(likeness[face].mean())
+    return {"rmse": float(np.mean(rmse)), "ssim": float(np.mean(ssim))}
+
+
+def print_clusters(test: HeadsetArrays, train: HeadsetArrays) -> dict[str, list[float]]:
+    """The paper's figure 4."""
+    cameras = tuple(camera.name for camera in train.cameras)
+    unseen = test.weights[(test.split == "test") & ~test.neutral]
+    rows, result = [], {}
+    for withhold in ("none", "regions"):
+        kept = train.kept_rows("train", withhold=withhold)
+        known = train.weights[kept[~train.neutral[kept]]]  # neutral faces are all the same
+        for count in (count for count in CLUSTERS if 2 * len(cameras) * count <= len(known)):
+            of = {
+                "modular": lambda seed, k=count, w=known: cluster_error_mm(
+                    train.face, w, unseen, clusters=k, cameras=cameras, seed=seed
+                ),
+                "holistic": lambda seed, k=count, w=known: cluster_error_mm(
+                    train.face, w, unseen, clusters=len(cameras) * k, seed=seed
+                ),
+            }
+            found = {name: seeds(call) for name, call in of.items()}
+            result[f"{withhold}, {count}"] = found
+            less = 100 * (np.mean(found["modular"]) / np.mean(found["holistic"]) - 1)
+            rows.append(
+                [
+                    "all" if withhold == "none" else "one region",
+                    len(known),
+                    count,
+                    *(spread(values) for values in found.values()),
+                    f"{less:+.1f}",
+                ]
+            )
+    head = [
+        "training frames",
+        "rows",
+        "K",
+        f"modular, {len(cameras)} x K",
+        f"holistic, {len(cameras)} K",
+        "difference %",
+    ]
+    print_table("Clusters of exact weights (the paper's figure 4), geometry error in mm", head, rows)
+    return result
+
+
+def print_times(
+    models: dict[Path, HeadsetPredictor], groups: dict[str, list[Path]]
+) -> dict[str, dict[str, float]]:
+    result = {
+        key: {timing.name: timing.microseconds for timing in time_headset(models[paths[0]])}
+        for key, paths in groups.items()
+        if key in ("modular", "holistic")
+    }
+    rows = [[key, *(f"{taken / 1000:.2f}" for taken in times.values())] for key, times in result.items()]
+    if rows:
+        print_table(
+            "Milliseconds a frame, onnxruntime, one core", ["network", *next(iter(result.values()))], rows
+        )
+    return result
+
+
+def seeds(call: Callable[[int], float]) -> list[float]:
+    return [call(seed) for seed in range(3)]
+
+
+def spread(values: Iterable[float | None], decimals: int = 3) -> str:
+    """Mean, and standard deviation where there are several."""
+    known = [value for value in values if value is not None]
+    if not known:
+        return ""
+    mean = f"{np.mean(known):.{decimals}f}"
+    return mean if len(known) < 2 else f"{mean} ± {np.std(known, ddof=1):.{decimals}f}"
+
+
+def print_table(title: str, head: list[str], rows: list[list]) -> None:
+    print(f"\n{title}\n")
+    print(f"| {' | '.join(head)} |\n|{'---|' * len(head)}")
+    for row in rows:
+        print(f"| {' | '.join(map(str, row))} |")
+
+
+if __name__ == "__main__":
+    main()
