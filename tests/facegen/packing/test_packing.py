@@ -20,7 +20,9 @@ import pytest
 
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import InputError, InvalidData
+from facegen.geometry import direction_from_angles
 from facegen.packing import FORMATS, Options, Part, plan_pack, write_pack
+from facegen.packing.arrays import face_basis, write_part
 from facegen.packing.webdataset import write_tar
 from facegen.store import open_dataset, read_png
 
@@ -102,6 +104,7 @@ def test_parquet_opens_in_pandas(rendered, tmp_path):
         np.testing.assert_array_equal(points, np.array(record["views"][view]["points_2d"], np.float32))
     weights = dict(zip(BLENDSHAPES, frame["weights"][1], strict=True))
     assert weights["jawOpen"] == np.float32(record["weights"]["jawOpen"])
+    assert frame["component"][1] == record["component"]
     assert "CC0" in pq.read_schema(out / "shard-000000.parquet").metadata[b"licence"].decode()
 
 
@@ -156,10 +159,60 @@ def test_coco_opens_in_pycocotools(rendered, tmp_path):
         )
 
 
-def test_memory_does_not_grow_with_the_number_of_samples(rendered, tmp_path):
+def test_arrays_hold_the_datasets_pictures_and_labels(rendered, tmp_path):
+    out = make(rendered, tmp_path / "pack", "arrays")
+    about = json.loads((out / "arrays.json").read_text())
+    assert [camera["name"] for camera in about["cameras"]] == list(rendered.headset.camera_names)
+    assert (about["rows"], about["rig"], about["dataset_hash"]) == (2, "anny", rendered.hash)
+    table = pq.read_table(out / "labels.parquet")
+    assert all(b"description" in field.metadata for field in table.schema)
+    for row in (0, 1):
+        record = rendered.sample(row)
+        for camera in about["cameras"]:
+            picture = np.load(out / f"{camera['name']}.npy", mmap_mode="r")[row]
+            assert picture.shape == (camera["height"], camera["width"])
+            np.testing.assert_array_equal(
+                picture, read_png(rendered.folder.render(row) / f"{camera['name']}.png")
+            )
+        labels = {name: table[name][row].as_py() for name in table.column_names}
+        assert {name: labels[name] for name in ("sample", "split", "component", "neutral")} == {
+            name: record[name] for name in ("sample", "split", "component", "neutral")
+        }
+        weights = [record["weights"][name] for name in BLENDSHAPES]
+        np.testing.assert_allclose(labels["weights"], weights, atol=1e-7)
+        yaw, pitch = np.reshape(labels["gaze"], (2, 2)).T
+        axes = [record["eyes"][side]["optical_axis"] for side in ("left", "right")]
+        np.testing.assert_allclose(direction_from_angles(yaw, pitch), axes, atol=1e-6)
+        pose = np.reshape(labels["head_from_headset"], (4, 4))
+        np.testing.assert_allclose(pose, record["headset"]["head_from_headset"], atol=1e-7)
+        np.testing.assert_allclose(labels["slip"], record["headset"]["slip"], atol=1e-7)
+    face = np.load(out / "face.npz")
+    assert face["displacement"].shape == (52, *face["rest"].shape)
+
+
+def test_the_faces_basis_turns_weights_into_the_rigs_shape(anny):
+    displacement, rest = face_basis(anny)
+    opened = BLENDSHAPES.index("jawOpen")
+    moved = np.linalg.norm(displacement, axis=-1)
+    assert 0.02 < moved[opened].max() < 0.06  # a chin falls by centimetres
+    assert (moved[BLENDSHAPES.index("browInnerUp")] > 1e-3).any()
+    assert not moved[BLENDSHAPES.index("tongueOut")].any()
+    # eyeballs are no skin: nothing lies within them
+    assert (
+        np.linalg.norm(rest[:, None] - anny.eye_center, axis=-1).min(axis=0) > 0.9 * anny.eye_radius
+    ).all()
+    brows, chin = rest[:, 1].max(), rest[:, 1].min()
+    assert 0.18 < brows - chin < 0.25
+    assert 5_000 < len(rest) < 0.6 * len(anny.vertices)
+
+
+@pytest.mark.parametrize(
+    ("write", "part"), [(write_tar, {"name": "a"}), (write_part, {"name": "a", "view": "mouth"})]
+)
+def test_memory_does_not_grow_with_the_number_of_samples(rendered, tmp_path, write, part):
     def peak(samples: list[int]) -> int:
         tracemalloc.start()
-        write_tar(rendered, Part(name="a", samples=samples), Options(), tmp_path / "a.tar")
+        write(rendered, Part(samples=samples, **part), Options(), tmp_path / "a.tar")
         size = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         return size
