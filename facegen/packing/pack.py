@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from facegen.errors import InputError
+from facegen.packing.arrays import ARRAYS
 from facegen.packing.coco import COCO
 from facegen.packing.keypoints import KEYPOINTS
 from facegen.packing.livelink import LIVELINK
@@ -31,6 +32,7 @@ FORMATS: dict[str, Format] = {
     "keypoints": KEYPOINTS,
     "coco": COCO,
     "livelink": LIVELINK,
+    "arrays": ARRAYS,
 }
 """Every format there is; a new one is a module and a line here."""
 
