@@ -8,7 +8,7 @@ import numpy as np
 from regress.cli.talk import say
 from regress.errors import InputError
 from regress.headset.footage import Footage, line_up
-from regress.headset.neutral import calmest_frame, neutral_of_frame, read_neutral
+from regress.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
 from regress.headset.predictor import HeadsetPredictor
 from regress.headset.recordings import read_recording, read_rendered
 
@@ -67,41 +67,63 @@ def read_footage(
     return line_up(recordings, predictor.sizes, from_start=from_start, still=dataset is not None, fps=fps)
 
 
-def neutral_pictures(
-    predictor: HeadsetPredictor, footage: Footage, neutral: str, *, still: bool
-) -> dict[str, np.ndarray] | None:
-    """Neutral pictures (h, w) by camera as the option asks for them; None where frames are to be seen alone.
+def read_neutrals(
+    predictor: HeadsetPredictor, footage: Footage, named: Sequence[str], *, still: bool
+) -> list[Neutral]:
+    """Neutral pictures as the options ask for them; none where frames are to be seen alone.
 
     Raises
     ------
     InputError
-        Where the model, the footage or the option has no use for them.
+        Where the model, the footage or the options have no use for them.
     """
-    if neutral == "none":
-        return None
+    if not named or list(named) == ["none"]:
+        return []
     if predictor.model.calibration == "none":
         raise InputError("the model was trained without calibration, so a neutral frame is of no use to it")
     if still:
         raise InputError(
-            "a dataset has many people: --neutral is for a recording of one; regress headset evaluate "
-            "gives each person's own"
+            "a dataset has many people, and --neutral is for a recording of one; regress headset evaluate gives "
+            "each its own"
         )
+    if len(named) == 1:
+        return _one_neutral(predictor, footage, named[0])
+    rows = [_row(footage, name) for name in named]
+    if rows != sorted(set(rows)):
+        raise InputError(f"--neutral frames {', '.join(named)} are not in the order of time")
+    return [Neutral(row=row, pictures=neutral_of_frame(footage, row)) for row in rows]
+
+
+def _row(footage: Footage, named: str) -> int:
+    """Row of a frame by its number, where several neutral frames are named."""
+    if not (named.isdecimal() and int(named) in footage.numbers):
+        first, last = footage.numbers[[0, -1]]
+        raise InputError(
+            f"--neutral {named!r} is no frame of {footage.source} ({first}-{last}), as each of several has to be"
+        )
+    return int(np.flatnonzero(footage.numbers == int(named))[0])
+
+
+def _one_neutral(predictor: HeadsetPredictor, footage: Footage, named: str) -> list[Neutral]:
+    """A frame, a folder's pictures or the calmest frame; nothing where none can be relied on."""
     present = footage.present
-    if neutral == "auto":
+    if named == "auto":
         usable = present[:, footage.given].all(axis=1)
         found = calmest_frame(predictor.predict(footage.pictures, present=present).weights, usable)
         if not found.sure:
             say(f"{footage.source}: no neutral frame found, weights are not calibrated: {found.reason}")
-            return None
+            return []
         say(f"{footage.source}: frame {footage.numbers[found.row]} is taken for neutral: {found.reason}")
-        return neutral_of_frame(footage, found.row)
-    if neutral.isdecimal() and int(neutral) in footage.numbers:
-        return neutral_of_frame(footage, int(np.flatnonzero(footage.numbers == int(neutral))[0]))
-    if Path(neutral).is_dir():
+        return [Neutral(row=found.row, pictures=neutral_of_frame(footage, found.row))]
+    if named.isdecimal() and int(named) in footage.numbers:
+        row = int(np.flatnonzero(footage.numbers == int(named))[0])
+        return [Neutral(row=row, pictures=neutral_of_frame(footage, row))]
+    if Path(named).is_dir():
         sizes = zip(predictor.sizes.items(), footage.given, strict=True)
-        return read_neutral(Path(neutral), {name: size for (name, size), there in sizes if there})
+        pictures = read_neutral(Path(named), {name: size for (name, size), there in sizes if there})
+        return [Neutral(row=0, pictures=pictures)]
     first, last = footage.numbers[[0, -1]]
     raise InputError(
-        f"--neutral {neutral!r} is neither a frame of {footage.source} ({first}-{last}), nor a folder; "
+        f"--neutral {named!r} is neither a frame of {footage.source} ({first}-{last}), nor a folder; "
         f"auto and none are allowed too"
     )

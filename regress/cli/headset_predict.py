@@ -9,7 +9,7 @@ import typer
 
 from facegen.conventions import LANDMARK_COUNT
 from regress.adjustment import read_adjustments
-from regress.cli.headset_input import camera_paths, neutral_pictures, read_footage
+from regress.cli.headset_input import camera_paths, read_footage, read_neutrals
 from regress.cli.results import Format, write_avatar, write_confidence, write_table
 from regress.cli.talk import say
 from regress.errors import InputError
@@ -77,14 +77,14 @@ def predict(
         typer.Option("--confidence", help="CSV to write with the trust in each ARKit weight, 0 to 1."),
     ] = None,
     neutral: Annotated[
-        str,
+        list[str] | None,
         typer.Option(
             "--neutral",
             metavar="FRAME|FOLDER|auto|none",
             help="The person's neutral face: a frame by its number, a folder with CAMERA.png for each camera, or "
-            "auto, which looks for it.",
+            "auto, which looks for it. Again a later frame: it counts from there on, after a new seat.",
         ),
-    ] = "none",
+    ] = None,
     strict: Annotated[
         bool, typer.Option("--strict", help="Fail where a given camera has no usable picture in a frame.")
     ] = False,
@@ -161,12 +161,12 @@ def predict(
         raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
     for note in footage.notes:
         say(note)
-    pictures = neutral_pictures(predictor, footage, neutral, still=dataset is not None)
-    performance = perform(predictor, footage, pictures, output=output, amplify_eyes=amplify_eyes)
-    if performance.reseated is not None:
+    neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None)
+    performance = perform(predictor, footage, neutrals, output=output, amplify_eyes=amplify_eyes)
+    for row in performance.reseated:
         say(
-            f"frame {footage.numbers[performance.reseated]}: the headset does not sit as in the neutral pictures; "
-            f"weights are not calibrated from here on, for want of a neutral frame of the new seat"
+            f"frame {footage.numbers[row]}: the headset does not sit as in the neutral pictures; weights are not "
+            f"calibrated from here on, until a --neutral frame of the new seat"
         )
     if video is not None:
         rate = fps or (ASSUMED_FPS if footage.time_s is None else _rate(footage.time_s))

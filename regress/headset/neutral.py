@@ -39,6 +39,22 @@ class NeutralFrame:
     reason: str
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Neutral:
+    """Neutral pictures that count from a frame on.
+
+    Parameters
+    ----------
+    row
+        Of the footage.
+    pictures
+        (h, w) uint8 of every camera in use.
+    """
+
+    row: int
+    pictures: dict[str, np.ndarray]
+
+
 def calmest_frame(weights: np.ndarray, usable: np.ndarray) -> NeutralFrame:
     """The frame of a recording of one person that stands best for the face at rest.
 

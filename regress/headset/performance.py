@@ -1,15 +1,17 @@
 """From footage to weights, gaze and confidence: calibration, a change of seat, and what a person asked for."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from facegen.conventions import SIDES
 from regress.adjustment import ShapeAdjustment, adjust, mirror
+from regress.errors import InputError
 from regress.headset.confidence import confidence
 from regress.headset.footage import Footage
 from regress.headset.graph import Estimates
+from regress.headset.neutral import Neutral
 from regress.headset.predictor import HeadsetPredictor
 from regress.headset.seats import seat_change
 from regress.predict import Output
@@ -37,44 +39,60 @@ class Performance:
     confidence : (n, 52) float64 or None
         Of the ARKit weights; 0 where no camera has a picture. None for a model without scores.
     reseated
-        Row from which the neutral pictures were no longer used; None where they were to the end.
+        Rows from which neutral pictures were no longer used.
     """
 
     names: tuple[str, ...]
     weights: np.ndarray
     gaze: np.ndarray
     confidence: np.ndarray | None
-    reseated: int | None = None
+    reseated: tuple[int, ...] = ()
 
 
 def estimate_footage(
-    predictor: HeadsetPredictor, footage: Footage, neutral: Mapping[str, np.ndarray] | None = None
-) -> tuple[Estimates, int | None]:
+    predictor: HeadsetPredictor, footage: Footage, neutrals: Sequence[Neutral] = ()
+) -> tuple[Estimates, tuple[int, ...]]:
     """Run the network on footage, calibrated as long as the headset stays in the seat of the neutral pictures.
+
+    Parameters
+    ----------
+    neutrals
+        Each counts from its row to the next one's; the first from the beginning, wherever it was taken.
 
     Returns
     -------
     estimates
     reseated
-        Row from which frames are not calibrated.
+        Rows from which frames are not calibrated, until the next neutral pictures: one at most for each.
     """
     present = footage.present
-    if neutral is None:
-        return predictor.predict(footage.pictures, present=present), None
-    estimates = predictor.predict(footage.pictures, present=present, neutral=neutral)
-    reseated = seat_change(estimates.same_seat, present.any(axis=1), fps=_fps(footage))
-    if reseated is None:
-        return estimates, None
-    calibrated = np.arange(len(present)) < reseated
-    return predictor.predict(
-        footage.pictures, present=present, neutral=neutral, calibrated=calibrated
-    ), reseated
+    if not neutrals:
+        return predictor.predict(footage.pictures, present=present), ()
+    rows = np.arange(len(present))
+    starts = [0, *(neutral.row for neutral in neutrals[1:])]
+    which = np.searchsorted(starts, rows, side="right") - 1
+    pictures = {
+        name: np.stack([neutral.pictures[name] for neutral in neutrals])[which]
+        for name in neutrals[0].pictures
+    }
+    estimates = predictor.predict(footage.pictures, present=present, neutral=pictures)
+    calibrated, reseated = np.ones(len(rows), dtype=bool), []
+    for number in range(len(neutrals)):
+        span = rows[which == number]
+        change = seat_change(estimates.same_seat[span], present[span].any(axis=1), fps=_fps(footage))
+        if change is not None:
+            calibrated[span[change:]] = False
+            reseated.append(int(span[change]))
+    if calibrated.all():
+        return estimates, ()
+    settled = predictor.predict(footage.pictures, present=present, neutral=pictures, calibrated=calibrated)
+    return settled, tuple(reseated)
 
 
 def perform(
     predictor: HeadsetPredictor,
     footage: Footage,
-    neutral: Mapping[str, np.ndarray] | None = None,
+    neutrals: Sequence[Neutral] = (),
     *,
     output: Output | None = None,
     amplify_eyes: float = 1.0,
@@ -83,8 +101,8 @@ def perform(
 
     Parameters
     ----------
-    neutral
-        Pictures (h, w) of every camera in use.
+    neutrals
+        As ``estimate_footage`` takes them.
     output
         What happens after the network; nothing by default. Smoothing of landmarks has no meaning here.
     amplify_eyes
@@ -96,7 +114,11 @@ def perform(
         Where One-Euro smoothing is asked for and times are not known.
     """
     output = output or Output()
-    estimates, reseated = estimate_footage(predictor, footage, neutral)
+    if output.one_euro is not None and footage.time_s is None:
+        raise InputError(
+            f"{footage.source} does not say when its frames were taken; One-Euro smoothing needs it"
+        )
+    estimates, reseated = estimate_footage(predictor, footage, neutrals)
     seen = footage.present.any(axis=1)
     weights = np.where(seen[:, None], np.clip(estimates.weights.astype(np.float64), 0, 1), np.nan)
     gaze = np.where(seen[:, None], estimates.gaze.astype(np.float64).reshape(-1, 4), np.nan)
@@ -121,7 +143,7 @@ def _smoothed(
         weights = moving_average(weights, output.smooth)
         # that mean is of numbers from 0 to 1
         gaze = (2 * moving_average(gaze / (2 * np.pi) + 0.5, output.smooth) - 1) * np.pi
-    if output.one_euro is not None and time_s is not None:
+    if output.one_euro is not None:
         weights = one_euro(weights, time_s, output.one_euro)
         stream = OneEuroStream(output.one_euro, np.full(4, EYES_FASTER * output.one_euro.cutoff_hz))
         gaze = np.array([stream.step(float(time), row) for time, row in zip(time_s, gaze, strict=True)])

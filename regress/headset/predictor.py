@@ -40,7 +40,7 @@ class HeadsetPredictor:
         neutral: Mapping[str, np.ndarray] | None = None,
         calibrated: np.ndarray | None = None,
     ) -> Estimates:
-        """Estimates of n frames, all compared with the same neutral pictures.
+        """Estimates of n frames.
 
         Parameters
         ----------
@@ -49,13 +49,13 @@ class HeadsetPredictor:
         present : (n, cameras) bool, optional
             Which pictures count.
         neutral
-            (h, w) uint8 by camera; without them no frame is calibrated.
+            (h, w) or (n, h, w) uint8 by camera; without them no frame is calibrated.
         calibrated : (n,) bool, optional
             Which frames are compared with the neutral pictures; all by default.
         """
         count = len(next(iter(pictures.values())))
         repeated = neutral and {
-            name: np.broadcast_to(picture, (count, *picture.shape)) for name, picture in neutral.items()
+            name: np.broadcast_to(picture, (count, *picture.shape[-2:])) for name, picture in neutral.items()
         }
         return self.graph.run(
             dict(pictures), present=present, neutral=repeated or None, calibrated=calibrated

@@ -182,6 +182,13 @@ def test_a_new_seat_is_said_once_with_its_frame(run, model: Path, tmp_path: Path
     assert len(said.splitlines()) == 1
     frame = int(said.removeprefix("frame ").partition(":")[0])
     assert 40 <= frame <= 55
+    again = run("headset", "predict", model, *options, "--neutral", 0, "--neutral", 70, "--fps", 30)
+    assert again[2] == said
+    assert float(_rows(again[1])[79]["jawOpen"]) == pytest.approx(0, abs=0.01)
+    for wrong, message in ((["60", "0"], "are not in the order of time"), (["0", "auto"], "is no frame of")):
+        words = [word for name in wrong for word in ("--neutral", name)]
+        refused = run("headset", "predict", model, *options, *words)
+        assert (refused[0], message in refused[2]) == (2, True)
     assert float(_rows(out)[79]["jawOpen"]) == pytest.approx(170 / 255, abs=0.01)
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
 from regress.headset.footage import Footage, line_up
-from regress.headset.neutral import calmest_frame, neutral_of_frame, read_neutral
+from regress.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
 from regress.headset.performance import AMPLIFIED, perform
 from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.headset.seats import seat_change
@@ -58,21 +58,26 @@ def test_frames_without_pictures_have_no_weights_and_no_confidence(predictor: He
 
 def test_calibration_is_the_difference_from_the_neutral_frame(predictor: HeadsetPredictor):
     footage = _footage(predictor, {name: [60, 90, 110] for name in NAMES})
-    made = perform(predictor, footage, neutral_of_frame(footage, 0))
+    made = perform(predictor, footage, [Neutral(row=0, pictures=neutral_of_frame(footage, 0))])
     expected = np.repeat(np.array([[0], [30], [50]]) / 255, 52, axis=1)
     assert made.weights == pytest.approx(expected, abs=0.005)
-    assert made.reseated is None
+    assert made.reseated == ()
 
 
 def test_a_reseated_headset_is_seen_and_goes_on_uncalibrated(predictor: HeadsetPredictor):
     fps, change = 20, 30
     means = [60.0] * change + [160.0] * 40
     footage = _footage(predictor, {name: means for name in NAMES}, fps=fps)
-    neutral = neutral_of_frame(footage, 0)
-    made = perform(predictor, footage, neutral)
-    assert change <= made.reseated <= change + fps / 2
+    first, later = (Neutral(row=row, pictures=neutral_of_frame(footage, row)) for row in (0, change + 20))
+    made = perform(predictor, footage, [first])
+    (row,) = made.reseated
+    assert change <= row <= change + fps / 2
     assert made.weights[: change - 1] == pytest.approx(0, abs=0.005)
-    assert made.weights[made.reseated :] == pytest.approx(160 / 255, abs=0.005)
+    assert made.weights[row:] == pytest.approx(160 / 255, abs=0.005)
+    again = perform(predictor, footage, [first, later])
+    assert again.reseated == (row,)
+    assert np.array_equal(again.weights[: later.row], made.weights[: later.row])
+    assert again.weights[later.row :] == pytest.approx(0, abs=0.005)
 
 
 @given(low=st.integers(0, 60), length=st.integers(0, 40), fps=st.sampled_from([10, 30]))
