@@ -4,13 +4,15 @@ import numpy as np
 import pytest
 
 from facegen.conventions import Part, Visibility
-from facegen.geometry import apply_transform
+from facegen.geometry import apply_transform, rotation_from_angles, transform
 from facegen.labels import label_keypoints
 from facegen.labels.keypoints import KEYPOINT_TOLERANCE_M
 from facegen.raster import hidden_by_own
 from facegen.rigs import Rig, closed_cage, evaluate, occluder
 from facegen.sampling import draw_samples, plan_dataset
+from facegen.sampling.cameras import FACING
 from facegen.spec import parse_spec
+from tests.facegen.rigs.people import people, straight, weights
 
 FACES = 150
 WIDE = {
@@ -36,6 +38,21 @@ def test_flags_are_those_of_the_whole_mesh(rig: Rig, head: dict) -> None:
     seen = flags != Visibility.OUTSIDE
     assert 0.1 < expected.mean() < 0.5
     assert np.mean((flags == Visibility.HIDDEN)[seen] == expected[seen]) >= 0.99
+
+
+def test_far_landmarks_are_not_seen_through_the_eyes(rig: Rig) -> None:
+    """The far end of the jaw lies behind an eye, where the cage has a hole, at some turn of the head."""
+    yaw = np.radians(np.arange(20.0, 50.0))
+    camera = transform(FACING @ rotation_from_angles(yaw, 0.0, 0.0), np.array([0.0, 0.0, 0.7]))
+    face = evaluate(rig, people(rig, 1), weights(1), straight(1))
+    reduced, count = occluder(rig), len(yaw)
+    points = apply_transform(camera, np.repeat(face.landmarks[:, 16:17], count, axis=0))
+    covered = [
+        hidden_by_own(points, np.repeat(mesh, count, axis=0), camera, faces, tolerance_m=KEYPOINT_TOLERANCE_M)
+        for mesh, faces in ((face.vertices, rig.faces), (face.vertices[:, reduced.vertices], reduced.faces))
+    ]
+    assert covered[0].mean() > 0.8
+    np.testing.assert_array_equal(*covered)
 
 
 def test_stands_for_each_face_of_the_cage_once(rig: Rig) -> None:
