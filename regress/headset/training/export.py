@@ -24,10 +24,16 @@ class Deployed(nn.Module):
     """Pictures as cameras give them to weights, deviations and gaze: what the graph computes."""
 
     def __init__(
-        self, network: HeadsetNetwork, cameras: tuple[CameraInput, ...], targets: Targets, input_size: int
+        self,
+        network: HeadsetNetwork,
+        cameras: tuple[CameraInput, ...],
+        targets: Targets,
+        input_size: int,
+        deviation_scale: np.ndarray,
     ) -> None:
         super().__init__()
         self.network = network
+        self.register_buffer("deviation_std", torch.from_numpy(targets.std * deviation_scale))
         self.register_buffer("mean", torch.from_numpy(targets.mean))
         self.register_buffer("std", torch.from_numpy(targets.std))
         for column, camera in enumerate(cameras):
@@ -42,7 +48,7 @@ class Deployed(nn.Module):
         *seen, present, calibrated = inputs
         answer = self.network(self._squares(seen[0::2]), self._squares(seen[1::2]), present, calibrated)
         said = answer.blended.mean * self.std + self.mean
-        deviation = torch.sqrt(answer.blended.variance) * self.std
+        deviation = torch.sqrt(answer.blended.variance) * self.deviation_std
         # yaw and pitch of the left eye, then of the right
         gaze = said[:, WEIGHTS:].reshape(-1, 2, 2)
         weights, shares = said[:, :WEIGHTS].clamp(0, 1), answer.blended.shares[..., :WEIGHTS]
@@ -57,16 +63,30 @@ class Deployed(nn.Module):
 
 
 def export_graph(
-    network: HeadsetNetwork, cameras: tuple[CameraInput, ...], targets: Targets, input_size: int
+    network: HeadsetNetwork,
+    cameras: tuple[CameraInput, ...],
+    targets: Targets,
+    *,
+    input_size: int,
+    deviation_scale: np.ndarray,
 ) -> tuple[bytes, float]:
     """The graph's bytes, and its largest difference from PyTorch on random frames.
+
+    Parameters
+    ----------
+    network
+        Trained, in evaluation mode.
+    cameras, targets, input_size
+        What it was trained with.
+    deviation_scale : (56,) float32
+        Factor on each output's predicted deviation.
 
     Raises
     ------
     ModelError
         Where the difference is above ``TOLERANCE``.
     """
-    deployed = Deployed(network, cameras, targets, input_size).eval()
+    deployed = Deployed(network, cameras, targets, input_size, deviation_scale).eval()
     names = [f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")]
     names += ["present", "calibrated"]
     buffer = io.BytesIO()

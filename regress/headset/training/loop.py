@@ -4,7 +4,7 @@ import hashlib
 import json
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -87,6 +87,20 @@ class Training:
             ) from None
         return self.network.eval()
 
+    def deviation_scale(self) -> np.ndarray:
+        """(56,) float32: true over predicted deviation of each output on validation people, without calibration.
+
+        Variances are learned on training people, whom the network knows better than others. Ones without such rows.
+        """
+        squares, variances = [], []
+        for answer, wanted in self._validation_answers():
+            squares.append((answer.blended.mean - wanted).square().numpy())
+            variances.append(answer.blended.variance.numpy())
+        if not squares:
+            return np.ones(len(self.targets.std), np.float32)
+        ratio = np.concatenate(squares).mean(axis=0) / np.concatenate(variances).mean(axis=0)
+        return np.sqrt(np.clip(ratio, 0.1, 10)).astype(np.float32)
+
     def _run_epoch(self, epoch: int) -> None:
         random = np.random.default_rng([self.recipe.seed, epoch])
         batches = len(self.rows) // min(self.recipe.batch, len(self.rows))
@@ -123,15 +137,20 @@ class Training:
         return (torch.from_numpy(batch.outputs) - self._mean) / self._std
 
     def _validation_error(self) -> float:
-        """Mean squared z-score without calibration; 1 is as good as the training mean. 0 rows give 0."""
+        """Mean squared z-score without calibration; 1 is as good as the training mean. Without rows it is 0."""
+        squares = [
+            (answer.blended.mean - wanted).square().mean(dim=1)
+            for answer, wanted in self._validation_answers()
+        ]
+        return float(torch.cat(squares).mean()) if squares else 0.0
+
+    def _validation_answers(self) -> Iterator[tuple[Answer, torch.Tensor]]:
+        """Answers to the validation rows, and what they should be."""
         self.network.eval()
-        squares = [0.0]
         with torch.no_grad():
             for start in range(0, len(self._validation), 256):
                 batch = self._frames.plain_batch(self._validation[start : start + 256])
-                answer = answer_to(self.network, batch)
-                squares += (answer.blended.mean - self._wanted(batch)).square().mean(dim=1).tolist()
-        return float(np.mean(squares[1:] or squares))
+                yield answer_to(self.network, batch), self._wanted(batch)
 
     def _set_scales(self) -> None:
         """Give encoders the spread of training pictures, and a holistic network the mean ones."""

@@ -59,7 +59,10 @@ def train_headset(
     network = training.run(progress)
     owners = encoder_owners(tuple(camera.name for camera in arrays.cameras))
     cameras = tuple(replace(camera, mirrored_of=owners[camera.name]) for camera in arrays.cameras)
-    graph, difference = export_graph(network, cameras, training.targets, recipe.input_size)
+    scale = training.deviation_scale()
+    graph, difference = export_graph(
+        network, cameras, training.targets, input_size=recipe.input_size, deviation_scale=scale
+    )
     description = arrays.description
     model = HeadsetModel(
         headset=description["headset"],
@@ -77,6 +80,7 @@ def train_headset(
             "cpu_s": time.process_time() - started,
             "resumed_after_epochs": resumed,
             "onnx_difference": difference,
+            "deviation_scale": scale.tolist(),
             "mean_weights": training.targets.mean[:WEIGHTS].tolist(),
             "mean_gaze": training.targets.mean[WEIGHTS:].tolist(),
             "versions": {"facegen": version("facegen"), "torch": torch.__version__},

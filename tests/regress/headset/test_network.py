@@ -48,9 +48,14 @@ def targets():
 
 @pytest.fixture(scope="module", params=["modular", "holistic"])
 def graph(request: pytest.FixtureRequest) -> HeadsetGraph:
-    exported, difference = export_graph(network(request.param), CAMERAS, targets(), SIZE)
+    graph, difference = exported(network(request.param))
     assert difference < 1e-4
-    return HeadsetGraph(exported, CAMERAS)
+    return HeadsetGraph(graph, CAMERAS)
+
+
+def exported(made) -> tuple[bytes, float]:
+    scale = np.ones(len(OUTPUTS), np.float32)
+    return export_graph(made, CAMERAS, targets(), input_size=SIZE, deviation_scale=scale)
 
 
 def frames(count: int, seed: int = 1) -> dict[str, np.ndarray]:
@@ -93,8 +98,7 @@ def test_frames_do_not_see_each_other(graph: HeadsetGraph):
 
 def test_the_eyes_of_a_mirrored_face_give_mirrored_answers():
     """Without the mouth, whose own picture is not built to be mirrored."""
-    exported, _ = export_graph(network("modular"), CAMERAS, targets(), SIZE)
-    graph = HeadsetGraph(exported, CAMERAS)
+    graph = HeadsetGraph(exported(network("modular"))[0], CAMERAS)
     pictures = {name: seen for name, seen in frames(6).items() if name != "mouth"}
     flipped = {"left_eye": pictures["right_eye"][..., ::-1], "right_eye": pictures["left_eye"][..., ::-1]}
     said, mirrored = graph.run(pictures), graph.run(flipped)
@@ -106,8 +110,8 @@ def test_the_eyes_of_a_mirrored_face_give_mirrored_answers():
 def test_modulation_keeps_a_camera_out_of_other_parts():
     shares = {}
     for modulation in (1.0, 0.0):
-        exported, _ = export_graph(network("modular", modulation=modulation), CAMERAS, targets(), SIZE)
-        shares[modulation] = HeadsetGraph(exported, CAMERAS).run(frames(4)).shares
+        made = HeadsetGraph(exported(network("modular", modulation=modulation))[0], CAMERAS)
+        shares[modulation] = made.run(frames(4)).shares
     mouth_by_eye = shares[0.0][:, :2, 17]  # jawOpen
     assert mouth_by_eye.max() < 0.01 < shares[1.0][:, :2, 17].max()
 
@@ -115,7 +119,7 @@ def test_modulation_keeps_a_camera_out_of_other_parts():
 def test_a_graph_that_differs_from_the_network_is_not_let_through(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(export, "TOLERANCE", -1.0)
     with pytest.raises(ModelError, match="differs from PyTorch"):
-        export_graph(network("modular"), CAMERAS, targets(), SIZE)
+        exported(network("modular"))
 
 
 @given(side=st.integers(8, 200), size=st.integers(4, 64), flipped=st.booleans())
