@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from facegen.conventions import BLENDSHAPES, MIRRORED_LANDMARKS
+from facegen.conventions import BLENDSHAPES, MIRRORED_LANDMARKS, Part
 from facegen.preview.portraits import portrait
 from facegen.rigs import Rig, evaluate, eye_centers, load_rig, neutral_landmarks
 from facegen.rigs.anny import PEOPLE, SEED, draw_heads
@@ -33,16 +33,34 @@ ONE_PERCENT = 2.3263
 """Standard deviations from the mean to the 1st and 99th percentile of a normal distribution."""
 
 
+ARCH_M, ROOT_M = (-0.037, -0.010), 0.015
+"""Where along z callipers find the cheekbones' arches, the further end half way from the eye's corner to the ear;
+and how far above and below the eyes the nose's root may lie."""
+
+
 def measures_mm(rig: Rig, identity: np.ndarray) -> dict[str, np.ndarray]:
     """What callipers would measure on neutral faces, by `MEASURES`, (n,) each."""
     points, eyes = 1e3 * neutral_landmarks(rig, identity), 1e3 * eye_centers(rig, identity)
-
-    def distance(a: int, b: int) -> np.ndarray:
-        return np.linalg.norm(points[:, a] - points[:, b], axis=1)
-
-    width = np.max([distance(a, 16 - a) for a in range(3)], axis=0)
-    values = (eyes[:, 0, 0] - eyes[:, 1, 0], width, distance(27, 8), distance(48, 54), distance(27, 33))
+    skin = np.unique(rig.faces[np.isin(rig.part, (Part.SKIN, Part.BROWS))])
+    x, y, z = rig.vertices[skin].T
+    root = _skin_mm(rig, identity, skin[(np.abs(x) < 5e-4) & (np.abs(y) < ROOT_M) & (z > 0)])
+    sellion = root[np.arange(len(root)), np.argmin(root[..., 2], axis=1)]
+    level = (y < 0) & (y > 1e-3 * points[:, 33, 1].mean())
+    cheeks = _skin_mm(rig, identity, skin[level & (z > ARCH_M[0]) & (z < ARCH_M[1])])[..., 0]
+    values = (
+        eyes[:, 0, 0] - eyes[:, 1, 0],
+        cheeks.max(axis=1) - cheeks.min(axis=1),
+        np.linalg.norm(sellion - points[:, 8], axis=1),
+        np.linalg.norm(points[:, 48] - points[:, 54], axis=1),
+        np.linalg.norm(sellion - points[:, 33], axis=1),
+    )
     return dict(zip(MEASURES, values, strict=True))
+
+
+def _skin_mm(rig: Rig, identity: np.ndarray, vertices: np.ndarray) -> np.ndarray:
+    """Positions (n, v, 3) of some of the neutral faces' vertices, away from the lids."""
+    moved = identity @ rig.identity[:, vertices].reshape(rig.components, -1)
+    return 1e3 * (rig.vertices[vertices] + moved.reshape(len(identity), -1, 3))
 
 
 def asymmetry_mm(rig: Rig, identity: np.ndarray) -> np.ndarray:
