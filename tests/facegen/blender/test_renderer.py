@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.ndimage import binary_erosion
 
 from facegen.blender import open_renderer
 from facegen.conventions import BLENDSHAPE_INDEX, Part
@@ -148,6 +149,25 @@ def test_files_hold_a_render_exactly(renderer, tmp_path):
     back = read_exr(path)
     for name in ("radiance", "depth", "normal", "part", "uv"):
         assert np.array_equal(getattr(back, name), getattr(layers, name)), name
+
+
+def test_a_glimpse_is_the_same_picture_and_shows_the_same_surfaces(renderer):
+    scene = eye_scene()
+    layers = renderer.render(scene, "eye", samples=2, seed=1)
+    glimpse = renderer.glimpse(scene, "eye", samples=2, seed=1)
+    np.testing.assert_array_equal(glimpse.radiance, layers.radiance)
+    # one that stored guides must not change what comes after it
+    np.testing.assert_array_equal(renderer.render(scene, "eye", samples=2, seed=1).radiance, layers.radiance)
+    # guides are averaged over their pixels: away from edges they are what is true at the middle
+    within = {
+        part: binary_erosion(layers.part == part) for part in (Part.SCLERA, Part.BACKGROUND, Part.PUPIL)
+    }
+    assert all(inner.any() for inner in within.values())
+    sclera = within[Part.SCLERA]
+    np.testing.assert_allclose(glimpse.normal[sclera], layers.normal[sclera], atol=0.2)
+    assert not glimpse.normal[within[Part.BACKGROUND]].any()
+    assert 0.25 < glimpse.albedo[sclera].mean() < 0.6
+    assert glimpse.albedo[within[Part.PUPIL]].mean() < 0.5 * glimpse.albedo[sclera].mean()
 
 
 def test_seed_changes_noise_and_nothing_else(renderer):

@@ -36,7 +36,7 @@ def _record(dataset, headset) -> dict:
 
 def test_keypoint_labels_do_not_change_with_materials_hair_or_sensor(dataset, monkeypatch):
     before = _record(dataset, dataset.headset)
-    monkeypatch.setattr(module, "draw_look", lambda rng, rig: draw_look(np.random.default_rng(77), rig))
+    monkeypatch.setattr(module, "_look", lambda seed, person, rig: draw_look(np.random.default_rng(77), rig))
     sensor = dataclasses.replace(dataset.headset.sensor, exposure=2.0, black_level=40, veiling_glare=0.2)
     after = _record(dataset, dataclasses.replace(dataset.headset, sensor=sensor))
     assert before["headset"].pop("sensor") != after["headset"].pop("sensor")
@@ -85,6 +85,18 @@ def test_donning_and_slip_make_the_pose(dataset):
     pose = np.array(record["headset"]["head_from_headset"])
     assert np.allclose(pose[:3, 3], rest.head_from_headset[:3, 3] + off[:3])
     assert np.allclose(pose[:3, :3], rotation_from_angles(*off[3:]))
+
+
+def test_a_doubled_slip_is_twice_as_far_and_nothing_else(dataset):
+    block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(0, 1))
+    loose = dataclasses.replace(dataset.spec, sensor=dataclasses.replace(dataset.spec.sensor, slip=2.0))
+    one, two = (label_rendered(s, dataset.rig, dataset.headset, block) for s in (dataset.spec, loose))
+    assert one.slip.any()
+    np.testing.assert_allclose(two.slip, 2 * one.slip)
+    np.testing.assert_array_equal(two.donning, one.donning)
+    np.testing.assert_allclose(
+        two.head_from_headset[:3, 3] - one.head_from_headset[:3, 3], one.slip[:3], atol=1e-12
+    )
 
 
 def test_what_the_rim_of_a_lens_covers_is_hidden(dataset):

@@ -1,6 +1,7 @@
 """The expression model on 100,000 faces: couplings, marginals, gaze, mixture, left and right."""
 
 from dataclasses import asdict, fields
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,7 +23,9 @@ from facegen.sampling.expression import (
 from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, EXCLUSIVE, MEETING, TONGUE_NEEDS_JAW
 from facegen.sampling.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
 from facegen.sampling.gaze import axes_from_weights
-from facegen.spec import Spec, parse_spec
+from facegen.spec import Spec, load_spec, parse_spec
+
+DATASETS = Path(__file__).resolve().parents[3] / "datasets"
 
 EYES = np.tile([[0.031, 0.0, 0.0], [-0.031, 0.0, 0.0]], (1000, 1, 1))
 """Eyeball centres of a thousand equal people; the model knows no more of the rig."""
@@ -191,6 +194,48 @@ def test_one_sided_faces_move_on_one_side():
     assert (np.minimum(left, right)[moving] < 0.5 * np.maximum(left, right)[moving]).mean() > 0.95
     blink = np.stack([column(faces, "eyeBlinkLeft"), column(faces, "eyeBlinkRight")])
     assert ((blink.max(axis=0) > 0.7) & (blink.min(axis=0) < 0.3)).mean() > 0.05
+
+
+UPPER = [name.startswith(("brow", "eye", "noseSneer", "cheekSquint")) for name in BLENDSHAPES]
+
+
+@pytest.mark.parametrize(("name", "resting"), [("upper_face", np.invert(UPPER)), ("lower_face", UPPER)])
+def test_faces_of_one_region_leave_the_other_at_rest(name, resting):
+    faces = drawn(spec(mixture={name: 1}), 10)
+    assert not faces.weights[:, resting].any()
+    assert (
+        faces.weights[:, np.invert(resting)].max(axis=0) > 0.95
+    ).all()  # and every shape of their own moves
+    ahead = (faces.gaze == (0.0, 0.0, 1.0)).all(axis=(1, 2))
+    assert ahead.all() if name == "lower_face" else not ahead.any()
+
+
+@pytest.mark.parametrize("subtle", [0.0, 1.0])
+def test_combined_faces_open_the_jaw_and_half_close_both_eyes(subtle):
+    faces = drawn(spec(mixture={"combined": 1}, subtle=subtle), 5)
+    assert (column(faces, "jawOpen") > 0.35).all()
+    for name in ("eyeBlinkLeft", "eyeBlinkRight"):
+        assert column(faces, name).min() >= 0.3
+        assert column(faces, name).max() <= 0.8
+        assert np.ptp(column(faces, name)) > 0.45
+    assert np.ptp(column(faces, "jawOpen")) > 0.6
+
+
+def test_no_spec_for_learning_shows_what_the_test_withholds():
+    specs = {
+        name: load_spec(DATASETS / f"{name}.toml") for name in ("headset", "headset-slip", "headset-test")
+    }
+    assert (
+        specs["headset"].expression.mixture.combined == specs["headset-slip"].expression.mixture.combined == 0
+    )
+    assert len({one.seed for one in specs.values()}) == 3
+    learned, tested = (asdict(specs[name].expression.mixture) for name in ("headset", "headset-test"))
+    special = ("combined", "one_sided")
+    assert {name: share for name, share in learned.items() if name not in special} == {
+        name: share for name, share in tested.items() if name not in special
+    }
+    whole = sum(tested.values())
+    assert [tested[name] / whole for name in special] == pytest.approx([0.25, 0.15])
 
 
 def test_a_component_does_not_depend_on_what_others_draw():

@@ -71,6 +71,26 @@ def test_neutral_faces_are_neutral_and_look_ahead(anny):
     np.testing.assert_array_equal(samples.gaze[samples.neutral], np.broadcast_to([0, 0, 1], (143, 2, 3)))
 
 
+def test_stills_in_sessions_start_each_with_neutral_faces_and_are_put_on_anew(anny):
+    still = {"sessions": 2, "neutral": 1, "faces": 3}
+    plan = plan_dataset(spec(still=still, people=125))
+    assert plan.samples == 1000
+    drawn = draw_samples(plan, anny, 0)
+    session = np.arange(1000) // 4
+    np.testing.assert_array_equal(drawn.session, session)
+    np.testing.assert_array_equal(drawn.person, session // 2)
+    np.testing.assert_array_equal(drawn.neutral, np.arange(1000) % 4 == 0)
+    for seat in (0, 1):  # one donning a session, others in the next one of the same person
+        assert (drawn.donning[4 * seat : 4 * seat + 4] == drawn.donning[4 * seat]).all()
+    assert not (drawn.donning[::8] == drawn.donning[4::8]).any()
+    np.testing.assert_array_equal(drawn.identity[::8], drawn.identity[4::8])
+    by_session = draw_samples(plan_dataset(spec(still=still, people=125, split="session")), anny, 0)
+    first, second = by_session.split[::8], by_session.split[4::8]
+    assert (first != second).any()
+    assert (by_session.split == np.repeat(by_session.split[::4], 4)).all()
+    assert (drawn.split[::8] == drawn.split[4::8]).all()
+
+
 def test_splits_have_their_shares_exactly_and_split_by_person():
     split = split_of(spec(people=2000), np.arange(2000))
     assert np.bincount(split).tolist() == [1400, 300, 300]

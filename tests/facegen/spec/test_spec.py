@@ -1,7 +1,10 @@
 """Specs: what is accepted, what is refused and how, and what the hash depends on."""
 
+import hashlib
+import json
 import tomllib
 from dataclasses import replace
+from functools import reduce
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +15,7 @@ from jsonschema import Draft202012Validator
 
 from facegen.errors import InputError
 from facegen.spec import (
+    LABEL_VERSION,
     draw,
     load_spec,
     parse_spec,
@@ -25,6 +29,17 @@ from facegen.spec.distribution import as_data, parse
 
 ROOT = Path(__file__).resolve().parents[3]
 SMALL = {"version": 1, "kind": "still", "seed": 1, "people": 3}
+YOUNG = {
+    "still.sessions": 2,
+    "landmarks.sliding_contour": True,
+    "sensor.slip": 2.0,
+    "render.subsurface": False,
+    "render.truth": False,
+    "expression.mixture.upper_face": 1.0,
+    "expression.mixture.lower_face": 1.0,
+    "expression.mixture.combined": 1.0,
+}
+"""Keys that came after the first datasets, and values other than their defaults."""
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "datasets").glob("*.toml")), ids=lambda p: p.stem)
@@ -100,6 +115,24 @@ def test_a_missing_key_and_a_missing_file_are_named(tmp_path):
     (tmp_path / "broken.toml").write_text("people = = 3")
     with pytest.raises(InputError, match="not valid TOML"):
         load_spec(tmp_path / "broken.toml")
+
+
+def test_young_keys_stay_out_of_the_hash_of_specs_that_do_not_use_them():
+    spec, assets = parse_spec(SMALL, where=""), {"rig": "a"}
+    # what the hash was before these keys: that of a table without them
+    old = spec_table(spec)
+    for path in YOUNG:
+        *outer, key = path.split(".")
+        del reduce(dict.__getitem__, outer, old)[key]
+    del old["render"]["samples"], old["render"]["headset"]
+    content = {"spec": old, "assets": assets, "label_version": LABEL_VERSION}
+    base = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+    assert spec_hash(spec, asset_sha256=assets) == base
+    for path, value in YOUNG.items():
+        used = spec_table(spec)
+        *outer, key = path.split(".")
+        reduce(dict.__getitem__, outer, used)[key] = value
+        assert spec_hash(parse_spec(used, where=""), asset_sha256=assets) != base, path
 
 
 def test_hash_depends_on_what_decides_samples_and_on_nothing_else():
