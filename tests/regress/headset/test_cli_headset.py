@@ -1,6 +1,7 @@
 """`regress headset train | evaluate | export` and `regress bench`, as a person runs them."""
 
 import json
+import subprocess
 import sys
 from pathlib import Path
 
@@ -14,7 +15,10 @@ from regress.headset.arrays import HeadsetArrays
 from regress.headset.evaluation import evaluate
 from regress.headset.predictor import load_headset_predictor
 from tests.regress.headset.drawn import SIDE
+from tests.regress.headset.takes import write_pictures
 from tests.regress.headset.tiny import NAMES, write_tiny_model
+
+EXAMPLE = Path(__file__).parents[3] / "docs" / "examples" / "headset_weights.py"
 
 
 @pytest.fixture(scope="module")
@@ -130,3 +134,25 @@ def test_bench_times_a_headset_model(run, model: Path, monkeypatch: pytest.Monke
     timings = {entry["name"]: entry["microseconds"] for entry in json.loads(out)}
     assert list(timings) == ["ONNX, one frame", "ONNX, calibrated", "ONNX, 8 frames"]
     assert all(0 < taken < 1e6 for taken in timings.values())
+
+
+@pytest.mark.parametrize("calibrated", [False, True])
+def test_the_example_says_what_the_network_says(run, model: Path, tmp_path: Path, calibrated: bool):
+    run("headset", "export", model, "--out", tmp_path)
+    stacks = {
+        name: np.random.default_rng(seed).integers(0, 256, (2, SIDE, SIDE), dtype=np.uint8)
+        for seed, name in enumerate(NAMES)
+    }
+    for name, (frame, neutral) in stacks.items():
+        for folder, picture in (("frame", frame), ("neutral", neutral)):
+            write_pictures(tmp_path / folder, picture[None], name=f"{name}.png")
+    folders = [tmp_path / "frame", *([tmp_path / "neutral"] if calibrated else [])]
+    command = [sys.executable, EXAMPLE, tmp_path / "headset.json", *folders]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    said = load_headset_predictor(model).predict(
+        {name: one[:1] for name, one in stacks.items()},
+        neutral={name: one[1] for name, one in stacks.items()} if calibrated else None,
+    )
+    printed = dict(line.split()[:2] for line in done.stdout.splitlines()[: len(BLENDSHAPES)])
+    assert [float(printed[name]) for name in BLENDSHAPES] == pytest.approx(said.weights[0].tolist(), abs=6e-4)
