@@ -11,15 +11,17 @@ MODEL   := models/$(NAME)
 RIG     := blender_assets/build/anny.json
 READY   := $(VENV)/.ready
 MADE    := $(OUT)/.made
+LEARNER := $(VENV)/.learner
+TESTED  := headset-test headset-slip
 
 .DEFAULT_GOAL := help
-.PHONY: help setup rig dataset train export test test-farm test-quick lint format clean distclean
+.PHONY: help setup rig dataset train export headset test test-farm test-headset test-quick lint format clean distclean
 .DELETE_ON_ERROR:
 
 help:  ## Say what the targets are
 	@echo "facegen: synthetic people with exact labels; regress: avatar blendshapes from 68 keypoints."
 	@echo
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-11s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 	@echo
 	@echo "  PYTHON=$(PYTHON)  SPEC=$(SPEC)  WORKERS=$(if $(WORKERS),$(WORKERS),one per processor)"
 
@@ -36,11 +38,19 @@ train: $(MODEL)/report.html $(MODEL)/exports/.made  ## Dataset, 31 networks, rep
 
 export: $(MODEL)/exports/.made  ## Weights for game engines, C programs and others
 
+headset: models/headset/report.html  ## Headset pictures, a network of cameras, its rival, report: over an hour on two cores
+	@echo "model:   models/headset"
+	@echo "report:  models/headset/report.html"
+
 test: $(READY) $(RIG)  ## All tests but those of farms
 	$(BIN)/python -m pytest --ignore tests/real_tools
 
 test-farm: $(READY) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
 	$(BIN)/python -m pytest tests/real_tools
+
+test-headset: models/headset-tiny/report.html  ## Headset networks: their tests with PyTorch, and make headset in small
+	$(BIN)/regress headset predict models/headset-tiny datasets/out/headset-tiny --out models/headset-tiny/predicted.csv
+	$(BIN)/python -m pytest tests/regress/headset
 
 test-quick: $(READY) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)
 	$(BIN)/python -m pytest --ignore tests/real_tools -m "not slow and not blender"
@@ -67,6 +77,12 @@ $(READY): pyproject.toml constraints.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
 	@touch $@
 
+# PyTorch trains headset networks; all else does without. PIP_EXTRA_INDEX_URL=https://download.pytorch.org/whl/cpu spares
+# Linux users 2 GB of libraries for GPUs.
+$(LEARNER): $(READY)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev,headset]'
+	@touch $@
+
 $(RIG): $(READY) $(wildcard facegen/rigs/*.py blender_assets/rigs/anny/*)
 	$(BIN)/facegen rig build anny
 	@touch $@
@@ -87,3 +103,23 @@ $(MODEL)/report.html: $(MODEL)/model.json
 $(MODEL)/exports/.made: $(MODEL)/model.json
 	$(BIN)/regress export $(MODEL) --out $(MODEL)/exports
 	@touch $@
+
+# headset networks: pictures, arrays of them, models; index.json is what a pack gets last
+datasets/out/%-arrays/index.json: datasets/%.toml $(RIG)
+	$(BIN)/facegen generate $< --out datasets/out/$* $(if $(WORKERS),--workers $(WORKERS))
+	$(BIN)/facegen pack datasets/out/$* --format arrays --out $(@D)
+	@touch $@
+
+models/headset/model.json: datasets/out/headset-arrays/index.json $(LEARNER)
+	$(BIN)/regress headset train $(<D) --out $(@D)
+
+models/headset-holistic/model.json: datasets/out/headset-arrays/index.json $(LEARNER)
+	$(BIN)/regress headset train $(<D) --out $(@D) --architecture holistic
+
+models/headset/report.html: models/headset/model.json models/headset-holistic/model.json $(TESTED:%=datasets/out/%-arrays/index.json)
+	$(BIN)/regress headset report models/headset --against models/headset-holistic $(TESTED:%=--data datasets/out/%-arrays) --out $@
+
+models/headset-tiny/report.html: datasets/out/headset-tiny-arrays/index.json $(LEARNER)
+	$(BIN)/regress headset train $(<D) --out $(@D) --epochs 2
+	$(BIN)/regress headset train $(<D) --out models/headset-tiny-holistic --epochs 2 --architecture holistic
+	$(BIN)/regress headset report $(@D) --against models/headset-tiny-holistic --data $(<D) --out $@
