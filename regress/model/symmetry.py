@@ -16,13 +16,16 @@ def symmetrised(model: Model) -> Model:
 
     Each network gets twice its hidden units: its own, and the same looking at the mirror image, whose features
     are those of the face in another order. The few edges without a mirror partner get one. It is calibrated,
-    saved and exported like any other model, and costs twice the time.
+    saved and exported like any other model, and costs twice the time. A model that its recipe has made
+    symmetric comes back as it is.
 
     Raises
     ------
     InputError
         Where a network gives a shape and not the one of the other side.
     """
+    if model.record.get("recipe", {}).get("symmetric"):
+        return model
     features = model.features
     lonely = features.edges[mirrored_edges(features.edges) < 0]
     partners = np.sort(np.asarray(MIRRORED_LANDMARKS)[lonely], axis=1)

@@ -23,6 +23,8 @@ class Recipe:
         ``"ridge_knots"`` or ``"nguyen_widrow"``.
     mirror
         Train on every face and its mirror image.
+    symmetric
+        Average every answer with the mirrored answer to the mirrored face (``regress.model.symmetrised``).
     steps, patience, improvement
         Of :class:`regress.levenberg_marquardt.Settings`.
     strengths
@@ -51,6 +53,7 @@ class Recipe:
     hidden: int = 20
     start: str = "ridge_knots"
     mirror: bool = True
+    symmetric: bool = False
     steps: int = 30
     patience: int = 6
     improvement: float = 1e-3
@@ -67,8 +70,9 @@ class Recipe:
 RECIPES: dict[str, Recipe] = {
     "default": Recipe(
         name="default",
-        noise=DetectorNoise(bias=0.5, jitter=0.0005, jitter_most=0.02, clean=0.45, unbiased=0.15, copies=2),
-        calibrated_noise=DetectorNoise(bias=1.0, jitter=0.0005, jitter_most=0.02, unbiased=0.2, copies=2),
+        symmetric=True,
+        noise=DetectorNoise(bias=0.5, jitter=0.002, jitter_most=0.03, clean=0.4, unbiased=0.25),
+        calibrated_noise=DetectorNoise(bias=1.0, jitter=0.002, jitter_most=0.03, clean=0.35, unbiased=0.3),
     ),
     "exact": Recipe(name="exact"),
     "paper": Recipe(
@@ -85,5 +89,5 @@ RECIPES: dict[str, Recipe] = {
     ),
 }
 """``paper`` follows the paper. ``exact`` adds mirrored faces, starts from ridge regression and has a second
-set of networks that compare a frame with the person's neutral one. ``default`` adds detectors' noise to that:
-real landmarks are not where the dataset's are."""
+set of networks that compare a frame with the person's neutral one. ``default`` adds detectors' noise to that, as
+real landmarks are not where the dataset's are, and answers a mirrored face with the mirrored answer."""

@@ -4,7 +4,7 @@ import dataclasses
 from dataclasses import dataclass
 
 from regress.features import Features, depths_of, load_reference_shape, mean_shape
-from regress.model import Calibrated, Model
+from regress.model import Calibrated, Model, symmetrised
 from regress.networks import FoldedNetworks, fold
 from regress.targets import NETWORKS
 from regress.training.dataset import KeypointDataset
@@ -54,6 +54,8 @@ def train(
         if compared is None
         else Calibrated(normalisation=compared.prepared.normalisation, networks=compared.networks),
     )
+    if recipe.symmetric:
+        model = symmetrised(model)
     fits = {"alone": alone.fit} if compared is None else {"alone": alone.fit, "calibrated": compared.fit}
     rows = len(alone.prepared.splits["train"].inputs)
     record = training_record(model, dataset, recipe, seed=seed, fits=fits, training_rows=rows)

@@ -9,6 +9,8 @@ from facegen.conventions import MIRRORED_BLENDSHAPES, MIRRORED_LANDMARKS, mirror
 from regress.errors import InputError
 from regress.model import FastPredictor, load_model, save_model, symmetrised
 from regress.targets import Network
+from regress.training import train
+from tests.regress.conftest import QUICK
 from tests.regress.drawn import drawn_faces
 
 FACES = drawn_faces(np.random.default_rng(21), 40)
@@ -58,6 +60,19 @@ def test_a_symmetric_model_mirrors_exactly_and_is_a_model_like_any_other(quick_m
     save_model(symmetric, tmp_path / "model")
     np.testing.assert_array_equal(load_model(tmp_path / "model").predict(FACES), weights)
     np.testing.assert_allclose(symmetrised(symmetric).predict(FACES), weights, atol=1e-9)
+
+
+def test_a_recipe_can_train_it(dataset):
+    quick = dataclasses.replace(QUICK, steps=1, search_steps=1, calibrated=False)
+    straight, symmetric = (
+        train(dataset, dataclasses.replace(quick, symmetric=value)) for value in (False, True)
+    )
+    weights = symmetric.predict(FACES)
+    np.testing.assert_array_equal(weights, symmetrised(straight).predict(FACES))
+    np.testing.assert_allclose(symmetric.predict(mirror_image(FACES)), mirrored_weights(weights), atol=1e-9)
+    assert symmetrised(symmetric) is symmetric
+    scored = [model.record["summary"]["network"]["mean_r2"] for model in (straight, symmetric)]
+    assert scored[0] != scored[1]
 
 
 def test_a_network_of_one_side_cannot_be_made_symmetric(quick_model):
