@@ -1,12 +1,14 @@
 """What each part of a recipe is worth: test R2 of recipes that differ by one thing, at several levels of noise.
 
-    python benchmarks/bench_recipes.py DATASET [--faces 20000] [--only "NAME;NAME"] [--json]
+    python benchmarks/bench_recipes.py DATASET [--faces 20000] [--only "NAME;NAME"] [--bound 0.1 1] [--json]
 
 DATASET is a folder that `facegen generate` made. Networks train on its detected points; people of the test split
 are judged on exact points with normal noise on every coordinate, in per cent of the distance between the outer
 eye corners, and with a detector's bias (regress.training.record.DETECTOR). With a neutral frame, that frame has noise
 of the same size. `below ridge` counts shapes whose R2 is more than 0.01 below that of ridge regression on the same
-features and the same training rows, strength chosen per shape. docs/training.md has a run's table.
+features and the same training rows, strength chosen per shape. --bound prints what one large network reaches that
+learns one level of noise alone, from aligned coordinates of the frame and of the neutral frame: it need not be small,
+know other noise, or be shipped. docs/training.md has a run's table.
 """
 
 import argparse
@@ -18,19 +20,29 @@ from dataclasses import replace
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # the fit has threads of its own
 
 import numpy as np
+from sklearn.neural_network import MLPRegressor
 
+from regress.features import align_affine, mean_shape
 from regress.model import Model
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 from regress.training import RECIPES, Recipe, read_dataset, train
 from regress.training.baseline import fit_baseline
 from regress.training.dataset import KeypointDataset
-from regress.training.noise import displace
+from regress.training.noise import DetectorNoise, displace
 from regress.training.preparation import OUTPUT_COLUMNS, Faces, as_detected, faces_of
 from regress.training.record import DETECTOR
 from regress.training.scores import score, score_faces
 
 NOISE_PERCENT = (0.0, 0.1, 0.5, 1.0, 2.0)
 PAPER, EXACT, DEFAULT = (RECIPES[name] for name in ("paper", "exact", "default"))
+LARGE = (256, 256)
+"""Hidden units of the bound."""
+
+
+def _like(noise: DetectorNoise, jitter_most: float) -> DetectorNoise:
+    return replace(noise, jitter=0.0005, jitter_most=jitter_most, clean=noise.clean + 0.1, unbiased=0.2)
+
+
 VARIANTS: dict[str, Recipe] = {
     "paper": PAPER,
     "paper, strengths by evidence": replace(PAPER, strengths="evidence"),
@@ -38,16 +50,22 @@ VARIANTS: dict[str, Recipe] = {
     "exact": EXACT,
     "exact, no mirrored faces": replace(EXACT, mirror=False),
     "exact, 40 hidden units": replace(EXACT, hidden=40),
+    "exact, turn left as it is": replace(EXACT, undo_turn=False),
     "default": DEFAULT,
+    "default, turn left as it is": replace(DEFAULT, undo_turn=False),
+    "default, not symmetric": replace(DEFAULT, symmetric=False),
+    "default, less jitter": replace(
+        DEFAULT, noise=_like(DEFAULT.noise, 0.02), calibrated_noise=_like(DEFAULT.calibrated_noise, 0.02)
+    ),
     "default, random starts": replace(DEFAULT, start="nguyen_widrow"),
     "default, 40 hidden units": replace(DEFAULT, hidden=40),
     "default, strengths by evidence": replace(DEFAULT, strengths="evidence"),
 }
 
 
-def noisy(faces: Faces, percent: float) -> Faces:
+def noisy(faces: Faces, percent: float, seed: int = 11) -> Faces:
     """Faces, and their neutral frames, with noise of so many per cent of the outer-eye distance."""
-    rng = np.random.default_rng(11)
+    rng = np.random.default_rng(seed)
 
     def moved(points: np.ndarray) -> np.ndarray:
         return displace(points, percent / 100 * rng.standard_normal(points.shape))
@@ -86,11 +104,33 @@ def figures(
     return rows
 
 
+def bound(exact: KeypointDataset, percent: float) -> tuple[float, float]:
+    """Mean test R2 of a large network at one level of noise, over all shapes and over the visible ones."""
+    shape = mean_shape(exact.points[exact.rows("train")])
+    sets = []
+    for seed, split in enumerate(("train", "test")):
+        faces = noisy(faces_of(exact, split, calibrated=True), percent, 11 if split == "test" else seed)
+        frame, neutral = (
+            align_affine(points, shape).reshape(len(points), -1) for points in (faces.points, faces.neutral)
+        )
+        sets.append((np.hstack([frame, neutral, frame - neutral]), faces.weights[:, OUTPUT_COLUMNS]))
+    (inputs, targets), (given, true) = sets
+    mean, spread, scale = inputs.mean(axis=0), inputs.std(axis=0), targets.std(axis=0)
+    network = MLPRegressor(
+        LARGE, early_stopping=True, n_iter_no_change=5, learning_rate_init=5e-4, alpha=1e-2, random_state=0
+    )
+    network.fit(((inputs - mean) / spread).astype(np.float32), (targets / scale).astype(np.float32))
+    found = score(np.clip(network.predict((given - mean) / spread) * scale, 0, 1), true)
+    r2 = {name: row.r2 for name, row in zip(OUTPUTS, found, strict=True) if row.r2 is not None}
+    return float(np.mean(list(r2.values()))), float(np.mean([r2[name] for name in VISIBLE_SHAPES]))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("dataset")
     parser.add_argument("--faces", type=int, default=20000, help="of all splits together")
     parser.add_argument("--only", default=";".join(VARIANTS), help="variants, joined by semicolons")
+    parser.add_argument("--bound", type=float, nargs="*", default=[], help="levels of noise, per cent")
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
     trained = read_dataset(arguments.dataset)
@@ -100,7 +140,12 @@ def main() -> None:
     kept = np.sort(np.concatenate([numbers[: round(share * len(numbers))] for numbers in rows.values()]))
     trained, exact = trained.take(kept), exact.take(kept)
     found = {}
-    for name in map(str.strip, arguments.only.split(";")):
+    for percent in arguments.bound:
+        everywhere, visible = bound(exact, percent)
+        found[f"bound, {percent:g} %"] = {"r2": everywhere, "r2_visible": visible}
+        if not arguments.json:
+            print(f"bound at {percent:g} %: {everywhere:.3f}/{visible:.3f}", flush=True)
+    for name in filter(None, map(str.strip, arguments.only.split(";"))):
         recipe = VARIANTS[name]
         began = time.process_time()
         model = train(trained, recipe)
