@@ -51,7 +51,7 @@ class Performance:
 
 def estimate_footage(
     predictor: HeadsetPredictor, footage: Footage, neutrals: Sequence[Neutral] = ()
-) -> tuple[Estimates, tuple[int, ...]]:
+) -> tuple[Estimates, np.ndarray]:
     """Run the network on footage, calibrated as long as the headset stays in the seat of the neutral pictures.
 
     Parameters
@@ -62,12 +62,12 @@ def estimate_footage(
     Returns
     -------
     estimates
-    reseated
-        Rows from which frames are not calibrated, until the next neutral pictures: one at most for each.
+    calibrated : (n,) bool
+        Frames that were compared with neutral pictures: of those that count there, up to a change of seat.
     """
     present = footage.present
     if not neutrals:
-        return predictor.predict(footage.pictures, present=present), ()
+        return predictor.predict(footage.pictures, present=present), np.zeros(len(present), dtype=bool)
     rows = np.arange(len(present))
     starts = [0, *(neutral.row for neutral in neutrals[1:])]
     which = np.searchsorted(starts, rows, side="right") - 1
@@ -76,17 +76,17 @@ def estimate_footage(
         for name in neutrals[0].pictures
     }
     estimates = predictor.predict(footage.pictures, present=present, neutral=pictures)
-    calibrated, reseated = np.ones(len(rows), dtype=bool), []
+    calibrated = np.ones(len(rows), dtype=bool)
     for number in range(len(neutrals)):
         span = rows[which == number]
         change = seat_change(estimates.same_seat[span], present[span].any(axis=1), fps=_fps(footage))
         if change is not None:
             calibrated[span[change:]] = False
-            reseated.append(int(span[change]))
-    if calibrated.all():
-        return estimates, ()
-    settled = predictor.predict(footage.pictures, present=present, neutral=pictures, calibrated=calibrated)
-    return settled, tuple(reseated)
+    if not calibrated.all():
+        estimates = predictor.predict(
+            footage.pictures, present=present, neutral=pictures, calibrated=calibrated
+        )
+    return estimates, calibrated
 
 
 def perform(
@@ -118,7 +118,7 @@ def perform(
         raise InputError(
             f"{footage.source} does not say when its frames were taken; One-Euro smoothing needs it"
         )
-    estimates, reseated = estimate_footage(predictor, footage, neutrals)
+    estimates, calibrated = estimate_footage(predictor, footage, neutrals)
     seen = footage.present.any(axis=1)
     weights = np.where(seen[:, None], np.clip(estimates.weights.astype(np.float64), 0, 1), np.nan)
     gaze = np.where(seen[:, None], estimates.gaze.astype(np.float64).reshape(-1, 4), np.nan)
@@ -127,12 +127,17 @@ def perform(
         weights = adjust(weights, dict.fromkeys(AMPLIFIED, ShapeAdjustment(gain=amplify_eyes)))
     trust = None
     if predictor.model.scores:
-        trust = confidence(predictor.model, estimates.deviation, footage.present)
+        trust = confidence(predictor.model, estimates.deviation, footage.present, calibrated)
     if output.mirror:
         gaze = gaze[:, [2, 3, 0, 1]] * [-1, 1, -1, 1]
         trust = None if trust is None else mirror(trust)
+    lost = np.flatnonzero(np.diff(calibrated, prepend=True) & ~calibrated) if neutrals else ()
     return Performance(
-        names=output.names, weights=output.finish(weights), gaze=gaze, confidence=trust, reseated=reseated
+        names=output.names,
+        weights=output.finish(weights),
+        gaze=gaze,
+        confidence=trust,
+        reseated=tuple(map(int, lost)),
     )
 
 

@@ -1,5 +1,6 @@
 """From footage to weights: calibration, seats, neutral frames, confidence, and what people ask for."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
+from regress.headset.confidence import confidence
 from regress.headset.footage import Footage, line_up
 from regress.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
 from regress.headset.performance import AMPLIFIED, perform
@@ -17,7 +19,7 @@ from regress.headset.seats import seat_change
 from regress.predict import Output
 from regress.smoothing import OneEuro
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
-from tests.regress.headset.tiny import BLIND, NAMES, OWNER, PLAIN, STD, write_tiny_model
+from tests.regress.headset.tiny import NAMES, OWNER, R2, RMSE, write_tiny_model
 
 
 @pytest.fixture(scope="module")
@@ -40,11 +42,47 @@ def test_each_camera_drives_its_shapes_and_an_absent_one_lowers_confidence(predi
         assert made.weights[:, columns] == pytest.approx(
             np.array(values)[:, None] * np.ones(sum(columns)), abs=0.01
         )
-        # what the deviation says, and no more than the best other camera explains alone: 0.8 its own shapes, 0.1 others
-        trust = 0.1 if name == "right_eye" else min(0.8, 1 - (PLAIN / STD) ** 2)
-        expected = min(trust, 1 - (BLIND / STD) ** 2) if name == "right_eye" else trust
-        assert made.confidence[:, columns] == pytest.approx(max(expected, 0.0), abs=1e-6)
+        # the usual share, which a low deviation does not raise and a high one lowers to nothing
+        trust = 0.0 if name == "right_eye" else R2
+        assert made.confidence[:, columns] == pytest.approx(trust)
     assert made.gaze[:, 0] == pytest.approx([0.02, 0.04], abs=0.002)
+
+
+@given(
+    factor=st.floats(0.1, 5), there=st.lists(st.booleans(), min_size=3, max_size=3), calibrated=st.booleans()
+)
+@settings(max_examples=60, deadline=None)
+def test_confidence_is_the_share_explained_and_falls_with_deviation_and_cameras(
+    predictor: HeadsetPredictor, factor: float, there: list[bool], calibrated: bool
+):
+    deviation = np.full((1, 52), factor * RMSE)
+    found = confidence(predictor.model, deviation, np.array([there]), np.array([calibrated]))[0]
+    usual = np.clip(1 - (1 - R2) * max(factor**2, 1), 0, 1)
+    for column, shape in enumerate(BLENDSHAPES):
+        alone = [
+            0.8 if OWNER[shape] == name else 0.1 for name, here in zip(NAMES, there, strict=True) if here
+        ]
+        limit = 1.0 if all(there) else max(alone, default=0.0)
+        assert found[column] == pytest.approx(min(usual, limit))
+
+
+def test_calibrated_frames_have_their_own_scores(predictor: HeadsetPredictor):
+    scores = {"cameras": {}, "shapes": {name: {} for name in BLENDSHAPES}}
+    for name in BLENDSHAPES:
+        scores["shapes"][name] = {
+            "uncalibrated": {"r2": 0.5, "mae": 0.1, "rmse": 0.2},
+            "same_seat": {"r2": 0.8, "mae": 0.1, "rmse": 0.1},
+        }
+    scores["shapes"]["tongueOut"]["uncalibrated"] = {"r2": None, "mae": 0.0, "rmse": 0.0}
+    model = dataclasses.replace(predictor.model, scores=scores)
+    found = confidence(model, np.full((2, 52), 0.1), np.ones((2, 3), dtype=bool), np.array([False, True]))
+    assert found[0, :-1] == pytest.approx(0.5)
+    assert found[1] == pytest.approx(0.8)
+    assert found[0, -1] == 0
+    with pytest.raises(InputError, match="has no scores"):
+        confidence(
+            dataclasses.replace(model, scores={}), np.ones((1, 52)), np.ones((1, 3)), np.zeros(1, dtype=bool)
+        )
 
 
 def test_frames_without_pictures_have_no_weights_and_no_confidence(predictor: HeadsetPredictor):
@@ -53,7 +91,7 @@ def test_frames_without_pictures_have_no_weights_and_no_confidence(predictor: He
     assert np.isnan(made.weights).all(axis=1).tolist() == [False, False, False, True, False]
     assert np.isnan(made.gaze).any(axis=1).tolist() == [False, False, False, True, False]
     assert not made.confidence[3].any()
-    assert (made.confidence[[0, 1, 2, 4]] > 0.8).all()
+    assert made.confidence[[0, 1, 2, 4]] == pytest.approx(R2)
 
 
 def test_calibration_is_the_difference_from_the_neutral_frame(predictor: HeadsetPredictor):

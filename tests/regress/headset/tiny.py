@@ -17,8 +17,8 @@ OWNER = {shape: next(name for name in NAMES if shape in part_of(name)) for shape
 PLAIN, BLIND = 0.1, 0.4
 """Predicted deviation of a shape whose camera is there, and is not."""
 
-STD = 0.25
-"""Of every shape in the test split that the scores speak of."""
+R2, RMSE = 0.75, 0.12
+"""Of every shape in the test split that the scores speak of; a deviation of PLAIN is below the usual."""
 
 
 def tiny_graph(width: int, height: int) -> bytes:
@@ -115,7 +115,7 @@ def write_tiny_model(folder: Path, *, width: int = 16, height: int = 12, **chang
         "calibration": "optional",
         "scores": {
             "shapes": {
-                shape: {"uncalibrated": {"r2": 0.75, "mae": 0.1, "rmse": STD / 2}} for shape in BLENDSHAPES
+                shape: {"uncalibrated": {"r2": R2, "mae": 0.1, "rmse": RMSE}} for shape in BLENDSHAPES
             },
             "cameras": alone,
         },
