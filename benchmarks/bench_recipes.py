@@ -1,6 +1,6 @@
 """What each part of a recipe is worth: test R2 of recipes that differ by one thing, at several levels of noise.
 
-    python benchmarks/bench_recipes.py DATASET [--faces 20000] [--only "NAME;NAME"] [--bound 0.1 1] [--json]
+    python benchmarks/bench_recipes.py DATASET [--faces 20000] [--only "NAME;NAME"] [--bound 0.1 1] [--features]
 
 DATASET is a folder that `facegen generate` made. Networks train on its detected points; people of the test split
 are judged on exact points with normal noise on every coordinate, in per cent of the distance between the outer
@@ -8,13 +8,16 @@ eye corners, and with a detector's bias (regress.training.record.DETECTOR). With
 of the same size. `below ridge` counts shapes whose R2 is more than 0.01 below that of ridge regression on the same
 features and the same training rows, strength chosen per shape. --bound prints what one large network reaches that
 learns one level of noise alone, from aligned coordinates of the frame and of the neutral frame: it need not be small,
-know other noise, or be shipped. docs/training.md has a run's table.
+know other noise, or be shipped. --features prints what ridge regression reaches from distances, from aligned
+coordinates and from both, with a neutral frame, on exact rows and on the default recipe's. docs/training.md has a run's
+tables.
 """
 
 import argparse
 import json
 import os
 import time
+from collections.abc import Callable
 from dataclasses import replace
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # the fit has threads of its own
@@ -22,8 +25,17 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")  # the fit has threads of its own
 import numpy as np
 from sklearn.neural_network import MLPRegressor
 
-from regress.features import align_affine, mean_shape
+from regress.features import (
+    Features,
+    align_affine,
+    depths_of,
+    extract,
+    load_reference_shape,
+    mean_shape,
+    undo_turn,
+)
 from regress.model import Model
+from regress.networks import fit_ridge
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 from regress.training import RECIPES, Recipe, read_dataset, train
 from regress.training.baseline import fit_baseline
@@ -125,12 +137,67 @@ def bound(exact: KeypointDataset, percent: float) -> tuple[float, float]:
     return float(np.mean(list(r2.values()))), float(np.mean([r2[name] for name in VISIBLE_SHAPES]))
 
 
+def feature_kinds(trained: KeypointDataset, exact: KeypointDataset) -> dict[str, list[float]]:
+    """Mean test R2 of ridge regression at each level of noise, by kind of features and rows."""
+    reference = load_reference_shape()
+    features = Features(
+        alignment="affine",
+        mean_shape=mean_shape(trained.points[trained.rows("train")]),
+        edges=reference.edges,
+        reference_name=reference.name,
+        reference_sha256=reference.sha256,
+        depth=depths_of(reference),
+    )
+
+    def coordinates(points: np.ndarray) -> np.ndarray:
+        undone = undo_turn(points, features.mean_shape, features.depth)
+        return align_affine(undone, features.mean_shape).reshape(len(points), -1)
+
+    kinds: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+        "distances": lambda points: extract(features, points),
+        "coordinates": coordinates,
+        "both": lambda points: np.hstack([extract(features, points), coordinates(points)]),
+    }
+    found = {}
+    for rows, noise in (("exact", None), ("default", DEFAULT.calibrated_noise)):
+        given = {name: faces_of(trained, name, calibrated=True) for name in ("train", "validation")}
+        if noise is not None:
+            given = {
+                name: as_detected(faces, noise, np.random.default_rng(number))
+                for number, (name, faces) in enumerate(given.items())
+            }
+        for kind, measure in kinds.items():
+            inputs = {name: measure(faces.points) - measure(faces.neutral) for name, faces in given.items()}
+            mean, spread = inputs["train"].mean(axis=0), inputs["train"].std(axis=0)
+            standard = {name: (values - mean) / np.maximum(spread, 1e-12) for name, values in inputs.items()}
+            _, axes = np.linalg.eigh(standard["train"].T @ standard["train"])
+            targets = {name: faces.weights[:, OUTPUT_COLUMNS] for name, faces in given.items()}
+            centre, scale = targets["train"].mean(axis=0), targets["train"].std(axis=0)
+            ridge = fit_ridge(
+                standard["train"] @ axes,
+                (targets["train"] - centre) / scale,
+                standard["validation"] @ axes,
+                (targets["validation"] - centre) / scale,
+            )
+            r2 = []
+            for percent in NOISE_PERCENT:
+                shown = noisy(faces_of(exact, "test", calibrated=True), percent)
+                asked = (measure(shown.points) - measure(shown.neutral) - mean) / np.maximum(spread, 1e-12)
+                said = np.clip(asked @ axes @ ridge.coefficients * scale + centre, 0, 1)
+                r2.append(float(np.mean([row.r2 for row in score(said, shown.weights[:, OUTPUT_COLUMNS])])))
+            found[f"ridge on {kind}, {rows} rows"] = r2
+    return found
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("dataset")
     parser.add_argument("--faces", type=int, default=20000, help="of all splits together")
     parser.add_argument("--only", default=";".join(VARIANTS), help="variants, joined by semicolons")
     parser.add_argument("--bound", type=float, nargs="*", default=[], help="levels of noise, per cent")
+    parser.add_argument(
+        "--features", action="store_true", help="compare kinds of features by ridge regression"
+    )
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
     trained = read_dataset(arguments.dataset)
@@ -140,6 +207,13 @@ def main() -> None:
     kept = np.sort(np.concatenate([numbers[: round(share * len(numbers))] for numbers in rows.values()]))
     trained, exact = trained.take(kept), exact.take(kept)
     found = {}
+    if arguments.features:
+        for name, r2 in feature_kinds(trained, exact).items():
+            found[name] = {
+                f"{percent:g} %": {"r2": value} for percent, value in zip(NOISE_PERCENT, r2, strict=True)
+            }
+            if not arguments.json:
+                print(f"{name:<48}", *(f"{value:.3f}" for value in r2), flush=True)
     for percent in arguments.bound:
         everywhere, visible = bound(exact, percent)
         found[f"bound, {percent:g} %"] = {"r2": everywhere, "r2_visible": visible}
