@@ -5,7 +5,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from regress.errors import InputError
@@ -71,6 +71,8 @@ def test_takes_of_different_recordings_are_matched_from_the_start():
     )
 
 
+@example(start=5, length=FROZEN_FRAMES, seed=0)
+@example(start=5, length=FROZEN_FRAMES + 1, seed=0)
 @given(start=st.integers(1, 20), length=st.integers(1, 25), seed=st.integers(0, 99))
 @settings(max_examples=40, deadline=None)
 def test_a_camera_is_frozen_where_it_repeats_for_long_while_others_move(start: int, length: int, seed: int):
