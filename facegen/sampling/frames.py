@@ -1,5 +1,6 @@
 """What differs from frame to frame, for each kind of dataset: faces, gaze, pose, camera, pupils, slip."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,7 @@ from facegen.geometry import rotation_from_angles
 from facegen.randomness import stream
 from facegen.rigs import Rig, eye_centers
 from facegen.sampling.cameras import draw_head_rotation, draw_keypoint_camera
-from facegen.sampling.detector import draw_dropped
+from facegen.sampling.detector import RUN, draw_dropped
 from facegen.sampling.expression import COMPONENT_NAMES as STILL_COMPONENTS
 from facegen.sampling.expression import draw_faces
 from facegen.sampling.gaze import AHEAD, axes_from_weights
@@ -65,22 +66,17 @@ class Frames:
 
 
 def draw_single_frames(plan: Plan, rig: Rig, block: int, places: Places, identity: np.ndarray) -> Frames:
-    """Frames of a block that are drawn each by itself, but for the weights of a recording."""
+    """Frames of a block that are drawn each by itself."""
     spec = plan.spec
 
     def rng(component: str) -> np.random.Generator:
         return stream(spec.seed, component, block)
 
-    if plan.recording is None:
-        faces = draw_faces(spec, rng, eye_centers(rig, identity))
-        weights, gaze, component = faces.weights, faces.gaze, faces.component
-        weights[places.neutral] = 0.0
-        gaze[places.neutral] = AHEAD
-        component[places.neutral] = COMPONENT_NAMES.index("neutral")
-    else:
-        weights = plan.recording[places.frame % plan.frames]
-        gaze = axes_from_weights(weights)
-        component = np.full(BLOCK, COMPONENT_NAMES.index("recording"), np.int8)
+    faces = draw_faces(spec, rng, eye_centers(rig, identity))
+    weights, gaze, component = faces.weights, faces.gaze, faces.component
+    weights[places.neutral] = 0.0
+    gaze[places.neutral] = AHEAD
+    component[places.neutral] = COMPONENT_NAMES.index("neutral")
     intrinsics, position = draw_keypoint_camera(spec, rng("camera"), BLOCK)
     return Frames(
         weights=weights,
@@ -92,6 +88,31 @@ def draw_single_frames(plan: Plan, rig: Rig, block: int, places: Places, identit
         pupil_radius_m=draw(spec.eyes.pupil_radius_mm, rng("pupil"), BLOCK) * 1e-3,
         slip=rng("slip").standard_normal((BLOCK, FIT_AXES)),
         dropped=draw_dropped(rng("detector dropped"), BLOCK, share=spec.landmarks.dropped, run=1.0),
+    )
+
+
+def draw_played_frames(plan: Plan, block: int, places: Places) -> Frames:
+    """Frames of a block that play a recording; its weights apart, all is drawn once for each person's clip."""
+    spec = plan.spec
+    people, of_person = np.unique(places.person, return_inverse=True)
+
+    def of_each(component: str, draw_one: Callable[[np.random.Generator], np.ndarray]) -> np.ndarray:
+        drawn = [draw_one(stream(spec.seed, f"played {component}", int(person))) for person in people]
+        return np.concatenate(drawn)[of_person]
+
+    camera = of_each("camera", lambda rng: np.concatenate(draw_keypoint_camera(spec, rng, 1), axis=1))
+    weights = plan.recording[places.frame]
+    dropped = stream(spec.seed, "detector dropped", block)
+    return Frames(
+        weights=weights,
+        gaze=axes_from_weights(weights),
+        component=np.full(BLOCK, COMPONENT_NAMES.index("recording"), np.int8),
+        rotation=of_each("head", lambda rng: draw_head_rotation(spec, rng, 1)),
+        position_m=camera[:, 4:],
+        intrinsics=camera[:, :4],
+        pupil_radius_m=of_each("pupil", lambda rng: draw(spec.eyes.pupil_radius_mm, rng, 1)) * 1e-3,
+        slip=of_each("slip", lambda rng: rng.standard_normal((1, FIT_AXES))),
+        dropped=draw_dropped(dropped, BLOCK, share=spec.landmarks.dropped, run=RUN),
     )
 
 

@@ -9,7 +9,7 @@ from facegen.randomness import stream
 from facegen.rigs import Rig
 from facegen.sampling.cameras import camera_from_head
 from facegen.sampling.detector import draw_detector_noise
-from facegen.sampling.frames import FIT_AXES, draw_clip_frames, draw_single_frames
+from facegen.sampling.frames import FIT_AXES, draw_clip_frames, draw_played_frames, draw_single_frames
 from facegen.sampling.people import people_of, split_of
 from facegen.sampling.plan import Plan, block_places
 
@@ -89,6 +89,8 @@ def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:
     people = people_of(spec, rig, places.person)
     if plan.script is not None:
         frames = draw_clip_frames(plan, rig, places, people.identity)
+    elif plan.recording is not None:
+        frames = draw_played_frames(plan, block, places)
     else:
         frames = draw_single_frames(plan, rig, block, places, people.identity)
     noise = draw_detector_noise(

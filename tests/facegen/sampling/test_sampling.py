@@ -5,6 +5,7 @@ from dataclasses import fields
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLOCK
+from facegen.formats import live_link_csv
 from facegen.randomness import stream
 from facegen.rigs import eye_centers
 from facegen.sampling import COMPONENT_NAMES, draw_samples, plan_dataset
@@ -60,6 +61,27 @@ def test_one_person_across_the_edge_of_two_blocks_stays_one_person(anny):
     np.testing.assert_array_equal(first.identity[-1], second.identity[0])
     np.testing.assert_array_equal(first.donning[-1], second.donning[0])
     assert first.split[-1] == second.split[0]
+
+
+def test_a_person_plays_a_recording_in_one_pose_before_one_camera(anny, tmp_path):
+    weights = np.random.default_rng(3).random((700, len(BLENDSHAPES)))
+    (tmp_path / "take.csv").write_text(live_link_csv(weights, np.arange(700) / 30))
+    playback = {"recording": str(tmp_path / "take.csv"), "fps": 30}
+    played = parse_spec(
+        {"version": 1, "kind": "playback", "seed": 7, "people": 3, "playback": playback}, where="test"
+    )
+    blocks = [
+        draw_samples(plan_dataset(played), anny, block) for block in range(3)
+    ]  # people cross their edges
+    person, frame = (np.concatenate([getattr(b, name) for b in blocks]) for name in ("person", "frame"))
+    np.testing.assert_allclose(
+        np.concatenate([b.weights for b in blocks])[:2100], weights[frame[:2100]], atol=1e-6
+    )
+    for name in ("camera_from_head", "intrinsics", "pupil_radius_m", "slip"):
+        values = np.concatenate([getattr(b, name) for b in blocks]).reshape(len(person), -1)
+        of_people = [np.unique(values[person == number], axis=0) for number in range(3)]
+        assert [len(rows) for rows in of_people] == [1, 1, 1]
+        assert name == "intrinsics" or len(np.unique(np.concatenate(of_people), axis=0)) == 3
 
 
 def test_neutral_faces_are_neutral_and_look_ahead(anny):
