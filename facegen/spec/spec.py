@@ -34,7 +34,7 @@ class Still:
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
 class Playback:
-    """``kind = "playback"``: everyone plays the same recording (a Live Link Face CSV), in one pose before one camera."""
+    """``kind = "playback"``: everyone plays one recording (a Live Link Face CSV), in one pose before one camera."""
 
     recording: str
     """Path of the CSV, relative to the spec."""
