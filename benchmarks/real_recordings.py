@@ -219,6 +219,8 @@ def tell(figures: dict) -> None:
     for row in figures["clips"]:
         low, high = row["interval"]
         print(f"| {row['clip']} | {row['shape']} | {row['r']:.2f} | {low:.2f} to {high:.2f} |")
+    if "still" not in figures:
+        return
     print(f"\n## c. Still faces of the ICT rig\n\nmedian r, visible: {median_r(figures['still']):.2f}")
     found = sorted(figures["still"].items(), key=lambda item: item[1]["r"])
     print("lowest: " + ", ".join(f"{name} {score['r']:.2f}" for name, score in found[:12]))
@@ -231,7 +233,7 @@ def main() -> None:
     parser.add_argument("--real", type=Path, required=True, help="folder with livelink/ and landmarks/")
     parser.add_argument("--people", type=int, default=8, help="who play the takes")
     parser.add_argument("--step", type=int, default=2, help="take every so many frames of a take")
-    parser.add_argument("--still-people", type=int, default=300)
+    parser.add_argument("--still-people", type=int, default=300, help="people of part c; 0 leaves it out")
     parser.add_argument("--json", type=Path, help="write all figures here")
     arguments = parser.parse_args()
     model = load_model(arguments.model)
@@ -240,8 +242,9 @@ def main() -> None:
     figures = {
         "replay": replay(model, ridge, arguments.real, arguments.people, arguments.step),
         "clips": clips(model, arguments.real),
-        "still": still(model, arguments.dataset, arguments.still_people),
     }
+    if arguments.still_people:
+        figures["still"] = still(model, arguments.dataset, arguments.still_people)
     print(
         f"# {platform.machine()}, Python {platform.python_version()}, NumPy {version('numpy')}; model "
         f"{arguments.model} ({model.recipe}), {arguments.people} people, every {arguments.step}. frame"
