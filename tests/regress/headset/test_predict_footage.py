@@ -192,3 +192,13 @@ def test_footage_without_a_usable_picture_is_refused():
         InputError, match=r"no picture is usable: .*mouth: 3 of 3 frames have a black picture: all"
     ):
         line_up({"mouth": found}, SIZES)
+
+
+def test_what_is_at_fault_leaves_no_picture():
+    stacks = {name: pictures([100] * 30, seed=seed) for seed, name in enumerate(("left_eye", "mouth"))}
+    stacks["mouth"][5:25] = stacks["mouth"][4]
+    footage = line_up({name: recording(name, stack) for name, stack in stacks.items()}, SIZES)
+    assert footage.faults["mouth"][5:25] == (Fault.FROZEN,) * 20
+    for name, there in zip(footage.cameras, footage.present.T, strict=True):
+        assert not footage.pictures[name][~there].any()
+        assert (footage.pictures[name][there].max(axis=(1, 2)) > 0).all()
