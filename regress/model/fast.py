@@ -51,7 +51,9 @@ class FastPredictor:
         self._target_axes = np.stack([self._target.real, self._target.imag]).astype(np.float32)
         self._depth = self._turn = None
         if features.depth is not None:
-            self._depth, self._turn = features.depth, turn_weights(features.mean_shape, features.depth)
+            turn = turn_weights(features.mean_shape, features.depth)
+            # complex as the points are: no conversion in each frame
+            self._depth, self._turn = features.depth.astype(np.complex128), turn.astype(np.complex128)
         first, last = np.concatenate([features.edges, [FACE_WIDTH_LANDMARKS]]).T
         self._first, self._last = np.ascontiguousarray(first), np.ascontiguousarray(last)
         self._mean = mean = model.normalisation.feature_mean
@@ -182,7 +184,7 @@ class FastPredictor:
             finite = np.isfinite(x).all(axis=0) & np.isfinite(y).all(axis=0)
             x, y = np.where(finite, x, np.nan), np.where(finite, y, np.nan)
         if self._depth is not None:
-            depth, turn = self._depth.astype(np.float32)[:, None], self._turn.astype(np.float32)
+            depth, turn = self._depth.real.astype(np.float32)[:, None], self._turn.real.astype(np.float32)
             x, y = x - depth * (turn @ x), y - depth * (turn @ y)
         if not self._aligned:
             return x, y
