@@ -128,7 +128,7 @@ def line_up(
         numbers=numbers,
         pictures=pictures,
         faults={name: tuple(found) for name, found in faults.items()},
-        time_s=_times(recordings, numbers, by_number, fps),
+        time_s=_times(recordings, len(numbers), fps),
         source=source,
         notes=tuple(notes),
     )
@@ -177,14 +177,8 @@ def _from_start(recordings: Mapping[str, Recording]) -> tuple[np.ndarray, list[s
     ]
 
 
-def _times(
-    recordings: Mapping[str, Recording], numbers: np.ndarray, by_number: bool, fps: float | None
-) -> np.ndarray | None:
+def _times(recordings: Mapping[str, Recording], count: int, fps: float | None) -> np.ndarray | None:
+    """Seconds of rows, which are even in time: lacking numbers have rows too."""
     rates = [recording.fps for recording in recordings.values() if recording.fps is not None]
     fps = fps or (rates[0] if rates else None)
-    if fps is None:
-        return None
-    steps = np.diff(numbers)
-    even = by_number and len(steps) and np.bincount(np.minimum(steps, 1000)).argmax()
-    # lacking numbers were put in, so that rows are even in time unless numbers are clock times
-    return np.arange(len(numbers)) / fps if not even else (numbers - numbers[0]) / (even * fps)
+    return None if fps is None else np.arange(count) / fps

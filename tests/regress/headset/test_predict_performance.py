@@ -128,6 +128,9 @@ def test_a_seat_changes_only_where_it_stays_changed(low: int, length: int, fps: 
         assert found is None
     if length > fps:
         assert abs(found - low) <= fps / 2
+    assert seat_change(same[: low + length][low:], np.ones(length, dtype=bool), fps=fps) == (
+        0 if length else None
+    )
     # frames without pictures say nothing
     usable = np.ones(120, dtype=bool)
     usable[low : low + length] = False
