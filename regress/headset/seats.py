@@ -23,7 +23,7 @@ def seat_change(same_seat: np.ndarray, usable: np.ndarray, *, fps: float) -> int
     """
     rows = np.flatnonzero(usable)
     window = max(1, round(PATIENCE_S * fps))
-    if len(rows) < window:
+    if len(rows) < 2 * window:  # too short for a running mean: judged as a whole
         return int(rows[0]) if len(rows) and float(np.mean(same_seat[rows])) < 0.5 else None
     sums = np.cumsum(np.concatenate([[0.0], same_seat[rows].astype(np.float64)]))
     counts = np.minimum(np.arange(1, len(rows) + 1), window)
