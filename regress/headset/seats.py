@@ -26,14 +26,12 @@ def seat_change(same_seat: np.ndarray, usable: np.ndarray, *, fps: float) -> int
     if len(rows) < 2 * window:  # too short for a running mean: judged as a whole
         return int(rows[0]) if len(rows) and float(np.mean(same_seat[rows])) < 0.5 else None
     sums = np.cumsum(np.concatenate([[0.0], same_seat[rows].astype(np.float64)]))
-    counts = np.minimum(np.arange(1, len(rows) + 1), window)
-    mean = (sums[1:] - sums[np.arange(1, len(rows) + 1) - counts]) / counts
+    mean = (sums[window:] - sums[:-window]) / window
     low = 0
-    for place in range(window - 1, len(rows)):
-        low = low + 1 if mean[place] < 0.5 else 0
+    for place, value in enumerate(mean, start=window - 1):
+        low = low + 1 if value < 0.5 else 0
         if low == window:
             began = place - window + 1
-            return int(
-                rows[0 if began == window - 1 else began]
-            )  # from the first whole window on: never the same
+            # where the first whole window is low already, so was what came before it
+            return int(rows[0 if began == window - 1 else began])
     return None
