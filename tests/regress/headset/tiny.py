@@ -21,15 +21,15 @@ R2, RMSE = 0.75, 0.12
 """Of every shape in the test split that the scores speak of; a deviation of PLAIN is below the usual."""
 
 
-def tiny_graph(width: int, height: int) -> bytes:
-    """Weight = mean of its camera's picture / 255, less the neutral picture's where calibrated.
+def tiny_graph(width: int, height: int, gain: float) -> bytes:
+    """Weight = gain times the mean of its camera's picture / 255, less the neutral picture's where calibrated.
 
     Gaze is 0.1, 0.2, 0.3, 0.4 times the left eye's mean; the seat changes where the left eye's mean is a quarter from
     the neutral picture's.
     """
     owners = np.array([[OWNER[shape] == name for shape in BLENDSHAPES] for name in NAMES], dtype=np.float32)
     constants = {
-        "scale": np.float32(1 / 255),
+        "scale": np.float32(gain / 255),
         "owners": owners,
         "one": np.float32(1),
         "plain": np.float32(PLAIN),
@@ -102,7 +102,9 @@ def tiny_graph(width: int, height: int) -> bytes:
     return model.SerializeToString()
 
 
-def write_tiny_model(folder: Path, *, width: int = 16, height: int = 12, **changes: object) -> Path:
+def write_tiny_model(
+    folder: Path, *, width: int = 16, height: int = 12, gain: float = 1.0, **changes: object
+) -> Path:
     """Write the model's folder."""
     cameras = [CameraInput(name=name, width=width, height=height) for name in NAMES]
     alone = {name: {shape: 0.8 if OWNER[shape] == name else 0.1 for shape in BLENDSHAPES} for name in NAMES}
@@ -125,5 +127,5 @@ def write_tiny_model(folder: Path, *, width: int = 16, height: int = 12, **chang
         "licences": ("CC0-1.0",),
         **changes,
     }
-    save_headset_model(HeadsetModel(**settings), tiny_graph(width, height), folder)
+    save_headset_model(HeadsetModel(**settings), tiny_graph(width, height, gain), folder)
     return folder
