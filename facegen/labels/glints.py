@@ -10,7 +10,7 @@ References
    cornea as a spherical mirror.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -102,12 +102,16 @@ def label_glints(
         Everything that hides a glint, lashes included, corneas not (`facegen.labels.views.occluders`).
     """
     camera_m = invert_transform(view.camera_from_head)[:3, 3]
-    images = [
-        (lamp, side, surface, _image(surface, eyes[side], tear_lines[side], lamp, camera_m))
-        for lamp in lamps
-        if lamp.name in view.lamps
+    lit = [lamp for lamp in lamps if lamp.name in view.lamps]
+    mirrors = {
+        (side, surface): _images(surface, eyes[side], tear_lines[side], lit, camera_m)
         for side in range(len(SIDES))
         for surface in SURFACES
+    }
+    images = [
+        (lamp, side, surface, found[index])
+        for index, lamp in enumerate(lit)
+        for (side, surface), found in mirrors.items()
     ]
     points = np.array([image.point for *_, image in images]).reshape(-1, 3)
     in_camera = apply_transform(view.camera_from_head, points)
@@ -136,20 +140,25 @@ def label_glints(
     )
 
 
-def _image(
-    surface: str, eye: EyeGeometry, tear_line: np.ndarray, lamp: Lamp, camera_m: np.ndarray
-) -> Reflection:
-    """The lamp's image in one surface, its point NaN where there is none."""
+def _images(
+    surface: str, eye: EyeGeometry, tear_line: np.ndarray, lamps: list[Lamp], camera_m: np.ndarray
+) -> list[Reflection]:
+    """The lamps' images in one surface, their points NaN where there is none."""
     if surface == "tears":
-        return reflect_in_thread(tear_line, MENISCUS_M, lamp.position, camera_m)
+        return [reflect_in_thread(tear_line, MENISCUS_M, lamp.position, camera_m) for lamp in lamps]
     if surface == "cornea":
         center, radius = eye.center + eye.cornea_center_offset * eye.axis, eye.cornea_radius
     else:
         center, radius = eye.center, eye.radius
-    image = reflect_in_sphere(center, radius, lamp.position, camera_m)
+    positions = np.array([lamp.position for lamp in lamps]).reshape(-1, 3)
+    image = reflect_in_sphere(center, radius, positions, camera_m)
     # the cornea ends, and the sclera begins, at the limbus
-    before_limbus = (image.point - eye.center) @ eye.axis > eye.limbus_offset
-    return image if before_limbus == (surface == "cornea") else replace(image, point=np.full(3, np.nan))
+    before_limbus = ((image.point - eye.center) * eye.axis).sum(axis=-1) > eye.limbus_offset
+    point = np.where((before_limbus == (surface == "cornea"))[:, None], image.point, np.nan)
+    return [
+        Reflection(point=point[i], cosine=image.cosine[i], gain=image.gain[i], shrinking=image.shrinking[i])
+        for i in range(len(lamps))
+    ]
 
 
 def _pixels_per_steradian(camera: Camera, points_camera: np.ndarray) -> np.ndarray:
