@@ -129,7 +129,12 @@ def bound(exact: KeypointDataset, percent: float) -> tuple[float, float]:
     (inputs, targets), (given, true) = sets
     mean, spread, scale = inputs.mean(axis=0), inputs.std(axis=0), targets.std(axis=0)
     network = MLPRegressor(
-        LARGE, early_stopping=True, n_iter_no_change=5, learning_rate_init=5e-4, alpha=1e-2, random_state=0
+        hidden_layer_sizes=LARGE,
+        early_stopping=True,
+        n_iter_no_change=5,
+        learning_rate_init=5e-4,
+        alpha=1e-2,
+        random_state=0,
     )
     network.fit(((inputs - mean) / spread).astype(np.float32), (targets / scale).astype(np.float32))
     found = score(np.clip(network.predict((given - mean) / spread) * scale, 0, 1), true)
