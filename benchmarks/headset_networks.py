@@ -3,8 +3,9 @@
     python benchmarks/headset_networks.py models/headset-* --data ordinary=ARRAYS [--data slip=ARRAYS ...]
         [--clusters TRAINING_ARRAYS] [--drawn 60] [--json FILE]
 
-Models that differ by nothing but their seed are one row: mean, and standard deviation over seeds. A modular model's
-rivals are the holistic ones with the same other settings and seed. The first data are the main ones. `--clusters`
+Models that differ by nothing but their seed are one row, named by what differs from the first model: mean, and
+standard deviation over seeds. A modular model's rivals are the holistic ones with the same other settings and seed. The
+first data are the main ones. `--clusters`
 repeats the paper's figure 4 on exact weights: faces replaced by the nearest of K cluster centres, of each camera's
 part, or 3 K of the whole face. `--drawn` frames are drawn from the front with predicted and with true weights, and
 compared as pictures. Prints Markdown; the results stand in docs/headset-networks.md.
@@ -14,7 +15,6 @@ import argparse
 import json
 from collections import defaultdict
 from collections.abc import Callable, Iterable
-from dataclasses import fields
 from pathlib import Path
 
 import cv2
@@ -28,7 +28,6 @@ from regress.headset.clusters import cluster_error_mm
 from regress.headset.comparison import compare
 from regress.headset.evaluation import HELD_OUT, Condition, estimate, evaluate
 from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.headset.recipe import HeadsetRecipe
 from regress.timing import time_headset
 
 CLUSTERS = (25, 100, 400)
@@ -53,12 +52,13 @@ def main() -> None:
         for name, arrays in data.items()
     }
     groups = defaultdict(list)
+    plain = next(iter(models.values())).model.training["recipe"]
     for path, one in models.items():
-        groups[label(one)].append(path)
+        groups[label(one, plain)].append(path)
     main_name = next(iter(data))
     print_main(groups, found[main_name], f"{main_name}: ordinary frames")
     print_losses(groups, found[main_name])
-    rivals = {name: print_rivals(models, arrays, name) for name, arrays in data.items()}
+    rivals = {name: print_rivals(models, arrays, name, plain) for name, arrays in data.items()}
     if len(data) > 1:
         print_data(groups, found)
     for key, paths in groups.items():
@@ -79,14 +79,13 @@ def main() -> None:
         arguments.json.write_text(json.dumps(document, indent=1))
 
 
-def label(one: HeadsetPredictor) -> str:
-    """The architecture, and what else differs from the default recipe but the seed."""
+def label(one: HeadsetPredictor, plain: dict[str, object]) -> str:
+    """The architecture, and what else differs from the first model's recipe but the seed."""
     recipe = one.model.training["recipe"]
-    plain = HeadsetRecipe()
     changed = [
-        f"{field.name.replace('_', ' ')} {recipe[field.name]}"
-        for field in fields(plain)
-        if field.name not in ("architecture", "seed") and recipe.get(field.name) != getattr(plain, field.name)
+        f"{name.replace('_', ' ')} {value}"
+        for name, value in recipe.items()
+        if name not in ("architecture", "seed") and value != plain.get(name)
     ]
     return ", ".join([recipe["architecture"], *changed])
 
@@ -156,7 +155,7 @@ def print_rivals(models: dict[Path, HeadsetPredictor], arrays: HeadsetArrays, da
             for name in ("modulation", "part_loss", "part_loss_elsewhere", "hidden"):
                 mine.pop(name, None), theirs.pop(name, None)
             if mine == theirs:
-                rivals[label(one)].append(compare(one, other, arrays))
+                rivals[label(one, plain)].append(compare(one, other, arrays))
     rows = []
     for key, pairs in rivals.items():
         for part, condition in (
@@ -207,6 +206,11 @@ def print_data(groups: dict[str, list[Path]], found: dict[str, dict[Path, Figure
             ):
                 cells.append(spread(by[path]["conditions"].get(condition, {}).get(figure) for path in paths))
         rows.append(cells)
+    floors = [next(iter(by.values()))["floors"]["rest"] for by in found.values()]
+    cells = [
+        [spread([one["geometry_mm"]]), spread([one["r2"]]), spread([one["gaze_deg"]]), ""] for one in floors
+    ]
+    rows.append(["floor: rest", *(cell for of in cells for cell in of)])
     print_table("Other pictures", head, rows)
 
 
@@ -379,10 +383,9 @@ def print_times(
         if key in ("modular", "holistic")
     }
     rows = [[key, *(f"{taken / 1000:.2f}" for taken in times.values())] for key, times in result.items()]
-    if rows:
-        print_table(
-            "Milliseconds a frame, onnxruntime, one core", ["network", *next(iter(result.values()))], rows
-        )
+    print_table(
+        "Milliseconds a frame, onnxruntime, one core", ["network", *next(iter(result.values()))], rows
+    )
     return result
 
 
@@ -400,6 +403,8 @@ def spread(values: Iterable[float | None], decimals: int = 3) -> str:
 
 
 def print_table(title: str, head: list[str], rows: list[list]) -> None:
+    if not rows:
+        return
     print(f"\n{title}\n")
     print(f"| {' | '.join(head)} |\n|{'---|' * len(head)}")
     for row in rows:
