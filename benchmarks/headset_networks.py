@@ -143,7 +143,9 @@ def print_losses(groups: dict[str, list[Path]], found: dict[Path, Figures]) -> N
     print_table("Lost cameras and combinations, geometry error in mm", head, rows)
 
 
-def print_rivals(models: dict[Path, HeadsetPredictor], arrays: HeadsetArrays, data: str) -> dict[str, list]:
+def print_rivals(
+    models: dict[Path, HeadsetPredictor], arrays: HeadsetArrays, data: str, plain: dict[str, object]
+) -> dict[str, list]:
     """Modular against holistic models of equal other settings and seed."""
     rivals = defaultdict(list)
     for one in models.values():
