@@ -53,8 +53,8 @@ class HeadsetRecipe:
     architecture: str = "modular"
     seed: int = 0
     epochs: int = 72
-    batch: int = 64
-    learning_rate: float = 2e-3
+    batch: int = 32
+    learning_rate: float = 1.5e-3
     weight_decay: float = 1e-2
     input_size: int = 64
     code: int = 96
@@ -66,8 +66,8 @@ class HeadsetRecipe:
     camera_dropout: float = 0.15
     calibration: bool = True
     calibration_dropout: float = 0.4
-    other_seat: float = 0.25
-    jitter_neutral: float = 0.15
+    other_seat: float = 0.15
+    jitter_neutral: float = 0.1
     mirror: bool = True
     shift: float = 0.02
     scale: float = 0.03
