@@ -157,7 +157,7 @@ def predict(
     needed = output.one_euro is not None or table_format is Format.livelink or gltf is not None
     if needed and footage.time_s is None:
         raise InputError(f"{footage.source} does not say when its frames were taken; give --fps")
-    if strict and not footage.present[:, footage.given].all():
+    if strict and not footage.present[:, footage.recorded].all():
         raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
     for note in footage.notes:
         say(note)

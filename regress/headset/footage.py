@@ -49,6 +49,13 @@ class Footage:
         return np.array([[fault is None for fault in self.faults[name]] for name in self.cameras]).T
 
     @property
+    def recorded(self) -> np.ndarray:
+        """(cameras,) bool: which cameras have a recording at all, usable or not."""
+        return np.array(
+            [any(fault is not Fault.MISSING for fault in self.faults[name]) for name in self.cameras]
+        )
+
+    @property
     def given(self) -> np.ndarray:
         """(cameras,) bool: which cameras have any picture that counts."""
         return self.present.any(axis=0)

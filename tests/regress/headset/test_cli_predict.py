@@ -98,6 +98,17 @@ def test_every_fault_is_one_sentence_and_the_other_cameras_go_on(run, model: Pat
     assert not (tmp_path / "w.csv").exists()
 
 
+def test_a_camera_that_is_black_throughout_is_said_and_stops_a_strict_run(run, model: Path, tmp_path: Path):
+    stacks = {name: pictures([100] * 5, seed=seed) for seed, name in enumerate(NAMES)}
+    stacks["mouth"][:] = 2
+    options = write_take(tmp_path, stacks)
+    code, out, said = run("headset", "predict", model, *options)
+    assert (code, said) == (0, "mouth: 5 of 5 frames have a black picture: all of them\n")
+    assert float(_rows(out)[0]["jawOpen"]) == 0
+    assert run("headset", "predict", model, *options, "--strict")[0] == 2
+    assert run("headset", "predict", model, *options[:4], "--strict")[0] == 0
+
+
 def test_a_camera_may_be_left_out(run, model: Path, take: list[str]):
     code, out, said = run("headset", "predict", model, *take[:4])
     assert code == 0
