@@ -8,9 +8,11 @@ those, too. The largest process's memory is the bound for a worker: it makes one
 
 Result (2026-11-21, idle machine, 2 processors, AMD EPYC; Python 3.11.7, NumPy 1.26.4, Numba 0.68.1, pyarrow 22.0.0):
 10^6 faces in 114 s, 8,751 a second, 223 processor seconds, 457 MB in the largest process (445 MB for 10^5, 439 MB for
-10^4). Since then the mesh that hides landmarks has 17 % more vertices: processor time grew by 14 % (258 us a face instead
-of 227, both trees in turns), so 10^6 faces take about 130 s; not measured again on an idle machine. Evaluating the cage is 45 %, visibility 36 %, drawing 7 %, writing 7 %: the processors are the bound. Each
+10^4). Evaluating the cage is 45 %, visibility 36 %, drawing 7 %, writing 7 %: the processors are the bound. Each
 process starts for about 2 processor seconds, which 10^4 faces feel (5.7 s, 571 us a face).
+
+Since then the mesh that hides landmarks has 17 % more vertices, and a face costs 258 us of processor instead of 227 (both
+trees in turns, same day), so 10^6 faces would take about 130 s; not measured again on an idle machine.
 """
 
 import argparse
