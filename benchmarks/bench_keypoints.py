@@ -11,7 +11,7 @@ Result (2026-11-21, idle machine, 2 processors, AMD EPYC; Python 3.11.7, NumPy 1
 10^4). Evaluating the cage is 45 %, visibility 36 %, drawing 7 %, writing 7 %: the processors are the bound. Each
 process starts for about 2 processor seconds, which 10^4 faces feel (5.7 s, 571 us a face).
 
-Since then the mesh that hides landmarks has 17 % more vertices, and a face costs 258 us of processor instead of 227 (both
+Since then the mesh that hides landmarks has 17 % more vertices: a face costs 258 us of processor instead of 227 (both
 trees in turns, same day), so 10^6 faces would take about 130 s; not measured again on an idle machine.
 """
 
