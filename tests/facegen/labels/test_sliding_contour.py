@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from facegen.conventions import Part, Visibility
@@ -87,6 +87,7 @@ def test_stays_near_the_landmarks_of_frontal_heads(anny: Rig) -> None:
     assert moved.max() < 0.12
 
 
+@settings(deadline=None)
 @given(hidden=st.lists(st.booleans(), min_size=1, max_size=9))
 def test_slides_to_the_first_point_in_sight(hidden: list[bool]) -> None:
     points = np.arange(3.0 * len(hidden)).reshape(1, 1, -1, 3)
