@@ -20,7 +20,7 @@ Result (2026-11-21, headset.toml, on two hardware threads of a busy machine, loa
 The denoiser's quick network on noisy guides ("FAST", "NONE") is no way to save: at 96 px, against 256 paths, it gives
 28.6, 27.5 and 39.8 dB (left eye, right eye, mouth) with 4 paths for 1.11 CPU s, and 25.1, 24.7 and 36.5 dB with 2; the
 usual one gives 28.7, 27.3 and 38.0 dB with 2 for 0.77 CPU s, and 30.5, 29.5 and 41.0 dB with 4. One diffuse bounce and
-no glossy ones save less than the measurement's noise. Of a view's fixed cost, 0.08 CPU s, half builds the search tree and
+no glossy ones save less than the measurement's noise. Of a view's fixed cost, 0.08 CPU s, half builds the search tree,
 a quarter compiles the lens's shader.
 """
 
