@@ -26,7 +26,7 @@ from facegen.rigs import load_rig
 from regress.headset.arrays import HeadsetArrays, read_arrays
 from regress.headset.clusters import cluster_error_mm
 from regress.headset.comparison import compare
-from regress.headset.evaluation import HELD_OUT, Condition, estimate, evaluate
+from regress.headset.evaluation import Condition, estimate, evaluate
 from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.timing import time_headset
 
@@ -58,12 +58,13 @@ def main() -> None:
     main_name = next(iter(data))
     print_main(groups, found[main_name], f"{main_name}: ordinary frames")
     print_losses(groups, found[main_name])
-    rivals = {name: print_rivals(models, arrays, name, plain) for name, arrays in data.items()}
+    rivals = {name: find_rivals(models, arrays, plain) for name, arrays in data.items()}
+    for name, pairs in rivals.items():
+        print_rivals(pairs, f"{name}: modular against holistic of the same settings and seed")
     if len(data) > 1:
         print_data(groups, found)
-    for key, paths in groups.items():
-        if key in ("modular", "holistic"):
-            print_shapes(key, [found[main_name][path] for path in paths])
+    key, paths = next(iter(groups.items()))
+    print_shapes(key, [found[main_name][path] for path in paths])
     print_curve(models, found[main_name])
     drawn = print_drawn(models, groups, data[main_name], arguments.drawn) if arguments.drawn else {}
     clusters = print_clusters(data[main_name], read_arrays(arguments.clusters)) if arguments.clusters else {}
@@ -143,53 +144,46 @@ def print_losses(groups: dict[str, list[Path]], found: dict[Path, Figures]) -> N
     print_table("Lost cameras and combinations, geometry error in mm", head, rows)
 
 
-def print_rivals(
-    models: dict[Path, HeadsetPredictor], arrays: HeadsetArrays, data: str, plain: dict[str, object]
-) -> dict[str, list]:
-    """Modular against holistic models of equal other settings and seed."""
+def find_rivals(
+    models: dict[Path, HeadsetPredictor], arrays: HeadsetArrays, plain: dict[str, object]
+) -> dict[str, list[Figures]]:
+    """Comparisons of modular with holistic models of equal other settings and seed, by the modular one's name."""
     rivals = defaultdict(list)
     for one in models.values():
         for other in models.values():
             mine, theirs = (dict(model.model.training["recipe"]) for model in (one, other))
             if (mine.pop("architecture"), theirs.pop("architecture")) != ("modular", "holistic"):
                 continue
-            # settings that only a modular network has
+            # settings that only one of the two kinds has
             for name in ("modulation", "part_loss", "part_loss_elsewhere", "hidden"):
                 mine.pop(name, None), theirs.pop(name, None)
             if mine == theirs:
                 rivals[label(one, plain)].append(compare(one, other, arrays))
+    return rivals
+
+
+def print_rivals(rivals: dict[str, list[Figures]], title: str) -> None:
+    """Geometry errors of both, and shares of frames and people in which the modular one is nearer."""
     rows = []
     for key, pairs in rivals.items():
-        for part, condition in (
-            ("conditions", "uncalibrated"),
-            ("conditions", "same_seat"),
-            ("conditions", "without_left_eye"),
-            ("held_out", "uncalibrated"),
-            *(("components", name) for name in pairs[0]["components"] if name != HELD_OUT),
+        for part, condition, what in (
+            ("conditions", "uncalibrated", "ordinary"),
+            ("conditions", "same_seat", "ordinary, calibrated"),
+            ("conditions", "without_left_eye", "left eye lost"),
+            ("components", "dense", "dense"),
+            ("components", "one_sided", "one-sided, winks"),
+            ("held_out", "uncalibrated", "held-out combinations"),
         ):
             entries = [pair[part][condition] for pair in pairs if condition in pair[part]]
-            if entries:
-                less = [100 * (entry["geometry_mm"] / entry["rival_mm"] - 1) for entry in entries]
-                means = (np.mean([entry[name] for entry in entries]) for name in ("geometry_mm", "rival_mm"))
-                shares = (
-                    spread((100 * entry[name] for entry in entries), 1) for name in ("better", "people")
-                )
-                what = condition.replace("_", " ") if part != "held_out" else "held-out combinations"
-                cells = (f"{mean:.3f}" for mean in means)
-                rows.append([key, what, entries[0]["rows"], len(entries), *cells, spread(less, 1), *shares])
-    head = [
-        "modular network",
-        "frames",
-        "rows",
-        "seeds",
-        "modular mm",
-        "holistic mm",
-        "difference %",
-        "better frames %",
-        "better people %",
-    ]
-    print_table(f"{data}: modular against holistic of the same settings and seed", head, rows)
-    return rivals
+            if not entries:
+                continue
+            less = [100 * (entry["geometry_mm"] / entry["rival_mm"] - 1) for entry in entries]
+            means = (np.mean([entry[name] for entry in entries]) for name in ("geometry_mm", "rival_mm"))
+            shares = (spread((100 * entry[name] for entry in entries), 1) for name in ("better", "people"))
+            cells = (f"{mean:.3f}" for mean in means)
+            rows.append([key, what, entries[0]["rows"], len(entries), *cells, spread(less, 1), *shares])
+    head = ["modular network", "frames", "rows", "seeds", "modular mm", "holistic mm", "difference %"]
+    print_table(title, [*head, "better frames %", "better people %"], rows)
 
 
 def print_data(groups: dict[str, list[Path]], found: dict[str, dict[Path, Figures]]) -> None:
