@@ -108,8 +108,10 @@ def _reached(curve: np.ndarray, end: float) -> float:
 
 
 def symmetry(model: Model, alone: Faces, faces: Faces) -> Iterator[str]:
-    """What averaging with the mirror image brings."""
+    """What averaging with the mirror image brings; nothing to a model that does so by itself."""
     both = symmetrised(model)
+    if both is model:
+        return
     yield "| points | networks | R² alone | R² averaged | faces mirrored to 0.05, alone | averaged |"
     yield "|---|---|---|---|---|---|"
     for name, detector in (("exact", None), ("as detected", DETECTOR)):
