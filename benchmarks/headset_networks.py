@@ -52,7 +52,7 @@ def main() -> None:
         for name, arrays in data.items()
     }
     groups = defaultdict(list)
-    plain = next(iter(models.values())).model.training["recipe"]
+    plain = next(iter(models.values())).model.training
     for path, one in models.items():
         groups[label(one, plain)].append(path)
     main_name = next(iter(data))
@@ -81,13 +81,18 @@ def main() -> None:
 
 
 def label(one: HeadsetPredictor, plain: dict[str, object]) -> str:
-    """The architecture, and what else differs from the first model's recipe but the seed."""
+    """The architecture, and what else differs from the first model's training but the seed."""
     recipe = one.model.training["recipe"]
     changed = [
         f"{name.replace('_', ' ')} {value}"
         for name, value in recipe.items()
-        if name not in ("architecture", "seed") and value != plain.get(name)
+        if name not in ("architecture", "seed") and value != plain["recipe"].get(name)
     ]
+    withheld = (
+        recipe["withhold"] != plain["recipe"]["withhold"]
+    )  # says already why there are fewer people or frames
+    if one.model.training["people"] != plain["people"] and not withheld:
+        changed.append(f"{one.model.training['people']} people")
     return ", ".join([recipe["architecture"], *changed])
 
 
@@ -157,7 +162,7 @@ def find_rivals(
             # settings that only one of the two kinds has
             for name in ("modulation", "part_loss", "part_loss_elsewhere", "hidden"):
                 mine.pop(name, None), theirs.pop(name, None)
-            if mine == theirs:
+            if mine == theirs and one.model.training["rows"] == other.model.training["rows"]:
                 rivals[label(one, plain)].append(compare(one, other, arrays))
     return rivals
 
