@@ -16,6 +16,9 @@ CALIBRATIONS = ("none", "same_seat", "other_seat")
 HELD_OUT = "combined"
 """Component of frames in which the jaw opens while the lids close: reported apart from ordinary frames."""
 
+OPEN = 0.3
+"""Weight of eyeBlink up to which an eye counts as open."""
+
 _SCORED = [column for column, name in enumerate(BLENDSHAPES) if name != "tongueOut"]
 _BLINK = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
@@ -57,6 +60,8 @@ class Summary:
         Mean of both lids.
     gaze_deg
         Mean angle between predicted and true optical axes.
+    gaze_open_deg
+        The same of eyes whose lids are less than ``OPEN`` closed: nobody sees where a closed eye looks.
     """
 
     rows: int
@@ -66,6 +71,7 @@ class Summary:
     rmse: float
     blink_r2: float | None
     gaze_deg: float
+    gaze_open_deg: float | None
 
 
 def estimate(
@@ -119,6 +125,8 @@ def summary(
     """Figures of predicted weights (n, 52) and gaze (n, 2, 2)."""
     error = (np.asarray(weights, np.float64) - true_weights)[:, _SCORED]
     r2 = r2_of(weights, true_weights)
+    gaze_error = gaze_error_deg(gaze, true_gaze)
+    is_open = true_weights[:, _BLINK] < OPEN
     return Summary(
         rows=len(weights),
         geometry_mm=float(face.error_mm(weights, true_weights).mean()),
@@ -126,7 +134,8 @@ def summary(
         mae=float(np.abs(error).mean()),
         rmse=float(np.sqrt(np.mean(error**2))),
         blink_r2=_mean(r2[_BLINK]),
-        gaze_deg=float(gaze_error_deg(gaze, true_gaze).mean()),
+        gaze_deg=float(gaze_error.mean()),
+        gaze_open_deg=float(gaze_error[is_open].mean()) if is_open.any() else None,
     )
 
 

@@ -10,10 +10,11 @@ import pytest
 
 torch = pytest.importorskip("torch")
 
+from facegen.conventions import BLENDSHAPE_INDEX  # noqa: E402
 from regress.errors import InputError, Interrupted  # noqa: E402
 from regress.headset import HeadsetGraph, read_headset_model  # noqa: E402
 from regress.headset.arrays import HeadsetArrays  # noqa: E402
-from regress.headset.evaluation import evaluate, share_better  # noqa: E402
+from regress.headset.evaluation import evaluate, share_better, summary  # noqa: E402
 from regress.headset.graph import Estimates  # noqa: E402
 from regress.headset.model import HeadsetModel  # noqa: E402
 from regress.headset.parts import part_of  # noqa: E402
@@ -193,6 +194,18 @@ def test_evaluation_refuses_other_cameras_and_empty_splits(arrays, trained: tupl
         evaluate(graph, model, arrays, split="nowhere")
     with pytest.raises(InputError, match="needs camera left_eye"):
         evaluate(graph, model, replace(arrays, cameras=arrays.cameras[1:]))
+
+
+def test_the_gaze_of_open_eyes_leaves_closed_ones_out(arrays: HeadsetArrays):
+    weights = np.zeros((2, 52))
+    weights[0, BLENDSHAPE_INDEX["eyeBlinkLeft"]] = 0.9
+    gaze = np.zeros((2, 2, 2))
+    wrong = np.array([[[0.5, 0.0], [0.1, 0.0]], [[0.2, 0.0], [0.0, 0.3]]])
+    found = summary(arrays.face, weights, wrong, weights, gaze)
+    assert found.gaze_deg == pytest.approx(np.rad2deg(1.1 / 4))
+    assert found.gaze_open_deg == pytest.approx(np.rad2deg(0.6 / 3))
+    weights[:] = 1
+    assert summary(arrays.face, weights, wrong, weights, gaze).gaze_open_deg is None
 
 
 def test_the_share_of_better_frames_counts_ties_half():
