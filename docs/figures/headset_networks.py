@@ -113,10 +113,10 @@ def draw_faces(predictor, frames) -> None:
     chosen = order[np.linspace(0, len(order) - 1, FACES + 2).round().astype(int)[1:-1]]
     rig = load_rig(frames.description["rig"])
     strips = [frames.weights[rows[chosen]], *(np.clip(one[chosen], 0, 1) for one in said)]
-    figure = Figure(figsize=(11, 9.6), dpi=100)
+    figure = Figure(figsize=(11, 9.2), dpi=100)
     FigureCanvasAgg(figure)
     grid = figure.subplots(
-        len(ORDER) + len(strips), FACES, gridspec_kw={"height_ratios": [1, 1, 1, 1.15, 1.15, 1.15]}
+        len(ORDER) + len(strips), FACES, gridspec_kw={"height_ratios": [1] * 6}
     )
     figure.subplots_adjust(left=0.075, right=0.995, top=0.96, bottom=0.005, wspace=0.03, hspace=0.03)
     for column, place in enumerate(chosen):
@@ -126,7 +126,7 @@ def draw_faces(predictor, frames) -> None:
     for number, weights in enumerate(strips):
         played = play_weights(rig, weights.astype(np.float64), np.arange(FACES) / 30, title="faces")
         for column, picture in enumerate(pictures(played, height_px=260, landmarks=False)):
-            grid[len(ORDER) + number, column].imshow(picture)
+            grid[len(ORDER) + number, column].imshow(picture[45:235, 20:210])  # brows to chin
     for row, words in enumerate(
         ("right eye", "left eye", "mouth", "true", "predicted", "with neutral\npicture")
     ):
