@@ -115,9 +115,7 @@ def draw_faces(predictor, frames) -> None:
     strips = [frames.weights[rows[chosen]], *(np.clip(one[chosen], 0, 1) for one in said)]
     figure = Figure(figsize=(11, 9.2), dpi=100)
     FigureCanvasAgg(figure)
-    grid = figure.subplots(
-        len(ORDER) + len(strips), FACES, gridspec_kw={"height_ratios": [1] * 6}
-    )
+    grid = figure.subplots(len(ORDER) + len(strips), FACES, gridspec_kw={"height_ratios": [1] * 6})
     figure.subplots_adjust(left=0.075, right=0.995, top=0.96, bottom=0.005, wspace=0.03, hspace=0.03)
     for column, place in enumerate(chosen):
         for row, name in enumerate(ORDER):
