@@ -82,7 +82,7 @@ def correlation(first: np.ndarray, second: np.ndarray) -> float:
 
 
 def judge(predicted: np.ndarray, true: np.ndarray, shapes: list[str]) -> dict[str, dict[str, float]]:
-    """r and mean absolute error of shapes; rows may hold several people, whose r is averaged."""
+    """r, mean absolute error and share of the movement of shapes; rows may hold several people, whose r is averaged."""
     figures = {}
     for name in shapes:
         column = BLENDSHAPE_INDEX[name]
@@ -93,13 +93,15 @@ def judge(predicted: np.ndarray, true: np.ndarray, shapes: list[str]) -> dict[st
                 )
             ),
             "mae": float(np.abs(predicted[..., column] - true[..., column]).mean()),
+            "moves": float(predicted[..., column].std(axis=1).mean() / true[..., column].std(axis=1).mean()),
         }
     return figures
 
 
-def replay(model: Model, ridges: dict[str, Baseline], real: Path, people: int, step: int) -> list[dict]:
+def replay(
+    model: Model, ridges: dict[str, Baseline], real: Path, rig: Rig, people: int, step: int
+) -> list[dict]:
     """Part a: a row for every take, noise and bias."""
-    rig = load_rig("ict")
     rng = np.random.default_rng(SEED)
     identities = rng.standard_normal((people, rig.components))
     biases = draw_bias(rng, people)
@@ -198,7 +200,7 @@ def mean_mae(figures: dict[str, dict[str, float]]) -> float:
 
 def tell(figures: dict) -> None:
     """Print the tables, in Markdown."""
-    print("\n## a. Replayed on the ICT rig\n")
+    print(f"\n## a. Replayed on the rig {figures['rig']}\n")
     print("Ridge: on the dataset's rows / on the networks' rows.\n")
     print(
         "| take | noise, px | bias | MAE model / ridge / ridge / zero | median r, visible | lowest r, visible |"
@@ -214,11 +216,15 @@ def tell(figures: dict) -> None:
             f"{lowest} {found[lowest]['r']:.2f} |"
         )
     plain = {row["take"]: row for row in figures["replay"] if row["noise_px"] == 0.5 and not row["bias"]}
-    print("\nr by shape at 0.5 px without bias, model / ridge / ridge (* not among the visible shapes):\n")
+    print(
+        "\nr by shape at 0.5 px without bias, model / ridge / ridge, and how far the model's weight moves as a share of"
+    )
+    print("of how far the true one does (* not among the visible shapes):\n")
     print("| shape | " + " | ".join(plain) + " |\n|---" * 1 + "|---" * len(plain) + "|")
     for name in OUTPUTS:
         cells = [
             " / ".join(f"{row[who][name]['r']:.2f}" for who in ("model", *RIDGES))
+            + f", {row['model'][name]['moves']:.2f}"
             if name in row["model"]
             else ""
             for row in plain.values()
@@ -241,6 +247,7 @@ def main() -> None:
     parser.add_argument("model", type=Path)
     parser.add_argument("dataset", type=Path, help="the dataset that the model was trained on")
     parser.add_argument("--real", type=Path, required=True, help="folder with livelink/ and landmarks/")
+    parser.add_argument("--rig", default="ict", help="rig of those who play the takes")
     parser.add_argument("--people", type=int, default=8, help="who play the takes")
     parser.add_argument("--step", type=int, default=2, help="take every so many frames of a take")
     parser.add_argument("--still-people", type=int, default=300, help="people of part c; 0 leaves it out")
@@ -256,7 +263,10 @@ def main() -> None:
         for name, mirror, noise in zip(RIDGES, (False, True), (None, noise), strict=True)
     }
     figures = {
-        "replay": replay(model, ridges, arguments.real, arguments.people, arguments.step),
+        "rig": arguments.rig,
+        "replay": replay(
+            model, ridges, arguments.real, load_rig(arguments.rig), arguments.people, arguments.step
+        ),
         "clips": clips(model, arguments.real),
     }
     if arguments.still_people:
