@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from facegen.conventions import BLENDSHAPES, Part
-from facegen.geometry import apply_transform, project, rotation_from_angles, unproject
+from facegen.geometry import Camera, apply_transform, project, rotation_from_angles, unproject
 from facegen.headsets import Headset, head_from_headset
 from facegen.preview.portraits import drawn_mesh, shade
 from facegen.raster import hidden, nearest_along_z, nearest_triangles, triangles_of
@@ -112,7 +112,7 @@ def _draw_view(
     vertices = apply_transform(view.camera_from_head, vertices)
     distance = np.linalg.norm(vertices, axis=-1)
     fisheye = camera.model == "fisheye"
-    in_front = vertices[:, 2] > (FISHEYE_EDGE * distance if fisheye else 1e-4)
+    in_front = vertices[:, 2] > (FISHEYE_EDGE if fisheye else _pinhole_edge(camera.camera)) * distance
     pixels = np.where(in_front[:, None], project(camera.camera, vertices), np.nan)
     # over a fisheye's picture no measure of depth is exactly linear; triangles are small
     nearness = 1.0 / (distance if fisheye else np.where(in_front, vertices[:, 2], np.inf))
@@ -135,6 +135,22 @@ def _draw_view(
     )
     axes.set_xlim(-0.5, camera.width - 0.5)
     axes.set_ylim(camera.height - 0.5, -0.5)
+
+
+def _pinhole_edge(camera: Camera) -> float:
+    """Cosine of the angle from a pinhole's axis beyond which nothing is drawn.
+
+    There, or at 85 degrees, the distortion's polynomial folds back, and what lies beside the camera would be drawn
+    across the picture.
+    """
+    angle, turn = np.meshgrid(
+        np.radians(np.linspace(0.0, 85.0, 171)), np.radians(np.arange(0.0, 360.0, 15.0))
+    )
+    rays = np.stack([np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), np.cos(angle)], axis=-1)
+    places = project(camera, rays.reshape(-1, 3)).reshape(*angle.shape, 2)
+    outwards = (np.diff(np.linalg.norm(places - places[:, :1], axis=-1), axis=1) > 0.0).all(axis=0)
+    last = len(outwards) if outwards.all() else int(np.argmin(outwards))
+    return float(np.cos(angle[0, last]))
 
 
 def _cycle(count: int) -> list[str]:
