@@ -7,12 +7,10 @@ Run it on an idle machine, from the repository; other work shows as processor se
 those, too. The largest process's memory is the bound for a worker: it makes one shard of 10,000 faces after another.
 
 Result (2026-11-21, idle machine, 2 processors, AMD EPYC; Python 3.11.7, NumPy 1.26.4, Numba 0.68.1, pyarrow 22.0.0):
-10^6 faces in 114 s, 8,751 a second, 223 processor seconds, 457 MB in the largest process (445 MB for 10^5, 439 MB for
-10^4). Evaluating the cage is 45 %, visibility 36 %, drawing 7 %, writing 7 %: the processors are the bound. Each
-process starts for about 2 processor seconds, which 10^4 faces feel (5.7 s, 571 us a face).
-
-Since then the mesh that hides landmarks has 17 % more vertices: a face costs 258 us of processor instead of 227 (both
-trees in turns, same day), so 10^6 faces would take about 130 s; not measured again on an idle machine.
+10^6 faces in 153 s, 6,549 a second, 299 processor seconds, 462 MB in the largest process (449 MB for 10^5, 445 MB for
+10^4). Evaluating is 43 %, visibility 34 %, drawing 7 %, writing 6 %: the processors are the bound. Each process starts
+for about 2 processor seconds, which 10^4 faces feel (7.8 s, 780 us a face). It was 114 s with a coarser mesh to hide
+landmarks; a face's own share of that is 258 us of processor instead of 227 (both trees in turns, same day).
 """
 
 import argparse
