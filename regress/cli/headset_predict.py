@@ -10,6 +10,18 @@ import typer
 from facegen.conventions import LANDMARK_COUNT
 from regress.adjustment import read_adjustments
 from regress.cli.headset_input import camera_paths, read_footage, read_neutrals
+from regress.cli.options import (
+    AvatarOption,
+    BetaOption,
+    BlendOption,
+    FormatOption,
+    MirrorOption,
+    OneEuroOption,
+    OutOption,
+    RetargetOption,
+    SmoothOption,
+    TrustOption,
+)
 from regress.cli.results import Format, write_avatar, write_confidence, write_table
 from regress.cli.talk import say
 from regress.errors import InputError
@@ -19,7 +31,7 @@ from regress.headset.performance import ASSUMED_FPS, Performance, perform
 from regress.headset.predictor import load_headset_predictor
 from regress.inputs import Frames
 from regress.predict import Output, Prediction, prediction_csv
-from regress.retargeting import read_retargeting, shipped_targets
+from regress.retargeting import read_retargeting
 from regress.smoothing import OneEuro
 
 GAZE_COLUMNS = ("left_eye_yaw_deg", "left_eye_pitch_deg", "right_eye_yaw_deg", "right_eye_pitch_deg")
@@ -53,29 +65,11 @@ def predict(
             "--from-start", help="Match first frames, not numbers: eyes of one take, mouth of another."
         ),
     ] = False,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="File to write, with --gltf the animated .glb; standard output without."),
-    ] = None,
-    table_format: Annotated[
-        Format, typer.Option("--format", help="csv, or livelink for the columns of the Live Link Face app.")
-    ] = Format.csv,
-    retarget: Annotated[
-        str | None,
-        typer.Option(
-            "--retarget",
-            metavar="|".join((*shipped_targets(), "FILE.toml")),
-            help="Weights of another avatar's shapes in place of ARKit's.",
-        ),
-    ] = None,
-    gltf: Annotated[
-        Path | None,
-        typer.Option(help="Avatar (.glb, .vrm) to which an animation of its morph targets is added."),
-    ] = None,
-    trust: Annotated[
-        Path | None,
-        typer.Option("--confidence", help="CSV to write with the trust in each ARKit weight, 0 to 1."),
-    ] = None,
+    out: OutOption = None,
+    table_format: FormatOption = Format.csv,
+    retarget: RetargetOption = None,
+    gltf: AvatarOption = None,
+    trust: TrustOption = None,
     neutral: Annotated[
         list[str] | None,
         typer.Option(
@@ -88,16 +82,9 @@ def predict(
     strict: Annotated[
         bool, typer.Option("--strict", help="Fail where a given camera has no usable picture in a frame.")
     ] = False,
-    smooth: Annotated[int, typer.Option("--smooth", min=1, help="Frames of a moving average over time.")] = 1,
-    cutoff_hz: Annotated[
-        float | None,
-        typer.Option(
-            "--one-euro", min=1e-3, help="One-Euro smoothing with this cutoff in Hz at rest; try 1."
-        ),
-    ] = None,
-    beta: Annotated[
-        float, typer.Option("--beta", min=0, help="One-Euro: Hz more for each unit of weight a second.")
-    ] = OneEuro.beta,
+    smooth: SmoothOption = 1,
+    cutoff_hz: OneEuroOption = None,
+    beta: BetaOption = OneEuro.beta,
     fps: Annotated[
         float | None, typer.Option("--fps", min=1e-3, help="Frames a second; goes before a film's own.")
     ] = None,
@@ -110,11 +97,8 @@ def predict(
     amplify_eyes: Annotated[
         float, typer.Option("--amplify-eyes", min=0, help="Factor on blink, wide and squint of each eye.")
     ] = 1.0,
-    left_right_blend: Annotated[
-        float,
-        typer.Option("--left-right-blend", min=0, max=1, help="0 leaves left and right, 1 averages them."),
-    ] = 0.0,
-    mirror: Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")] = False,
+    left_right_blend: BlendOption = 0.0,
+    mirror: MirrorOption = False,
     video: Annotated[
         Path | None, typer.Option("--video", help="Film to write: the cameras' pictures and the avatar.")
     ] = None,

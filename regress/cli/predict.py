@@ -10,6 +10,18 @@ import typer
 
 from regress.adjustment import mirror as exchanged
 from regress.adjustment import read_adjustments
+from regress.cli.options import (
+    AvatarOption,
+    BetaOption,
+    BlendOption,
+    FormatOption,
+    MirrorOption,
+    OneEuroOption,
+    OutOption,
+    RetargetOption,
+    SmoothOption,
+    TrustOption,
+)
 from regress.cli.results import Format, write_avatar, write_confidence, write_table
 from regress.cli.rows import sound_rows
 from regress.cli.talk import say
@@ -19,7 +31,7 @@ from regress.inputs import Frames, read_frames
 from regress.model import Model, load_model, symmetrised
 from regress.neutral import estimate_neutral
 from regress.predict import Output, predict_frames
-from regress.retargeting import read_retargeting, shipped_targets
+from regress.retargeting import read_retargeting
 from regress.smoothing import OneEuro
 from regress.stream import stream_csv
 
@@ -34,29 +46,11 @@ def predict(
             "CK+ folders, or - for lines of 136 numbers on standard input.",
         ),
     ],
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="File to write, with --gltf the animated .glb; standard output without."),
-    ] = None,
-    table_format: Annotated[
-        Format, typer.Option("--format", help="csv, or livelink for the columns of the Live Link Face app.")
-    ] = Format.csv,
-    retarget: Annotated[
-        str | None,
-        typer.Option(
-            "--retarget",
-            metavar="|".join((*shipped_targets(), "FILE.toml")),
-            help="Weights of another avatar's shapes in place of ARKit's.",
-        ),
-    ] = None,
-    gltf: Annotated[
-        Path | None,
-        typer.Option(help="Avatar (.glb, .vrm) to which an animation of its morph targets is added."),
-    ] = None,
-    trust: Annotated[
-        Path | None,
-        typer.Option("--confidence", help="CSV to write with the trust in each ARKit weight, 0 to 1."),
-    ] = None,
+    out: OutOption = None,
+    table_format: FormatOption = Format.csv,
+    retarget: RetargetOption = None,
+    gltf: AvatarOption = None,
+    trust: TrustOption = None,
     neutral: Annotated[
         str,
         typer.Option(
@@ -78,16 +72,9 @@ def predict(
             help="One-Euro smoothing of the landmarks themselves, with this cutoff at rest; try 1.",
         ),
     ] = None,
-    smooth: Annotated[int, typer.Option("--smooth", min=1, help="Frames of a moving average over time.")] = 1,
-    cutoff_hz: Annotated[
-        float | None,
-        typer.Option(
-            "--one-euro", min=1e-3, help="One-Euro smoothing with this cutoff in Hz at rest; try 1."
-        ),
-    ] = None,
-    beta: Annotated[
-        float, typer.Option("--beta", min=0, help="One-Euro: Hz more for each unit of weight a second.")
-    ] = OneEuro.beta,
+    smooth: SmoothOption = 1,
+    cutoff_hz: OneEuroOption = None,
+    beta: BetaOption = OneEuro.beta,
     fps: Annotated[
         float | None, typer.Option("--fps", min=1e-3, help="Frames a second; goes before times in INPUT.")
     ] = None,
@@ -95,11 +82,8 @@ def predict(
         Path | None,
         typer.Option("--adjust", help="JSON with gain, offset, dead_zone, low and high by shape."),
     ] = None,
-    left_right_blend: Annotated[
-        float,
-        typer.Option("--left-right-blend", min=0, max=1, help="0 leaves left and right, 1 averages them."),
-    ] = 0.0,
-    mirror: Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")] = False,
+    left_right_blend: BlendOption = 0.0,
+    mirror: MirrorOption = False,
     symmetric: Annotated[
         bool,
         typer.Option(

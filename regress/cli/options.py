@@ -1,0 +1,55 @@
+"""Options that every ``predict`` takes: where weights go, in which form, and what happens to them on the way."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regress.cli.results import Format
+from regress.retargeting import shipped_targets
+
+OutOption = Annotated[
+    Path | None,
+    typer.Option("--out", help="File to write, with --gltf the animated .glb; standard output without."),
+]
+
+FormatOption = Annotated[
+    Format, typer.Option("--format", help="csv, or livelink for the columns of the Live Link Face app.")
+]
+
+RetargetOption = Annotated[
+    str | None,
+    typer.Option(
+        "--retarget",
+        metavar="|".join((*shipped_targets(), "FILE.toml")),
+        help="Weights of another avatar's shapes in place of ARKit's.",
+    ),
+]
+
+AvatarOption = Annotated[
+    Path | None,
+    typer.Option(help="Avatar (.glb, .vrm) to which an animation of its morph targets is added."),
+]
+
+TrustOption = Annotated[
+    Path | None,
+    typer.Option("--confidence", help="CSV to write with the trust in each ARKit weight, 0 to 1."),
+]
+
+SmoothOption = Annotated[int, typer.Option("--smooth", min=1, help="Frames of a moving average over time.")]
+
+OneEuroOption = Annotated[
+    float | None,
+    typer.Option("--one-euro", min=1e-3, help="One-Euro smoothing with this cutoff in Hz at rest; try 1."),
+]
+
+BetaOption = Annotated[
+    float, typer.Option("--beta", min=0, help="One-Euro: Hz more for each unit of weight a second.")
+]
+
+BlendOption = Annotated[
+    float,
+    typer.Option("--left-right-blend", min=0, max=1, help="0 leaves left and right, 1 averages them."),
+]
+
+MirrorOption = Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")]
