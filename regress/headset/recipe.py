@@ -27,6 +27,9 @@ class HeadsetRecipe:
         Numbers of a camera's part code; hidden units of the holistic network.
     modulation
         Factor on a camera's share of shapes outside its part (the paper's eq. 6); modular only.
+    skip
+        Numbers that each camera's code hands to the others' heads (the paper's skips between modules), which then
+        answer with what they have not seen themselves; modular only.
     part_loss, part_loss_elsewhere
         Weight of each camera's own error on the shapes of its part and on all others (eq. 4); modular only.
     geometry_loss
@@ -60,6 +63,7 @@ class HeadsetRecipe:
     code: int = 96
     hidden: int = 192
     modulation: float = 0.3
+    skip: int = 0
     part_loss: float = 1.0
     part_loss_elsewhere: float = 0.05
     geometry_loss: float = 0.5
@@ -106,6 +110,7 @@ class HeadsetRecipe:
             "part_loss",
             "part_loss_elsewhere",
             "geometry_loss",
+            "skip",
         )
         for name in (*unsigned, "shift", "scale", "rotation_deg", "randomise", "people"):
             if getattr(self, name) < 0:

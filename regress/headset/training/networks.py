@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import torch
 from torch import nn
 
-from regress.headset.parts import encoder_owners
+from regress.headset.parts import encoder_owners, mirror_partner
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.blend import LEAST_MODULATION, Blended, blend
 from regress.headset.training.encoders import Encoder
@@ -91,7 +91,12 @@ class ModularNetwork(HeadsetNetwork):
 
     def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe) -> None:
         super().__init__(cameras, recipe)
-        self.heads = nn.ModuleDict({name: _Head(recipe.code) for name in self.encoders})
+        heard = recipe.skip * (len(cameras) - 1)
+        self.heads = nn.ModuleDict({name: _Head(recipe.code + heard) for name in self.encoders})
+        self.tells = nn.ModuleDict(
+            {name: nn.Linear(recipe.code, recipe.skip) for name in self.encoders if recipe.skip}
+        )
+        self.others = [_others(camera, cameras) for camera in cameras]
         part = torch.stack([torch.from_numpy(part_mask(camera)) for camera in cameras])
         self.register_buffer("part", part)
         self.register_buffer("modulation", torch.where(part, 1.0, max(recipe.modulation, LEAST_MODULATION)))
@@ -105,7 +110,10 @@ class ModularNetwork(HeadsetNetwork):
     ) -> Answer:
         """Answer to (n, cameras, size, size) pictures and neutral ones, ``present`` (n, cameras)."""
         means, log_variances, seat = [], [], 0.0
-        for column, code in enumerate(self.codes(pictures, neutral, calibrated)):
+        codes = self.codes(pictures, neutral, calibrated)
+        if self.tells:
+            codes = self._with_heard(codes, present)
+        for column, code in enumerate(codes):
             camera = self.cameras[column]
             owner = self.owners[camera]
             mean, log_variance, logit = self.heads[owner or camera](code)
@@ -117,6 +125,17 @@ class ModularNetwork(HeadsetNetwork):
             seat = seat + present[:, column] * logit
         mean, log_variance = torch.stack(means, dim=1), torch.stack(log_variances, dim=1)
         return Answer(blend(mean, log_variance, self.modulation, present), mean, log_variance, seat)
+
+    def _with_heard(self, codes: list[torch.Tensor], present: torch.Tensor) -> list[torch.Tensor]:
+        """Each camera's code, and behind it what the others tell (the second paper's skips); absent ones tell 0."""
+        told = [
+            present[:, column, None] * torch.relu(self.tells[self.owners[camera] or camera](codes[column]))
+            for column, camera in enumerate(self.cameras)
+        ]
+        return [
+            torch.cat([code, *(told[other] for other in others)], dim=1)
+            for code, others in zip(codes, self.others, strict=True)
+        ]
 
 
 class HolisticNetwork(HeadsetNetwork):
@@ -145,6 +164,13 @@ class HolisticNetwork(HeadsetNetwork):
         shares = torch.full_like(mean[:, None], 1 / cameras).expand(-1, cameras, -1)
         blended = Blended(mean, torch.exp(log_variance), shares)
         return Answer(blended, mean[:, None], log_variance[:, None], logit)
+
+
+def _others(camera: str, cameras: tuple[str, ...]) -> list[int]:
+    """Columns of the other cameras, a camera's partner first: two that share a head hear theirs in one place."""
+    partner = mirror_partner(camera)
+    others = sorted((other for other in cameras if other != camera), key=lambda other: other != partner)
+    return [cameras.index(other) for other in others]
 
 
 NETWORKS: dict[str, type[HeadsetNetwork]] = {"modular": ModularNetwork, "holistic": HolisticNetwork}

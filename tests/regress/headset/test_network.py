@@ -46,9 +46,10 @@ def targets():
     return target_scale(np.random.default_rng(0).random((30, len(OUTPUTS))).astype(np.float32))
 
 
-@pytest.fixture(scope="module", params=["modular", "holistic"])
+@pytest.fixture(scope="module", params=["modular", "holistic", "modular with skips"])
 def graph(request: pytest.FixtureRequest) -> HeadsetGraph:
-    graph, difference = exported(network(request.param))
+    architecture, _, skips = request.param.partition(" with ")
+    graph, difference = exported(network(architecture, skip=5 if skips else 0))
     assert difference < 1e-4
     return HeadsetGraph(graph, CAMERAS)
 
@@ -72,6 +73,18 @@ def test_outputs_have_the_shapes_and_ranges_of_the_contract(graph: HeadsetGraph)
     assert (said.deviation > 0).all()
     np.testing.assert_allclose(said.shares.sum(axis=1), 1, atol=1e-4)
     assert ((said.same_seat >= 0) & (said.same_seat <= 1)).all()
+
+
+def test_an_eyes_answer_depends_on_the_mouth_only_with_skips():
+    for skip in (0, 5):
+        made, seen = network("modular", skip=skip), torch.rand(2, 3, SIZE, SIZE) * 255
+        other = seen.clone()
+        other[:, 2] = torch.rand(2, SIZE, SIZE) * 255
+        eyes, same_eyes = (
+            made(one, torch.zeros_like(one), torch.ones(2, 3), torch.zeros(2)).means[:, :2]
+            for one in (seen, other)
+        )
+        assert torch.equal(eyes, same_eyes) is (skip == 0)
 
 
 def test_a_missing_cameras_pictures_do_not_matter(graph: HeadsetGraph):
