@@ -154,10 +154,15 @@ def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
     folder = Path(folder)
     path, graph = folder / "model.json", folder / "network.onnx"
     for needed in (path, graph):
-        if not needed.is_file():
+        if needed.is_file():
+            continue
+        if (folder / "weights.npz").is_file():
             raise ModelError(
-                f"{needed} does not exist; a headset model is a folder with model.json and network.onnx"
+                f"{folder} is a model of 68 points; `regress` commands without `headset` take it"
             )
+        raise ModelError(
+            f"{needed} does not exist; a headset model is a folder with model.json and network.onnx"
+        )
     try:
         document = json.loads(path.read_text())
         kind, version = document.pop("kind", "keypoints"), document.pop("version", None)

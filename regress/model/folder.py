@@ -87,8 +87,11 @@ def load_model(folder: str | os.PathLike[str]) -> Model:
     folder = Path(folder)
     document_path, weights_path = folder / "model.json", folder / "weights.npz"
     for path in (document_path, weights_path):
-        if not path.is_file():
-            raise ModelError(f"{path} does not exist; a model is a folder with model.json and weights.npz")
+        if path.is_file():
+            continue
+        if (folder / "network.onnx").is_file():
+            raise ModelError(f"{folder} is a model of headset pictures; `regress headset` commands take it")
+        raise ModelError(f"{path} does not exist; a model is a folder with model.json and weights.npz")
     try:
         document = json.loads(document_path.read_text())
         schema, expected = document["schema"], document["weights_sha256"]

@@ -55,6 +55,17 @@ def test_a_take_becomes_a_table_with_gaze_and_confidence(run, model: Path, take:
     assert all(float(trust[0][shape]) > 0.5 for shape in BLENDSHAPES)
 
 
+def test_each_predict_says_which_command_takes_the_others_model(
+    run, model: Path, take: list[str], quick_model_folder: Path
+):
+    code, out, said = run("predict", model, "-")
+    assert (code, out) == (2, "")
+    assert said == f"regress: {model} is a model of headset pictures; `regress headset` commands take it\n"
+    code, out, said = run("headset", "predict", quick_model_folder, *take)
+    assert (code, out) == (2, "")
+    assert "is a model of 68 points; `regress` commands without `headset` take it" in said
+
+
 def test_the_three_short_options_are_cameras_too(run, model: Path, take: list[str], tmp_path: Path):
     folder = tmp_path / "take"
     short = [
