@@ -1,9 +1,9 @@
 """The training loop: epochs of batches, a checkpoint after each."""
 
 import hashlib
+import io
 import json
 import math
-import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import torch
 
-from regress.errors import InputError, Interrupted
+from regress.errors import InputError, Interrupted, OutputError
+from regress.files import write_whole
 from regress.headset.arrays import HeadsetArrays
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.batches import Batch, Frames
@@ -171,16 +172,21 @@ class Training:
             self.network.mean_pictures.copy_(torch.from_numpy(pictures.mean(axis=0)))
 
     def _save(self, path: Path) -> None:
-        temporary = path.with_name(f"{path.name}.{os.getpid()}.part")
         state = {
             "key": self._key,
             "history": self.history,
             "network": self.network.state_dict(),
             "optimizer": self._optimizer.state_dict(),
         }
-        path.parent.mkdir(parents=True, exist_ok=True)
-        torch.save(state, temporary)
-        temporary.replace(path)
+        content = io.BytesIO()  # which torch.save fills without errors of its own kind where a disk is full
+        torch.save(state, content)
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(path, content.getvalue())
+        except OSError as error:
+            raise OutputError(
+                f"the training's state cannot be written to {path}: {error.strerror or error}"
+            ) from error
 
     def _resume(self, path: Path) -> None:
         try:

@@ -1,5 +1,6 @@
 """Training of headset networks on drawn arrays: it learns, repeats, goes on after a stop, and says what it did."""
 
+import errno
 import subprocess
 import sys
 from dataclasses import replace
@@ -11,7 +12,7 @@ import pytest
 torch = pytest.importorskip("torch")
 
 from facegen.conventions import BLENDSHAPE_INDEX  # noqa: E402
-from regress.errors import InputError, Interrupted  # noqa: E402
+from regress.errors import InputError, Interrupted, OutputError  # noqa: E402
 from regress.headset import HeadsetGraph, read_headset_model  # noqa: E402
 from regress.headset.arrays import HeadsetArrays  # noqa: E402
 from regress.headset.evaluation import evaluate, share_better, summary  # noqa: E402
@@ -91,6 +92,16 @@ def test_a_file_that_is_no_checkpoint_is_refused(arrays: HeadsetArrays, tmp_path
     (tmp_path / ".model.checkpoint").write_bytes(b"nonsense")
     with pytest.raises(InputError, match="not a checkpoint"):
         train_headset(arrays, QUICK, tmp_path / "model")
+
+
+def test_a_state_that_cannot_be_written_is_said(arrays: HeadsetArrays, tmp_path: Path, monkeypatch):
+    def full(self, *_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", full)
+    with pytest.raises(OutputError, match=r"state cannot be written to .*model\.checkpoint: No space left"):
+        train_headset(arrays, QUICK, tmp_path / "model")
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
