@@ -41,6 +41,9 @@ class HeadsetRecipe:
     other_seat, jitter_neutral
         Of calibrated training frames, shares whose neutral pictures come from the other seat of the headset, and
         from the same seat but displaced as if it were another.
+    shut_eyes
+        How many times an epoch shows frames again in which an eye is more than half shut: they are few, and networks
+        that see each once take a shut lid for a lowered one.
     mirror
         Train on frames and their mirror images, where the headset is symmetric.
     shift, scale, rotation_deg
@@ -72,6 +75,7 @@ class HeadsetRecipe:
     calibration_dropout: float = 0.4
     other_seat: float = 0.15
     jitter_neutral: float = 0.1
+    shut_eyes: int = 3
     mirror: bool = True
     shift: float = 0.02
     scale: float = 0.03
@@ -111,6 +115,7 @@ class HeadsetRecipe:
             "part_loss_elsewhere",
             "geometry_loss",
             "skip",
+            "shut_eyes",
         )
         for name in (*unsigned, "shift", "scale", "rotation_deg", "randomise", "people"):
             if getattr(self, name) < 0:

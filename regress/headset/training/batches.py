@@ -6,11 +6,17 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from facegen.conventions import BLENDSHAPE_INDEX
 from regress.headset.arrays import HeadsetArrays
 from regress.headset.parts import encoder_owners, is_symmetric, mirror_partner
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.resampling import reduced, warp_matrix
 from regress.headset.training.targets import MIRROR, MIRROR_SIGN, outputs_of
+
+_BLINK = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
+
+_SHUT = 0.5
+"""Weight of eyeBlink from which an eye counts as shut: 5 % of the frames of datasets/headset.toml."""
 
 _SEAT = 2.5
 """A neutral picture displaced as if from another seat is displaced this many times as far as a frame: donning
@@ -47,6 +53,8 @@ class Frames:
         names = tuple(camera.name for camera in arrays.cameras)
         self.rows = rows
         self.outputs = outputs_of(arrays)
+        shut = arrays.weights[rows][:, _BLINK].max(axis=1) > _SHUT
+        self._shown = np.concatenate([rows, np.repeat(rows[shut], recipe.shut_eyes)])
         self._recipe = recipe
         self._pictures = [reduced(arrays.pictures[name], recipe.input_size) for name in names]
         self._flipped = [owner is not None for owner in encoder_owners(names).values()]
@@ -55,10 +63,18 @@ class Frames:
         self._own_seat = arrays.neutral_rows()
         self._other_seat = arrays.neutral_rows(other_seat=True)
 
+    @property
+    def batches(self) -> int:
+        """Batches of an epoch."""
+        return len(self._shown) // self._batch
+
+    @property
+    def _batch(self) -> int:
+        return min(self._recipe.batch, len(self._shown))
+
     def draw_epoch(self, random: np.random.Generator) -> Iterator[Batch]:
-        """All training rows once, in batches; the last few are left out where they do not fill one."""
-        order = random.permutation(self.rows)
-        size = min(self._recipe.batch, len(order))
+        """All training rows, those with shut eyes again; the last few are left out where they fill no batch."""
+        order, size = random.permutation(self._shown), self._batch
         for start in range(0, len(order) - size + 1, size):
             yield self._draw_batch(random, order[start : start + size])
 

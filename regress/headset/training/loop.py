@@ -104,11 +104,10 @@ class Training:
 
     def _run_epoch(self, epoch: int) -> None:
         random = np.random.default_rng([self.recipe.seed, epoch])
-        batches = len(self.rows) // min(self.recipe.batch, len(self.rows))
         self.network.train()
         losses = []
         for number, batch in enumerate(self._frames.draw_epoch(random)):
-            done = (epoch + number / batches) / self.recipe.epochs
+            done = (epoch + number / self._frames.batches) / self.recipe.epochs
             for group in self._optimizer.param_groups:
                 group["lr"] = self.recipe.learning_rate * 0.5 * (1 + math.cos(math.pi * done))
             self._optimizer.zero_grad(set_to_none=True)

@@ -245,3 +245,17 @@ def test_nothing_but_training_loads_torch():
         "assert 'torch' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_an_epoch_shows_frames_with_shut_eyes_again(arrays: HeadsetArrays):
+    rows = arrays.rows("train")
+    blink = arrays.weights[:, [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]].max(
+        axis=1
+    )
+    recipe = HeadsetRecipe(input_size=16, batch=1, mirror=False, shut_eyes=2)
+    frames = Frames(arrays, recipe, rows)
+    shown = np.concatenate([batch.outputs for batch in frames.draw_epoch(np.random.default_rng(0))])
+    assert len(shown) == frames.batches == len(rows) + 2 * np.sum(blink[rows] > 0.5)
+    expected = frames.outputs[np.concatenate([rows, np.repeat(rows[blink[rows] > 0.5], 2)])]
+    assert len(expected) > len(rows)
+    np.testing.assert_array_equal(shown[np.lexsort(shown.T)], expected[np.lexsort(expected.T)])
