@@ -1,20 +1,18 @@
 """The second paper's tables on exact truth: networks on headset pictures, modular against holistic.
 
     python benchmarks/headset_networks.py models/headset-* --data ordinary=ARRAYS [--data slip=ARRAYS ...]
-        [--clusters TRAINING_ARRAYS] [--drawn 60] [--json FILE]
+        [--drawn 60] [--json FILE]
 
 Models that differ by nothing but their seed are one row, named by what differs from the first model: mean, and
 standard deviation over seeds. A modular model's rivals are the holistic ones with the same other settings and seed. The
-first data are the main ones. `--clusters`
-repeats the paper's figure 4 on exact weights: faces replaced by the nearest of K cluster centres, of each camera's
-part, or 3 K of the whole face. `--drawn` frames are drawn from the front with predicted and with true weights, and
+first data are the main ones. `--drawn` frames are drawn from the front with predicted and with true weights, and
 compared as pictures. Prints Markdown; the results stand in docs/headset-networks.md.
 """
 
 import argparse
 import json
 from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 
 import cv2
@@ -24,13 +22,11 @@ from facegen.conventions import BLENDSHAPES
 from facegen.preview import pictures, play_weights
 from facegen.rigs import load_rig
 from regress.headset.arrays import HeadsetArrays, read_arrays
-from regress.headset.clusters import cluster_error_mm
 from regress.headset.comparison import compare
 from regress.headset.evaluation import Condition, estimate, evaluate
 from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.timing import time_headset
 
-CLUSTERS = (25, 100, 400)
 SHOWN_PX = 240
 """Height of the drawn faces."""
 
@@ -41,7 +37,6 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("models", nargs="+", type=Path)
     parser.add_argument("--data", action="append", required=True, metavar="NAME=ARRAYS")
-    parser.add_argument("--clusters", type=Path)
     parser.add_argument("--drawn", type=int, default=0)
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
@@ -67,14 +62,12 @@ def main() -> None:
     print_shapes(key, [found[main_name][path] for path in paths])
     print_curve(models, found[main_name])
     drawn = print_drawn(models, groups, data[main_name], arguments.drawn) if arguments.drawn else {}
-    clusters = print_clusters(data[main_name], read_arrays(arguments.clusters)) if arguments.clusters else {}
     times = print_times(models, groups)
     if arguments.json:
         document = {
             "figures": {name: {str(path): one for path, one in by.items()} for name, by in found.items()},
             "rivals": rivals,
             "drawn": drawn,
-            "clusters": clusters,
             "microseconds": times,
         }
         arguments.json.write_text(json.dumps(document, indent=1))
@@ -160,7 +153,7 @@ def find_rivals(
             if (mine.pop("architecture"), theirs.pop("architecture")) != ("modular", "holistic"):
                 continue
             # settings that only one of the two kinds has
-            for name in ("modulation", "part_loss", "part_loss_elsewhere", "hidden"):
+            for name in ("modulation", "part_loss", "part_loss_elsewhere", "skip", "hidden"):
                 mine.pop(name, None), theirs.pop(name, None)
             if mine == theirs and one.model.training["rows"] == other.model.training["rows"]:
                 rivals[label(one, plain)].append(compare(one, other, arrays))
@@ -334,47 +327,6 @@ def picture_errors(true: list[np.ndarray], found: list[np.ndarray]) -> dict[str,
     return {"rmse": float(np.mean(rmse)), "ssim": float(np.mean(ssim))}
 
 
-def print_clusters(test: HeadsetArrays, train: HeadsetArrays) -> dict[str, list[float]]:
-    """The paper's figure 4."""
-    cameras = tuple(camera.name for camera in train.cameras)
-    unseen = test.weights[(test.split == "test") & ~test.neutral]
-    rows, result = [], {}
-    for withhold in ("none", "regions"):
-        kept = train.kept_rows("train", withhold=withhold)
-        known = train.weights[kept[~train.neutral[kept]]]  # neutral faces are all the same
-        for count in (count for count in CLUSTERS if 2 * len(cameras) * count <= len(known)):
-            of = {
-                "modular": lambda seed, k=count, w=known: cluster_error_mm(
-                    train.face, w, unseen, clusters=k, cameras=cameras, seed=seed
-                ),
-                "holistic": lambda seed, k=count, w=known: cluster_error_mm(
-                    train.face, w, unseen, clusters=len(cameras) * k, seed=seed
-                ),
-            }
-            found = {name: seeds(call) for name, call in of.items()}
-            result[f"{withhold}, {count}"] = found
-            less = 100 * (np.mean(found["modular"]) / np.mean(found["holistic"]) - 1)
-            rows.append(
-                [
-                    "all" if withhold == "none" else "one region",
-                    len(known),
-                    count,
-                    *(spread(values) for values in found.values()),
-                    f"{less:+.1f}",
-                ]
-            )
-    head = [
-        "training frames",
-        "rows",
-        "K",
-        f"modular, {len(cameras)} x K",
-        f"holistic, {len(cameras)} K",
-        "difference %",
-    ]
-    print_table("Clusters of exact weights (the paper's figure 4), geometry error in mm", head, rows)
-    return result
-
-
 def print_times(
     models: dict[Path, HeadsetPredictor], groups: dict[str, list[Path]]
 ) -> dict[str, dict[str, float]]:
@@ -388,10 +340,6 @@ def print_times(
         "Milliseconds a frame, onnxruntime, one core", ["network", *next(iter(result.values()))], rows
     )
     return result
-
-
-def seeds(call: Callable[[int], float]) -> list[float]:
-    return [call(seed) for seed in range(3)]
 
 
 def spread(values: Iterable[float | None], decimals: int = 3) -> str:
