@@ -3,6 +3,7 @@
 import signal
 
 import pytest
+from hypothesis import settings
 
 from facegen.rigs import Rig, load_rig
 from facegen.rigs.building import build_rig
@@ -11,6 +12,9 @@ from facegen.rigs.building import build_rig
 def pytest_configure() -> None:
     """A stop from outside ends as Ctrl-C does: fixtures still take down what they put up."""
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    # a busy machine makes any example slow; speed is measured in benchmarks/
+    settings.register_profile("facegen", deadline=None)
+    settings.load_profile("facegen")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -1,6 +1,6 @@
 """Rigid motions, camera models and small solids: pure functions on arrays, float64."""
 
-from facegen.geometry.cameras import Camera, pixel_rays, project, unproject
+from facegen.geometry.cameras import Camera, pixel_rays, project, turning_radius, unproject
 from facegen.geometry.mirrors import Reflection, fresnel, reflect_in_sphere, reflect_in_thread
 from facegen.geometry.rotations import (
     angles_from_direction,
@@ -29,5 +29,6 @@ __all__ = [
     "reflect_in_thread",
     "rotation_from_angles",
     "transform",
+    "turning_radius",
     "unproject",
 ]

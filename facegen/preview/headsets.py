@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from facegen.conventions import BLENDSHAPES, Part
-from facegen.geometry import Camera, apply_transform, project, rotation_from_angles, unproject
+from facegen.geometry import apply_transform, project, rotation_from_angles, unproject
 from facegen.headsets import Headset, head_from_headset
 from facegen.preview.portraits import drawn_mesh, shade
 from facegen.raster import hidden, nearest_along_z, nearest_triangles, triangles_of
@@ -23,8 +23,9 @@ WINDOW_M = (-0.12, 0.085, 0.13, -0.165)
 STEP_M = 0.6e-3
 CORNER_M = 0.022
 """How far along the rays of its picture's corners a camera is drawn."""
-FISHEYE_EDGE = -0.3
-"""Cosine of the angle from a fisheye's axis beyond which nothing is drawn: triangles there reach round the picture."""
+EDGE = {"pinhole": 0.087, "fisheye": -0.3}
+"""Cosine of the angle from a camera's axis beyond which nothing is drawn: a pinhole's pixels run into the millions
+there (85 degrees), a fisheye's triangles reach round the picture."""
 HIDDEN_M = 1e-3
 VIEW_PX = 320
 _COLORS = ("#0050ff", "#e07000", "#009050", "#c000a0", "#806000", "#00a0b0", "#d02020", "#5050a0", "#60a000")
@@ -111,11 +112,10 @@ def _draw_view(
     vertices, triangles, part = housing
     vertices = apply_transform(view.camera_from_head, vertices)
     distance = np.linalg.norm(vertices, axis=-1)
-    fisheye = camera.model == "fisheye"
-    in_front = vertices[:, 2] > (FISHEYE_EDGE if fisheye else _pinhole_edge(camera.camera)) * distance
+    in_front = vertices[:, 2] > EDGE[camera.model] * distance
     pixels = np.where(in_front[:, None], project(camera.camera, vertices), np.nan)
     # over a fisheye's picture no measure of depth is exactly linear; triangles are small
-    nearness = 1.0 / (distance if fisheye else np.where(in_front, vertices[:, 2], np.inf))
+    nearness = 1.0 / (distance if camera.model == "fisheye" else np.where(in_front, vertices[:, 2], np.inf))
     depth = nearest_triangles(pixels, nearness, triangles, shape=(camera.height, camera.width))
     picture = shade(vertices * (1.0, -1.0, -1.0), triangles, part, depth)
     axes.imshow(picture * transmission(camera)[..., None], interpolation="nearest")
@@ -135,22 +135,6 @@ def _draw_view(
     )
     axes.set_xlim(-0.5, camera.width - 0.5)
     axes.set_ylim(camera.height - 0.5, -0.5)
-
-
-def _pinhole_edge(camera: Camera) -> float:
-    """Cosine of the angle from a pinhole's axis beyond which nothing is drawn.
-
-    There, or at 85 degrees, the distortion's polynomial folds back, and what lies beside the camera would be drawn
-    across the picture.
-    """
-    angle, turn = np.meshgrid(
-        np.radians(np.linspace(0.0, 85.0, 171)), np.radians(np.arange(0.0, 360.0, 15.0))
-    )
-    rays = np.stack([np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), np.cos(angle)], axis=-1)
-    places = project(camera, rays.reshape(-1, 3)).reshape(*angle.shape, 2)
-    outwards = (np.diff(np.linalg.norm(places - places[:, :1], axis=-1), axis=1) > 0.0).all(axis=0)
-    last = len(outwards) if outwards.all() else int(np.argmin(outwards))
-    return float(np.cos(angle[0, last]))
 
 
 def _cycle(count: int) -> list[str]:

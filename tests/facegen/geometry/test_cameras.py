@@ -1,5 +1,7 @@
 """Camera models and rigid motions against OpenCV and against themselves."""
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from facegen.geometry import (
     project,
     rotation_from_angles,
     transform,
+    turning_radius,
     unproject,
 )
 
@@ -72,6 +75,68 @@ def test_points_behind_a_pinhole_have_no_pixel_and_the_axis_has_the_principal_po
             project(camera, np.array([0.0, 0.0, 0.1])), [camera.cx, camera.cy], atol=1e-12
         )
         np.testing.assert_allclose(unproject(camera, np.array([camera.cx, camera.cy])), [0, 0, 1], atol=1e-12)
+
+
+_coefficient = st.integers(-400, 400).map(lambda thousandths: thousandths / 1000.0)
+_small = st.integers(-20, 20).map(lambda thousandths: thousandths / 1000.0)
+
+
+@st.composite
+def _cameras(draw):
+    """Lenses of either model, weak and strong; half of the pinholes without tangential terms."""
+    model = draw(st.sampled_from(["pinhole", "fisheye"]))
+    radial = draw(st.tuples(*[_coefficient] * 3))
+    if model == "fisheye":
+        distortion = (*radial, draw(_small))
+    else:
+        tangential = draw(st.one_of(st.just((0.0, 0.0)), st.tuples(_small, _small)))
+        distortion = (*radial[:2], *tangential, radial[2])
+    return Camera(
+        model=model, width=256, height=256, fx=100, fy=100, cx=127.5, cy=127.5, distortion=distortion
+    )
+
+
+@given(_cameras(), st.floats(0.0, 2.0 * np.pi))
+def test_a_lens_keeps_rays_in_their_order_and_shows_none_beyond_its_turning_point(camera, turn):
+    angle = np.linspace(0.0, np.pi, 721)[1:]
+    end = turning_radius(camera)
+    if camera.model == "pinhole":
+        angle, end = angle[angle < np.radians(85.0)], np.arctan(end)
+    rays = np.stack([np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), np.cos(angle)], axis=-1)
+    pixels = project(camera, rays)
+    seen = np.isfinite(pixels).all(axis=-1)
+    assert (seen == (angle < end)).all()
+    outwards = (pixels - [camera.cx, camera.cy]) @ [np.cos(turn), np.sin(turn)]
+    assert (np.diff(outwards[seen], prepend=0.0) > 0.0).all()
+
+
+@given(_cameras(), st.integers(0, 2**32 - 1))
+def test_every_point_with_a_pixel_lies_on_this_pixels_ray(camera, seed):
+    rays = np.random.default_rng(seed).normal(size=(200, 3))
+    rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
+    if camera.model == "pinhole":
+        rays = rays[
+            rays[:, 2] > 0.05
+        ]  # a polynomial of the seventh degree leaves no digits beside the camera
+    pixels = project(camera, 0.05 * rays)
+    seen = np.isfinite(pixels).all(axis=-1)
+    # next to the turning point a pixel is degrees: rounding grows to its square root
+    np.testing.assert_allclose(unproject(camera, pixels[seen]), rays[seen], atol=1e-6)
+    assert np.isnan(unproject(camera, pixels[~seen])).all()
+
+
+def test_pixels_beyond_the_turning_point_see_no_ray():
+    camera = replace(PINHOLE, distortion=(-0.08,), fx=116, fy=116, cx=99.5, cy=99.5)
+    reach = 116 * 2 / 3 * turning_radius(camera)
+    assert turning_radius(camera) == pytest.approx(np.tan(np.radians(63.9)), rel=1e-3)
+    rays = unproject(camera, np.array([[99.5 + 0.999 * reach, 99.5], [99.5, 99.5 - 1.001 * reach]]))
+    assert np.isfinite(rays[0]).all()
+    assert np.isnan(rays[1]).all()
+
+
+def test_straight_behind_a_fisheye_there_is_no_pixel():
+    pixels = project(FISHEYE, np.array([[0.0, 0.0, -1.0], [0.0, 0.0, 0.0], [1e-3, 0.0, -1.0]]))
+    assert np.isnan(pixels[:2]).all()
 
 
 def test_outermost_pixels_belong_to_the_picture():
