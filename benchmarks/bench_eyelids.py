@@ -2,10 +2,10 @@
 
     python benchmarks/bench_eyelids.py [--people 50] [--rig anny --rig ict]
 
-Random people (standard normal identities, cut at 2.5) look anywhere within 25 degrees, their eyeLook* weights saying so,
-and wear the headset off by its donning tolerances. With eyeBlink 1 every pixel around the eyes is cast at the scene's
-meshes, housing included: the table says how many views show sclera or iris, and the most pixels of a view. With
-eyeBlink 0 the ray to each pupil's centre is: what it meets first covers the pupil, skin and housing truly do, anything
+Random people (standard normal identities, cut at 2.5) look anywhere within 25 degrees, their eyeLook* weights say so
+too, and wear the headset off by its donning tolerances. With eyeBlink 1 every pixel around the eyes is cast at the
+scene's meshes, housing included: the table says how many views show sclera or iris, and the most pixels of a view. With
+eyeBlink 0 the ray to each pupil's centre is: what it meets first covers the pupil. Skin and housing truly do; anything
 else is a defect.
 """
 
@@ -70,7 +70,8 @@ def print_table(rig: Rig, headset: Headset, people: int) -> None:
         seen = np.array(pixels[name])
         free = before[name].count(Part.PUPIL)
         covered = sum(part in (Part.SKIN, Part.BROWS, Part.HEADSET) for part in before[name])
-        said = f"{(seen > 0).sum()} of {people} | {seen.max()} | {free} | {covered} | {len(before[name]) - free - covered}"
+        defects = len(before[name]) - free - covered
+        said = f"{(seen > 0).sum()} of {people} | {seen.max()} | {free} | {covered} | {defects}"
         print(f"| {rig.name} | {headset.name} | {name} | {said} |", flush=True)
 
 

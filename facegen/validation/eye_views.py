@@ -33,7 +33,7 @@ def scene_of(
 
 
 def eyeball_pixels(view: View, scene: Scene) -> int:
-    """How many pixels of a view show the outer surface of an eyeball, past lids, nose and housing; lashes are no lid."""
+    """How many pixels of a view show the outer surface of an eyeball, past lids, nose and housing."""
     ball = np.concatenate([m.vertices for m in scene.meshes if np.isin(m.part, EYEBALL).any()])
     shown = project(view.camera, apply_transform(view.camera_from_head, ball))
     shown = shown[np.isfinite(shown).all(axis=-1)]
