@@ -7,6 +7,10 @@ too, and wear the headset off by its donning tolerances. With eyeBlink 1 every p
 scene's meshes, housing included: the table says how many views show sclera or iris, and the most pixels of a view. With
 eyeBlink 0 the ray to each pupil's centre is: what it meets first covers the pupil. Skin and housing truly do; anything
 else is a defect.
+
+Result (2026-11-21, --people 8): of 160 views of shut eyes none shows an eye. (Of 320 others, 32 people without housing
+and with eyeBlink alone, 5 did, by 1 px at a corner of the lids.) Of 192 pupils of open eyes, linings of the lids cover
+11 in rig anny: they reach into the cornea, before the iris. In rig ict none is.
 """
 
 import argparse
