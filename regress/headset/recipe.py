@@ -34,6 +34,8 @@ class HeadsetRecipe:
         Weight of each camera's own error on the shapes of its part and on all others (eq. 4); modular only.
     geometry_loss
         Weight of the face's squared displacement error beside the weights' own; 0 leaves it out.
+    gaze_loss
+        How much a gaze angle's squared error counts against a weight's.
     camera_dropout
         Probability that a camera is absent from a training frame.
     calibration, calibration_dropout
@@ -58,7 +60,7 @@ class HeadsetRecipe:
 
     architecture: str = "modular"
     seed: int = 0
-    epochs: int = 72
+    epochs: int = 48
     batch: int = 32
     learning_rate: float = 1.5e-3
     weight_decay: float = 1e-2
@@ -70,6 +72,7 @@ class HeadsetRecipe:
     part_loss: float = 1.0
     part_loss_elsewhere: float = 0.05
     geometry_loss: float = 0.5
+    gaze_loss: float = 1.0
     camera_dropout: float = 0.15
     calibration: bool = True
     calibration_dropout: float = 0.4
@@ -114,6 +117,7 @@ class HeadsetRecipe:
             "part_loss",
             "part_loss_elsewhere",
             "geometry_loss",
+            "gaze_loss",
             "skip",
             "shut_eyes",
         )

@@ -5,6 +5,7 @@ from torch.nn import functional
 
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.networks import Answer, HeadsetNetwork, ModularNetwork
+from regress.headset.training.targets import WEIGHTS
 
 _SEAT = 0.1
 """Weight of the seat's cross-entropy."""
@@ -33,14 +34,17 @@ def total_loss(
         training mean is said.
     """
     error = answer.blended.mean - wanted
-    loss = error.square().mean()
+    importance = torch.ones(error.shape[1])
+    importance[WEIGHTS:] = recipe.gaze_loss
+    importance = importance / importance.mean()
+    loss = (importance * error.square()).mean()
     if recipe.geometry_loss:
         weights = error[:, : len(gram)]
         loss = loss + recipe.geometry_loss * ((weights @ gram) * weights).sum(dim=1).mean()
     own = answer.means - wanted[:, None]
     if isinstance(network, ModularNetwork) and recipe.part_loss:
         share = torch.where(network.part, 1.0, recipe.part_loss_elsewhere)
-        loss = loss + recipe.part_loss * (share * own.square()).mean()
+        loss = loss + recipe.part_loss * (importance * share * own.square()).mean()
     # Detached: a variance learns how wrong its mean is, and does not excuse it from getting better.
     log_variances = answer.log_variances
     loss = loss + 0.5 * (log_variances + own.detach().square() * torch.exp(-log_variances)).mean()

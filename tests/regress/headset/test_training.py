@@ -106,7 +106,11 @@ def test_a_state_that_cannot_be_written_is_said(arrays: HeadsetArrays, tmp_path:
 
 @pytest.mark.parametrize(
     "settings",
-    [{"calibration": False}, {"randomise": 1.0}, {"part_loss": 0.0, "geometry_loss": 0.0, "mirror": False}],
+    [
+        {"calibration": False},
+        {"randomise": 1.0},
+        {"part_loss": 0.0, "geometry_loss": 0.0, "mirror": False, "gaze_loss": 5.0},
+    ],
 )
 def test_settings_train(arrays: HeadsetArrays, tmp_path: Path, settings: dict):
     model = train_headset(arrays, replace(QUICK, epochs=1, **settings), tmp_path / "model")
