@@ -75,18 +75,22 @@ def main() -> None:
 
 def label(one: HeadsetPredictor, plain: dict[str, object]) -> str:
     """The architecture, and what else differs from the first model's training but the seed."""
-    recipe = one.model.training["recipe"]
+    recipe, usual = recipe_of(one.model.training), recipe_of(plain)
     changed = [
         f"{name.replace('_', ' ')} {value}"
         for name, value in recipe.items()
-        if name not in ("architecture", "seed") and value != plain["recipe"].get(name)
+        if name not in ("architecture", "seed", "people") and value != usual[name]
     ]
-    withheld = (
-        recipe["withhold"] != plain["recipe"]["withhold"]
-    )  # says already why there are fewer people or frames
+    # withholding says already why there are fewer people or frames
+    withheld = recipe["withhold"] != usual["withhold"]
     if one.model.training["people"] != plain["people"] and not withheld:
         changed.append(f"{one.model.training['people']} people")
     return ", ".join([recipe["architecture"], *changed])
+
+
+def recipe_of(training: dict[str, object]) -> dict[str, object]:
+    """A model's recipe; settings that are younger than it have the values that change nothing."""
+    return {"skip": 0, "gaze_loss": 1.0, "shut_eyes": 0, **training["recipe"]}
 
 
 def print_main(groups: dict[str, list[Path]], found: dict[Path, Figures], title: str) -> None:
@@ -149,7 +153,7 @@ def find_rivals(
     rivals = defaultdict(list)
     for one in models.values():
         for other in models.values():
-            mine, theirs = (dict(model.model.training["recipe"]) for model in (one, other))
+            mine, theirs = (recipe_of(model.model.training) for model in (one, other))
             if (mine.pop("architecture"), theirs.pop("architecture")) != ("modular", "holistic"):
                 continue
             # settings that only one of the two kinds has
