@@ -115,6 +115,7 @@ class Part(IntEnum):
     HEADSET = 14
     GLASSES = 15
     HAIR = 16
+    LENS = 17
 
 
 class ExitCode(IntEnum):

@@ -13,6 +13,8 @@ from facegen.conventions import Part
 from facegen.scene.materials import MATERIALS
 
 EYE_INDEX = MATERIALS["cornea"]["index"]
+LINER_M = 1.1e-3
+"""Half the width of eyeliner, from the lid's margin."""
 CREASE_DEPTH_M, CREASE_SHADE = 0.5e-3, 0.4
 """Of a lid crease of strength 1: depth, and the share of light that its ground lacks."""
 UV_METRES = 0.9
@@ -63,8 +65,21 @@ def _skin(graph: Graph, subsurface: bool) -> Socket:
     height = math("MULTIPLY_ADD", crease, -CREASE_DEPTH_M, height)
     # in its ground little light arrives, and scattering would fill a mere change of normals with light again
     albedo = math("MULTIPLY", albedo, math("MULTIPLY_ADD", crease, -CREASE_SHADE, 1.0))
+    albedo = math("MULTIPLY", albedo, math("SUBTRACT", 1.0, math("MULTIPLY", _liner(graph), p["liner"])))
     normal = graph.node("Bump", Strength=1.0, Distance=1.0, Height=height)
     return _surface(graph, albedo, subsurface=subsurface, normal=normal, Specular_IOR_Level=p["specular"])
+
+
+def _liner(graph: Graph) -> Socket:
+    """1 on the upper lid's margin, 0 beyond a line's width; it fades towards the corners as creases do."""
+    distance, share = (
+        graph.node("Attribute", output="Fac", settings={"attribute_name": name})
+        for name in ("crease_distance_m", "crease_share")
+    )
+    line = graph.node(
+        "MapRange", distance, 0.4 * LINER_M, LINER_M, 1.0, 0.0, settings={"interpolation_type": "SMOOTHSTEP"}
+    )
+    return graph.math("MULTIPLY", line, share)
 
 
 def _crease(graph: Graph, place: Socket) -> Socket:
@@ -161,6 +176,17 @@ def _headset(graph: Graph, subsurface: bool) -> Socket:
     )
 
 
+def _frame(graph: Graph, subsurface: bool) -> Socket:
+    """Plastic: dark, with a sheen."""
+    return _surface(graph, graph.parameters["albedo"], subsurface=False)
+
+
+def _lens(graph: Graph, subsurface: bool) -> Socket:
+    """Thin and clear: rays go straight on, a little fainter; images of lamps are added afterwards, as on corneas."""
+    clear = graph.parameters["transmission"]
+    return graph.node("BsdfTransparent", graph.node("CombineXYZ", clear, clear, clear))
+
+
 def _emitter(graph: Graph, subsurface: bool) -> Socket:
     """Shines evenly: markers of tests and calibration targets."""
     return graph.node("Emission", None, graph.parameters["radiance"])
@@ -181,6 +207,8 @@ SHADERS: dict[str, Callable[[Graph, bool], Socket]] = {
     "tongue": _plain,
     "lashes": _matte,
     "hair": _matte,
+    "frame": _frame,
+    "lens": _lens,
     "headset": _headset,
     "emitter": _emitter,
 }
@@ -205,5 +233,8 @@ def build_truth_material() -> bpy.types.Material:
     u, v = (graph.node("SeparateXYZ", uv, output=axis) for axis in ("X", "Y"))
     label = graph.node("Emission", graph.node("CombineXYZ", part, u, v), 1.0)
     refraction = graph.node("BsdfRefraction", IOR=EYE_INDEX, Roughness=0.0)
-    is_cornea = graph.math("COMPARE", part, float(Part.CORNEA), 0.1)
-    return graph.finish(graph.mix(is_cornea, label, refraction))
+    is_cornea, is_lens = (
+        graph.math("COMPARE", part, float(clear), 0.1) for clear in (Part.CORNEA, Part.LENS)
+    )
+    shown = graph.mix(is_cornea, label, refraction)
+    return graph.finish(graph.mix(is_lens, shown, graph.node("BsdfTransparent")))

@@ -15,7 +15,7 @@ from facegen.errors import InputError
 from facegen.geometry import Camera, invert_transform, pixel_rays
 from facegen.geometry.cameras import DISTORTION_TERMS
 from facegen.scene.materials import MATERIALS, material_values
-from facegen.scene.scene import Glimpse, Lamp, Layers, Mesh, Scene, View
+from facegen.scene.scene import Glimpse, Lamp, Layers, Mesh, Scene, Strands, View
 
 BLENDER_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 """Blender's cameras look along -z with y up."""
@@ -198,10 +198,12 @@ class Renderer:
             material_values(name, scene.materials[name])
         for mesh in scene.meshes:
             self._place_mesh(mesh, scene)
+        for strands in scene.strands:
+            self._place(strands.name, _new_curves(strands, self._material(strands.material, scene)))
         for lamp in scene.lamps:
             self._place_lamp(lamp)
-        for name in set(self._objects) - {mesh.name for mesh in scene.meshes}:
-            bpy.data.meshes.remove(self._objects.pop(name).data)
+        for name in set(self._objects) - {placed.name for placed in (*scene.meshes, *scene.strands)}:
+            _remove(self._objects.pop(name).data)
         for name in set(self._lamps) - {lamp.name for lamp in scene.lamps}:
             bpy.data.lights.remove(self._lamps.pop(name).data)
         self._loaded = scene
@@ -220,14 +222,16 @@ class Renderer:
         search tree instead of building it, and the next picture's normals differ in their last bit from a
         fresh process's.
         """
-        data = _new_mesh(mesh, [self._material(name, scene) for name in mesh.materials])
-        if mesh.name in self._objects:
-            old = self._objects[mesh.name].data
-            self._objects[mesh.name].data = data
-            bpy.data.meshes.remove(old)
+        self._place(mesh.name, _new_mesh(mesh, [self._material(name, scene) for name in mesh.materials]))
+
+    def _place(self, name: str, data: bpy.types.ID) -> None:
+        if name in self._objects:
+            old = self._objects[name].data
+            self._objects[name].data = data
+            _remove(old)
         else:
-            self._objects[mesh.name] = bpy.data.objects.new(mesh.name, data)
-            self._scene.collection.objects.link(self._objects[mesh.name])
+            self._objects[name] = bpy.data.objects.new(name, data)
+            self._scene.collection.objects.link(self._objects[name])
 
     def _place_lamp(self, lamp: Lamp) -> None:
         if lamp.name not in self._lamps:
@@ -358,6 +362,25 @@ def _new_mesh(mesh: Mesh, materials: list[bpy.types.Material]) -> bpy.types.Mesh
         data.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
     data.update(calc_edges=True)
     return data
+
+
+def _new_curves(strands: Strands, material: bpy.types.Material) -> bpy.types.Curves:
+    """Blender's hair curves with their thickness and, as one value each, ``part``."""
+    count, points = strands.points.shape[:2]
+    data = bpy.data.hair_curves.new(strands.name)
+    data.add_curves([points] * count)
+    position = np.ascontiguousarray(strands.points, np.float32)
+    data.attributes["position"].data.foreach_set("vector", position.ravel())
+    radius = data.attributes.get("radius") or data.attributes.new("radius", "FLOAT", "POINT")
+    radius.data.foreach_set("value", strands.radius_m.astype(np.float32).ravel())
+    part = data.attributes.new("part", "FLOAT", "CURVE")
+    part.data.foreach_set("value", np.full(count, strands.part, np.float32))
+    data.materials.append(material)
+    return data
+
+
+def _remove(data: bpy.types.ID) -> None:
+    (bpy.data.meshes if isinstance(data, bpy.types.Mesh) else bpy.data.hair_curves).remove(data)
 
 
 def _pose_along(position: np.ndarray, direction: np.ndarray) -> np.ndarray:

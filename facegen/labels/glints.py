@@ -29,7 +29,9 @@ from facegen.geometry import (
 from facegen.raster import hidden
 from facegen.rigs.eyes import CORNEA_INDEX, EyeGeometry
 from facegen.scene import Lamp, View
+from facegen.scene.glasses import LensMirror
 from facegen.scene.lamps import radiant_intensity
+from facegen.scene.materials import MATERIALS
 
 HIDING_M = 3e-5
 """What hides a glint is nearer than its mirror by at least this; closed lids lie 0.35 mm before the cornea."""
@@ -37,11 +39,14 @@ LENS_BLUR = 0.6 / 640.0
 """Standard deviation of the lens's blur, of the picture's width: glints of 9 to 17 px at 640 px wide."""
 PIXEL_BLUR_PX = 0.3
 """Standard deviation of what a pixel adds to its own box: crosstalk, and the renderer's pixel filter."""
-SURFACES = ("cornea", "sclera", "tears")
-SHEEN = {"cornea": 1.0, "sclera": 0.2, "tears": 0.5}
-"""Share of the light that forms an image at all: the sclera's tear film lies on uneven tissue (chosen by eye)."""
+SURFACES = ("cornea", "sclera", "tears", "lens")
+SHEEN = {"cornea": 1.0, "sclera": 0.2, "tears": 0.5, "lens": 1.9}
+"""Share of the light that forms an image at all: the sclera's tear film lies on uneven tissue (chosen by eye).
+A lens mirrors at both of its faces, which are so near each other that one image stands for both."""
 CLUMP_RAD = {"cornea": 0.0, "sclera": 0.009, "tears": 0.004}
 """Radians over which an uneven surface scatters its image into a clump of spots (likewise)."""
+LENS_INDEX = 1.5
+LENS_TRANSMISSION = MATERIALS["lens"]["transmission"]
 MENISCUS_M = (0.4e-3, 15e-3)
 """Radii of the tears on the lower lid's edge, across it (as measured, 0.2 to 0.5) and along it."""
 
@@ -65,7 +70,8 @@ class Glints:
     sigma_px
         (n,) standard deviation of the spot in pixels.
     clump_px
-        (n,) pixels over which an uneven mirror scatters it (`facegen.labels.spots`); 0 on the cornea.
+        (n,) pixels over which an uneven mirror scatters it (`facegen.labels.spots`); 0 on the cornea. The radius of the
+        disc that a lens of glasses shows.
     """
 
     lamps: tuple[str, ...]
@@ -85,6 +91,7 @@ def label_glints(
     eyes: tuple[EyeGeometry, EyeGeometry],
     tear_lines: tuple[np.ndarray, np.ndarray],
     occluder: tuple[np.ndarray, np.ndarray],
+    lenses: tuple[LensMirror, ...] = (),
 ) -> Glints:
     """Glints of one view.
 
@@ -99,15 +106,19 @@ def label_glints(
     tear_lines
         Their `facegen.scene.lids.tear_lines`.
     occluder
-        Everything that hides a glint, lashes included, corneas not (`facegen.labels.views.occluders`).
+        Everything that hides a glint, lashes included, corneas and lenses not
+        (`facegen.labels.views.occluders`).
+    lenses
+        The subject's left and right lens of glasses, if there are any.
     """
     camera_m = invert_transform(view.camera_from_head)[:3, 3]
     lit = [lamp for lamp in lamps if lamp.name in view.lamps]
     mirrors = {
         (side, surface): _images(surface, eyes[side], tear_lines[side], lit, camera_m)
         for side in range(len(SIDES))
-        for surface in SURFACES
+        for surface in ("cornea", "sclera", "tears")
     }
+    mirrors |= {(side, "lens"): _lens_images(lens, lit, camera_m) for side, lens in enumerate(lenses)}
     images = [
         (lamp, side, surface, found[index])
         for index, lamp in enumerate(lit)
@@ -121,11 +132,18 @@ def label_glints(
     images = [image for image, kept in zip(images, inside, strict=True) if kept]
     in_camera, points = in_camera[inside], points[inside]
     px2_per_sr = _pixels_per_steradian(view.camera, in_camera)
-    power, size_rad = (np.zeros(len(images)) for _ in range(2))
+    power, size_rad, clump_rad = (np.zeros(len(images)) for _ in range(3))
     for i, (lamp, _, surface, image) in enumerate(images):
-        power[i] = radiant_intensity(lamp, image.point) * fresnel(image.cosine, CORNEA_INDEX) * image.gain
+        index = LENS_INDEX if surface == "lens" else CORNEA_INDEX
+        power[i] = radiant_intensity(lamp, image.point) * fresnel(image.cosine, index) * image.gain
         power[i] *= SHEEN[surface]
-        size_rad[i] = image.shrinking * lamp.diameter_m / 4.0  # a disc's standard deviation
+        if lenses and surface != "lens":
+            power[i] *= LENS_TRANSMISSION**2  # in and out
+        if surface == "lens":
+            clump_rad[i] = image.shrinking * lamp.diameter_m / 2.0  # an image of several pixels: a disc
+        else:
+            clump_rad[i] = CLUMP_RAD[surface]
+            size_rad[i] = image.shrinking * lamp.diameter_m / 4.0  # a disc's standard deviation
     blur_px = LENS_BLUR * view.camera.width
     return Glints(
         lamps=tuple(lamp.name for lamp, *_ in images),
@@ -136,7 +154,7 @@ def label_glints(
         seen=_seen(view, [lamp for lamp, *_ in images], points, in_camera, occluder),
         volume=power * px2_per_sr,
         sigma_px=np.sqrt(size_rad**2 * px2_per_sr + blur_px**2 + PIXEL_BLUR_PX**2),
-        clump_px=np.array([CLUMP_RAD[surface] for *_, surface, _ in images]) * np.sqrt(px2_per_sr),
+        clump_px=clump_rad * np.sqrt(px2_per_sr),
     )
 
 
@@ -155,6 +173,17 @@ def _images(
     # the cornea ends, and the sclera begins, at the limbus
     before_limbus = ((image.point - eye.center) * eye.axis).sum(axis=-1) > eye.limbus_offset
     point = np.where((before_limbus == (surface == "cornea"))[:, None], image.point, np.nan)
+    return [
+        Reflection(point=point[i], cosine=image.cosine[i], gain=image.gain[i], shrinking=image.shrinking[i])
+        for i in range(len(lamps))
+    ]
+
+
+def _lens_images(lens: LensMirror, lamps: list[Lamp], camera_m: np.ndarray) -> list[Reflection]:
+    """The lamps' images in a lens of glasses, as in `_images`."""
+    positions = np.array([lamp.position for lamp in lamps]).reshape(-1, 3)
+    image = reflect_in_sphere(lens.center, lens.radius, positions, camera_m)
+    point = np.where(lens.holds(image.point)[:, None], image.point, np.nan)
     return [
         Reflection(point=point[i], cosine=image.cosine[i], gain=image.gain[i], shrinking=image.shrinking[i])
         for i in range(len(lamps))

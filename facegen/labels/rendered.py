@@ -13,8 +13,9 @@ from facegen.labels.views import ViewLabels, label_view, occluders
 from facegen.randomness import stream
 from facegen.rigs import EyeGeometry, Rig, evaluate, eye_geometry, neutral_landmarks
 from facegen.sampling import Samples, Shot, draw_shot
-from facegen.scene import Look, Scene, View, assemble, draw_look, tear_lines
-from facegen.spec import Spec
+from facegen.scene import Look, Scene, View, assemble, draw_look, made_up, tear_lines
+from facegen.scene.accessories import Accessories, draw_accessories, put_on
+from facegen.spec import Looks, Spec
 
 NOSE_BRIDGE = 27
 """Index of the landmark on which a headset rests."""
@@ -32,6 +33,8 @@ class RenderedSample:
         What to render.
     eyes
         The subject's left and right eye.
+    accessories
+        Beard, glasses and make-up that the person wears in this session.
     headset
         The session's unit of the headset.
     head_from_headset
@@ -46,6 +49,7 @@ class RenderedSample:
     keypoints: Keypoints
     scene: Scene
     eyes: tuple[EyeGeometry, EyeGeometry]
+    accessories: Accessories
     headset: Headset
     head_from_headset: np.ndarray
     donning: np.ndarray
@@ -78,6 +82,19 @@ def _look(seed: int, person: int, rig: Rig) -> Look:
     return draw_look(stream(seed, "look", person), rig)
 
 
+@lru_cache(maxsize=8)
+def _accessories(seed: int, looks: Looks, person: int, session: int, female: bool, rig: Rig) -> Accessories:
+    return draw_accessories(
+        stream(seed, "accessories", person),
+        stream(seed, "session accessories", session),
+        rig,
+        female=female,
+        beard=looks.beard,
+        glasses=looks.glasses,
+        make_up=looks.make_up,
+    )
+
+
 def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> RenderedSample:
     """Scene and labels of one sample (a single row of `Samples`)."""
     face = evaluate(rig, samples.identity, samples.weights, samples.gaze)
@@ -95,20 +112,25 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
     nose_bridge = neutral_landmarks(rig, samples.identity)[0, NOSE_BRIDGE]
     donning, slip = realised_fit(spec, headset, samples)
     fit = head_from_headset(unit, nose_bridge, donning + slip)
-    look = _look(spec.seed, int(samples.person[0]), rig)
-    scene = assemble(rig, face.vertices[0], (left, right), unit, fit, look=look)
+    person = int(samples.person[0])
+    look = _look(spec.seed, person, rig)
+    accessories = _accessories(spec.seed, spec.looks, person, session, bool(samples.female[0]), rig)
+    if accessories.make_up is not None:
+        look = made_up(look, accessories.make_up)
+    worn = put_on(accessories, rig, face.vertices[0], (left, right))
+    scene = assemble(rig, face.vertices[0], (left, right), unit, fit, look=look, worn=worn)
     shots = {
         view.name: draw_shot(spec, view.name, view.lamps, session=session, sample=sample)
         for view in scene.views
     }
     scene = replace(scene, views=tuple(_with_lit_lamps(view, shots[view.name]) for view in scene.views))
     occluder = occluders(scene.meshes)
-    glint_occluder = occluders(scene.meshes, transparent=(Part.CORNEA,))
+    glint_occluder = occluders(scene.meshes, transparent=(Part.CORNEA, Part.LENS))
     eyes = left, right
     tears = tear_lines(rig, face.vertices[0], face.eye_center[0])
     views = {}
     for view in scene.views:
-        glints = label_glints(view, scene.lamps, eyes, tears, glint_occluder)
+        glints = label_glints(view, scene.lamps, eyes, tears, glint_occluder, worn.lenses)
         labels = label_view(view, face.landmarks[0], eyes, occluder, glints)
         views[view.name] = behind_aperture(labels, unit.camera(view.name))
     return RenderedSample(
@@ -116,6 +138,7 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
         keypoints=label_keypoints(spec, rig, samples, face),
         scene=scene,
         eyes=eyes,
+        accessories=accessories,
         headset=unit,
         head_from_headset=fit,
         donning=donning,

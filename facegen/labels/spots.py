@@ -9,8 +9,19 @@ REACH = 5.0
 """Standard deviations to which a spot is drawn; beyond, the brightest is below a grey level."""
 CLUMP = np.array([[0.0, 0.0, 0.4], [0.7, 0.3, 0.2], [-0.5, 0.6, 0.15], [0.2, -0.8, 0.15], [-0.9, -0.4, 0.1]])
 """What an uneven mirror makes of a spot: places in units of ``clump_px``, and shares of the light."""
+DISC = np.array(
+    [[0.0, 0.0, 1.0 / 19.0]]
+    + [[0.5 * np.cos(a), 0.5 * np.sin(a), 1.0 / 19.0] for a in np.arange(6) * np.pi / 3.0]
+    + [[0.87 * np.cos(a), 0.87 * np.sin(a), 1.0 / 19.0] for a in (np.arange(12) + 0.5) * np.pi / 6.0]
+)
+"""The same of an LED that a lens mirrors: large enough to show as a disc, whose radius ``clump_px`` then is."""
 CLUMP_BLUR = 0.5
 """Further standard deviation of each spot of a clump in units of ``clump_px``: they run into each other."""
+
+
+DISC_BLUR = 0.22
+"""Likewise of a disc: its spots make an even face."""
+_PATTERNS = {"cornea": np.array([[0.0, 0.0, 1.0]]), "sclera": CLUMP, "tears": CLUMP, "lens": DISC}
 
 
 def with_glints(radiance: np.ndarray, glints: Glints) -> np.ndarray:
@@ -30,10 +41,11 @@ def with_glints(radiance: np.ndarray, glints: Glints) -> np.ndarray:
     """
     total = radiance.astype(np.float64)
     for i in np.flatnonzero(glints.seen):
-        spots = CLUMP if glints.clump_px[i] > 0.0 else np.array([[0.0, 0.0, 1.0]])
+        spots = _PATTERNS[glints.surfaces[i]]
+        blur = DISC_BLUR if glints.surfaces[i] == "lens" else CLUMP_BLUR
         for *aside, share in spots:
             middle = glints.points_2d[i] + glints.clump_px[i] * np.array(aside)
-            sigma = np.hypot(glints.sigma_px[i], CLUMP_BLUR * glints.clump_px[i])
+            sigma = np.hypot(glints.sigma_px[i], blur * glints.clump_px[i])
             _add_spot(total, middle, sigma, share * glints.volume[i])
     return np.minimum(total, np.finfo(np.float16).max).astype(np.float16).astype(np.float32)
 

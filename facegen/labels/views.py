@@ -17,8 +17,8 @@ RESOLVED_M = 9e-4
 """A landmark is visible only where the picture can show it: one of the 3x3 pixels around it must see the surface at the
 landmark's depth. Skin seen at grazing angles runs several millimetres per pixel. `validate` allows 1 mm."""
 
-TRANSPARENT = (Part.CORNEA, Part.LASHES, Part.HAIR)
-"""Parts that hide no landmark behind them: the cornea is clear, lashes and hair are strands."""
+TRANSPARENT = (Part.CORNEA, Part.LENS, Part.LASHES, Part.HAIR)
+"""Parts that hide no landmark behind them: cornea and lenses are clear, lashes and hair are strands."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -8,6 +8,7 @@ from facegen.conventions import SIDES, Part
 from facegen.geometry import apply_transform, invert_transform
 from facegen.headsets import Headset
 from facegen.rigs import EyeGeometry, Rig
+from facegen.scene.accessories import WornAccessories
 from facegen.scene.eyes import eye_meshes
 from facegen.scene.housing import headset_meshes
 from facegen.scene.lids import caruncle_meshes, crease_fields
@@ -43,6 +44,7 @@ def assemble(
     head_from_headset: np.ndarray,
     *,
     look: Look | None = None,
+    worn: WornAccessories = WornAccessories(),
 ) -> Scene:
     """The scene of one sample.
 
@@ -58,15 +60,19 @@ def assemble(
         The headset and where it sits (`facegen.headsets.head_from_headset`).
     look
         The person's materials and hair; without one the materials' defaults, and no hair.
+    worn
+        Beard and glasses on this head.
     """
     eye_parts = [mesh for eye, side in zip(eyes, SIDES, strict=True) for mesh in eye_meshes(eye, side)]
     eye_parts += caruncle_meshes(rig, vertices, np.stack([eye.center for eye in eyes]))
     eye_parts += headset_meshes(headset, head_from_headset)
+    hair = hair_meshes(look, vertices) if look else ()
     return Scene(
-        meshes=(*head_meshes(rig, vertices), *eye_parts, *(hair_meshes(look, vertices) if look else ())),
+        meshes=(*head_meshes(rig, vertices), *eye_parts, *hair, *worn.meshes),
         lamps=headset_lamps(headset, head_from_headset),
         views=headset_views(headset, head_from_headset),
         materials=look.materials if look else {},
+        strands=worn.strands,
     )
 
 

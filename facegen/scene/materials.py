@@ -21,6 +21,7 @@ MATERIALS: dict[str, dict[str, float]] = {
         "bump_m": 4e-5,
         "crease": 0.6,
         "crease_m": 5.0e-3,
+        "liner": 0.0,
     },
     "lips": {
         "albedo": 0.525,
@@ -31,6 +32,7 @@ MATERIALS: dict[str, dict[str, float]] = {
         "bump_m": 8e-5,
         "crease": 0.0,
         "crease_m": 1.0,
+        "liner": 0.0,
     },
     "cavity": {"albedo": 0.18, "roughness": 0.6},
     "conjunctiva": {"albedo": 0.5, "roughness": 0.3},
@@ -51,6 +53,8 @@ MATERIALS: dict[str, dict[str, float]] = {
     "tongue": {"albedo": 0.42, "roughness": 0.4, "scatter_m": 2.0e-3},
     "lashes": {"albedo": 0.08},
     "hair": {"albedo": 0.15},
+    "frame": {"albedo": 0.08, "roughness": 0.35},
+    "lens": {"transmission": 0.92},
     "headset": {},
     "emitter": {"radiance": 1.0},
 }
@@ -64,6 +68,10 @@ MATERIALS: dict[str, dict[str, float]] = {
     Depth of the iris's fibres, height of its lighter inner zone, and a number that picks the fibre pattern.
 ``crease``, ``crease_m``
     Depth of the lid's crease, 1 being 0.5 mm, and its distance from the lid's margin.
+``liner``
+    Share of the light that eyeliner along the upper lashes absorbs.
+``transmission``
+    Share of the light that passes a lens; what is lost is mirrored, and added as glints.
 ``vessels``
     How much of the sclera's albedo a vessel takes away.
 """

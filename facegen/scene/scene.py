@@ -43,6 +43,31 @@ class Mesh:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Strands:
+    """Hair of one material and one part as curves, which cost less than tubes and hide nothing in labels.
+
+    Attributes
+    ----------
+    name
+        As a `Mesh`'s.
+    points
+        (n, k, 3) n strands from root to tip, head frame, metres.
+    radius_m
+        (n, k).
+    part
+        `facegen.conventions.Part` of all.
+    material
+        Name, looked up by the renderer.
+    """
+
+    name: str
+    points: np.ndarray
+    radius_m: np.ndarray
+    part: int
+    material: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Lamp:
     """A round infra-red LED.
 
@@ -74,7 +99,7 @@ class View:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scene:
-    """Meshes, lamps and views.
+    """Meshes, lamps and views, and what of the hair is curves.
 
     ``materials`` holds parameters by material name (for example ``{"iris": {"albedo": 0.3}}``); what it
     leaves out has the defaults of `facegen.scene.materials.MATERIALS`.
@@ -84,6 +109,7 @@ class Scene:
     lamps: tuple[Lamp, ...]
     views: tuple[View, ...]
     materials: dict[str, dict[str, float]] = field(default_factory=dict)
+    strands: tuple[Strands, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

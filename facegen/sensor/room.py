@@ -21,6 +21,7 @@ ALBEDO: dict[Part, float] = {
     Part.EYE_CAVITY: 0.3,
     Part.MOUTH_CAVITY: 0.05,
     Part.HEADSET: 0.04,
+    Part.GLASSES: 0.08,
 }
 """Diffuse reflectances at 850 nm, about those of `facegen.scene.materials`; parts not named reflect nothing."""
 

@@ -25,6 +25,7 @@ LABEL_VERSION = 2
 _LATE_KEYS: dict[str, Any] = {
     "still.sessions": 1,
     "landmarks.sliding_contour": False,
+    **{f"looks.{name}": 0.0 for name in ("beard", "glasses", "make_up")},
     "sensor.slip": 1.0,
     "render.subsurface": True,
     "render.truth": True,
@@ -138,6 +139,8 @@ def _without_late_keys(table: dict[str, Any]) -> dict[str, Any]:
         inner = reduce(operator.getitem, outer, table)
         if inner[key] == default:
             del inner[key]
+            if not inner:  # a table of late keys alone
+                del table[outer[0]]
     return table
 
 

@@ -218,6 +218,18 @@ class Eyes:
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
+class Looks:
+    """What people wear in rendered pictures beside the headset; keypoints do not depend on it."""
+
+    beard: Share = 0.35
+    """Share of men with stubble, a moustache, a goatee or a full beard; its length is a session's."""
+    glasses: Share = 0.1
+    """Share of people with glasses under the headset."""
+    make_up: Share = 0.2
+    """Share of women with mascara, eyeliner and lipstick; how much is a session's."""
+
+
+@dataclass(frozen=True, kw_only=True, config=_STRICT)
 class Sensor:
     """What else differs from picture to picture; the headset's file says how much at a factor of 1."""
 
@@ -289,5 +301,6 @@ class Spec:
     camera: KeypointCamera = KeypointCamera()
     landmarks: Landmarks = Landmarks()
     eyes: Eyes = Eyes()
+    looks: Looks = Looks()
     sensor: Sensor = Sensor()
     render: Render = Render()

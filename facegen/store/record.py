@@ -11,6 +11,7 @@ from facegen.labels import Glints, Keypoints, RenderedSample, ViewLabels
 from facegen.rigs import EyeGeometry, visual_axis
 from facegen.sampling import COMPONENT_NAMES, Shot
 from facegen.scene import Lamp, View
+from facegen.scene.accessories import Accessories
 
 
 def numbers(array: np.ndarray) -> Any:
@@ -51,6 +52,7 @@ def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> d
             "camera_from_head": samples.camera_from_head[0].tolist(),
             "intrinsics": samples.intrinsics[0].tolist(),
         },
+        **_accessories(rendered.accessories),
         "eyes": {side: _eye(eye, sight) for side, eye, sight in _by_side(rendered)},
         "headset": {
             "name": rendered.headset.name,
@@ -65,6 +67,18 @@ def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> d
             for view in rendered.scene.views
         },
     }
+
+
+def _accessories(accessories: Accessories) -> dict:
+    """What the person wears; no key where that is nothing, as before there were accessories."""
+    worn = {}
+    if accessories.beard is not None:
+        worn["beard"] = {"kind": accessories.beard.kind, "length_m": accessories.beard.length_m}
+    if accessories.glasses is not None:
+        worn["glasses"] = asdict(accessories.glasses)
+    if accessories.make_up is not None:
+        worn["make_up"] = asdict(accessories.make_up)
+    return {"accessories": worn} if worn else {}
 
 
 def _contour(keypoints: Keypoints) -> dict:

@@ -12,6 +12,7 @@ from facegen.geometry import Camera, project
 from facegen.labels import label_rendered
 from facegen.sampling import Samples, draw_samples
 from facegen.scene import Layers
+from facegen.scene.beards import LENGTH_M
 from facegen.store import Dataset, read_exr, read_png, sample_record
 from facegen.validation.agreement import disagreements
 from facegen.validation.finding import Finding, Kind
@@ -21,9 +22,9 @@ from facegen.validation.ranges import impossible
 DEPTH_M = 1e-3
 """A visible landmark's depth must be this near to the best of the 3x3 pixels around it."""
 
-STRANDS = (Part.LASHES, Part.HAIR)
-STRANDS_M = 12e-3
-"""Strands hide no landmark (docs/conventions.md), and stand no further than this before their skin: a lash's length."""
+STRANDS_M = {Part.LASHES: 12e-3, Part.HAIR: max(high for _, high in LENGTH_M.values()) + 2e-3}
+"""Strands hide no landmark (docs/conventions.md), and stand no further than this before their skin: a lash's length,
+and the longest beard's."""
 
 FAR_SHARE = 2e-6
 """Share of its pixels by which a landmark may be off besides: nearly beside a pinhole camera they go into the millions,
@@ -195,5 +196,7 @@ def depth_difference(layers: Layers, pixel: np.ndarray, depth_m: float) -> float
     x, y = np.round(pixel).astype(int)
     around = slice(max(y - 1, 0), max(y + 2, 0)), slice(max(x - 1, 0), max(x + 2, 0))
     difference = np.abs(layers.depth[around].astype(np.float64) - depth_m)
-    strands = np.isin(layers.part[around], STRANDS) & (layers.depth[around] < depth_m)
-    return float(np.min(np.where(strands & (difference < STRANDS_M), 0.0, difference), initial=np.inf))
+    part, before = layers.part[around], layers.depth[around] < depth_m
+    for strand, length_m in STRANDS_M.items():
+        difference[(part == strand) & before & (difference < length_m)] = 0.0
+    return float(difference.min(initial=np.inf))
