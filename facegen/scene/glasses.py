@@ -1,8 +1,9 @@
 """Glasses inside a headset: a frame of tubes and two thin lenses, sized from the face and clear of its skin.
 
-Lenses are plano: they shift what is behind them by some tenths of a millimetre (2 mm of glass, 45 degrees: 0.7 mm, all
-of it alike), so refraction is left out and eye labels hold as they are. Of the light, 8 % is lost at a lens's two faces (Fresnel, index 1.5), and LEDs are mirrored there
-(`facegen.labels.glints`). Frames have no nose pads; temples end at the ears.
+Lenses are plano: 2 mm of glass shift what is behind them by 0.7 mm at 45 degrees, all of it alike and along the ray's
+plane, so refraction is left out and eye labels hold as they are. Of the light, 8 % is lost at a lens's two faces
+(Fresnel, index 1.5), and LEDs are mirrored there (`facegen.labels.glints`). Frames have no nose pads; temples end at
+the ears.
 """
 
 from dataclasses import dataclass
