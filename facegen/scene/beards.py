@@ -115,7 +115,7 @@ def draw_beard(person: np.random.Generator, session: np.random.Generator, rig: R
     # the same draws for every kind, so that a person's roots stay where they are
     triangle, weight = _draw_roots(person, map_)
     root = (weight[..., None] * rig.vertices[triangle]).sum(axis=1)
-    outline, density, curl = person.normal(0.0, 2e-3), person.uniform(0.55, 1.0), person.uniform(0.0, 0.09)
+    outline, density, curl = person.normal(0.0, 2e-3), person.uniform(0.65, 1.0), person.uniform(0.0, 0.09)
     fringe, chance, age = person.normal(0.0, EDGE_M, ROOTS), person.random(ROOTS), person.random(ROOTS)
     turn, rise = person.normal(0.0, 0.2, (ROOTS, 3)), person.normal(0.0, 0.12, ROOTS)
     thickness = person.uniform(0.7, 1.25, ROOTS)
@@ -278,7 +278,7 @@ def beard_strands(beard: Beard, rig: Rig, vertices: np.ndarray) -> Strands:
         aside = np.cross(along, normal)
         swing = np.sin(2.0 * np.pi * (1.3 * t + beard.thickness[:, None] * 7.0)) * t * beard.curl
         centres += (swing * beard.reach_m[:, None])[..., None] * aside[:, None]
-        together = 0.55 * t[:, None] ** 1.5
+        together = 0.4 * t[:, None] ** 1.5
         centres = centres * (1.0 - together) + together * centres[beard.lock]
         centres[:, 1:] = _outside(centres[:, 1:], beard_map(rig).skin, vertices)
     taper = ROOT_RADIUS_M + (TIP_RADIUS_M - ROOT_RADIUS_M) * (t**2 if long else 0.3 * t)

@@ -26,6 +26,7 @@ from facegen.headsets import head_from_headset, load_headset
 from facegen.rigs import evaluate, eye_geometry
 from facegen.scene import Mesh, Scene, View, assemble, draw_look
 from facegen.scene.assembly import headset_views
+from facegen.scene.scene import Strands
 from facegen.sensor import develop
 from facegen.store.images import exr_bytes, read_exr
 from tests.facegen.blender.digest import digest
@@ -238,6 +239,51 @@ def test_moved_vertices_and_new_topology_are_taken_up(renderer):
     assert nearest(sphere("ball", np.zeros(3), 0.010)) == pytest.approx(0.050, abs=1e-4)
     assert nearest(sphere("ball", np.zeros(3), 0.015)) == pytest.approx(0.045, abs=1e-4)
     assert nearest(sphere("ball", np.zeros(3), 0.020, rings=30)) == pytest.approx(0.040, abs=1e-4)
+
+
+def test_hair_shows_where_it_is_and_a_lens_shows_what_is_behind_it_a_little_darker(renderer):
+    scene = eye_scene(64, cornea=False)
+    (view,) = scene.views
+    pose = invert_transform(view.camera_from_head)
+    # a strand across the picture 10 mm before the camera, and a pane behind it over the left half
+    strand = apply_transform(pose, np.array([[-0.02, 0.002, 0.01], [0.0, 0.002, 0.01], [0.02, 0.002, 0.01]]))
+    corners = np.array([[-0.05, -0.05, 0.02], [0.0, -0.05, 0.02], [0.0, 0.05, 0.02], [-0.05, 0.05, 0.02]])
+    pane = Mesh(
+        name="lenses",
+        vertices=apply_transform(pose, corners),
+        faces=np.array([[0, 1, 2, 3]], np.int32),
+        part=np.full(1, Part.LENS, np.uint8),
+        materials=("lens",),
+        face_material=np.zeros(1, np.int32),
+    )
+    hair = Strands(
+        name="beard",
+        points=np.stack([strand, strand]),
+        radius_m=np.full((2, 3), 3e-4),
+        part=Part.HAIR,
+        material="hair",
+    )
+    worn = dataclasses.replace(scene, meshes=(*scene.meshes, pane), strands=(hair,))
+    bare, layers = (renderer.render(s, "eye", samples=8, seed=1, denoise=False) for s in (scene, worn))
+    again = renderer.render(scene, "eye", samples=8, seed=1, denoise=False)
+    assert np.array_equal(bare.radiance, again.radiance)
+    v, u = np.rint(project(view.camera, np.array([[0.0, 0.002, 0.01]]))[0][::-1]).astype(int)
+    shown = layers.part == Part.HAIR
+    assert shown[v, 8:56].all()
+    assert not shown[: v - 4].any()
+    assert not shown[v + 5 :].any()
+    assert layers.depth[v, u] == pytest.approx(0.01 - 3e-4, abs=2e-4)
+    assert Part.LENS not in layers.part
+    clear = np.s_[4 : v - 4]
+    assert np.array_equal(layers.part[clear], bare.part[clear])
+    np.testing.assert_allclose(layers.depth[clear], bare.depth[clear], atol=1e-6)
+    left, right = (
+        layers.radiance[clear][:, side].sum() / bare.radiance[clear][:, side].sum()
+        for side in (slice(4, 28), slice(36, 60))
+    )
+    # the light of one lamp passes the pane on its way to both halves
+    assert left / right == pytest.approx(0.92, abs=0.02)
+    assert 0.92 < right < 1.0
 
 
 def test_refusals(renderer):

@@ -12,6 +12,7 @@ from facegen.labels.glints import label_glints
 from facegen.labels.views import occluders
 from facegen.rigs import eye_geometry
 from facegen.scene import Mesh
+from facegen.scene.glasses import LensMirror
 from facegen.scene.lamps import radiant_intensity
 from tests.facegen.blender.scenes import eye_scene
 
@@ -23,9 +24,9 @@ NO_TEARS = np.array([[0.0, 0.0, 9.0], [0.0, 0.0, 9.1]])
 """Behind the camera."""
 
 
-def _glints(scene, *more: Mesh, tears=NO_TEARS):
+def _glints(scene, *more: Mesh, tears=NO_TEARS, lenses=()):
     occluder = occluders((*scene.meshes, *more), transparent=(Part.CORNEA,))
-    return label_glints(scene.views[0], scene.lamps, (EYE, FAR), (tears, NO_TEARS), occluder)
+    return label_glints(scene.views[0], scene.lamps, (EYE, FAR), (tears, NO_TEARS), occluder, lenses)
 
 
 def _plate(middle, half_m: float, part: Part) -> Mesh:
@@ -98,6 +99,37 @@ def test_a_line_of_tears_below_the_cornea_has_an_image_of_each_lamp():
     assert (glints.volume[on_tears] < 0.3 * glints.volume[~on_tears]).all()
     added = with_glints(np.zeros((96, 96), np.float32), dataclasses.replace(glints, seen=on_tears))
     assert added.sum() == pytest.approx(glints.volume[on_tears].sum(), rel=5e-3)
+
+
+def _lens() -> LensMirror:
+    middle = np.array([0.0, 0.0, 0.024])
+    radius = 0.09
+    center = middle - np.array([0.0, 0.0, radius])
+    return LensMirror(
+        center=center, radius=radius, middle=middle, axes=np.eye(3), half_m=(0.026, 0.018), squareness=3.0
+    )
+
+
+def test_a_lens_mirrors_every_lamp_once_as_a_disc_and_dims_what_is_behind_it():
+    scene, lens = _scene(), _lens()
+    camera_m = invert_transform(scene.views[0].camera_from_head)[:3, 3]
+    free, glints = _glints(scene), _glints(scene, lenses=(lens, lens))
+    on_lens = (np.array(glints.surfaces) == "lens") & (np.array(glints.eyes) == "left")
+    assert [glints.lamps[i] for i in np.flatnonzero(on_lens)] == ["lamp_-1", "lamp_1"]
+    points = apply_transform(invert_transform(scene.views[0].camera_from_head), glints.points_camera)
+    assert lens.holds(points[on_lens]).all()
+    for lamp, point in zip(scene.lamps, points[on_lens], strict=True):
+        normal = (point - lens.center) / lens.radius
+        cosines = [(end - point) @ normal / np.linalg.norm(end - point) for end in (lamp.position, camera_m)]
+        assert cosines[0] == pytest.approx(cosines[1], abs=1e-9)
+    on_cornea = np.array(glints.surfaces) == "cornea"
+    np.testing.assert_array_equal(glints.points_2d[on_cornea], free.points_2d)
+    np.testing.assert_allclose(glints.volume[on_cornea], 0.92**2 * free.volume)
+    added = with_glints(np.zeros((96, 96), np.float32), dataclasses.replace(glints, seen=on_lens))
+    assert added.sum() == pytest.approx(glints.volume[on_lens].sum(), rel=2e-3)
+    # an even disc of its radius: most of it is about as bright as its middle
+    bright = added > 0.5 * added.max()
+    assert bright.sum() == pytest.approx(2.0 * np.pi * glints.clump_px[on_lens].mean() ** 2, rel=0.5)
 
 
 def test_an_led_beams_as_its_renderer_does_and_all_of_its_power():

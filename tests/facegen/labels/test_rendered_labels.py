@@ -1,6 +1,7 @@
 """Labels of rendered samples do not follow looks, materials or sensors; glints may only be hidden by other hair."""
 
 import dataclasses
+import json
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from facegen.labels import label_rendered
 from facegen.labels import rendered as module
 from facegen.sampling import draw_samples
 from facegen.scene import draw_look
-from facegen.spec import parse_spec
+from facegen.spec import Looks, parse_spec
 from facegen.store import resolve, sample_record
 
 
@@ -46,6 +47,37 @@ def test_keypoint_labels_do_not_change_with_materials_hair_or_sensor(dataset, mo
     ]
     assert before == after
     assert sum(map(len, seen[0])) >= 10
+
+
+def test_accessories_change_no_label_but_what_a_frame_hides(dataset):
+    block = draw_samples(dataset.plan, dataset.rig, 0)
+    shares = {"bare": 0.0, "worn": 1.0}
+    for row in range(3):  # men and women
+        samples = block.rows(slice(row, row + 1))
+        bare, worn = (
+            label_rendered(
+                dataclasses.replace(dataset.spec, looks=Looks(beard=share, glasses=share, make_up=share)),
+                dataset.rig,
+                dataset.headset,
+                samples,
+            )
+            for share in shares.values()
+        )
+        assert worn.accessories.glasses is not None
+        assert (worn.accessories.beard is None) == samples.female[0] == (worn.accessories.make_up is not None)
+        for field in dataclasses.fields(bare.keypoints):
+            assert np.array_equal(getattr(bare.keypoints, field.name), getattr(worn.keypoints, field.name))
+        for name, view in bare.views.items():
+            after = worn.views[name]
+            for key in ("points_2d", "points_camera", "pupil_center_2d", "gaze_camera"):
+                assert np.array_equal(getattr(view, key), getattr(after, key))
+            hidden = view.visibility != after.visibility
+            assert (after.visibility[hidden] == Visibility.HIDDEN).all()
+            assert hidden.sum() <= 8
+        record = sample_record(worn, rig="anny", dataset_hash="")
+        assert set(record["accessories"]) == {"glasses", "make_up" if samples.female[0] else "beard"}
+        assert "accessories" not in sample_record(bare, rig="anny", dataset_hash="")
+        json.dumps(record)
 
 
 def test_keypoints_do_not_change_with_units_shots_or_rooms(dataset):
