@@ -14,7 +14,7 @@ from facegen.conventions import Part
 from facegen.errors import InputError
 from facegen.geometry import Camera, invert_transform, pixel_rays
 from facegen.geometry.cameras import DISTORTION_TERMS
-from facegen.scene.materials import MATERIALS, material_values
+from facegen.scene.materials import material_values
 from facegen.scene.scene import Glimpse, Lamp, Layers, Mesh, Scene, Strands, View
 
 BLENDER_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
@@ -114,6 +114,7 @@ class Renderer:
         """
         view = _view(scene, view_name)
         self._load(scene)
+        self._paint(scene, view)
         self._aim(view)
         truth = self._truth_passes(view)
         self._light(view)
@@ -129,6 +130,7 @@ class Renderer:
         """
         view = _view(scene, view_name)
         self._load(scene)
+        self._paint(scene, view)
         self._aim(view)
         self._light(view)
         self._sample(samples, seed, denoise)
@@ -154,6 +156,7 @@ class Renderer:
         """
         view = _view(scene, view_name)
         self._load(scene)
+        self._paint(scene, view)
         for other in (*scene.views, view):
             self._aim(other)
         self._light(view)
@@ -188,12 +191,15 @@ class Renderer:
             bpy.ops.render.render()
         return passes
 
+    def _paint(self, scene: Scene, view: View) -> None:
+        """Give the loaded materials the parameters that they have in a view."""
+        for name, material in self._materials.items():
+            given = scene.materials.get(name, {}) | view.materials.get(name, {})
+            set_parameters(material, material_values(name, given))
+
     def _load(self, scene: Scene) -> None:
         if scene is self._loaded:
             return
-        for name in MATERIALS:
-            if name in self._materials:
-                set_parameters(self._materials[name], material_values(name, scene.materials.get(name, {})))
         for name in scene.materials:
             material_values(name, scene.materials[name])
         for mesh in scene.meshes:

@@ -7,6 +7,7 @@ import numpy as np
 
 from facegen.conventions import Part, Visibility
 from facegen.headsets import Headset, HeadsetCamera, draw_unit, head_from_headset
+from facegen.labels.bright_pupils import bright_pupil
 from facegen.labels.glints import label_glints
 from facegen.labels.keypoints import Keypoints, label_keypoints
 from facegen.labels.views import ViewLabels, label_view, occluders
@@ -124,6 +125,14 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
         for view in scene.views
     }
     scene = replace(scene, views=tuple(_with_lit_lamps(view, shots[view.name]) for view in scene.views))
+    albedo = scene.materials["pupil"]["albedo"]
+    scene = replace(
+        scene,
+        views=tuple(
+            replace(view, materials=bright_pupil(view, scene.lamps, (left, right), albedo))
+            for view in scene.views
+        ),
+    )
     occluder = occluders(scene.meshes)
     glint_occluder = occluders(scene.meshes, transparent=(Part.CORNEA, Part.LENS))
     eyes = left, right

@@ -89,12 +89,16 @@ class Lamp:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class View:
-    """One camera: intrinsics, ``camera_from_head`` (4, 4), and names of the lamps lit while it exposes."""
+    """One camera: intrinsics, ``camera_from_head`` (4, 4), and names of the lamps lit while it exposes.
+
+    ``materials`` stand over the scene's in this view alone.
+    """
 
     name: str
     camera: Camera
     camera_from_head: np.ndarray
     lamps: tuple[str, ...] = ()
+    materials: dict[str, dict[str, float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
