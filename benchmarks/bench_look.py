@@ -6,6 +6,9 @@
 Real eye cameras: 13 frames of a VR headset's 640x400 infra-red cameras. Real mouth camera: 3 frames, about 228x196, of
 a self-built tracker's camera below the chin. The ranges are those of single frames; shown are the mean over the
 dataset's people, their standard deviation, and whether the mean lies within the real range.
+
+Glints are measured as a sensor 640 pixels wide shows them, solved anew from the labels: at 256 pixels none
+is smaller than four pixels, and each saturated one counts as six of the real frames'.
 """
 
 import argparse
@@ -14,8 +17,12 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.conventions import Part
-from facegen.store import DatasetFolder, read_exr, read_json, read_png
+from facegen.conventions import BLOCK, Part
+from facegen.headsets import Sensor
+from facegen.labels import RenderedSample, label_rendered, with_glints
+from facegen.sampling import draw_samples
+from facegen.sensor import develop
+from facegen.store import Dataset, open_dataset, read_exr, read_json, read_png
 
 EYE = {
     "mean level": (68, 77),
@@ -64,35 +71,56 @@ def levels(grey: np.ndarray, part: np.ndarray) -> dict[str, float]:
 
 
 def eye_figures(grey: np.ndarray, part: np.ndarray, view: dict, side: str) -> dict[str, float]:
-    """`levels` and what belongs to eyes: glints that are seen, their size, and the iris's."""
+    """`levels` and what belongs to eyes: glints that are seen, and the iris's size."""
     seen = [g for g in view["glints"] if g["surface"] == "cornea" and g["eye"] == side and g["seen"]]
-    areas = []
-    for glint in seen:
-        x, y = np.round(glint["point_2d"]).astype(int)
-        around = grey[max(y - 3, 0) : y + 4, max(x - 3, 0) : x + 4]
-        areas.append((around >= SATURATED).sum() * (640.0 / grey.shape[1]) ** 2)
     eye = np.isin(part, (Part.IRIS, Part.PUPIL))
     columns = np.flatnonzero(eye.any(axis=0))
     across = 100.0 * (columns[-1] - columns[0] + 1) / grey.shape[1] if columns.size else np.nan
     # a shut eye shows no glint, and none is missing there
     return levels(grey, part) | {
         "corneal glints": len(seen) if eye.any() else np.nan,
-        "glint area, px at 640": np.mean(areas) if areas else np.nan,
         "iris across, % of width": across,
     }
 
 
+def glint_area(wide: RenderedSample, name: str, sensor: Sensor) -> float:
+    """Mean number of saturated pixels of a view's corneal glints, before an iris as bright as the average one."""
+    glints, camera = wide.views[name].glints, wide.headset.camera(name)
+    seen = [
+        i
+        for i, surface in enumerate(glints.surfaces)
+        if surface == "cornea" and glints.seen[i] and name == f"{glints.eyes[i]}_eye"
+    ]
+    iris = (np.mean(EYE["iris"]) - sensor.black_level) / 255.0 / (sensor.exposure * sensor.gain)
+    light = with_glints(np.full((camera.height, camera.width), iris, np.float32), glints)
+    grey = develop(light.astype(np.float64), sensor)
+    areas = []
+    for x, y in np.round(glints.points_2d[seen]).astype(int):
+        areas.append((grey[max(y - 5, 0) : y + 6, max(x - 5, 0) : x + 6] >= SATURATED).sum())
+    return float(np.mean(areas)) if areas else np.nan
+
+
+def at_640(dataset: Dataset, number: int) -> RenderedSample:
+    """A sample's labels as cameras of 640 pixels' width would have them."""
+    samples = draw_samples(dataset.plan, dataset.rig, number // BLOCK)
+    row = number % BLOCK
+    headset = dataset.headset.scaled(640)
+    return label_rendered(dataset.spec, dataset.rig, headset, samples.rows(slice(row, row + 1)))
+
+
 def measure(folder: Path) -> dict[str, list[dict[str, float]]]:
     """Figures of every rendered sample's eye views and mouth views."""
-    files = DatasetFolder(folder)
+    dataset = open_dataset(folder)
+    files = dataset.folder
     figures: dict[str, list[dict[str, float]]] = {"eye": [], "mouth": []}
     for number in files.rendered():
         path = files.render(number)
-        record = read_json(path / "sample.json")
+        record, wide = read_json(path / "sample.json"), at_640(dataset, number)
         for name, view in record["views"].items():
             grey, part = read_png(path / f"{name}.png"), read_exr(path / f"{name}.exr").part
             if name.endswith("_eye"):
-                figures["eye"].append(eye_figures(grey, part, view, name.removesuffix("_eye")))
+                area = {"glint area, px at 640": glint_area(wide, name, wide.headset.sensor)}
+                figures["eye"].append(eye_figures(grey, part, view, name.removesuffix("_eye")) | area)
             elif name == "mouth":
                 figures["mouth"].append(levels(grey, part))
     return figures
