@@ -3,11 +3,11 @@
     python benchmarks/bench_sweep.py WORK [--faces 6000] [--only "NAME;NAME"] [--real RECORDINGS]
 
 Datasets are `datasets/default.toml` with other heads or winks; `facegen generate` makes the missing ones in WORK. All
-trials are judged on one of them, "heads 6/6, 5 %", whose people nobody trains on in its test split: exact points, beside a
-neutral frame that has as much noise as the face. Columns: mean R2 of the visible shapes frontal, and what is lost of it
-within 20 degrees (regress.probes.poses); what is said of the shut and of the open eye in a wink, and of both where both
-are shut (regress.probes.winks); mean R2 over all shapes at five levels of noise, with how many lie more than 0.01 below
-ridge regression on the same rows; with --real, the error on recorded expressions of another rig at 0.5 px
+trials are judged on one of them, "heads 6/6, 5 %", on its test people: exact points, beside a neutral frame that has as
+much noise as the face. Columns: mean R2 of the visible shapes frontal, and what is lost of it within 20 degrees
+(regress.probes.poses); what is said of the shut and of the open eye in a wink, and of both where both are shut
+(regress.probes.winks); mean R2 over all shapes at five levels of noise, with how many lie more than 0.01 below ridge
+regression on the same rows; with --real, the error on recorded expressions of another rig at 0.5 px
 (benchmarks/real_recordings.py) and r of mouthClose there. docs/training.md has a run's table.
 """
 
@@ -73,7 +73,9 @@ class Data:
         ):
             text, count = re.subn(pattern, value, text)
             if count != 1:
-                sys.exit(f"{SPEC}: {pattern} matches {count} times, and once is needed; change bench_sweep.py")
+                sys.exit(
+                    f"{SPEC}: {pattern} matches {count} times, and once is needed; change bench_sweep.py"
+                )
         return text
 
     def _heads(self) -> dict[str, int]:
@@ -84,9 +86,7 @@ def _noisy(**values: float) -> Recipe:
     def changed(noise: DetectorNoise) -> DetectorNoise:
         return replace(noise, **values)
 
-    return replace(
-        DEFAULT, noise=changed(DEFAULT.noise), calibrated_noise=changed(DEFAULT.calibrated_noise)
-    )
+    return replace(DEFAULT, noise=changed(DEFAULT.noise), calibrated_noise=changed(DEFAULT.calibrated_noise))
 
 
 LESS_NOISE = {"clean": 0.5, "unbiased": 0.2, "jitter": 0.0005, "jitter_most": 0.02}
@@ -140,8 +140,9 @@ def judged(model: Model, dataset_folder: Path, faces: ProbeFaces, neutral: Probe
 
 def replayed(model: Model, real: Path) -> list[str]:
     """Cells of the recorded expressions: error of either take, and r of mouthClose in the range of motion."""
-    from facegen.rigs import load_rig
     from real_recordings import mean_mae, replay
+
+    from facegen.rigs import load_rig
 
     rows = {
         row["take"]: row["model"]

@@ -23,7 +23,7 @@ class Winks:
     lids close on the ball, which no sum of displacements gives, and few people of a dataset wink.
 
     Shut lids do not say how far past contact a weight went: of the default dataset's faces with an eye shut the blink
-    is 0.66 in the mean, as looking down closes lids too. So ``shut`` is to be held against ``both``, not against ``true``.
+    is 0.66 in the mean, as looking down closes lids too. So ``shut`` is to be held against ``both``, not ``true``.
 
     Parameters
     ----------
