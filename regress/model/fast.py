@@ -63,16 +63,29 @@ class FastPredictor:
         self._first, self._last = np.ascontiguousarray(first), np.ascontiguousarray(last)
         self._ends = np.stack([last, first])
         self._mean = mean = model.normalisation.feature_mean
-        self._mean32 = mean.astype(np.float32)
         self._w1 = np.ascontiguousarray(networks.w1, dtype=np.float32)
         self._w1_columns = np.ascontiguousarray(self._w1.T)  # a fifth faster on one face
-        # small about the mean: float32 would lose two digits on raw features
-        self._b1 = (networks.b1 + networks.w1 @ mean).astype(np.float32)
+        self._denoising = denoising = networks.denoising
+        if denoising is None:
+            # small about the mean: float32 would lose two digits on raw features
+            self._b1 = (networks.b1 + networks.w1 @ mean).astype(np.float32)
+        else:
+            self._mean, self._b1 = denoising.origin, networks.b1.astype(np.float32)
+            self._axes = np.concatenate([denoising.axes, denoising.noise_axes]).astype(np.float32)
+            self._axes_columns = np.ascontiguousarray(self._axes.T)
+            self._shown = len(denoising.axes)
+            self._offset, self._signal = (
+                denoising.offset.astype(np.float32),
+                denoising.signal.astype(np.float32),
+            )
+            self._least = float(denoising.least)
+            self._noise_share = 1 / len(denoising.noise_axes)
         rows = [BLENDSHAPE_INDEX[name] for name in model.outputs]
         self._w2 = np.zeros((len(BLENDSHAPES), len(networks.b1)), np.float32)
         self._w2[rows] = networks.block_w2
         self._b2 = np.zeros(len(BLENDSHAPES), np.float32)
         self._b2[rows] = networks.b2
+        self._mean32 = self._mean.astype(np.float32)
         self._centred, self._features = np.empty(len(mean)), np.empty(len(mean), np.float32)
         self._hidden = np.empty(len(networks.b1), np.float32)
         self._zero, self._one = np.zeros((), np.float32), np.ones((), np.float32)
@@ -112,7 +125,8 @@ class FastPredictor:
         width = lengths[-1]
         lengths /= width if width > 0 else math.nan
         self._features[:] = np.subtract(lengths[:-1], self._mean, out=self._centred)
-        hidden = np.dot(self._features, self._w1_columns, out=self._hidden)
+        inputs = self._features if self._denoising is None else self._shrunk(self._features)
+        hidden = np.dot(inputs, self._w1_columns, out=self._hidden)
         hidden += self._b1
         np.tanh(hidden, out=hidden)
         weights = np.dot(self._w2, hidden)
@@ -170,6 +184,15 @@ class FastPredictor:
         features, width = along[:-1], along[-1]
         features /= np.where(width > 0, width, np.nan)
         features -= self._mean32[:, None]
+        if self._denoising is not None:
+            places = self._axes @ features
+            features, noise = places[: self._shown], places[self._shown :]
+            noise = np.einsum("tf,tf->f", noise, noise) * np.float32(self._noise_share) + np.float32(
+                self._least
+            )
+            signal = self._signal[:, None]
+            features += self._offset[:, None]
+            features *= signal / (signal + noise)
         hidden = self._twice_w1 @ features
         hidden += self._twice_b1
         np.exp(hidden, out=hidden)
@@ -204,6 +227,16 @@ class FastPredictor:
         m00, m01 = (yy * xu - xy * yu) / spread, (yy * xv - xy * yv) / spread
         m10, m11 = (xx * yu - xy * xu) / spread, (xx * yv - xy * xv) / spread
         return x * m00 + y * m10, x * m01 + y * m11
+
+    def _shrunk(self, features: np.ndarray) -> np.ndarray:
+        """What denoising leaves of one face's features, centred."""
+        places = np.dot(features, self._axes_columns)
+        shown, noise = places[: self._shown], places[self._shown :]
+        gain = self._signal + (float(noise.dot(noise)) * self._noise_share + self._least)
+        np.divide(self._signal, gain, out=gain)
+        shown += self._offset
+        shown *= gain
+        return shown
 
     def _map(self, plane: np.ndarray) -> tuple[complex, complex]:
         """Factors of z and of its conjugate in the map onto the mean shape, but for a common one."""

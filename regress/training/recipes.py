@@ -15,6 +15,9 @@ class Recipe:
         What the command line calls it.
     alignment
         One of ``regress.features.ALIGNMENTS``.
+    denoise
+        Show networks features shrunk as far as the noise of the face before them says
+        (``regress.networks.Denoising``), rather than features as they are.
     undo_turn
         Undo the head's turn by the mean face's depth before the alignment (``regress.features.turn``).
     hidden
@@ -49,6 +52,7 @@ class Recipe:
 
     name: str
     alignment: str = "affine"
+    denoise: bool = False
     undo_turn: bool = True
     hidden: int = 20
     start: str = "ridge_knots"
@@ -71,6 +75,7 @@ RECIPES: dict[str, Recipe] = {
     "default": Recipe(
         name="default",
         symmetric=True,
+        denoise=True,
         noise=DetectorNoise(bias=0.5, jitter=0.002, jitter_most=0.03, clean=0.4, unbiased=0.25),
         calibrated_noise=DetectorNoise(bias=1.0, jitter=0.002, jitter_most=0.03, clean=0.35, unbiased=0.3),
     ),
@@ -90,4 +95,5 @@ RECIPES: dict[str, Recipe] = {
 }
 """``paper`` follows the paper. ``exact`` adds mirrored faces, starts from ridge regression and has a second
 set of networks that compare a frame with the person's neutral one. ``default`` adds detectors' noise to that, as
-real landmarks are not where the dataset's are, and answers a mirrored face with the mirrored answer."""
+real landmarks are not where the dataset's are, measures the noise of each face to take it off, and answers a mirrored
+face with the mirrored answer."""
