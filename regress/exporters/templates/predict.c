@@ -48,7 +48,7 @@ $feature_mean
 static const float axis[FEATURES][INPUTS + NOISE_AXES] = {
 $axes
 };
-static const float offset[INPUTS] = {
+static const float place_offset[INPUTS] = {
 $offset
 };
 static const float signal_of[INPUTS] = {
@@ -70,7 +70,7 @@ static void denoise(const float feature[FEATURES], float input[INPUTS])
         square += (double)place[j] * place[j];
     noise = (float)(square / NOISE_AXES + least);
     for (j = 0; j < INPUTS; j++)
-        input[j] = (place[j] + offset[j]) * (signal_of[j] / (signal_of[j] + noise));
+        input[j] = (place[j] + place_offset[j]) * (signal_of[j] / (signal_of[j] + noise));
 }
 #else
 static void denoise(const float feature[FEATURES], float input[INPUTS])
