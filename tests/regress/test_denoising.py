@@ -15,7 +15,6 @@ from tests.regress.conftest import QUICK
 from tests.regress.drawn import drawn_face, in_pictures
 
 
-
 def similar_faces(rng: np.random.Generator, count: int) -> np.ndarray:
     """Faces that differ by twelve movements of 1.5 % of their width, as expressions of one person do."""
     modes = rng.normal(size=(12, 68, 2)) * 0.005

@@ -75,7 +75,12 @@ def random_model(
 
 @pytest.fixture(
     scope="session",
-    params=[("affine", True, True), ("affine", True, False), ("affine", False, False), ("none", False, False)],
+    params=[
+        ("affine", True, True),
+        ("affine", True, False),
+        ("affine", False, False),
+        ("none", False, False),
+    ],
     ids=["denoised", "turn", "affine", "none"],
 )
 def model(request) -> Model:
