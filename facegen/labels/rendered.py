@@ -10,6 +10,7 @@ from facegen.headsets import Headset, HeadsetCamera, draw_unit, head_from_headse
 from facegen.labels.glints import label_glints
 from facegen.labels.keypoints import Keypoints, label_keypoints
 from facegen.labels.views import ViewLabels, label_view, occluders
+from facegen.mouth import MouthTraits, draw_mouth, has_own_teeth, mouth_meshes
 from facegen.randomness import stream
 from facegen.rigs import EyeGeometry, Rig, evaluate, eye_geometry, neutral_landmarks
 from facegen.sampling import Samples, Shot, draw_shot
@@ -78,6 +79,12 @@ def _look(seed: int, person: int, rig: Rig) -> Look:
     return draw_look(stream(seed, "look", person), rig)
 
 
+@lru_cache(maxsize=8)
+def _mouth(seed: int, person: int) -> MouthTraits:
+    # kept: the arches of a person are laid out once
+    return draw_mouth(stream(seed, "mouth", person))
+
+
 def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> RenderedSample:
     """Scene and labels of one sample (a single row of `Samples`)."""
     face = evaluate(rig, samples.identity, samples.weights, samples.gaze)
@@ -96,7 +103,14 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
     donning, slip = realised_fit(spec, headset, samples)
     fit = head_from_headset(unit, nose_bridge, donning + slip)
     look = _look(spec.seed, int(samples.person[0]), rig)
-    scene = assemble(rig, face.vertices[0], (left, right), unit, fit, look=look)
+    traits = _mouth(spec.seed, int(samples.person[0]))
+    mouth = ()
+    if not has_own_teeth(rig):
+        mouth = mouth_meshes(
+            rig, traits, identity=samples.identity[0], weights=samples.weights[0], vertices=face.vertices[0]
+        )
+    scene = assemble(rig, face.vertices[0], (left, right), unit, fit, look=look, mouth=mouth)
+    scene = replace(scene, materials={**scene.materials, **traits.materials})
     shots = {
         view.name: draw_shot(spec, view.name, view.lamps, session=session, sample=sample)
         for view in scene.views

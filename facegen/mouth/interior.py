@@ -1,7 +1,7 @@
 """A face's teeth, gums and tongue as meshes: placed behind the lips of its neutral, the lower ones moved by the jaw."""
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -51,6 +51,14 @@ class _Rest:
     gums: dict[str, tuple[np.ndarray, np.ndarray]]
     scale: float
 
+    @cached_property
+    def edges(self) -> dict[str, np.ndarray]:
+        """Edges (e, 2) of the teeth and of the gums of both arches, as they follow one another."""
+        return {name: _edges(_joined(list(pieces.values()))) for name, pieces in self._pieces().items()}
+
+    def _pieces(self) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
+        return {"teeth": self.teeth, "gums": self.gums}
+
 
 def mouth_meshes(
     rig: Rig, traits: MouthTraits, *, identity: np.ndarray, weights: np.ndarray, vertices: np.ndarray
@@ -72,9 +80,8 @@ def mouth_meshes(
     wall = Wall(vertices, wall_faces(rig), rest.frame)
     meshes = []
     for name, part, pieces in (("teeth", Part.TEETH, rest.teeth), ("gums", Part.GUMS, rest.gums)):
-        moved = [apply_transform(motion[arch], points) for arch, (points, _) in pieces.items()]
-        faces = [quads for _, quads in pieces.values()]
-        meshes.append(_mesh(name, part, _behind(wall, moved, faces), _joined(moved, faces)))
+        moved = np.concatenate([apply_transform(motion[arch], points) for arch, (points, _) in pieces.items()])
+        meshes.append(_mesh(name, part, _behind(wall, moved, rest.edges[name]), _joined(list(pieces.values()))))
     tongue = _tongue(rig, rest, traits, jaw, weights, vertices)
     return (*meshes, _mesh("tongue", Part.TONGUE, *tongue))
 
@@ -134,35 +141,37 @@ def _tongue(
     room = max(1e3 * float(upper[1]), 0.0)
     thick = min(0.42 * room, 4.5 * size) + 0.8 * size
     over = max(inner[0], 0.0) + thick
+    lip = max(inner[0], 0.0) + thick
+    front = max(outer[1], 8.0 * size)
     path = np.array(
         [
-            [max(over - 1.0 * size, 4.0 * size), -12.0 * size],
-            [over, 0.0],
-            [max(inner[0], 0.0) + thick - 0.5 * size, max(inner[1], 6.0 * size)],
-            [max(inner[0], 0.0) + thick - 7.0 * size, max(outer[1], 8.0 * size) + 14.0 * size],
+            [over, -7.0 * size],
+            [lip, max(inner[1], 5.0 * size)],
+            [lip - 4.5 * size, front + 8.0 * size],
+            [lip - 15.0 * size, front + 17.0 * size],
         ]
     )
     points, faces = tongue_surface(size=size, width=traits.tongue, out=out, path_mm=path, room_mm=room)
     return apply_transform(pose, points), faces
 
 
-def _behind(wall: Wall, parts: list[np.ndarray], faces: list[np.ndarray]) -> np.ndarray:
-    """The vertices of all parts, drawn back behind the wall, and their neighbours a little with them."""
-    points = np.concatenate(parts)
+def _behind(wall: Wall, points: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """Points (n, 3) drawn back behind the wall, and their neighbours a little with them."""
     back = wall.draw_back(points, gap_m=GAP_M)
-    if back.any():
-        edges = _edges(_joined(parts, faces))
-        for _ in range(3):
-            around = np.zeros(len(points))
-            np.maximum.at(around, edges[:, 0], back[edges[:, 1]])
-            np.maximum.at(around, edges[:, 1], back[edges[:, 0]])
-            back = np.maximum(back, 0.7 * around)
+    if not back.any():
+        return points
+    for _ in range(3):
+        around = np.zeros(len(points))
+        np.maximum.at(around, edges[:, 0], back[edges[:, 1]])
+        np.maximum.at(around, edges[:, 1], back[edges[:, 0]])
+        back = np.maximum(back, 0.7 * around)
     return wall.drawn(points, back)
 
 
-def _joined(parts: list[np.ndarray], faces: list[np.ndarray]) -> np.ndarray:
-    starts = np.cumsum([0] + [len(points) for points in parts])
-    return np.concatenate([np.where(f >= 0, f + start, -1) for f, start in zip(faces, starts, strict=False)])
+def _joined(pieces: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+    """Faces of several meshes as one."""
+    starts = np.cumsum([0] + [len(points) for points, _ in pieces])
+    return np.concatenate([np.where(f >= 0, f + start, -1) for (_, f), start in zip(pieces, starts, strict=False)])
 
 
 def _edges(faces: np.ndarray) -> np.ndarray:

@@ -5,13 +5,17 @@ from scipy.interpolate import PchipInterpolator
 
 ALONG, AROUND = 40, 32
 REST = np.array(
-    [[-28.0, -56.0], [-9.0, -50.0], [-1.0, -39.0], [0.0, -28.0], [-2.0, -17.0], [-4.0, -9.5], [-5.0, -5.0]]
+    [[-28.0, -56.0], [-10.0, -50.0], [-3.0, -39.0], [-2.5, -28.0], [-4.0, -17.0], [-5.5, -9.5], [-6.0, -5.0]]
 )
 """Middle line at rest, height over and distance before the lower incisors' edges, millimetres; it begins in the throat
 and ends behind the incisors."""
 HALF_WIDTH = np.array([16.0, 18.0, 18.5, 18.0, 15.5, 12.0, 8.5])
-HALF_HEIGHT = np.array([10.0, 10.5, 10.0, 8.5, 6.0, 4.2, 3.0])
+HALF_HEIGHT = np.array([9.0, 9.0, 8.5, 7.5, 5.6, 4.2, 3.0])
 """Of the body at those places."""
+BROAD = np.array([1.0, 1.0, 0.95, 0.85, 0.92, 1.12, 1.3])
+"""Factors on the width of a tongue that is put out."""
+RISEN = 0.4
+"""At this share of its way out the tip lies on the teeth."""
 ROUND_MM = 8.0
 """The tip is rounded off within this length."""
 
@@ -44,22 +48,21 @@ def tongue_surface(
     faces : numpy.ndarray
         (F, 4) int32, outsides out; triangles padded with -1.
     """
-    rest = size * REST
-    put_out = rest.copy()
-    put_out[2:3] += size * np.array([1.0, 3.0])
-    put_out[-4:] = path_mm
-    # it rises over the teeth before it comes forward
-    lift, forth = (_smooth(np.clip(out / share, 0.0, 1.0)) for share in (0.45, 1.0))
-    line = np.stack([rest[:, 0] + lift * (put_out - rest)[:, 0], rest[:, 1] + forth * (put_out - rest)[:, 1]], axis=-1)
-    knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
-    # nearer together at the tip
-    at = knots[-1] * (1.0 - (1.0 - np.linspace(0.0, 1.0, ALONG)) ** 1.5)
-    middle = _softened(PchipInterpolator(knots, line)(at))
-    broad = np.array([1.0, 1.0, 0.95, 0.85, 0.92, 1.12, 1.3])
+    # it rises over the teeth before it comes forward, along the way that it lies on in the end
+    lift, reach = _smooth(min(out / RISEN, 1.0)), max(out - RISEN, 0.0) / (1.0 - RISEN)
+    share = 1.0 - (1.0 - np.linspace(0.0, 1.0, ALONG)) ** 1.5  # nearer together at the tip
+    rest = _dense(size * REST, 1.0, share)
+    way = size * REST + np.array([0.0, 2.0]) * size
+    way[-4:] = path_mm
+    to_teeth, whole = (np.linalg.norm(np.diff(way[:end], axis=0), axis=1).sum() for end in (4, len(way)))
+    put_out = _dense(way, (to_teeth + reach * (whole - to_teeth)) / whole, share)
+    middle = _softened(rest + lift * (put_out - rest))
+    at = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(middle, axis=0), axis=1))])
+    places = np.linspace(0.0, 1.0, len(REST))
     flat = np.minimum(HALF_HEIGHT, max(0.42 * room_mm / size, 2.2))
-    half_width = size * width * PchipInterpolator(knots, HALF_WIDTH * (1.0 + forth * (broad - 1.0)))(at)
-    half_height = size * PchipInterpolator(knots, HALF_HEIGHT + lift * (flat - HALF_HEIGHT))(at)
-    left = np.clip((knots[-1] - at) / (size * ROUND_MM), 0.0, 1.0)
+    half_width = size * width * PchipInterpolator(places, HALF_WIDTH * (1.0 + lift * reach * (BROAD - 1.0)))(share)
+    half_height = size * PchipInterpolator(places, HALF_HEIGHT + lift * (flat - HALF_HEIGHT))(share)
+    left = np.clip((at[-1] - at) / (size * ROUND_MM), 0.0, 1.0)
     tip = np.sqrt(np.clip(1.0 - (1.0 - left) ** 2, 0.0, 1.0))
     half_width, half_height = half_width * tip, half_height * (0.25 + 0.75 * tip) * np.sqrt(tip)
     tangent = np.gradient(middle, axis=0)
@@ -82,6 +85,13 @@ def tongue_surface(
     last, j = (ALONG - 2) * AROUND, np.arange(AROUND)
     fan = np.stack([last + j, last + (j + 1) % AROUND, np.full(AROUND, len(vertices) - 1), np.full(AROUND, -1)], axis=-1)
     return 1e-3 * vertices, np.concatenate([quads.reshape(-1, 4), fan]).astype(np.int32)
+
+
+def _dense(line: np.ndarray, until: float, share: np.ndarray) -> np.ndarray:
+    """Points (n, 2) of the smooth line through ``line`` (k, 2) at shares (n,) of its first part, which ends at ``until``
+    of its length."""
+    knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    return PchipInterpolator(knots, line)(until * knots[-1] * share)
 
 
 def _smooth(x: float) -> float:
