@@ -17,7 +17,7 @@ from facegen.mouth.crowns import Tooth, crown, neck
 
 POWER = 0.8
 POINTS = 2001
-CONTACT = 0.97
+CONTACT = 0.96
 """Share of a crown's width from contact to contact: crowns touch inside of the line's curve, and wear flat there."""
 
 
@@ -29,7 +29,7 @@ class Course:
     place: np.ndarray
 
     def at(self, length: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Places (..., 2) and outward unit normals (..., 2) at arc lengths (...); beyond its ends it goes straight on."""
+        """Places (..., 2) and outward unit normals (..., 2) at arc lengths (...); beyond its ends it is straight."""
         length = np.asarray(length, np.float64)
         inside = np.clip(length, self.length[0], self.length[-1])
         place, tangent = (
@@ -59,7 +59,7 @@ class Seat:
 
 
 def course(half_length_m: float, ratio: float) -> Course:
-    """The beta function [1]_ of which each half is ``half_length_m`` long, with a depth of ``ratio`` times its width."""
+    """The beta function [1]_, each half ``half_length_m`` long, with a depth of ``ratio`` times its width."""
     x = 0.5 * np.sin(np.linspace(-0.5 * np.pi, 0.5 * np.pi, POINTS))
     z = ratio * ((4.0 * np.clip((0.5 + x) * (0.5 - x), 0.0, None)) ** POWER - 1.0)
     place = np.stack([x, z], axis=-1)

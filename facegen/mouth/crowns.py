@@ -91,7 +91,7 @@ def crown(tooth: Tooth) -> tuple[np.ndarray, np.ndarray]:
     """A crown's vertices (n, 3), columns x, d, h in metres, and quads (f, 4) int32, outsides out for ``(x, d, h)``
     right-handed; triangles at the tip are padded with -1."""
     turn = np.arange(AROUND) * (2.0 * np.pi / AROUND)
-    power = 2.0 / {"incisor": 2.6, "canine": 2.2, "premolar": 2.6, "molar": 3.2}[tooth.kind]
+    power = 2.0 / {"incisor": 3.4, "canine": 2.2, "premolar": 2.6, "molar": 3.2}[tooth.kind]
     x, d = (np.sign(f) * np.abs(f) ** power for f in (np.cos(turn), np.sin(turn)))
     rings = [_ring(tooth, level, 1.0, x, d) for level in LEVELS]
     rings += [_ring(tooth, 1.0, size, x, d) for size in CAP]
@@ -101,7 +101,9 @@ def crown(tooth: Tooth) -> tuple[np.ndarray, np.ndarray]:
     k = (j + 1) % AROUND
     quads = np.stack([i * AROUND + j, (i + 1) * AROUND + j, (i + 1) * AROUND + k, i * AROUND + k], axis=-1)
     last, j = (len(rings) - 1) * AROUND, np.arange(AROUND)
-    fan = np.stack([last + j, np.full(AROUND, len(vertices) - 1), last + (j + 1) % AROUND, np.full(AROUND, -1)], axis=-1)
+    fan = np.stack(
+        [last + j, np.full(AROUND, len(vertices) - 1), last + (j + 1) % AROUND, np.full(AROUND, -1)], axis=-1
+    )
     return 1e-3 * vertices, np.concatenate([quads.reshape(-1, 4), fan]).astype(np.int32)
 
 
@@ -119,7 +121,7 @@ def _outlines(tooth: Tooth) -> tuple[PchipInterpolator, PchipInterpolator, Pchip
     if tooth.kind in ("incisor", "canine"):
         tip = 1.0 if tooth.kind == "incisor" else 1.5
         heights = [-0.35, 0.0, 0.25, 0.5, 0.8, 0.93, 1.0]
-        half = [0.9 * nw, nw, nw + 0.45 * (w - nw), nw + 0.8 * (w - nw), w, 0.985 * w, 0.9 * w]
+        half = [0.9 * nw, nw, nw + 0.5 * (w - nw), nw + 0.85 * (w - nw), w, w, 0.95 * w]
         outer = [face - 1.1, face - 0.55, face, face - 0.05, face - 0.3 * tip, face - 0.6 * tip, face - tip]
         back = face - 0.55 - tooth.neck_depth
         hollow = 0.57 if tooth.kind == "incisor" else 0.75
@@ -143,7 +145,9 @@ def _ring(tooth: Tooth, level: float, size: float, x: np.ndarray, d: np.ndarray)
     # towards the tongue crowns of front teeth narrow
     narrow = 1.0 - (0.28 if tooth.kind in ("incisor", "canine") else 0.08) * np.clip(-d, 0.0, 1.0)
     rise = np.clip((level - 0.4) / 0.6, 0.0, 1.0)
-    h = tooth.length * (1.0 - level) + tooth.length * rise**2 * (3.0 - 2.0 * rise) * _shortfall(tooth.kind, x, d)
+    h = tooth.length * (1.0 - level) + tooth.length * rise**2 * (3.0 - 2.0 * rise) * _shortfall(
+        tooth.kind, x, d
+    )
     return np.stack([half * x * narrow, middle + reach * d, h], axis=-1)
 
 

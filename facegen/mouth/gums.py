@@ -11,9 +11,12 @@ from facegen.mouth.arch import Course
 
 PER_TOOTH = 6
 """Columns of the grid, at least."""
-BEHIND_M = (0.0, 5e-3, 12e-3, 22e-3, 32e-3)
-"""Beyond the last tooth the gum runs out within these lengths."""
-PAPILLA = {"upper": np.array([0.36, 0.36, 0.34, 0.3, 0.28, 0.26]), "lower": np.array([0.3, 0.3, 0.3, 0.3, 0.28, 0.26])}
+BEHIND_M = np.array([5e-3, 10e-3, 17e-3, 27e-3])
+"""Places beyond the middle of the last tooth where the gum is let run out."""
+PAPILLA = {
+    "upper": np.array([0.36, 0.36, 0.34, 0.3, 0.28, 0.26]),
+    "lower": np.array([0.3, 0.3, 0.3, 0.3, 0.28, 0.26]),
+}
 """How far the gum comes down between teeth, relative to the crown's length, from the midline outwards."""
 FOLD = ((4.0, 11.5), (2.6, 10.5), (1.6, 8.5), (1.15, 6.0), (0.95, 3.6), (0.75, 1.6), (0.5, 0.5), (0.2, 0.05))
 """Outer profile, from the fold to the edge: millimetres before the neck's surface and above the edge."""
@@ -82,16 +85,11 @@ def _edge(necks: np.ndarray, size: float, arch: str) -> tuple[np.ndarray, ...]:
     papilla_h = crown - share * crown
     papilla_out = (outer[1:] + outer[:-1]) / 2 - 0.7 * mm
     papilla_in = (inner[1:] + inner[:-1]) / 2 + 0.5 * mm
-    beyond = np.array(BEHIND_M[1:])
-    last = np.array([s[-1] + 5.0 * mm])
-
-    def ends(left: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return right[::-1], left
-
     # beyond the last tooth the ridge sinks and narrows
     sink = mm * np.array([0.0, 3.5, 9.0, 13.0])
     close = mm * np.array([1.0, 2.5, 4.0, 4.5])
-    knots = [s, between, last + beyond - 5e-3 + 1e-4, -(last + beyond - 5e-3 + 1e-4)]
+    beyond = s[-1] + BEHIND_M
+    knots = [s, between, beyond, -beyond]
     outers = [outer - 0.15 * mm, papilla_out, outer[-1] - close, outer[0] - close]
     inners = [inner, papilla_in, inner[-1] + close, inner[0] + close]
     edges = [h - 0.5 * mm, papilla_h, h[-1] + sink, h[0] + sink]
@@ -99,9 +97,14 @@ def _edge(necks: np.ndarray, size: float, arch: str) -> tuple[np.ndarray, ...]:
     knots = np.concatenate(knots)
     order = np.argsort(knots)
     columns = np.unique(
-        np.concatenate([
-            *(np.linspace(a, b, PER_TOOTH // 2 + 1) for a, b in zip(knots[order][:-1], knots[order][1:], strict=True)),
-        ])
+        np.concatenate(
+            [
+                *(
+                    np.linspace(a, b, PER_TOOTH // 2 + 1)
+                    for a, b in zip(knots[order][:-1], knots[order][1:], strict=True)
+                ),
+            ]
+        )
     )
 
     def along(values: list[np.ndarray]) -> np.ndarray:
@@ -114,7 +117,14 @@ def _edge(necks: np.ndarray, size: float, arch: str) -> tuple[np.ndarray, ...]:
 
     smooth_outer = plain(outer - 0.4 * mm, outers[2], outers[3])
     smooth_edge = plain(np.full(2 * teeth, h.mean()), edges[2], edges[3])
-    return columns, along(outers), along(inners), along(edges), along(inner_edges), np.stack([smooth_outer, smooth_edge])
+    return (
+        columns,
+        along(outers),
+        along(inners),
+        along(edges),
+        along(inner_edges),
+        np.stack([smooth_outer, smooth_edge]),
+    )
 
 
 def _placed(place: np.ndarray, normal: np.ndarray, outwards: np.ndarray, h: np.ndarray) -> np.ndarray:
@@ -140,6 +150,12 @@ def _middle(side: np.ndarray, vault_m: float, size: float, arch: str) -> list[np
         height = h + (top - h) * rise
         if arch == "upper":
             # rugae: faint ridges across the front of the palate
-            height -= 0.35 * mm * np.sin(behind / (1.3 * mm)) * np.exp(-(((behind - 9.0 * mm) / (5.0 * mm)) ** 2)) * share
+            height -= (
+                0.35
+                * mm
+                * np.sin(behind / (1.3 * mm))
+                * np.exp(-(((behind - 9.0 * mm) / (5.0 * mm)) ** 2))
+                * share
+            )
         rows.append(np.stack([x * (1.0 - share), height, z], axis=-1))
     return rows

@@ -7,7 +7,8 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, Part
 from facegen.geometry import apply_transform
-from facegen.mouth.arch import crowns, course, half_length, necks, seats
+from facegen.mouth.arch import course, crowns, half_length, necks, seats
+from facegen.mouth.cavity import cavity_surface, has_own_cavity
 from facegen.mouth.crowns import LOWER, UPPER
 from facegen.mouth.gums import gum_surface
 from facegen.mouth.jaw import jaw_motion
@@ -18,8 +19,6 @@ from facegen.raster import triangles_of
 from facegen.rigs import Rig, eye_centers, neutral_landmarks
 from facegen.scene import Mesh
 
-MOUTH_PARTS = (Part.TEETH, Part.GUMS, Part.TONGUE)
-"""Parts of a rig that the meshes made here stand in for."""
 EYES_M = 62.2e-3
 """Distance of the eyeballs' centres at which teeth have their mean sizes: the default rig's mean."""
 CANT_RAD = np.radians(8.0)
@@ -32,7 +31,7 @@ LIP_M = 6.0e-3
 """From the line where lips meet back to the upper incisors' faces."""
 GAP_M = 0.35e-3
 """Teeth and gums stay this far behind lips and cheeks."""
-DENSE = 2000
+DENSE = 800
 """Rigs with more faces of teeth have good ones: 28 crowns need about that many."""
 
 
@@ -54,10 +53,7 @@ class _Rest:
     @cached_property
     def edges(self) -> dict[str, np.ndarray]:
         """Edges (e, 2) of the teeth and of the gums of both arches, as they follow one another."""
-        return {name: _edges(_joined(list(pieces.values()))) for name, pieces in self._pieces().items()}
-
-    def _pieces(self) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
-        return {"teeth": self.teeth, "gums": self.gums}
+        return {name: _edges(_joined(list(getattr(self, name).values()))) for name in ("teeth", "gums")}
 
 
 def mouth_meshes(
@@ -80,10 +76,17 @@ def mouth_meshes(
     wall = Wall(vertices, wall_faces(rig), rest.frame)
     meshes = []
     for name, part, pieces in (("teeth", Part.TEETH, rest.teeth), ("gums", Part.GUMS, rest.gums)):
-        moved = np.concatenate([apply_transform(motion[arch], points) for arch, (points, _) in pieces.items()])
-        meshes.append(_mesh(name, part, _behind(wall, moved, rest.edges[name]), _joined(list(pieces.values()))))
-    tongue = _tongue(rig, rest, traits, jaw, weights, vertices)
-    return (*meshes, _mesh("tongue", Part.TONGUE, *tongue))
+        moved = np.concatenate(
+            [apply_transform(motion[arch], points) for arch, (points, _) in pieces.items()]
+        )
+        meshes.append(
+            _mesh(name, part, _behind(wall, moved, rest.edges[name]), _joined(list(pieces.values())))
+        )
+    landmarks = np.einsum("ln,lnc->lc", rig.landmark_weights, vertices[rig.landmark_vertices])
+    meshes.append(_mesh("tongue", Part.TONGUE, *_tongue(rest, traits, jaw, weights, landmarks)))
+    if not has_own_cavity(rig):
+        meshes.append(_mesh("cavity", Part.MOUTH_CAVITY, *cavity_surface(landmarks, rest.scale)))
+    return tuple(meshes)
 
 
 @lru_cache(maxsize=8)
@@ -102,7 +105,9 @@ def _rest(rig: Rig, traits: MouthTraits, identity_bytes: bytes) -> _Rest:
     apart = np.array([0.0, traits.overbite_m - FREEWAY_M, -traits.overjet_m])
     lower[:3, 3] += frame[:3, :3] @ (scale * apart)
     teeth, gums, edge = {}, {}, {}
-    for row, (arch, kinds, pose, up) in enumerate((("upper", UPPER, frame, 1.0), ("lower", LOWER, lower, -1.0))):
+    for row, (arch, kinds, pose, up) in enumerate(
+        (("upper", UPPER, frame, 1.0), ("lower", LOWER, lower, -1.0))
+    ):
         line = course(half_length(kinds, size), traits.ratio)
         places = seats(
             kinds,
@@ -126,14 +131,13 @@ def _rest(rig: Rig, traits: MouthTraits, identity_bytes: bytes) -> _Rest:
 
 
 def _tongue(
-    rig: Rig, rest: _Rest, traits: MouthTraits, jaw: np.ndarray, weights: np.ndarray, vertices: np.ndarray
+    rest: _Rest, traits: MouthTraits, jaw: np.ndarray, weights: np.ndarray, landmarks: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """The tongue moves with the jaw; put out, it lies on the lower teeth and on the lip as it is."""
     pose = jaw.copy()
     pose[:3, :3] = jaw[:3, :3] @ rest.frame[:3, :3]
     pose[:3, 3] = apply_transform(jaw, rest.edge["lower"][None])[0]
     out = float(np.clip(weights[BLENDSHAPE_INDEX["tongueOut"]], 0.0, 1.0))
-    landmarks = np.einsum("ln,lnc->lc", rig.landmark_weights, vertices[rig.landmark_vertices])
     local = (landmarks - pose[:3, 3]) @ pose[:3, :3]
     upper = (rest.edge["upper"] - pose[:3, 3]) @ pose[:3, :3]
     inner, outer = 1e3 * local[66, 1:], 1e3 * local[57, 1:]
@@ -171,7 +175,9 @@ def _behind(wall: Wall, points: np.ndarray, edges: np.ndarray) -> np.ndarray:
 def _joined(pieces: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
     """Faces of several meshes as one."""
     starts = np.cumsum([0] + [len(points) for points, _ in pieces])
-    return np.concatenate([np.where(f >= 0, f + start, -1) for (_, f), start in zip(pieces, starts, strict=False)])
+    return np.concatenate(
+        [np.where(f >= 0, f + start, -1) for (_, f), start in zip(pieces, starts, strict=False)]
+    )
 
 
 def _edges(faces: np.ndarray) -> np.ndarray:

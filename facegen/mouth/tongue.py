@@ -1,4 +1,4 @@
-"""The tongue: a soft body along a curve from the throat to its tip, resting in the lower arch or put out over the lip."""
+"""The tongue: a soft body from the throat to its tip, resting in the lower arch or put out over the lip."""
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -60,14 +60,18 @@ def tongue_surface(
     at = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(middle, axis=0), axis=1))])
     places = np.linspace(0.0, 1.0, len(REST))
     flat = np.minimum(HALF_HEIGHT, max(0.42 * room_mm / size, 2.2))
-    half_width = size * width * PchipInterpolator(places, HALF_WIDTH * (1.0 + lift * reach * (BROAD - 1.0)))(share)
+    half_width = (
+        size * width * PchipInterpolator(places, HALF_WIDTH * (1.0 + lift * reach * (BROAD - 1.0)))(share)
+    )
     half_height = size * PchipInterpolator(places, HALF_HEIGHT + lift * (flat - HALF_HEIGHT))(share)
     left = np.clip((at[-1] - at) / (size * ROUND_MM), 0.0, 1.0)
     tip = np.sqrt(np.clip(1.0 - (1.0 - left) ** 2, 0.0, 1.0))
     half_width, half_height = half_width * tip, half_height * (0.25 + 0.75 * tip) * np.sqrt(tip)
     tangent = np.gradient(middle, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
-    normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=-1)  # (height, distance): up where it runs forward
+    normal = np.stack(
+        [tangent[:, 1], -tangent[:, 0]], axis=-1
+    )  # (height, distance): up where it runs forward
     turn = np.arange(AROUND) * (2.0 * np.pi / AROUND)
     x = np.sign(np.cos(turn)) * np.abs(np.cos(turn)) ** 0.85
     y = np.sign(np.sin(turn)) * np.abs(np.sin(turn)) ** 0.9
@@ -83,13 +87,14 @@ def tongue_surface(
     k = (j + 1) % AROUND
     quads = np.stack([i * AROUND + j, i * AROUND + k, (i + 1) * AROUND + k, (i + 1) * AROUND + j], axis=-1)
     last, j = (ALONG - 2) * AROUND, np.arange(AROUND)
-    fan = np.stack([last + j, last + (j + 1) % AROUND, np.full(AROUND, len(vertices) - 1), np.full(AROUND, -1)], axis=-1)
+    fan = np.stack(
+        [last + j, last + (j + 1) % AROUND, np.full(AROUND, len(vertices) - 1), np.full(AROUND, -1)], axis=-1
+    )
     return 1e-3 * vertices, np.concatenate([quads.reshape(-1, 4), fan]).astype(np.int32)
 
 
 def _dense(line: np.ndarray, until: float, share: np.ndarray) -> np.ndarray:
-    """Points (n, 2) of the smooth line through ``line`` (k, 2) at shares (n,) of its first part, which ends at ``until``
-    of its length."""
+    """Points (n, 2) of the smooth line through ``line`` (k, 2), at shares (n,) of its first ``until`` (a share too)."""
     knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     return PchipInterpolator(knots, line)(until * knots[-1] * share)
 

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.mouth.crowns import LOWER, UPPER
+from facegen.mouth.crowns import UPPER
+from facegen.scene.materials import MATERIALS
 
 TEETH = 2 * len(UPPER)
 """Of one arch, from the subject's right to the left; third molars are left out."""
@@ -85,10 +86,7 @@ def draw_mouth(rng: np.random.Generator) -> MouthTraits:
         missing=missing,
         tongue=float(1.0 + 0.06 * tongue),
         materials={
-            name: {"albedo": float(value)}
-            for name, value in zip(("teeth", "gums", "tongue"), np.array([0.62, 0.45, 0.42]) * shade, strict=True)
+            name: {"albedo": float(MATERIALS[name]["albedo"] * factor)}
+            for name, factor in zip(("teeth", "gums", "tongue"), shade, strict=True)
         },
     )
-
-
-assert len(UPPER) == len(LOWER)

@@ -1,7 +1,7 @@
 """The wall of lips and skin round the arches: how far out teeth and gums may reach.
 
-A rig's lips know nothing of bones below them. They are drawn here, as seen from an upright axis inside the mouth, into a
-map of distances over angle and height, and what reaches through is drawn back behind them. The inner side of lips and
+A rig's lips know nothing of bones below them. They are drawn here, as seen from an upright axis inside the mouth, into
+a map of distances over angle and height, and what reaches through is drawn back behind them. The inner side of lips and
 cheeks is no wall: what stands in their flesh is not seen, and there is no gap between gum and lip.
 """
 
@@ -15,8 +15,8 @@ from facegen.rigs import Rig
 
 ANGLES, ANGLE_STEP = 97, np.radians(2.0)
 """Of the map, from -96 to 96 degrees about straight ahead."""
-HEIGHT_STEP_M, REACH_M = 1e-3, 70e-3
-"""Of the map, and how far from the axis the wall may be."""
+HEIGHT_STEP_M = 1e-3
+"""Of the map."""
 THROUGH_M = 15e-3
 """What is further out than this stands outside the mouth, and stays."""
 
@@ -34,7 +34,10 @@ def wall_faces(rig: Rig) -> np.ndarray:
 
 
 class Wall:
-    """The wall of one evaluated face, from an axis through ``centre`` (3,) along ``up`` (3,), ahead being ``ahead``."""
+    """The wall of one face: ``vertices`` (V, 3), ``triangles`` (t, 3), head frame, seen from the y axis of ``frame``.
+
+    ``frame`` (4, 4) leads to the head frame; z is straight ahead.
+    """
 
     def __init__(self, vertices: np.ndarray, triangles: np.ndarray, frame: np.ndarray) -> None:
         self._frame = frame
@@ -50,7 +53,7 @@ class Wall:
         self.distance = _least_around(-found.value)
 
     def draw_back(self, points: np.ndarray, *, gap_m: float) -> np.ndarray:
-        """By how much each point (n, 3) must come nearer to the axis to lie ``gap_m`` inside of the wall, (n,) metres."""
+        """By how much each point (n, 3) must near the axis to lie ``gap_m`` inside of the wall, (n,) metres."""
         angle, height, distance = self._cylinder(points)
         column = np.clip(np.rint(angle / ANGLE_STEP + ANGLES // 2), 0, ANGLES - 1).astype(int)
         row = np.rint((height - self._low) / HEIGHT_STEP_M).astype(int)
@@ -64,7 +67,9 @@ class Wall:
         local = (points - self._frame[:3, 3]) @ self._frame[:3, :3]
         distance = np.hypot(local[:, 0], local[:, 2])
         keep = np.where(distance > 0.0, 1.0 - back_m / np.maximum(distance, 1e-9), 1.0)[:, None]
-        return (local * np.concatenate([keep, np.ones_like(keep), keep], axis=1)) @ self._frame[:3, :3].T + self._frame[:3, 3]
+        return (local * np.concatenate([keep, np.ones_like(keep), keep], axis=1)) @ self._frame[
+            :3, :3
+        ].T + self._frame[:3, 3]
 
     def _cylinder(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         local = (points - self._frame[:3, 3]) @ self._frame[:3, :3]
