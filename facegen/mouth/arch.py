@@ -17,7 +17,7 @@ from facegen.mouth.crowns import Tooth, crown, neck
 
 POWER = 0.8
 POINTS = 2001
-CONTACT = 0.96
+CONTACT = 0.93
 """Share of a crown's width from contact to contact: crowns touch inside of the line's curve, and wear flat there."""
 
 

@@ -11,7 +11,7 @@ from facegen.rigs import Rig
 DEEP_M = 30e-3
 """A rig whose own cavity reaches this far behind the lips has one."""
 AROUND, RINGS = 40, 12
-LENGTH_M, HALF_WIDTH_M, HALF_HEIGHT_M = 72e-3, 36e-3, 30e-3
+LENGTH_M, HALF_WIDTH_M, UP_M, DOWN_M = 72e-3, 36e-3, 44e-3, 30e-3
 """Of the pouch: a little more than arches, palate and tongue take."""
 
 
@@ -35,17 +35,16 @@ def cavity_surface(landmarks: np.ndarray, scale: float) -> tuple[np.ndarray, np.
     ring = rim(np.arange(AROUND) * (8.0 / AROUND))
     middle = ring.mean(axis=0)
     turn = np.pi - np.arange(AROUND) * (2.0 * np.pi / AROUND)
-    wide = scale * np.stack(
-        [HALF_WIDTH_M * np.cos(turn), HALF_HEIGHT_M * np.sin(turn), np.zeros(AROUND)], axis=-1
-    )
+    height = np.where(np.sin(turn) > 0.0, UP_M, DOWN_M) * np.sin(turn)
+    wide = scale * np.stack([HALF_WIDTH_M * np.cos(turn), height, np.zeros(AROUND)], axis=-1)
     rings = []
     for share in np.linspace(0.0, 1.0, RINGS):
-        blend = min(3.0 * share, 1.0) ** 0.5
+        blend = min(6.0 * share, 1.0) ** 0.5
         size = np.sqrt(1.0 - share**3)
         back = np.array([0.0, 0.0, -scale * (1e-3 + LENGTH_M * share)])
         rings.append(middle + back + size * ((1.0 - blend) * (ring - middle) + blend * wide))
     vertices = np.concatenate(rings)
     i, j = np.meshgrid(np.arange(RINGS - 1), np.arange(AROUND), indexing="ij")
     k = (j + 1) % AROUND
-    quads = np.stack([i * AROUND + j, i * AROUND + k, (i + 1) * AROUND + k, (i + 1) * AROUND + j], axis=-1)
+    quads = np.stack([i * AROUND + j, (i + 1) * AROUND + j, (i + 1) * AROUND + k, i * AROUND + k], axis=-1)
     return vertices, quads.reshape(-1, 4).astype(np.int32)

