@@ -13,6 +13,8 @@ DEEP_M = 30e-3
 AROUND, RINGS = 40, 12
 LENGTH_M, HALF_WIDTH_M, UP_M, DOWN_M = 72e-3, 36e-3, 44e-3, 30e-3
 """Of the pouch: a little more than arches, palate and tongue take."""
+CORNERS_M = 10e-3
+"""Its sides lie this far behind its middle, as cheeks lie behind lips: they would reach through the skin."""
 
 
 @lru_cache(maxsize=8)
@@ -36,7 +38,7 @@ def cavity_surface(landmarks: np.ndarray, scale: float) -> tuple[np.ndarray, np.
     middle = ring.mean(axis=0)
     turn = np.pi - np.arange(AROUND) * (2.0 * np.pi / AROUND)
     height = np.where(np.sin(turn) > 0.0, UP_M, DOWN_M) * np.sin(turn)
-    wide = scale * np.stack([HALF_WIDTH_M * np.cos(turn), height, np.zeros(AROUND)], axis=-1)
+    wide = scale * np.stack([HALF_WIDTH_M * np.cos(turn), height, -CORNERS_M * np.cos(turn) ** 2], axis=-1)
     rings = []
     for share in np.linspace(0.0, 1.0, RINGS):
         blend = min(6.0 * share, 1.0) ** 0.5

@@ -23,6 +23,8 @@ FACES = (
     {"mouthRollUpper": 0.8, "mouthRollLower": 0.8},
     {"jawLeft": 0.8, "jawOpen": 0.3, "mouthPucker": 0.6},
 )
+GRID = {"origin": np.array([-0.045, -0.03]), "step": 4e-4, "shape": (200, 225)}
+"""Samples of a view from the front over the mouth."""
 STILL = {name: np.zeros((2, 14)) for name in ("turn_rad", "outwards_m", "down_m")}
 
 
@@ -111,12 +113,11 @@ def test_upper_teeth_stay_and_lower_ones_go_with_the_jaw(anny):
 
 def _through_lips(rig, vertices, points, faces) -> tuple[int, int]:
     """Of the picture's samples that show a mesh, seen from the front: how many have skin or lips behind it, and all."""
-    grid = dict(origin=np.array([-0.045, -0.03]), step=4e-4, shape=(200, 225))
     lips = wall_faces(rig)
     a, b, c = (vertices[lips[:, i]] for i in range(3))
     facing = np.cross(b - a, c - a)[:, 2] > 0.0
-    skin = np.maximum(nearest_along_z(vertices, lips[facing], **grid).value, -1.0)
-    inside = nearest_along_z(points, triangles_of(faces), **grid).value
+    skin = np.maximum(nearest_along_z(vertices, lips[facing], **GRID).value, -1.0)
+    inside = nearest_along_z(points, triangles_of(faces), **GRID).value
     seen = inside > skin
     return int((seen & (inside < skin + 12e-3)).sum()), int(seen.sum())
 
@@ -178,3 +179,8 @@ def test_a_pouch_closes_heads_without_one(anny):
     inwards = np.cross(b - a, c - a) * (vertices.mean(axis=0) - a)
     assert (inwards.sum(axis=1) > 0.0).mean() > 0.9
     assert np.ptp(vertices[:, 2]) > 60e-3
+    front = nearest_along_z(anny.vertices, wall_faces(anny), **GRID).value
+    behind = nearest_along_z(vertices, triangles_of(quads), **GRID).value
+    covered = np.isfinite(front) & np.isfinite(behind)
+    assert covered.sum() > 10_000
+    assert (behind > front)[covered].mean() < 5e-3  # the rim hangs on the lips themselves
