@@ -11,10 +11,10 @@ from facegen.rigs import Rig
 DEEP_M = 30e-3
 """A rig whose own cavity reaches this far behind the lips has one."""
 AROUND, RINGS = 40, 12
-LENGTH_M, HALF_WIDTH_M, UP_M, DOWN_M = 72e-3, 36e-3, 44e-3, 30e-3
+LENGTH_M, HALF_WIDTH_M, UP_M, DOWN_M = 72e-3, 32e-3, 40e-3, 14e-3
 """Of the pouch: a little more than arches, palate and tongue take."""
-CORNERS_M = 10e-3
-"""Its sides lie this far behind its middle, as cheeks lie behind lips: they would reach through the skin."""
+CORNERS_M, CHIN_M = 14e-3, 22e-3
+"""Its sides and its floor lie this far behind its middle, as cheeks and chin do: they would reach through the skin."""
 
 
 @lru_cache(maxsize=8)
@@ -37,8 +37,12 @@ def cavity_surface(landmarks: np.ndarray, scale: float) -> tuple[np.ndarray, np.
     ring = rim(np.arange(AROUND) * (8.0 / AROUND))
     middle = ring.mean(axis=0)
     turn = np.pi - np.arange(AROUND) * (2.0 * np.pi / AROUND)
-    height = np.where(np.sin(turn) > 0.0, UP_M, DOWN_M) * np.sin(turn)
-    wide = scale * np.stack([HALF_WIDTH_M * np.cos(turn), height, -CORNERS_M * np.cos(turn) ** 2], axis=-1)
+    up = np.sin(turn)
+    # measured from each lip: the mouth's middle falls when it opens, the palate does not
+    lip = np.where(up > 0.0, landmarks[62, 1], landmarks[66, 1]) - middle[1]
+    height = scale * np.where(up > 0.0, UP_M, DOWN_M) * up + lip * np.abs(up)
+    behind = -scale * (CORNERS_M * np.cos(turn) ** 2 + CHIN_M * np.clip(-up, 0.0, None) ** 2)
+    wide = np.stack([scale * HALF_WIDTH_M * np.cos(turn), height, behind], axis=-1)
     rings = []
     for share in np.linspace(0.0, 1.0, RINGS):
         blend = min(6.0 * share, 1.0) ** 0.5
