@@ -22,7 +22,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_GROUPS, MIRRORED_BLENDSHAPES, MIRRORED_LANDMARKS
-from regress.confidence import STRANGE, USUAL
+from regress import confidence
 from regress.features import align_similarity
 from regress.model import Model, load_model, symmetrised
 from regress.networks import evaluate
@@ -161,12 +161,12 @@ def trust(model: Model, faces: Faces) -> Iterator[str]:
         missed = (_weights(model, judged) - judged.weights)[:, VISIBLE] ** 2
         errors.append(np.mean(missed / judged.weights[:, VISIBLE].var(axis=0), axis=1))
     distance, error = np.concatenate(distances), np.concatenate(errors)
-    best = 1 - error[distance <= USUAL].mean()
+    best = 1 - error[distance <= 0.75].mean()
     yield f"| distance, {'neutral frame' if calibrated else 'frame alone'} | faces | R² over its best | trust |"
     yield "|---|---|---|---|"
     for low, high in ((0, 0.75), (0.75, 1), (1, 1.25), (1.25, 1.5), (1.5, 1.9), (1.9, 2.5)):
         inside = (distance > low) & (distance <= high)
-        expected = np.clip((STRANGE - distance[inside]) / (STRANGE - USUAL), 0, 1).mean()
+        expected = confidence.trust(distance[inside], calibrated=calibrated).mean()
         share = (1 - error[inside].mean()) / best
         yield f"| {low} to {high} | {inside.sum()} | {share:.2f} | {expected:.2f} |"
 

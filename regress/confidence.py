@@ -7,13 +7,13 @@ from regress.errors import InputError
 from regress.features import extract
 from regress.model import Model
 
-USUAL, STRANGE = 0.75, 1.9
-"""Root mean square z-scores of a frame's features between which trust falls from all to none.
+ALONE, BESIDE_NEUTRAL = (0.75, 1.9), (0.7, 1.6)
+"""Root mean square z-scores of a frame's features between which trust falls from all to none: of the networks that see
+a frame alone, and of those beside a neutral frame.
 
 Measured on 2,700 test faces with detectors' bias and jitter of 0 to 3 times the usual: the share of the variance
-that the networks explain falls nearly on a line, from its best at 0.75 to nothing at 1.9, frames alone; with a neutral
-frame it is above that line, and falls to nothing from 1.5 to 1.7 (docs/using-a-model.md). Training faces have 1 in the
-mean square.
+that the networks explain falls nearly on these lines (docs/using-a-model.md). A neutral frame takes the bias off; what
+is left is noise, less of which makes the networks err. Training faces have 1 in the mean square.
 """
 
 
@@ -42,25 +42,30 @@ def confidence(model: Model, points: np.ndarray) -> np.ndarray:
         Where the model's record has no scores.
     """
     scores = model.record.get("scores", {})
+    # calibrating uses up the calibrated networks, and the record still has their scores
+    calibrated = model.calibrated is None and any("calibrated" in known for known in scores.values())
     best = np.zeros(len(BLENDSHAPES))
     for shape in model.outputs:
-        known = scores.get(shape, {})
-        # calibrating uses up the calibrated networks, and the record still has their scores
-        used = "calibrated" if model.calibrated is None and "calibrated" in known else "network"
-        if used not in known:
+        used = "calibrated" if calibrated else "network"
+        if used not in scores.get(shape, {}):
             raise InputError(
                 f"the model's record has no test score of {shape}, from which confidence is made"
             )
-        best[BLENDSHAPE_INDEX[shape]] = np.clip(known[used]["r2"] or 0.0, 0, 1)
-    return best * _usualness(model, np.asarray(points, dtype=np.float64))[:, None]
+        best[BLENDSHAPE_INDEX[shape]] = np.clip(scores[shape][used]["r2"] or 0.0, 0, 1)
+    points = np.asarray(points, dtype=np.float64)
+    return best * trust(distances(model, points), calibrated=calibrated)[:, None]
 
 
-def _usualness(model: Model, points: np.ndarray) -> np.ndarray:
-    """1 for a face (n,) like those of the training, 0 for one that is strange to the networks."""
+def distances(model: Model, points: np.ndarray) -> np.ndarray:
+    """Root mean square z-score (n,) of each face's features; NaN where a face has missing points."""
     usable = np.isfinite(points).all(axis=(1, 2))
-    usual = np.full(len(points), np.nan)
-    spread = model.normalisation.feature_std
-    scores = (extract(model.features, points[usable]) - model.normalisation.feature_mean) / spread
-    distance = np.sqrt(np.mean(scores**2, axis=1))
-    usual[usable] = np.clip((STRANGE - distance) / (STRANGE - USUAL), 0, 1)
-    return usual
+    found = np.full(len(points), np.nan)
+    scores = extract(model.features, points[usable]) - model.normalisation.feature_mean
+    found[usable] = np.sqrt(np.mean((scores / model.normalisation.feature_std) ** 2, axis=1))
+    return found
+
+
+def trust(distance: np.ndarray, *, calibrated: bool) -> np.ndarray:
+    """1 for a face like those of the training, 0 for one that is strange to the networks, by its `distances`."""
+    usual, strange = BESIDE_NEUTRAL if calibrated else ALONE
+    return np.clip((strange - distance) / (strange - usual), 0, 1)

@@ -11,6 +11,7 @@ from facegen.labels.bright_pupils import bright_pupil
 from facegen.labels.glints import label_glints
 from facegen.labels.keypoints import Keypoints, label_keypoints
 from facegen.labels.views import ViewLabels, label_view, occluders
+from facegen.mouth import MouthTraits, draw_mouth, has_own_teeth, mouth_meshes
 from facegen.randomness import stream
 from facegen.rigs import EyeGeometry, Rig, evaluate, eye_geometry, neutral_landmarks
 from facegen.sampling import Samples, Shot, draw_shot
@@ -96,6 +97,12 @@ def _accessories(seed: int, looks: Looks, person: int, session: int, female: boo
     )
 
 
+@lru_cache(maxsize=8)
+def _mouth(seed: int, person: int) -> MouthTraits:
+    # kept: the arches of a person are laid out once
+    return draw_mouth(stream(seed, "mouth", person))
+
+
 def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> RenderedSample:
     """Scene and labels of one sample (a single row of `Samples`)."""
     face = evaluate(rig, samples.identity, samples.weights, samples.gaze)
@@ -119,7 +126,14 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
     if accessories.make_up is not None:
         look = made_up(look, accessories.make_up)
     worn = put_on(accessories, rig, face.vertices[0], (left, right))
-    scene = assemble(rig, face.vertices[0], (left, right), unit, fit, look=look, worn=worn)
+    traits = _mouth(spec.seed, person)
+    mouth = ()
+    if not has_own_teeth(rig):
+        mouth = mouth_meshes(
+            rig, traits, identity=samples.identity[0], weights=samples.weights[0], vertices=face.vertices[0]
+        )
+    scene = assemble(rig, face.vertices[0], (left, right), unit, fit, look=look, mouth=mouth, worn=worn)
+    scene = replace(scene, materials={**scene.materials, **traits.materials})
     shots = {
         view.name: draw_shot(spec, view.name, view.lamps, session=session, sample=sample)
         for view in scene.views

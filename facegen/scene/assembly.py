@@ -44,6 +44,7 @@ def assemble(
     head_from_headset: np.ndarray,
     *,
     look: Look | None = None,
+    mouth: Sequence[Mesh] = (),
     worn: WornAccessories = WornAccessories(),
 ) -> Scene:
     """The scene of one sample.
@@ -60,15 +61,19 @@ def assemble(
         The headset and where it sits (`facegen.headsets.head_from_headset`).
     look
         The person's materials and hair; without one the materials' defaults, and no hair.
+    mouth
+        Meshes that stand in for those of the rig of the same names (`facegen.mouth.mouth_meshes`).
     worn
         Beard and glasses on this head.
     """
+    instead = {mesh.name for mesh in mouth}
+    head = [mesh for mesh in head_meshes(rig, vertices) if mesh.name not in instead]
     eye_parts = [mesh for eye, side in zip(eyes, SIDES, strict=True) for mesh in eye_meshes(eye, side)]
     eye_parts += caruncle_meshes(rig, vertices, np.stack([eye.center for eye in eyes]))
     eye_parts += headset_meshes(headset, head_from_headset)
     hair = hair_meshes(look, vertices) if look else ()
     return Scene(
-        meshes=(*head_meshes(rig, vertices), *eye_parts, *hair, *worn.meshes),
+        meshes=(*head, *mouth, *eye_parts, *hair, *worn.meshes),
         lamps=headset_lamps(headset, head_from_headset),
         views=headset_views(headset, head_from_headset),
         materials=look.materials if look else {},

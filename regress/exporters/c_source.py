@@ -41,7 +41,7 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
 
 
 def _values(formula: Formula, name: str) -> dict[str, object]:
-    stacked = formula.stacked()
+    stacked, denoising = formula.stacked(), formula.denoising
     runs = [run_of(row) for row in stacked.output_weights]  # (first hidden unit, weights) of each of the 52
     connection_counts = [len(weights) for _, weights in runs]
     connections = np.concatenate([weights for _, weights in runs])
@@ -59,6 +59,12 @@ def _values(formula: Formula, name: str) -> dict[str, object]:
         "weight_count": len(BLENDSHAPES),
         "anchor_count": len(formula.anchors),
         "feature_count": len(formula.edges),
+        "input_count": len(formula.edges if denoising is None else denoising.axes),
+        "noise_count": 0 if denoising is None else len(denoising.noise_axes),
+        "axes": "" if denoising is None else _rows(np.concatenate([denoising.axes, denoising.noise_axes]).T),
+        "offset": "" if denoising is None else _floats(denoising.offset),
+        "signal": "" if denoising is None else _floats(denoising.signal),
+        "least": "0" if denoising is None else f"{float(denoising.least):.17g}",
         "hidden_count": len(stacked.hidden_bias),
         "connection_count": len(connections),
         "names": _wrapped(f'"{name}"' for name in BLENDSHAPES),
@@ -66,7 +72,7 @@ def _values(formula: Formula, name: str) -> dict[str, object]:
         "reference": _wrapped(f"{{{x:.17g}, {y:.17g}}}" for x, y in formula.reference),
         "edges": _wrapped(f"{{{i}, {j}}}" for i, j in [*formula.edges, formula.width_landmarks]),
         "feature_mean": _wrapped(f"{value:.17g}" for value in formula.feature_mean),
-        "hidden_weights": ",\n".join(f"{{{_floats(row)}}}" for row in stacked.hidden_weights.T),
+        "hidden_weights": _rows(stacked.hidden_weights.T),
         "hidden_bias": _floats(stacked.hidden_bias),
         "first_hidden": _wrapped(str(first) for first, _ in runs),
         "first_connection": _wrapped(map(str, np.cumsum([0, *connection_counts]))),
@@ -86,6 +92,10 @@ def run_of(row: np.ndarray) -> tuple[int, np.ndarray]:
 def _floats(values: np.ndarray) -> str:
     """C literals of type float: nine significant digits bring back the same float32."""
     return _wrapped(_float(value) for value in np.asarray(values, dtype=np.float32))
+
+
+def _rows(table: np.ndarray) -> str:
+    return ",\n".join(f"{{{_floats(row)}}}" for row in table)
 
 
 def _float(value: np.float32) -> str:

@@ -8,6 +8,8 @@ A face's 68 points become 52 weights in five steps; an exporter only writes them
    the identity where ``alignment`` is ``"none"``;
 2. ``features``: lengths of the edges under the map, over the face's width under the map, less
    ``feature_mean``;
+   and where a model denoises: ``places = (axes features + offset) signal / (signal + noise)`` with ``noise`` the mean
+   square of ``noise_axes features``, plus ``least``, are its features from here on;
 3. ``hidden = tanh(hidden_weights features + hidden_bias)``, network by network;
 4. ``weights = output_weights hidden + output_bias``, clipped to `WEIGHT_RANGE`; shapes without a network
    are 0.
@@ -23,8 +25,9 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, FACE_WIDTH_LANDMA
 from regress import __version__
 from regress.features import ANCHORS, turn_weights
 from regress.model import Model
+from regress.networks import Denoising
 
-FORMAT_VERSION = 2
+FORMAT_VERSION = 3
 """Of the JSON and NPZ files; raised by any change that breaks a reader."""
 
 WEIGHT_RANGE = (0.0, 1.0)
@@ -32,7 +35,7 @@ WEIGHT_RANGE = (0.0, 1.0)
 
 @dataclass(frozen=True, kw_only=True)
 class FormulaNetwork:
-    """One small network that acts on centred features.
+    """One small network that acts on centred features, or on what denoising leaves of them.
 
     Parameters
     ----------
@@ -40,7 +43,7 @@ class FormulaNetwork:
         For example ``"eyes.blink"``.
     outputs
         Blendshapes it gives.
-    hidden_weights : (H, E) float64
+    hidden_weights : (H, E) float64, or (H, A) behind denoising
     hidden_bias : (H,) float64
     output_weights : (len(outputs), H) float64
     output_bias : (len(outputs),) float64
@@ -92,7 +95,9 @@ class Formula:
         Pairs of landmarks.
     width_landmarks : (2,) int64
     feature_mean : (E,) float64
-        Kept apart: folded into the bias it would cost float32 readers two digits.
+        Kept apart: folded into the bias it would cost float32 readers two digits. Denoising has its own, its origin.
+    denoising
+        What the networks see instead of features; None where they see those.
     networks
         In the model's order.
     about
@@ -107,6 +112,7 @@ class Formula:
     edges: np.ndarray
     width_landmarks: np.ndarray
     feature_mean: np.ndarray
+    denoising: Denoising | None
     networks: tuple[FormulaNetwork, ...]
     about: dict[str, str]
 
@@ -141,7 +147,8 @@ def formula_of(model: Model) -> Formula:
         reference=reference - reference.mean(axis=0),
         edges=model.features.edges,
         width_landmarks=np.array(FACE_WIDTH_LANDMARKS, dtype=np.int64),
-        feature_mean=model.normalisation.feature_mean,
+        feature_mean=_feature_mean(model),
+        denoising=model.networks.denoising,
         networks=tuple(_network(model, index) for index in range(len(model.table))),
         about=_about(model),
     )
@@ -156,10 +163,15 @@ def _network(model: Model, index: int) -> FormulaNetwork:
         name=described.key,
         outputs=described.outputs,
         hidden_weights=weights,
-        hidden_bias=folded.b1[hidden] + weights @ model.normalisation.feature_mean,
+        hidden_bias=folded.b1[hidden] + (0 if folded.denoising else weights @ _feature_mean(model)),
         output_weights=folded.w2[outputs],
         output_bias=folded.b2[outputs],
     )
+
+
+def _feature_mean(model: Model) -> np.ndarray:
+    denoising = model.networks.denoising
+    return model.normalisation.feature_mean if denoising is None else denoising.origin
 
 
 def _about(model: Model) -> dict[str, str]:

@@ -31,7 +31,7 @@ def export_javascript(formula: Formula, name: str) -> dict[str, bytes]:
 
 
 def _values(formula: Formula, name: str) -> dict[str, str]:
-    stacked = formula.stacked()
+    stacked, denoising = formula.stacked(), formula.denoising
     runs = [run_of(row) for row in stacked.output_weights]
     return {
         "name": name,
@@ -48,6 +48,11 @@ def _values(formula: Formula, name: str) -> dict[str, str]:
         "reference": _listed(formula.reference.ravel().tolist()),
         "edges": _listed(np.vstack([formula.edges, formula.width_landmarks]).ravel().tolist()),
         "feature_mean": _listed(formula.feature_mean.tolist()),
+        "axes": "" if denoising is None else _floats(np.concatenate([denoising.axes, denoising.noise_axes])),
+        "noise_count": str(0 if denoising is None else len(denoising.noise_axes)),
+        "offset": "[]" if denoising is None else _listed(denoising.offset.tolist()),
+        "signal": "[]" if denoising is None else _listed(denoising.signal.tolist()),
+        "least": "0" if denoising is None else json.dumps(float(denoising.least)),
         "hidden_weights": _floats(stacked.hidden_weights.T),
         "hidden_bias": _floats(stacked.hidden_bias),
         "first_hidden": _listed([first for first, _ in runs]),

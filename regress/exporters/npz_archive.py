@@ -8,7 +8,11 @@ Points to weights, for ``points`` (n, 68, 2), with ``z = numpy.load(path)``::
     map = map if z["alignment"] == "affine" else numpy.eye(2)
     length = lambda i, j: numpy.linalg.norm((points[:, j] - points[:, i]) @ map, axis=-1)
     ratio = length(*z["edges"].T) / length(*z["width_landmarks"])[:, None]
-    hidden = numpy.tanh((ratio - z["feature_mean"]) @ z["hidden_weights"].T + z["hidden_bias"])
+    x = ratio - z["feature_mean"]
+    if "axes" in z:    # a model that denoises
+        noise = ((x @ z["noise_axes"].T) ** 2).mean(1, keepdims=True) + z["least"]
+        x = (x @ z["axes"].T + z["offset"]) * (z["signal"] / (z["signal"] + noise))
+    hidden = numpy.tanh(x @ z["hidden_weights"].T + z["hidden_bias"])
     weights = numpy.clip(hidden @ z["output_weights"].T + z["output_bias"], *z["weight_range"])  # (n, 52)
 
 ``names`` says what the 52 columns are; ``about`` is one JSON text: format version, recipe, dataset hash,
@@ -28,6 +32,7 @@ def export_npz(formula: Formula, name: str) -> dict[str, bytes]:
     """Make ``NAME.npz``; this module's first lines are its documentation."""
     stacked = formula.stacked()
     content = io.BytesIO()
+    kept = () if formula.denoising is None else ("axes", "offset", "signal", "noise_axes", "least")
     np.savez(  # not compressed: weights do not shrink, and zlib's versions differ in bytes
         content,
         about=np.array(json.dumps({"format_version": FORMAT_VERSION, **formula.about}, sort_keys=True)),
@@ -40,6 +45,7 @@ def export_npz(formula: Formula, name: str) -> dict[str, bytes]:
         edges=formula.edges.astype(np.int64),
         width_landmarks=formula.width_landmarks.astype(np.int64),
         feature_mean=formula.feature_mean.astype(np.float64),
+        **{key: np.float64(getattr(formula.denoising, key)) for key in kept},
         hidden_weights=stacked.hidden_weights.astype(np.float32),
         hidden_bias=stacked.hidden_bias.astype(np.float32),
         output_weights=stacked.output_weights.astype(np.float32),

@@ -173,6 +173,24 @@ def _features(graph: _Graph, formula: Formula) -> None:
     graph.node("Sub", ["ratios", "feature_mean"], "features")
 
 
+def _denoised(graph: _Graph, formula: Formula, features: str) -> str:
+    """Append the nodes from centred features to what denoising leaves of them; give their name."""
+    denoising = formula.denoising
+    graph.constant("noise_axes", denoising.noise_axes.T)
+    graph.constant("axes", denoising.axes.T)
+    for key in ("offset", "signal", "least"):
+        graph.constant(key, getattr(denoising, key))
+    graph.node("MatMul", [features, "noise_axes"], "noise_places")
+    graph.node("Mul", ["noise_places", "noise_places"], "noise_squares")
+    graph.node("ReduceMean", ["noise_squares"], "noise_square", axes=[1], keepdims=1)
+    graph.node("Add", ["noise_square", "least"], "noise")
+    graph.node("Add", ["noise", "signal"], "signal_and_noise")
+    graph.node("Div", ["signal", "signal_and_noise"], "gain")
+    graph.node("MatMul", [features, "axes"], "places")
+    graph.node("Add", ["places", "offset"], "places_offset")
+    return graph.node("Mul", ["places_offset", "gain"], "places_shrunk")
+
+
 def _undone(graph: _Graph, formula: Formula) -> str:
     """Append the nodes from ``points`` to points without the turn of the head; give their name."""
     graph.constant("depth", formula.depth[:, None])
@@ -218,7 +236,8 @@ def _networks(graph: _Graph, formula: Formula, *, features: str = "features") ->
     graph.constant("output_bias", stacked.output_bias)
     graph.constant("low", np.array(0.0))
     graph.constant("high", np.array(1.0))
-    graph.node("MatMul", [features, "hidden_weights"], "hidden_sums")
+    inputs = features if formula.denoising is None else _denoised(graph, formula, features)
+    graph.node("MatMul", [inputs, "hidden_weights"], "hidden_sums")
     graph.node("Add", ["hidden_sums", "hidden_bias"], "hidden_biased")
     graph.node("Tanh", ["hidden_biased"], "hidden")
     graph.node("MatMul", ["hidden", "output_weights"], "output_sums")

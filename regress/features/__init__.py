@@ -5,6 +5,7 @@ from regress.features.distances import edge_distances
 from regress.features.extraction import ALIGNMENTS, Features, extract
 from regress.features.reference_shape import (
     ReferenceShape,
+    closed_under_mirror,
     delaunay_edges,
     load_reference_shape,
     make_reference_shape,
@@ -19,6 +20,7 @@ __all__ = [
     "ReferenceShape",
     "align_affine",
     "align_similarity",
+    "closed_under_mirror",
     "delaunay_edges",
     "depths_of",
     "edge_distances",

@@ -78,6 +78,13 @@ def mirrored_edges(edges: np.ndarray) -> np.ndarray:
     return np.array([rows.get((int(i), int(j)), -1) for i, j in mirrored], dtype=np.int64)
 
 
+def closed_under_mirror(edges: np.ndarray) -> np.ndarray:
+    """The edges and their mirror partners, sorted: every edge of the result has its partner there."""
+    lonely = edges[mirrored_edges(edges) < 0]
+    partners = np.sort(np.asarray(MIRRORED_LANDMARKS)[lonely], axis=1)
+    return np.unique(np.concatenate([edges, partners]), axis=0)
+
+
 def edges_sha256(edges: np.ndarray) -> str:
     """SHA-256 of an edge list, as text ``i-j`` joined by commas."""
     return hashlib.sha256(",".join(f"{i}-{j}" for i, j in edges).encode()).hexdigest()

@@ -15,14 +15,26 @@ from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError, OutputError
 from regress.features import Features
 from regress.model.model import Calibrated, Model, Normalisation
-from regress.networks import FoldedNetworks
+from regress.networks import Denoising, FoldedNetworks
 from regress.targets import Network, observability
 
-SCHEMAS = (1, 2)
-"""Those read; the last one is written. 1 knows no array ``depth``: its readers would take turned heads as they are."""
+SCHEMAS = (1, 2, 3)
+"""Those read; the last one is written. 1 knows no array ``depth``: its readers would take turned heads as they are. 2
+knows no arrays ``denoising_*``: its readers would show networks what they cannot read."""
 
 _CALIBRATED = "calibrated_"
 """Begins the names of the arrays that compare with a neutral frame."""
+
+
+_DENOISING = "denoising_"
+"""Begins the names of the arrays that shrink features."""
+
+_INFERENCE = (
+    "clip(w2 tanh(w1 features + b1) + b2, 0, 1); features are raw, z-scores are folded in",
+    "clip(w2 tanh(w1 p + b1) + b2, 0, 1) with p = (axes x + offset) signal / (signal + noise), x = features less "
+    "origin, noise = the mean square of noise_axes x, plus least (arrays denoising_*); features are raw",
+)
+"""Of networks that see features, and of those that see what denoising leaves of them."""
 
 
 def save_model(model: Model, folder: str | os.PathLike[str]) -> None:
@@ -126,7 +138,7 @@ def _document(model: Model, weights_sha256: str) -> dict[str, Any]:
             "reference_name": model.features.reference_name,
             "reference_sha256": model.features.reference_sha256,
         },
-        "inference": "clip(w2 tanh(w1 features + b1) + b2, 0, 1); features are raw, z-scores are folded in",
+        "inference": _INFERENCE[model.networks.denoising is not None],
         "calibrated": model.calibrated is not None
         and "the same with the arrays calibrated_*, on features less the neutral frame's",
         "weights_sha256": weights_sha256,
@@ -143,8 +155,12 @@ def _arrays(model: Model) -> dict[str, np.ndarray]:
     return {**arrays, "mean_shape": model.features.mean_shape, **depth}
 
 
-def _fields(record: FoldedNetworks | Normalisation) -> dict[str, np.ndarray]:
-    return {field.name: getattr(record, field.name) for field in dataclasses.fields(record)}
+def _fields(record: FoldedNetworks | Normalisation | Denoising) -> dict[str, np.ndarray]:
+    values = {field.name: getattr(record, field.name) for field in dataclasses.fields(record)}
+    denoising = values.pop("denoising", None)
+    if denoising is not None:
+        values |= {_DENOISING + name: array for name, array in _fields(denoising).items()}
+    return values
 
 
 def _weights_bytes(model: Model) -> bytes:
@@ -171,7 +187,7 @@ def _model(document: dict[str, Any], arrays: dict[str, np.ndarray], path: Path) 
                 depth=arrays.get("depth"),
             ),
             normalisation=_taken(Normalisation, arrays),
-            networks=_taken(FoldedNetworks, arrays),
+            networks=_networks(arrays),
             record=document["record"],
             calibrated=_calibrated(arrays),
         )
@@ -187,7 +203,14 @@ def _calibrated(arrays: dict[str, np.ndarray]) -> Calibrated | None:
     }
     if not named:
         return None
-    return Calibrated(normalisation=_taken(Normalisation, named), networks=_taken(FoldedNetworks, named))
+    return Calibrated(normalisation=_taken(Normalisation, named), networks=_networks(named))
+
+
+def _networks(arrays: dict[str, np.ndarray]) -> FoldedNetworks:
+    named = {
+        name.removeprefix(_DENOISING): array for name, array in arrays.items() if name.startswith(_DENOISING)
+    }
+    return _taken(FoldedNetworks, {**arrays, "denoising": _taken(Denoising, named) if named else None})
 
 
 def _taken(kind: type, arrays: dict[str, np.ndarray]) -> Any:

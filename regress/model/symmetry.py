@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from facegen.conventions import MIRRORED_LANDMARKS, mirrored_name
+from facegen.conventions import mirrored_name
 from regress.errors import InputError
-from regress.features import mirrored_edges
+from regress.features import closed_under_mirror, mirrored_edges
 from regress.model.model import Calibrated, Model, Normalisation
 from regress.networks import FoldedNetworks
 
@@ -27,9 +27,7 @@ def symmetrised(model: Model) -> Model:
     if model.record.get("recipe", {}).get("symmetric"):
         return model
     features = model.features
-    lonely = features.edges[mirrored_edges(features.edges) < 0]
-    partners = np.sort(np.asarray(MIRRORED_LANDMARKS)[lonely], axis=1)
-    edges = np.unique(np.concatenate([features.edges, partners]), axis=0)
+    edges = closed_under_mirror(features.edges)
     row = {(int(i), int(j)): place for place, (i, j) in enumerate(edges)}
     own = np.array([row[int(i), int(j)] for i, j in features.edges])
     other = mirrored_edges(edges)
@@ -79,14 +77,19 @@ def _twice(
     networks: FoldedNetworks, *, own: np.ndarray, mirrored: np.ndarray, outputs: np.ndarray, count: int
 ) -> FoldedNetworks:
     hidden = networks.hidden
-    w1 = networks.w1.reshape(-1, hidden, len(own))
-    both = np.zeros((len(w1), 2 * hidden, count))
-    both[:, :hidden, own] = w1
-    both[:, hidden:, mirrored] = w1
+    w1 = networks.w1.reshape(len(networks.b1) // hidden, hidden, -1)
+    if networks.denoising is not None:  # the mirror image has the same places along the axes, but for signs
+        axes = networks.denoising.axes
+        signs = np.where(np.einsum("ae,ae->a", axes, axes[:, mirrored]) < 0, -1.0, 1.0)
+        both = np.concatenate([w1, w1 * signs], axis=1)
+    else:
+        both = np.zeros((len(w1), 2 * hidden, count))
+        both[:, :hidden, own] = w1
+        both[:, hidden:, mirrored] = w1
     b1 = networks.b1.reshape(-1, hidden)
     return replace(
         networks,
-        w1=both.reshape(-1, count),
+        w1=both.reshape(len(w1) * 2 * hidden, -1),
         b1=np.concatenate([b1, b1], axis=1).ravel(),
         w2=np.concatenate([networks.w2, networks.w2[outputs]], axis=1) / 2,
         b2=(networks.b2 + networks.b2[outputs]) / 2,

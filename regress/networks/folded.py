@@ -5,6 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
+from regress.networks.denoising import Denoising
+
 
 @dataclass(frozen=True, kw_only=True)
 class FoldedNetworks:
@@ -16,12 +18,15 @@ class FoldedNetworks:
     Parameters
     ----------
     w1 : (M*H, E) float64
-        Hidden weights of M networks with H units each, network by network; they act on raw features.
+        Hidden weights of M networks with H units each, network by network; they act on raw features, or on what
+        ``denoising`` makes of them.
     b1 : (M*H,) float64
     w2 : (O, H) float64
         Output weights: row o acts on the H hidden units of network ``network_of_output[o]``.
     b2 : (O,) float64
     network_of_output : (O,) int64
+    denoising
+        What shrinks features before the networks see them; None where nothing does.
     """
 
     w1: np.ndarray
@@ -29,6 +34,7 @@ class FoldedNetworks:
     w2: np.ndarray
     b2: np.ndarray
     network_of_output: np.ndarray
+    denoising: Denoising | None = None
 
     @property
     def hidden(self) -> int:
@@ -46,6 +52,8 @@ class FoldedNetworks:
 
 def shifted(networks: FoldedNetworks, origin: np.ndarray) -> FoldedNetworks:
     """The networks that act on features (E,) as these act on features less an origin."""
+    if networks.denoising is not None:
+        return replace(networks, denoising=networks.denoising.shifted(origin))
     return replace(networks, b1=networks.b1 - networks.w1 @ origin)
 
 
@@ -61,6 +69,8 @@ def evaluate(networks: FoldedNetworks, features: np.ndarray) -> np.ndarray:
     -------
     (n, O) float64
     """
+    if networks.denoising is not None:
+        features = networks.denoising.shrunk(features)
     hidden = features @ networks.w1.T
     hidden += networks.b1
     np.tanh(hidden, out=hidden)

@@ -27,7 +27,7 @@ def fold(
         Trained networks on z-scored features in principal axes.
     outputs
         Number of outputs of each network, at most ``layout.outputs``.
-    rotation : (E, E)
+    rotation : (E, A)
         Columns are the principal axes.
     input_mean, input_std : (E,)
     target_mean, target_std : (O,)
@@ -44,7 +44,7 @@ def fold(
     network_of_output = np.repeat(np.arange(len(outputs)), outputs)
     rows = np.concatenate([w2[network, :count] for network, count in enumerate(outputs)])
     return FoldedNetworks(
-        w1=on_features.reshape(-1, layout.inputs) / 2,
+        w1=on_features.reshape(-1, len(rotation)) / 2,
         b1=bias.reshape(-1) / 2,
         w2=rows[:, :-1] / 2 * target_std[:, None],
         b2=(rows[:, -1] + rows[:, :-1].sum(axis=1) / 2) * target_std + target_mean,

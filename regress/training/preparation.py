@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, MIRRORED_BLENDSHAPES, MIRRORED_LANDMARKS
-from regress.features import Features, extract
+from regress.features import Features, extract, mirrored_edges
 from regress.model import Normalisation
-from regress.networks import Rows
+from regress.networks import Denoising, Rows, fit_denoising
 from regress.targets import NETWORKS, OUTPUTS
 from regress.training.dataset import KeypointDataset
 from regress.training.noise import DetectorNoise, displace, draw_displacements
@@ -16,6 +16,9 @@ OUTPUT_COLUMNS = [BLENDSHAPE_INDEX[name] for name in OUTPUTS]
 """Where the predicted shapes stand among the 52."""
 
 WIDEST = max(len(network.outputs) for network in NETWORKS)
+
+_PROBE = 0.002
+"""Noise, in outer-eye distances, that shows how noise moves features: as much as a good detector's."""
 
 _FLOAT = np.float32
 """Training's precision: errors agree with float64 to four digits at alphas from 0.1, in half the time."""
@@ -62,12 +65,19 @@ class Prepared:
         By name.
     normalisation
         Z-scores of the training split.
-    rotation : (E, E) float64
-        Columns are the principal axes of the z-scored features.
+    denoising
+        What shrinks features; None where nothing does.
+    input_mean, input_std : (E,) or (E + 2,) float64
+        Z-scores of what comes of the features.
+    rotation : (E, E) or (E + 2, A) float64
+        Columns are the principal axes of the z-scored inputs: as many as denoising leaves, or all.
     """
 
     splits: dict[str, Split]
     normalisation: Normalisation
+    denoising: Denoising | None
+    input_mean: np.ndarray
+    input_std: np.ndarray
     rotation: np.ndarray
 
 
@@ -155,6 +165,7 @@ def prepare(
     mirror: bool,
     noise: DetectorNoise | None = None,
     calibrated: bool = False,
+    denoise: bool = False,
     seed: int = 0,
 ) -> Prepared:
     """Standardise all splits by the training split.
@@ -163,13 +174,17 @@ def prepare(
     for what networks will meet; the test split stays as the dataset has it.
 
     The rotation into principal axes changes no cost (``|W1 V| = |W1|``) and makes X'X diagonal for the
-    preconditioner. Nothing is cut off: low-variance axes carry signal.
+    preconditioner. Nothing is cut off: low-variance axes carry signal. Where features are denoised, what is rotated
+    is features again, made of the places along the axes.
     """
     raw: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+    denoising = None
     for number, split in enumerate(("train", "validation", "test")):
         faces = faces_of(dataset, split, calibrated=calibrated)
         if mirror and split == "train":
             faces = _with_mirror_images(faces)
+        if denoise and split == "train":
+            denoising = _denoising(features, faces, np.random.default_rng([seed, 3]))
         given = faces
         if noise is not None and split != "test":
             given = faces.repeated(noise.copies)
@@ -183,18 +198,41 @@ def prepare(
         target_mean=targets.mean(axis=0),
         target_std=_spread(targets),
     )
-    standard = (inputs - normalisation.feature_mean) / normalisation.feature_std
+    count, input_mean, input_std = inputs.shape[1], normalisation.feature_mean, normalisation.feature_std
+    if denoising is not None:
+        # shrunk, but features again: along the axes themselves z-scores would make the faintest as large as the rest
+        back, count = denoising.back, len(denoising.axes)
+        raw = {split: (denoising.shrunk(each[0]) @ back, *each[1:]) for split, each in raw.items()}
+        input_mean, input_std = raw["train"][0].mean(axis=0), _spread(raw["train"][0])
+    standard = (raw["train"][0] - input_mean) / input_std
     _, axes = np.linalg.eigh(standard.T @ standard)
-    rotation = axes[:, ::-1]
+    rotation = axes[:, ::-1][:, :count]
     splits = {
         split: Split(
-            inputs=((inputs - normalisation.feature_mean) / normalisation.feature_std) @ rotation,
+            inputs=((inputs - input_mean) / input_std) @ rotation,
             targets=(targets - normalisation.target_mean) / normalisation.target_std,
             exact=exact,
         )
         for split, (inputs, targets, exact) in raw.items()
     }
-    return Prepared(splits=splits, normalisation=normalisation, rotation=rotation)
+    return Prepared(
+        splits=splits,
+        normalisation=normalisation,
+        denoising=denoising,
+        input_mean=input_mean,
+        input_std=input_std,
+        rotation=rotation,
+    )
+
+
+def _denoising(features: Features, faces: Faces, rng: np.random.Generator) -> Denoising:
+    def moved(points: np.ndarray) -> np.ndarray:
+        return displace(points, _PROBE * rng.standard_normal(points.shape))
+
+    clean = faces.features(features)
+    neutral = None if faces.neutral is None else moved(faces.neutral)
+    disturbed = replace(faces, points=moved(faces.points), neutral=neutral).features(features)
+    return fit_denoising(clean, (disturbed - clean) / _PROBE, mirrored_edges(features.edges))
 
 
 def _with_mirror_images(faces: Faces) -> Faces:

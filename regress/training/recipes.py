@@ -1,6 +1,6 @@
 """Named ways to train. A new recipe is one new entry."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from regress.training.noise import DetectorNoise
 
@@ -15,6 +15,9 @@ class Recipe:
         What the command line calls it.
     alignment
         One of ``regress.features.ALIGNMENTS``.
+    denoise
+        Show networks features shrunk as far as the noise of the face before them says
+        (``regress.networks.Denoising``), rather than features as they are.
     undo_turn
         Undo the head's turn by the mean face's depth before the alignment (``regress.features.turn``).
     hidden
@@ -49,6 +52,7 @@ class Recipe:
 
     name: str
     alignment: str = "affine"
+    denoise: bool = False
     undo_turn: bool = True
     hidden: int = 20
     start: str = "ridge_knots"
@@ -88,6 +92,8 @@ RECIPES: dict[str, Recipe] = {
         calibrated=False,
     ),
 }
+RECIPES["denoised"] = replace(RECIPES["default"], name="denoised", denoise=True)
 """``paper`` follows the paper. ``exact`` adds mirrored faces, starts from ridge regression and has a second
 set of networks that compare a frame with the person's neutral one. ``default`` adds detectors' noise to that, as
-real landmarks are not where the dataset's are, and answers a mirrored face with the mirrored answer."""
+real landmarks are not where the dataset's are, and answers a mirrored face with the mirrored answer. ``denoised``
+measures the noise of each face and takes it off first: better in every trial, not yet trained on all faces."""

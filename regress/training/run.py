@@ -3,7 +3,7 @@
 import dataclasses
 from dataclasses import dataclass
 
-from regress.features import Features, depths_of, load_reference_shape, mean_shape
+from regress.features import Features, closed_under_mirror, depths_of, load_reference_shape, mean_shape
 from regress.model import Calibrated, Model, symmetrised
 from regress.networks import FoldedNetworks, fold
 from regress.targets import NETWORKS
@@ -34,7 +34,7 @@ def train(
     features = Features(
         alignment=recipe.alignment,
         mean_shape=mean_shape(dataset.points[dataset.rows("train")]),
-        edges=reference.edges,
+        edges=closed_under_mirror(reference.edges) if recipe.denoise else reference.edges,
         reference_name=reference.name,
         reference_sha256=reference.sha256,
         depth=depths_of(reference) if recipe.undo_turn else None,
@@ -85,6 +85,7 @@ def _fit_set(
         mirror=recipe.mirror,
         noise=recipe.calibrated_noise if calibrated else recipe.noise,
         calibrated=calibrated,
+        denoise=recipe.denoise,
         seed=seed,
     )
     stages = progress
@@ -100,9 +101,13 @@ def _fit_set(
         fit.parameters,
         outputs=tuple(len(network.outputs) for network in NETWORKS),
         rotation=prepared.rotation,
-        input_mean=normalisation.feature_mean,
-        input_std=normalisation.feature_std,
+        input_mean=prepared.input_mean,
+        input_std=prepared.input_std,
         target_mean=normalisation.target_mean,
         target_std=normalisation.target_std,
     )
+    if prepared.denoising is not None:  # on places along the axes instead of the features made of them
+        networks = dataclasses.replace(
+            networks, w1=networks.w1 @ prepared.denoising.back.T, denoising=prepared.denoising
+        )
     return _FittedSet(prepared=prepared, fit=fit, networks=networks)

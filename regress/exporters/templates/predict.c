@@ -9,6 +9,8 @@
 #define ALIGNED $aligned
 #define ANCHORS $anchor_count
 #define FEATURES $feature_count
+#define INPUTS $input_count
+#define NOISE_AXES $noise_count /* 0: the networks see features as they are */
 #define HIDDEN $hidden_count
 #define CONNECTIONS $connection_count
 
@@ -40,9 +42,49 @@ static const double feature_mean[FEATURES] = {
 $feature_mean
 };
 
-/* All networks' hidden units in one table, a row a feature, so that compilers add units side by side; the spread of
+#if NOISE_AXES
+/* What features are measured along: axes in which expressions show, then those in which only noise does. Of a place
+ * along the former signal / (signal + noise) is left. */
+static const float axis[FEATURES][INPUTS + NOISE_AXES] = {
+$axes
+};
+static const float place_offset[INPUTS] = {
+$offset
+};
+static const float signal_of[INPUTS] = {
+$signal
+};
+static const double least = $least;
+
+static void denoise(const float feature[FEATURES], float input[INPUTS])
+{
+    float place[INPUTS + NOISE_AXES] = {0};
+    double square = 0;
+    float noise;
+    int i, j;
+
+    for (i = 0; i < FEATURES; i++)
+        for (j = 0; j < INPUTS + NOISE_AXES; j++)
+            place[j] += axis[i][j] * feature[i];
+    for (j = INPUTS; j < INPUTS + NOISE_AXES; j++)
+        square += (double)place[j] * place[j];
+    noise = (float)(square / NOISE_AXES + least);
+    for (j = 0; j < INPUTS; j++)
+        input[j] = (place[j] + place_offset[j]) * (signal_of[j] / (signal_of[j] + noise));
+}
+#else
+static void denoise(const float feature[FEATURES], float input[INPUTS])
+{
+    int i;
+
+    for (i = 0; i < INPUTS; i++)
+        input[i] = feature[i];
+}
+#endif
+
+/* All networks' hidden units in one table, a row an input, so that compilers add units side by side; the spread of
  * the features is folded in. */
-static const float hidden_weight[FEATURES][HIDDEN] = {
+static const float hidden_weight[INPUTS][HIDDEN] = {
 $hidden_weights
 };
 static const float hidden_bias[HIDDEN] = {
@@ -138,7 +180,7 @@ static float tangent(float x)
 void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])
 {
     double face[${GUARD}_POINTS][2], map[2][2], width, missing = 0;
-    float feature[FEATURES], hidden[HIDDEN];
+    float feature[FEATURES], input[INPUTS], hidden[HIDDEN];
     int i, j;
 
     undo_turn(points, face);
@@ -148,15 +190,16 @@ void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUA
         feature[i] = (float)(aligned_length(face, map, i) / width - feature_mean[i]);
     for (i = 0; i < FEATURES; i++)
         missing += 0 * (double)feature[i]; /* NaN as soon as one point is not finite */
+    denoise(feature, input);
     for (j = 0; j < HIDDEN; j++)
         hidden[j] = hidden_bias[j];
-    for (i = 0; i + 4 <= FEATURES; i += 4) /* four at a time: a quarter of the loads and stores of hidden */
+    for (i = 0; i + 4 <= INPUTS; i += 4) /* four at a time: a quarter of the loads and stores of hidden */
         for (j = 0; j < HIDDEN; j++)
-            hidden[j] += hidden_weight[i][j] * feature[i] + hidden_weight[i + 1][j] * feature[i + 1]
-                       + (hidden_weight[i + 2][j] * feature[i + 2] + hidden_weight[i + 3][j] * feature[i + 3]);
-    for (; i < FEATURES; i++)
+            hidden[j] += hidden_weight[i][j] * input[i] + hidden_weight[i + 1][j] * input[i + 1]
+                       + (hidden_weight[i + 2][j] * input[i + 2] + hidden_weight[i + 3][j] * input[i + 3]);
+    for (; i < INPUTS; i++)
         for (j = 0; j < HIDDEN; j++)
-            hidden[j] += hidden_weight[i][j] * feature[i];
+            hidden[j] += hidden_weight[i][j] * input[i];
     for (j = 0; j < HIDDEN; j++)
         hidden[j] = tangent(hidden[j]);
     for (i = 0; i < ${GUARD}_WEIGHTS; i++) {

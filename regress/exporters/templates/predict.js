@@ -26,7 +26,15 @@ const edges = $edges;
 const featureMean = $feature_mean;
 const featureCount = featureMean.length;
 
-/* All networks' hidden units in one table, a row a feature; each weight reads one run of hidden units. */
+/* Where there are noise axes, features are measured along axes in which expressions show, then along those in which
+ * only noise does, and of each place along the former signal / (signal + noise) is left. */
+const axes = floats("$axes");
+const noiseCount = $noise_count;
+const offset = $offset;
+const signal = $signal;
+const least = $least;
+
+/* All networks' hidden units in one table, a row an input; each weight reads one run of hidden units. */
 const hiddenWeights = floats("$hidden_weights");
 const hiddenBias = floats("$hidden_bias");
 const firstHidden = $first_hidden;
@@ -37,6 +45,7 @@ const hiddenCount = hiddenBias.length;
 
 const flat = new Float64Array(136);
 const features = new Float64Array(featureCount);
+const places = new Float64Array(signal.length + noiseCount);
 const hidden = new Float64Array(hiddenCount);
 const map = new Float64Array(4);
 
@@ -55,10 +64,11 @@ export function predict(points, weights = new Float32Array(names.length)) {
     features[i] = alignedLength(i) / width - featureMean[i];
     missing += 0 * features[i]; // NaN as soon as one point is not finite
   }
+  const inputs = noiseCount ? denoised() : features;
   hidden.set(hiddenBias);
-  for (let i = 0, k = 0; i < featureCount; i++) {
-    const feature = features[i];
-    for (let j = 0; j < hiddenCount; j++) hidden[j] += hiddenWeights[k++] * feature;
+  for (let i = 0, k = 0; i < inputs.length; i++) {
+    const input = inputs[i];
+    for (let j = 0; j < hiddenCount; j++) hidden[j] += hiddenWeights[k++] * input;
   }
   for (let j = 0; j < hiddenCount; j++) hidden[j] = Math.tanh(hidden[j]);
   for (let i = 0; i < names.length; i++) {
@@ -69,6 +79,19 @@ export function predict(points, weights = new Float32Array(names.length)) {
     weights[i] = Math.min(Math.max(sum, 0), 1) + missing;
   }
   return weights;
+}
+
+function denoised() {
+  const count = signal.length;
+  let noise = 0;
+  for (let j = 0, k = 0; j < places.length; j++) {
+    places[j] = 0;
+    for (let i = 0; i < featureCount; i++) places[j] += axes[k++] * features[i];
+    if (j >= count) noise += (places[j] * places[j]) / noiseCount;
+  }
+  noise += least;
+  for (let j = 0; j < count; j++) places[j] = ((places[j] + offset[j]) * signal[j]) / (signal[j] + noise);
+  return places.subarray(0, count);
 }
 
 function flatten(points) {

@@ -80,6 +80,12 @@ def test_accessories_change_no_label_but_what_a_frame_hides(dataset):
         json.dumps(record)
 
 
+def test_labels_do_not_change_with_teeth_and_tongue(dataset, monkeypatch):
+    with_ours = _record(dataset, dataset.headset)
+    monkeypatch.setattr(module, "has_own_teeth", lambda rig: True)
+    assert _record(dataset, dataset.headset) == with_ours
+
+
 def test_keypoints_do_not_change_with_units_shots_or_rooms(dataset):
     block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(0, 1))
     off = {

@@ -6,27 +6,47 @@ import numpy as np
 import pytest
 
 from regress import Model, load_model
-from regress.features import Features, delaunay_edges, depths_of, extract, load_reference_shape
+from regress.features import (
+    Features,
+    closed_under_mirror,
+    delaunay_edges,
+    depths_of,
+    extract,
+    load_reference_shape,
+    mirrored_edges,
+)
 from regress.model import Normalisation
-from regress.networks import FoldedNetworks
+from regress.networks import FoldedNetworks, fit_denoising
 from regress.targets import NETWORKS
 from tests.regress.drawn import drawn_face, drawn_faces
 
 HIDDEN = 20
 
 
-def random_model(rng: np.random.Generator, *, alignment: str = "affine", turned: bool = True) -> Model:
+def random_model(
+    rng: np.random.Generator, *, alignment: str = "affine", turned: bool = True, denoised: bool = False
+) -> Model:
     """A model whose hidden units and outputs swing as trained ones do: half of the outputs hit a bound."""
     features = Features(
         alignment=alignment,
         mean_shape=drawn_face() / 2 + [0.3, -0.2],  # off the origin: readers must centre it
-        edges=delaunay_edges(drawn_face() + rng.normal(size=(68, 2)) * 1e-3),
+        edges=closed_under_mirror(delaunay_edges(drawn_face() + rng.normal(size=(68, 2)) * 1e-3)),
         reference_name="drawn",
         reference_sha256="0" * 64,
         depth=depths_of(load_reference_shape()) if turned else None,
     )
-    raw = extract(features, drawn_faces(rng, 500))
+    drawn = drawn_faces(rng, 500)
+    raw = extract(features, drawn)
     mean, std = raw.mean(axis=0), raw.std(axis=0)
+    feature_mean, feature_std, denoising = mean, std, None
+    if denoised:
+        size = np.linalg.norm(drawn[:, 45] - drawn[:, 36], axis=1)[:, None, None]
+        moved = (extract(features, drawn + 0.002 * size * rng.normal(size=drawn.shape)) - raw) / 0.002
+        denoising = fit_denoising(raw, moved, mirrored_edges(features.edges))
+        seen = denoising.shrunk(raw)
+        mean, spread = seen.mean(axis=0), seen.std(axis=0)
+        std = np.maximum(spread, 1e-3)  # what hardly varies is left small
+        std *= 0.8 * np.sqrt(np.mean((spread / std) ** 2))  # drawn faces swing less than that
     hidden_count = HIDDEN * len(NETWORKS)
     w1 = rng.normal(size=(hidden_count, len(mean))) / np.sqrt(len(mean)) / std
     network_of_output = np.repeat(np.arange(len(NETWORKS)), [len(network.outputs) for network in NETWORKS])
@@ -36,8 +56,8 @@ def random_model(rng: np.random.Generator, *, alignment: str = "affine", turned:
         table=NETWORKS,
         features=features,
         normalisation=Normalisation(
-            feature_mean=mean,
-            feature_std=std,
+            feature_mean=feature_mean,
+            feature_std=feature_std,
             target_mean=np.full(output_count, 0.2),
             target_std=np.full(output_count, 0.3),
         ),
@@ -47,6 +67,7 @@ def random_model(rng: np.random.Generator, *, alignment: str = "affine", turned:
             w2=rng.normal(size=(output_count, HIDDEN)) * 0.3,
             b2=rng.uniform(0, 0.5, size=output_count),
             network_of_output=network_of_output,
+            denoising=denoising,
         ),
         record={},
     )
@@ -54,12 +75,17 @@ def random_model(rng: np.random.Generator, *, alignment: str = "affine", turned:
 
 @pytest.fixture(
     scope="session",
-    params=[("affine", True), ("affine", False), ("none", False)],
-    ids=["turn", "affine", "none"],
+    params=[
+        ("affine", True, True),
+        ("affine", True, False),
+        ("affine", False, False),
+        ("none", False, False),
+    ],
+    ids=["denoised", "turn", "affine", "none"],
 )
 def model(request) -> Model:
-    alignment, turned = request.param
-    return random_model(np.random.default_rng(5), alignment=alignment, turned=turned)
+    alignment, turned, denoised = request.param
+    return random_model(np.random.default_rng(5), alignment=alignment, turned=turned, denoised=denoised)
 
 
 @pytest.fixture(scope="session")

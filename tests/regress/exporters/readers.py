@@ -13,7 +13,7 @@ import onnxruntime
 def read_json(paths: tuple[Path, ...]):
     """Follow the five steps that ``json_text`` documents, in float64."""
     document = json.loads(paths[0].read_text())
-    assert (document["format"], document["version"]) == ("regress-networks", 2)
+    assert (document["format"], document["version"]) == ("regress-networks", 3)
 
     def predict(points: np.ndarray) -> np.ndarray:
         rows = []
@@ -32,6 +32,11 @@ def read_json(paths: tuple[Path, ...]):
             feature = (
                 np.array([length(edge) / width for edge in document["edges"]]) - document["feature_mean"]
             )
+            if (denoising := document["denoising"]) is not None:
+                noise = np.mean((np.array(denoising["noise_axes"]) @ feature) ** 2) + denoising["least"]
+                signal = np.array(denoising["signal"])
+                places = np.array(denoising["axes"]) @ feature + denoising["offset"]
+                feature = places * signal / (signal + noise)
             values = dict(document["constant"])
             for network in document["networks"]:
                 hidden = np.tanh(np.array(network["hidden_weights"]) @ feature + network["hidden_bias"])
@@ -61,7 +66,11 @@ def read_npz(paths: tuple[Path, ...]):
 
         i, j = z["width_landmarks"]
         ratio = length(*z["edges"].T) / length([i], [j])
-        hidden = np.tanh((ratio - z["feature_mean"]) @ z["hidden_weights"].T + z["hidden_bias"])
+        x = ratio - z["feature_mean"]
+        if "axes" in z:
+            noise = ((x @ z["noise_axes"].T) ** 2).mean(1, keepdims=True) + z["least"]
+            x = (x @ z["axes"].T + z["offset"]) * (z["signal"] / (z["signal"] + noise))
+        hidden = np.tanh(x @ z["hidden_weights"].T + z["hidden_bias"])
         return np.clip(hidden @ z["output_weights"].T + z["output_bias"], *z["weight_range"])
 
     return predict, tuple(map(str, z["names"]))

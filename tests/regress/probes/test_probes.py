@@ -137,14 +137,17 @@ def test_a_wink_shuts_one_eye_and_leaves_the_face_neutral(held_out):
         for name, lids in (("eyeBlinkLeft", slice(42, 48)), ("eyeBlinkRight", slice(36, 42))):
             moved = (points[:, lids] != beside[:, lids]).any(axis=(1, 2))
             said[:, OUTPUTS.index(name)] = np.where(moved, 0.7, 0.1)
+        said[:, [OUTPUTS.index("eyeBlinkLeft"), OUTPUTS.index("eyeBlinkRight")]] += (
+            0.2 * (points[:, 36:48] != beside[:, 36:48]).any(axis=2).all(axis=1)[:, None]
+        )  # both
         return said
 
     found = winks(method(read), faces, neutral)
     assert found.count == 5
     assert found.true == pytest.approx(0.975)
-    assert (found.shut, found.leak) == pytest.approx((0.7, 0.1))
+    assert (found.shut, found.leak, found.both) == pytest.approx((0.7, 0.1, 0.9))
     shut = frontal(faces.points_m, neutral)[:5]
-    for (points, beside), lids in zip(asked, (range(42, 48), range(36, 42)), strict=True):
+    for (points, beside), lids in zip(asked, (range(36, 48), range(42, 48), range(36, 42)), strict=True):
         np.testing.assert_allclose(points[:, list(lids)], shut[:, list(lids)], atol=1e-9)
         rest = np.setdiff1d(np.arange(68), lids)
         np.testing.assert_array_equal(points[:, rest], beside[:, rest])
