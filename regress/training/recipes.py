@@ -96,4 +96,5 @@ RECIPES["denoised"] = replace(RECIPES["default"], name="denoised", denoise=True)
 """``paper`` follows the paper. ``exact`` adds mirrored faces, starts from ridge regression and has a second
 set of networks that compare a frame with the person's neutral one. ``default`` adds detectors' noise to that, as
 real landmarks are not where the dataset's are, and answers a mirrored face with the mirrored answer. ``denoised``
-measures the noise of each face and takes it off first: better in every trial, not yet trained on all faces."""
+measures the noise of each face and takes it off first: far better on the rig it learned from, worse on exact points of
+another, whose differences are no noise (docs/training.md)."""
