@@ -43,7 +43,9 @@ def test_no_camera_sees_the_eyes_behind_shut_lids(rig: Rig) -> None:
 def test_nothing_but_skin_and_housing_covers_the_pupils_of_open_eyes(rig: Rig) -> None:
     met = [part for scene in looking(rig, 0.0) for view in scene.views for part in before_pupils(view, scene)]
     assert met.count(Part.PUPIL) >= 3
-    assert not set(met) - {Part.PUPIL, Part.SKIN, Part.BROWS, Part.HEADSET, Part.EYE_CAVITY}
+    # an eye that is turned far from a camera hides its pupil behind its own white
+    covers = {Part.SKIN, Part.BROWS, Part.HEADSET, Part.EYE_CAVITY, Part.SCLERA}
+    assert not set(met) - {Part.PUPIL, *covers}
     assert met.count(Part.EYE_CAVITY) <= LINING_PUPILS
 
 
