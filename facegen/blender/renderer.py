@@ -10,12 +10,13 @@ from facegen.blender.materials import build_material, build_truth_material
 from facegen.blender.nodes import set_parameters
 from facegen.blender.passes import passes_of_renders
 from facegen.blender.runtime import LENS, choose_device, compile_lens, quiet_stdout
+from facegen.blender.shapes import new_curves, new_mesh, remove
 from facegen.conventions import Part
 from facegen.errors import InputError
 from facegen.geometry import Camera, invert_transform, pixel_rays
 from facegen.geometry.cameras import DISTORTION_TERMS
 from facegen.scene.materials import material_values
-from facegen.scene.scene import Glimpse, Lamp, Layers, Mesh, Scene, Strands, View
+from facegen.scene.scene import Glimpse, Lamp, Layers, Mesh, Scene, View
 
 BLENDER_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 """Blender's cameras look along -z with y up."""
@@ -205,11 +206,11 @@ class Renderer:
         for mesh in scene.meshes:
             self._place_mesh(mesh, scene)
         for strands in scene.strands:
-            self._place(strands.name, _new_curves(strands, self._material(strands.material, scene)))
+            self._place(strands.name, new_curves(strands, self._material(strands.material, scene)))
         for lamp in scene.lamps:
             self._place_lamp(lamp)
         for name in set(self._objects) - {placed.name for placed in (*scene.meshes, *scene.strands)}:
-            _remove(self._objects.pop(name).data)
+            remove(self._objects.pop(name).data)
         for name in set(self._lamps) - {lamp.name for lamp in scene.lamps}:
             bpy.data.lights.remove(self._lamps.pop(name).data)
         self._loaded = scene
@@ -228,13 +229,13 @@ class Renderer:
         search tree instead of building it, and the next picture's normals differ in their last bit from a
         fresh process's.
         """
-        self._place(mesh.name, _new_mesh(mesh, [self._material(name, scene) for name in mesh.materials]))
+        self._place(mesh.name, new_mesh(mesh, [self._material(name, scene) for name in mesh.materials]))
 
     def _place(self, name: str, data: bpy.types.ID) -> None:
         if name in self._objects:
             old = self._objects[name].data
             self._objects[name].data = data
-            _remove(old)
+            remove(old)
         else:
             self._objects[name] = bpy.data.objects.new(name, data)
             self._scene.collection.objects.link(self._objects[name])
@@ -338,55 +339,6 @@ def _lens_parameters(camera: Camera) -> dict[str, float | int]:
         "cx": float(camera.cx),
         "cy": float(camera.cy),
     }
-
-
-def _new_mesh(mesh: Mesh, materials: list[bpy.types.Material]) -> bpy.types.Mesh:
-    """Blender's mesh with smooth normals, a texture map ``uv``, a face attribute ``part`` and the mesh's fields.
-
-    Attributes are filled by a copy of memory; through ``vertices``, ``loops`` and ``polygons`` Blender goes value by
-    value, which takes a hundred times as long.
-    """
-    data = bpy.data.meshes.new(mesh.name)
-    corners = mesh.faces >= 0
-    sizes = corners.sum(axis=1)
-    data.vertices.add(len(mesh.vertices))
-    position = np.ascontiguousarray(mesh.vertices, np.float32)
-    data.attributes["position"].data.foreach_set("vector", position.ravel())
-    data.loops.add(int(sizes.sum()))
-    data.attributes[".corner_vert"].data.foreach_set("value", mesh.faces[corners].astype(np.int32))
-    data.polygons.add(len(sizes))
-    data.polygons.foreach_set("loop_start", np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int32))
-    material = data.attributes.new("material_index", "INT", "FACE")
-    material.data.foreach_set("value", mesh.face_material.astype(np.int32))
-    for each in materials:
-        data.materials.append(each)
-    if mesh.uv is not None:
-        data.uv_layers.new(name="uv").uv.foreach_set("vector", mesh.uv[corners].astype(np.float32).ravel())
-    part = data.attributes.new("part", "FLOAT", "FACE")
-    part.data.foreach_set("value", mesh.part.astype(np.float32))
-    for name, values in mesh.fields.items():
-        data.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
-    data.update(calc_edges=True)
-    return data
-
-
-def _new_curves(strands: Strands, material: bpy.types.Material) -> bpy.types.Curves:
-    """Blender's hair curves with their thickness and, as one value each, ``part``."""
-    count, points = strands.points.shape[:2]
-    data = bpy.data.hair_curves.new(strands.name)
-    data.add_curves([points] * count)
-    position = np.ascontiguousarray(strands.points, np.float32)
-    data.attributes["position"].data.foreach_set("vector", position.ravel())
-    radius = data.attributes.get("radius") or data.attributes.new("radius", "FLOAT", "POINT")
-    radius.data.foreach_set("value", strands.radius_m.astype(np.float32).ravel())
-    part = data.attributes.new("part", "FLOAT", "CURVE")
-    part.data.foreach_set("value", np.full(count, strands.part, np.float32))
-    data.materials.append(material)
-    return data
-
-
-def _remove(data: bpy.types.ID) -> None:
-    (bpy.data.meshes if isinstance(data, bpy.types.Mesh) else bpy.data.hair_curves).remove(data)
 
 
 def _pose_along(position: np.ndarray, direction: np.ndarray) -> np.ndarray:

@@ -49,9 +49,9 @@ def eyeball_pixels(view: View, scene: Scene) -> int:
 
 
 def before_pupils(view: View, scene: Scene) -> list[Part]:
-    """What stands between a camera and the centre of each pupil it faces: `Part.PUPIL` where nothing does.
+    """What stands between a camera and the centre of each pupil in its picture: `Part.PUPIL` where nothing does.
 
-    Rays are straight: the cornea is left out. Eyes that the camera sees from behind or beside are left out too.
+    Rays are straight: the cornea is left out. An eye seen from beside hides its pupil itself, by `Part.SCLERA`.
     """
     clear = tuple(mesh for mesh in scene.meshes if not (mesh.part == Part.CORNEA).any())
     centers = np.stack([m.vertices.mean(axis=0) for m in scene.meshes if (m.part == Part.PUPIL).any()])
