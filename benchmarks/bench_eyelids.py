@@ -5,12 +5,12 @@
 Random people (standard normal identities, cut at 2.5) look anywhere within 25 degrees, their eyeLook* weights say so
 too, and wear the headset off by its donning tolerances. With eyeBlink 1 every pixel around the eyes is cast at the
 scene's meshes, housing included: the table says how many views show sclera or iris, and the most pixels of a view. With
-eyeBlink 0 the ray to each pupil's centre is: what it meets first covers the pupil. Skin and housing truly do; anything
-else is a defect.
+eyeBlink 0 the ray to each pupil's centre is: what it meets first covers the pupil. Skin, housing and the white of an
+eye that is turned away truly do; anything else is a defect.
 
 Result (2026-11-21, --people 8): of 160 views of shut eyes none shows an eye. (Of 320 others, 32 people without housing
 and with eyeBlink alone, 5 did, by 1 px at a corner of the lids.) Of 192 pupils of open eyes, linings of the lids cover
-11 in rig anny: they reach into the cornea, before the iris. In rig ict none is.
+8 in rig anny: they reach into the cornea, before the iris. In rig ict none is.
 """
 
 import argparse
@@ -73,7 +73,9 @@ def print_table(rig: Rig, headset: Headset, people: int) -> None:
     for name in headset.camera_names:
         seen = np.array(pixels[name])
         free = before[name].count(Part.PUPIL)
-        covered = sum(part in (Part.SKIN, Part.BROWS, Part.HEADSET) for part in before[name])
+        # an eye that is turned far from a camera hides its pupil behind its own white
+        covers = (Part.SKIN, Part.BROWS, Part.HEADSET, Part.SCLERA)
+        covered = sum(part in covers for part in before[name])
         defects = len(before[name]) - free - covered
         said = f"{(seen > 0).sum()} of {people} | {seen.max()} | {free} | {covered} | {defects}"
         print(f"| {rig.name} | {headset.name} | {name} | {said} |", flush=True)
