@@ -20,7 +20,10 @@ class HeadsetRecipe:
     architecture
         ``"modular"``: one network a camera, blended per weight; ``"holistic"``: the same encoders, concatenated.
     seed, epochs, batch, learning_rate, weight_decay
-        AdamW with a cosine schedule.
+        Cosine schedule; this learning rate is AdamW's, for biases, scales and what reads the codes.
+    matrix_learning_rate
+        Of orthogonalised steps (Muon), for convolutions and what makes the codes; 0 leaves them to AdamW, which
+        learned half as fast.
     input_size
         Side in pixels of what the encoders see.
     code, hidden
@@ -63,6 +66,7 @@ class HeadsetRecipe:
     epochs: int = 48
     batch: int = 32
     learning_rate: float = 1.5e-3
+    matrix_learning_rate: float = 0.02
     weight_decay: float = 1e-2
     input_size: int = 64
     code: int = 96
@@ -113,6 +117,7 @@ class HeadsetRecipe:
         unsigned = (
             "seed",
             "learning_rate",
+            "matrix_learning_rate",
             "weight_decay",
             "part_loss",
             "part_loss_elsewhere",

@@ -18,6 +18,7 @@ from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.batches import Batch, Frames
 from regress.headset.training.losses import total_loss
 from regress.headset.training.networks import NETWORKS, Answer, HeadsetNetwork, HolisticNetwork
+from regress.headset.training.optimizer import optimizers_of
 from regress.headset.training.photometry import draw_photometry
 from regress.headset.training.targets import WEIGHTS, Targets, target_scale
 
@@ -54,9 +55,7 @@ class Training:
         names = tuple(camera.name for camera in arrays.cameras)
         self.network = NETWORKS[recipe.architecture](names, recipe)
         self._set_scales()
-        self._optimizer = torch.optim.AdamW(
-            self.network.parameters(), lr=recipe.learning_rate, weight_decay=recipe.weight_decay
-        )
+        self._optimizers = optimizers_of(self.network, recipe)
         self._key = _key(arrays, recipe, rows)
         if checkpoint is not None and checkpoint.exists():
             self._resume(checkpoint)
@@ -108,12 +107,13 @@ class Training:
         losses = []
         for number, batch in enumerate(self._frames.draw_epoch(random)):
             done = (epoch + number / self._frames.batches) / self.recipe.epochs
-            for group in self._optimizer.param_groups:
-                group["lr"] = self.recipe.learning_rate * 0.5 * (1 + math.cos(math.pi * done))
-            self._optimizer.zero_grad(set_to_none=True)
+            self.network.zero_grad(set_to_none=True)
             loss = self._loss(batch, random)
             loss.backward()
-            self._optimizer.step()
+            for optimizer in self._optimizers:
+                for group in optimizer.param_groups:
+                    group["lr"] = group["peak"] * 0.5 * (1 + math.cos(math.pi * done))
+                optimizer.step()
             losses.append(float(loss.detach()))
         self.history.append({"loss": float(np.mean(losses)), "validation": self._validation_error()})
 
@@ -175,7 +175,7 @@ class Training:
             "key": self._key,
             "history": self.history,
             "network": self.network.state_dict(),
-            "optimizer": self._optimizer.state_dict(),
+            "optimizers": [optimizer.state_dict() for optimizer in self._optimizers],
         }
         content = io.BytesIO()  # which torch.save fills without errors of its own kind where a disk is full
         torch.save(state, content)
@@ -200,7 +200,8 @@ class Training:
             )
         self.history = state["history"]
         self.network.load_state_dict(state["network"])
-        self._optimizer.load_state_dict(state["optimizer"])
+        for optimizer, kept in zip(self._optimizers, state["optimizers"], strict=True):
+            optimizer.load_state_dict(kept)
 
 
 def answer_to(network: HeadsetNetwork, batch: Batch) -> Answer:
