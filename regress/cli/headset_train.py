@@ -96,7 +96,7 @@ def train(
     began = time.monotonic()
     with progress() as draw:
         model = train_headset(
-            frames, recipe, out, progress=lambda done, total, _: draw("epochs", done, total)
+            frames, recipe, out, progress=lambda done, total, _: draw(f"{out.name}: epochs", done, total)
         )
     record = model.training
     say(
