@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from facegen.compilation import compiled
-from facegen.rigs.eyes import CORNEA_RADIUS_M
+from facegen.rigs.eyes import CORNEA_RADIUS_M, IRIS_RADIUS_M
 
 OVERLAP_M = 0.9e-3
 """How far the upper margin lies below the lower one in the closed eye, mid-lid; 0 to 2 mm are allowed."""
@@ -13,6 +13,9 @@ THICKNESS_M = (0.35e-3, 2.0e-3)
 """Lids keep their clearance of the open eye within these: at 0.15 mm a cornea came through large lids."""
 BEHIND_M = 0.3e-3
 """Linings of the lids that lie inside the eyeball when open stay this deep in it, out of the skin's way."""
+LINING_M, LINING_REACH_M = 0.15e-3, 3.0e-3
+"""Near the cornea linings lie this far before the eye, beneath the skin: in it they would show before the iris. They do
+so this far beyond the limbus, too: of the faces to linings in the eye the white then hides what is in it."""
 FRONT_M = 0.5e-3
 """The upper margin's distance in front of the lower one in the closed eye."""
 STEADY_TRAVEL_M = 1.5e-3
@@ -141,8 +144,10 @@ def _rest_on_eye(
 ) -> None:
     """Push skin out of the eye's surface, and linings that lie in it back in, along rays from the centre.
 
-    The surface is that of `facegen.rigs.eyes.lid_support_radius`.
+    Near the cornea linings come to lie between the eye and the skin. The surface is that of
+    `facegen.rigs.eyes.lid_support_radius`.
     """
+    near_cornea = np.cos(np.arcsin(IRIS_RADIUS_M / radius) + LINING_REACH_M / radius)
     for i in range(len(lid)):
         length = _length(lid, i)
         cosine = (lid[i, 0] * gaze[0] + lid[i, 1] * gaze[1] + lid[i, 2] * gaze[2]) / length
@@ -152,6 +157,8 @@ def _rest_on_eye(
             support = max(radius, cosine * cornea_offset + np.sqrt(root))
         if lids.skin[i]:
             wanted = max(length, support + min(max(thickness[i], THICKNESS_M[0]), THICKNESS_M[1]))
+        elif cosine > near_cornea:
+            wanted = support + LINING_M
         else:
             wanted = min(length, support + max(thickness[i], -BEHIND_M))
         for axis in range(3):

@@ -13,7 +13,7 @@ from tests.facegen.rigs.people import people, weights
 
 CRACK_PX = 1
 """At the corners of shut eyes some people show this much of the eyeball (benchmarks/bench_eyelids.py); wanted: 0."""
-LINING_PUPILS = 2
+LINING_PUPILS = 0
 """Pupils here that the upper or lower lid's lining covers, which lies before the iris in rig anny; wanted: 0."""
 GAZE_DEG = np.array([[0.0, 0.0], [25.0, 25.0], [-25.0, -25.0]])
 
