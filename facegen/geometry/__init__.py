@@ -1,7 +1,9 @@
 """Rigid motions, camera models and small solids: pure functions on arrays, float64."""
 
 from facegen.geometry.cameras import Camera, pixel_rays, project, turning_radius, unproject
+from facegen.geometry.ellipses import Ellipse, fit_ellipse
 from facegen.geometry.mirrors import Reflection, fresnel, reflect_in_sphere, reflect_in_thread
+from facegen.geometry.refraction import refract_through_sphere
 from facegen.geometry.rotations import (
     angles_from_direction,
     angles_from_rotation,
@@ -15,11 +17,13 @@ from facegen.geometry.rotations import (
 
 __all__ = [
     "Camera",
+    "Ellipse",
     "Reflection",
     "angles_from_direction",
     "angles_from_rotation",
     "apply_transform",
     "direction_from_angles",
+    "fit_ellipse",
     "fresnel",
     "invert_transform",
     "look_at",
@@ -27,6 +31,7 @@ __all__ = [
     "project",
     "reflect_in_sphere",
     "reflect_in_thread",
+    "refract_through_sphere",
     "rotation_from_angles",
     "transform",
     "turning_radius",

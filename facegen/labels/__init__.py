@@ -1,5 +1,6 @@
 """Labels: what is known of a sample because it was made, not looked at."""
 
+from facegen.labels.eye_outlines import EyeOutlines
 from facegen.labels.glints import Glints
 from facegen.labels.keypoints import Keypoints, label_keypoints, project_pinhole
 from facegen.labels.rendered import RenderedSample, label_rendered, session_unit
@@ -7,6 +8,7 @@ from facegen.labels.spots import with_glints
 from facegen.labels.views import ViewLabels
 
 __all__ = [
+    "EyeOutlines",
     "Glints",
     "Keypoints",
     "RenderedSample",

@@ -8,12 +8,22 @@ import numpy as np
 from facegen.conventions import Part, Visibility
 from facegen.headsets import Headset, HeadsetCamera, draw_unit, head_from_headset
 from facegen.labels.bright_pupils import bright_pupil
+from facegen.labels.eye_outlines import outline_eye
 from facegen.labels.glints import label_glints
 from facegen.labels.keypoints import Keypoints, label_keypoints
 from facegen.labels.views import ViewLabels, label_view, occluders
 from facegen.mouth import MouthTraits, draw_mouth, has_own_teeth, mouth_meshes
 from facegen.randomness import stream
-from facegen.rigs import EyeGeometry, Rig, evaluate, eye_geometry, neutral_landmarks
+from facegen.rigs import (
+    EyeGeometry,
+    Rig,
+    evaluate,
+    eye_geometry,
+    lid_gap,
+    lid_margins,
+    neutral_landmarks,
+    open_lid_gap,
+)
 from facegen.sampling import Samples, Shot, draw_shot
 from facegen.scene import Look, Scene, View, assemble, draw_look, made_up, tear_lines
 from facegen.scene.accessories import Accessories, draw_accessories, put_on
@@ -35,6 +45,9 @@ class RenderedSample:
         What to render.
     eyes
         The subject's left and right eye.
+    lid_gap_m, openness
+        (2,) how far their lids stand apart (`facegen.rigs.lid_gap`), and the share that this is of the same person's
+        neutral face looking straight ahead; 0 is closed, wide eyes have more than 1.
     accessories
         Beard, glasses and make-up that the person wears in this session.
     headset
@@ -51,6 +64,8 @@ class RenderedSample:
     keypoints: Keypoints
     scene: Scene
     eyes: tuple[EyeGeometry, EyeGeometry]
+    lid_gap_m: np.ndarray
+    openness: np.ndarray
     accessories: Accessories
     headset: Headset
     head_from_headset: np.ndarray
@@ -150,17 +165,22 @@ def label_rendered(spec: Spec, rig: Rig, headset: Headset, samples: Samples) -> 
     occluder = occluders(scene.meshes)
     glint_occluder = occluders(scene.meshes, transparent=(Part.CORNEA, Part.LENS))
     eyes = left, right
+    gap = lid_gap(rig, face.vertices[0])
+    margins = [[face.vertices[0, line] for line in lid_margins(rig, side)] for side in (0, 1)]
     tears = tear_lines(rig, face.vertices[0], face.eye_center[0])
     views = {}
     for view in scene.views:
+        outlines = tuple(outline_eye(view, eye, lids) for eye, lids in zip(eyes, margins, strict=True))
         glints = label_glints(view, scene.lamps, eyes, tears, glint_occluder, worn.lenses)
-        labels = label_view(view, face.landmarks[0], eyes, occluder, glints)
+        labels = label_view(view, face.landmarks[0], eyes, occluder, glints, outlines)
         views[view.name] = behind_aperture(labels, unit.camera(view.name))
     return RenderedSample(
         samples=samples,
         keypoints=label_keypoints(spec, rig, samples, face),
         scene=scene,
         eyes=eyes,
+        lid_gap_m=gap,
+        openness=gap / open_lid_gap(rig, tuple(samples.identity[0].tolist())),
         accessories=accessories,
         headset=unit,
         head_from_headset=fit,

@@ -6,6 +6,7 @@ import numpy as np
 
 from facegen.conventions import Part, Visibility
 from facegen.geometry import apply_transform, project, unproject
+from facegen.labels.eye_outlines import EyeOutlines
 from facegen.labels.glints import Glints
 from facegen.raster import hidden, nearest_depth, triangles_of
 from facegen.rigs.eyes import EyeGeometry
@@ -35,6 +36,8 @@ class ViewLabels:
         (2, 3) centres of the pupils.
     gaze_camera
         (2, 3) unit optical axes in the camera frame.
+    eyes
+        Outlines of the subject's left and right eye.
     glints
         Mirror images of the LEDs.
     """
@@ -46,6 +49,7 @@ class ViewLabels:
     pupil_center_2d: np.ndarray
     pupil_center_camera: np.ndarray
     gaze_camera: np.ndarray
+    eyes: tuple[EyeOutlines, EyeOutlines]
     glints: Glints
 
 
@@ -68,6 +72,7 @@ def label_view(
     eyes: tuple[EyeGeometry, EyeGeometry],
     occluder: tuple[np.ndarray, np.ndarray],
     glints: Glints,
+    outlines: tuple[EyeOutlines, EyeOutlines],
 ) -> ViewLabels:
     """Labels of one view.
 
@@ -83,6 +88,8 @@ def label_view(
         What `occluders` gives for the scene.
     glints
         The view's, from `facegen.labels.glints.label_glints`.
+    outlines
+        Both eyes', from `facegen.labels.eye_outlines.outline_eye`.
     """
     in_camera = apply_transform(view.camera_from_head, landmarks)
     points_2d = project(view.camera, in_camera)
@@ -104,6 +111,7 @@ def label_view(
         pupil_center_2d=project(view.camera, pupils),
         pupil_center_camera=pupils,
         gaze_camera=np.stack([eye.axis for eye in eyes]) @ view.camera_from_head[:3, :3].T,
+        eyes=outlines,
         glints=glints,
     )
 

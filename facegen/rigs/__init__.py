@@ -3,6 +3,7 @@
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, visual_axis
 from facegen.rigs.files import load_rig, rigs_folder, save_rig
+from facegen.rigs.lid_margins import lid_gap, lid_margins, open_lid_gap
 from facegen.rigs.neutral import eye_centers, neutral_landmarks
 from facegen.rigs.occluder import Occluder, closed_cage, occluder
 from facegen.rigs.rig import Rig
@@ -16,10 +17,13 @@ __all__ = [
     "evaluate",
     "eye_centers",
     "eye_geometry",
+    "lid_gap",
+    "lid_margins",
     "lid_support_radius",
     "load_rig",
     "neutral_landmarks",
     "occluder",
+    "open_lid_gap",
     "rigs_folder",
     "save_rig",
     "visual_axis",

@@ -11,7 +11,7 @@ SEGMENTS = 96
 IRIS_MARGIN_M = 1.1e-3
 """The iris goes this far beyond the limbus circle, inside the ball: refraction then shows no gap."""
 PUPIL_DEPTH_M = 0.3e-3
-"""The dark disc lies this far behind the iris plane, and is as much wider than the hole."""
+"""The dark disc lies this far behind the iris, and is as wide: from the side rays go up to 1 mm aside on their way."""
 
 
 def _revolve(profile: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -74,7 +74,7 @@ def eye_meshes(eye: EyeGeometry, side: str) -> tuple[Mesh, ...]:
     iris_radius = np.linspace(eye.pupil_radius, eye.limbus_radius + IRIS_MARGIN_M, 24)
     iris = np.stack([iris_radius, np.full_like(iris_radius, eye.iris_plane_offset)], axis=-1)
     depth = eye.iris_plane_offset - PUPIL_DEPTH_M
-    pupil = np.array([[0.0, depth], [eye.pupil_radius + PUPIL_DEPTH_M, depth]])
+    pupil = np.array([[0.0, depth], [iris_radius[-1], depth]])
     pose = head_from_eye(eye)
 
     def mesh(name: str, profile: np.ndarray, part: Part, v: np.ndarray) -> Mesh:

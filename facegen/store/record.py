@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, SIDES, SPLITS
-from facegen.geometry import Camera
-from facegen.labels import Glints, Keypoints, RenderedSample, ViewLabels
+from facegen.geometry import Camera, Ellipse
+from facegen.labels import EyeOutlines, Glints, Keypoints, RenderedSample, ViewLabels
 from facegen.rigs import EyeGeometry, visual_axis
 from facegen.sampling import COMPONENT_NAMES, Shot
 from facegen.scene import Lamp, View
@@ -53,7 +53,17 @@ def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> d
             "intrinsics": samples.intrinsics[0].tolist(),
         },
         **_accessories(rendered.accessories),
-        "eyes": {side: _eye(eye, sight) for side, eye, sight in _by_side(rendered)},
+        "eyes": {
+            side: _eye(*values)
+            for side, *values in zip(
+                SIDES,
+                rendered.eyes,
+                visual_axis(np.stack([eye.axis for eye in rendered.eyes])),
+                rendered.lid_gap_m,
+                rendered.openness,
+                strict=True,
+            )
+        },
         "headset": {
             "name": rendered.headset.name,
             "head_from_headset": rendered.head_from_headset.tolist(),
@@ -87,11 +97,7 @@ def _contour(keypoints: Keypoints) -> dict:
     return {name: numbers(getattr(keypoints, name)[0]) for name in ("contour_2d", "contour_3d")}
 
 
-def _by_side(rendered: RenderedSample) -> zip:
-    return zip(SIDES, rendered.eyes, visual_axis(np.stack([eye.axis for eye in rendered.eyes])), strict=True)
-
-
-def _eye(eye: EyeGeometry, sight: np.ndarray) -> dict:
+def _eye(eye: EyeGeometry, sight: np.ndarray, gap_m: float, openness: float) -> dict:
     return {
         "center": numbers(eye.center),
         "radius_m": numbers(eye.radius),
@@ -99,6 +105,8 @@ def _eye(eye: EyeGeometry, sight: np.ndarray) -> dict:
         "visual_axis": numbers(sight),
         "pupil_radius_m": numbers(eye.pupil_radius),
         "pupil_center": numbers(eye.center + eye.iris_plane_offset * eye.axis),
+        "lid_gap_m": numbers(gap_m),
+        "openness": numbers(openness),
     }
 
 
@@ -134,8 +142,35 @@ def _view(view: View, labels: ViewLabels, shot: Shot) -> dict:
         "pupil_center_2d": dict(zip(SIDES, numbers(labels.pupil_center_2d), strict=True)),
         "pupil_center_camera": dict(zip(SIDES, numbers(labels.pupil_center_camera), strict=True)),
         "gaze_camera": dict(zip(SIDES, numbers(labels.gaze_camera), strict=True)),
+        **_outlines(labels.eyes),
         "glints": _glints(labels.glints),
         "shot": asdict(shot),
+    }
+
+
+def _outlines(eyes: tuple[EyeOutlines, EyeOutlines]) -> dict:
+    """Outlines of the eyes: label, then side."""
+    sides = [
+        {
+            "pupil_center_refracted_2d": numbers(eye.pupil_center_2d),
+            "pupil_ellipse": _ellipse(eye.pupil),
+            "pupil_ellipse_bare": _ellipse(eye.pupil_bare),
+            "iris_ellipse": _ellipse(eye.iris),
+            "upper_lid_2d": numbers(eye.upper_lid_2d),
+            "lower_lid_2d": numbers(eye.lower_lid_2d),
+        }
+        for eye in eyes
+    ]
+    return {
+        name: {side: labels[name] for side, labels in zip(SIDES, sides, strict=True)} for name in sides[0]
+    }
+
+
+def _ellipse(ellipse: Ellipse) -> dict:
+    return {
+        "center": numbers(ellipse.center),
+        "semi_axes": numbers(ellipse.semi_axes),
+        "angle_rad": numbers(ellipse.angle),
     }
 
 

@@ -1,7 +1,6 @@
 """Measures on the mesh how well lids cover the eye: eyeball area seen between, and outside, their margins."""
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -10,6 +9,7 @@ from facegen.geometry import rotation_from_angles
 from facegen.raster import faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.evaluation import EvaluatedFaces
 from facegen.rigs.eyes import CORNEA_RADIUS_M, cornea_center_offset
+from facegen.rigs.lid_margins import lid_margins
 from facegen.rigs.rig import Rig
 
 STEP_M = 0.1e-3
@@ -58,25 +58,12 @@ def eyeball_seen(
         surface = _eye_depth(faces.eye_radius[index, eye], gaze[eye] @ turn, shape) + centre[2]
         seen = surface > depth.value
         area[eye] = seen.sum() * (1e3 * STEP_M) ** 2
+        upper, lower = lid_margins(rig, eye)
+        margin = np.concatenate([upper, lower[-2:0:-1]])
         rows, columns = np.nonzero(seen)
         points = origin + STEP_M * np.stack([columns, -rows], axis=-1)
-        outside[eye] = (~_in_polygon(points, vertices[margin_loop(rig, eye), :2])).sum() * (1e3 * STEP_M) ** 2
+        outside[eye] = (~_in_polygon(points, vertices[margin, :2])).sum() * (1e3 * STEP_M) ** 2
     return EyeballSeen(area_mm2=area, outside_mm2=outside)
-
-
-@lru_cache(maxsize=8)
-def margin_loop(rig: Rig, eye: int) -> np.ndarray:
-    """Vertices of the lid margins as a closed loop, with those that subdivision put between the cage's."""
-    ring = np.concatenate([rig.upper_lid[eye], rig.lower_lid[eye][-2:0:-1]])
-    sides = np.stack([rig.faces, np.roll(rig.faces, -1, axis=1)], axis=-1).reshape(-1, 2)
-    sides = np.concatenate([sides, sides[:, ::-1]])
-    beside = {int(vertex): set(sides[sides[:, 0] == vertex, 1].tolist()) for vertex in ring}
-    loop: list[int] = []
-    for vertex, following in zip(ring.tolist(), np.roll(ring, -1).tolist(), strict=True):
-        loop.append(vertex)
-        if following not in beside[vertex]:
-            loop += sorted(beside[vertex] & beside[following])[:1]
-    return np.array(loop)
 
 
 def _eye_depth(radius: float, axis: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
