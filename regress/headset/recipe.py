@@ -72,11 +72,11 @@ class HeadsetRecipe:
     code: int = 96
     hidden: int = 192
     modulation: float = 0.3
-    skip: int = 0
+    skip: int = 24
     part_loss: float = 1.0
     part_loss_elsewhere: float = 0.05
     geometry_loss: float = 0.5
-    gaze_loss: float = 1.0
+    gaze_loss: float = 3.0
     camera_dropout: float = 0.15
     calibration: bool = True
     calibration_dropout: float = 0.4
