@@ -63,7 +63,7 @@ class HeadsetRecipe:
 
     architecture: str = "modular"
     seed: int = 0
-    epochs: int = 48
+    epochs: int = 36
     batch: int = 32
     learning_rate: float = 1.5e-3
     matrix_learning_rate: float = 0.02
