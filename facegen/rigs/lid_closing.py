@@ -16,6 +16,9 @@ BEHIND_M = 0.3e-3
 LINING_M, LINING_REACH_M = 0.15e-3, 3.0e-3
 """Near the cornea linings lie this far before the eye, beneath the skin: in it they would show before the iris. They do
 so this far beyond the limbus, too: of the faces to linings in the eye the white then hides what is in it."""
+CURTAIN_M, BELOW_M = 0.3e-3, 0.5e-3
+"""In the closed eye linings lie this far before it, and reach this far below the lower margin: a camera that looks in
+between the margins, or in at their corners, meets them instead of the eye."""
 FRONT_M = 0.5e-3
 """The upper margin's distance in front of the lower one in the closed eye."""
 STEADY_TRAVEL_M = 1.5e-3
@@ -30,7 +33,7 @@ class Lids(NamedTuple):
     to 0 away from it; ``skin`` (M,) whether a vertex can be seen; ``travel`` (U,) of the blink; ``overlap`` (U,);
     weights' indices; the margins ``upper`` (U,) and ``lower`` (L,) as positions among the M; ``partner`` (L, U)
     interpolates the lower margin at the columns; ``flip`` turns x so that it grows from the inner to the outer
-    canthus.
+    canthus; ``lining`` (C,) positions of those that line the lids next to their margins.
     """
 
     vertices: np.ndarray
@@ -49,6 +52,7 @@ class Lids(NamedTuple):
     lower: np.ndarray
     partner: np.ndarray
     flip: float
+    lining: np.ndarray
 
 
 @compiled
@@ -112,6 +116,7 @@ def close_eye(
             _lay_in_front(lids, lid, gap, scale)
         np.minimum(thickness, THICKNESS_M[0], thickness)
         _rest_on_eye(lids, lid, thickness, radius[face], cornea_offset[face], gaze[face])
+        _draw_linings(lids, lid, radius[face], cornea_offset[face], gaze[face], gap)
         for i in range(count):
             for axis in range(3):
                 vertices[face, lids.vertices[i], axis] = lid[i, axis] + center[face, axis]
@@ -120,17 +125,22 @@ def close_eye(
 @compiled
 def measure_gap(lids: Lids, lid: np.ndarray, gap: np.ndarray) -> None:
     """Write the height (U,) of the upper margin over the lower one in each column of lid vertices (M, 3)."""
-    last = len(lids.lower) - 1
     for k in range(len(lids.upper)):
-        x = lids.flip * lid[lids.upper[k], 0]
-        passed = 0
-        for vertex in lids.lower:
-            passed += x >= lids.flip * lid[vertex, 0]
-        after = min(max(passed, 1), last)
-        a, b = lids.lower[after - 1], lids.lower[after]
-        x0, x1 = lids.flip * lid[a, 0], lids.flip * lid[b, 0]
-        share = min(max((x - x0) / max(x1 - x0, 1e-6), 0.0), 1.0)
+        a, b, share = _under(lids, lid, lids.upper[k])
         gap[k] = lid[lids.upper[k], 1] - (lid[a, 1] + share * (lid[b, 1] - lid[a, 1]))
+
+
+@compiled
+def _under(lids: Lids, lid: np.ndarray, i: int) -> tuple[int, int, float]:
+    """The vertices of the lower margin on either side of vertex i, and the share of the latter, by x alone."""
+    x = lids.flip * lid[i, 0]
+    passed = 0
+    for vertex in lids.lower:
+        passed += x >= lids.flip * lid[vertex, 0]
+    after = min(max(passed, 1), len(lids.lower) - 1)
+    a, b = lids.lower[after - 1], lids.lower[after]
+    x0, x1 = lids.flip * lid[a, 0], lids.flip * lid[b, 0]
+    return a, b, min(max((x - x0) / max(x1 - x0, 1e-6), 0.0), 1.0)
 
 
 @compiled
@@ -139,22 +149,29 @@ def _length(lid: np.ndarray, i: int) -> float:
 
 
 @compiled
+def _support(
+    lid: np.ndarray, i: int, length: float, radius: float, cornea_offset: float, gaze: np.ndarray
+) -> tuple[float, float]:
+    """The eye's surface (`facegen.rigs.eyes.lid_support_radius`) under vertex i, and the cosine to the axis there."""
+    cosine = (lid[i, 0] * gaze[0] + lid[i, 1] * gaze[1] + lid[i, 2] * gaze[2]) / length
+    root = CORNEA_RADIUS_M * CORNEA_RADIUS_M - cornea_offset * cornea_offset * (1.0 - cosine * cosine)
+    if root > 0.0:
+        return max(radius, cosine * cornea_offset + np.sqrt(root)), cosine
+    return radius, cosine
+
+
+@compiled
 def _rest_on_eye(
     lids: Lids, lid: np.ndarray, thickness: np.ndarray, radius: float, cornea_offset: float, gaze: np.ndarray
 ) -> None:
     """Push skin out of the eye's surface, and linings that lie in it back in, along rays from the centre.
 
-    Near the cornea linings come to lie between the eye and the skin. The surface is that of
-    `facegen.rigs.eyes.lid_support_radius`.
+    Near the cornea linings come to lie between the eye and the skin.
     """
     near_cornea = np.cos(np.arcsin(IRIS_RADIUS_M / radius) + LINING_REACH_M / radius)
     for i in range(len(lid)):
         length = _length(lid, i)
-        cosine = (lid[i, 0] * gaze[0] + lid[i, 1] * gaze[1] + lid[i, 2] * gaze[2]) / length
-        root = CORNEA_RADIUS_M * CORNEA_RADIUS_M - cornea_offset * cornea_offset * (1.0 - cosine * cosine)
-        support = radius
-        if root > 0.0:
-            support = max(radius, cosine * cornea_offset + np.sqrt(root))
+        support, cosine = _support(lid, i, length, radius, cornea_offset, gaze)
         if lids.skin[i]:
             wanted = max(length, support + min(max(thickness[i], THICKNESS_M[0]), THICKNESS_M[1]))
         elif cosine > near_cornea:
@@ -163,6 +180,13 @@ def _rest_on_eye(
             wanted = min(length, support + max(thickness[i], -BEHIND_M))
         for axis in range(3):
             lid[i, axis] *= wanted / length
+
+
+@compiled
+def _contact(gap: float) -> float:
+    """From nothing where the margins are 0.5 mm apart to 1 where they touch."""
+    nearness = min(max((0.5e-3 - gap) / 1e-3, 0.0), 1.0)
+    return nearness * nearness * (3.0 - 2.0 * nearness)
 
 
 @compiled
@@ -178,14 +202,38 @@ def _lay_in_front(lids: Lids, lid: np.ndarray, gap: np.ndarray, outwards: np.nda
         below = 0.0
         for j in range(len(lids.lower)):
             below += _length(lid, lids.lower[j]) * lids.partner[j, k]
-        nearness = min(
-            max((0.5e-3 - gap[k]) / 1e-3, 0.0), 1.0
-        )  # from nothing at 0.5 mm apart to all at contact
         front = below + FRONT_M * lids.overlap[k] / OVERLAP_M
-        outwards[k] = (front - _length(lid, lids.upper[k])) * nearness * nearness * (3.0 - 2.0 * nearness)
+        outwards[k] = (front - _length(lid, lids.upper[k])) * _contact(gap[k])
     for i in range(len(lid)):
         along = outwards[lids.before[i]] * (1.0 - lids.share[i]) + outwards[lids.after[i]] * lids.share[i]
         length = _length(lid, i)
         wanted = length + lids.follow[i] * along
+        for axis in range(3):
+            lid[i, axis] *= wanted / length
+
+
+@compiled
+def _draw_linings(
+    lids: Lids, lid: np.ndarray, radius: float, cornea_offset: float, gaze: np.ndarray, gap: np.ndarray
+) -> None:
+    """Draw linings out of the eye and down behind the lower lid where the margins touch: a curtain before the eye.
+
+    ``gap`` (U,) is overwritten.
+    """
+    if len(lids.lining) == 0:
+        return
+    measure_gap(lids, lid, gap)
+    for k in range(len(lids.upper)):
+        gap[k] = _contact(gap[k])
+    for i in lids.lining:
+        closed = gap[lids.before[i]] * (1.0 - lids.share[i]) + gap[lids.after[i]] * lids.share[i]
+        a, b, share = _under(lids, lid, i)
+        length, margin = _length(lid, i), _length(lid, a) * (1.0 - share) + _length(lid, b) * share
+        goal = (lid[a, 1] + share * (lid[b, 1] - lid[a, 1])) * length / margin - BELOW_M
+        y = lid[i, 1] + closed * min(goal - lid[i, 1], 0.0)
+        level = np.sqrt(max(length * length - y * y, 0.0) / (length * length - lid[i, 1] * lid[i, 1]))
+        lid[i, 0], lid[i, 1], lid[i, 2] = level * lid[i, 0], y, level * lid[i, 2]
+        support, _ = _support(lid, i, length, radius, cornea_offset, gaze)
+        wanted = length + closed * (support + CURTAIN_M - length)
         for axis in range(3):
             lid[i, axis] *= wanted / length

@@ -104,6 +104,7 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> "
     descent = np.maximum(-blink[:, 1], 0.0)
     margin = descent[upper][after - 1] * (1.0 - share) + descent[upper][after] * share
     middle = (x[upper] - x[lower[0]]) / (x[lower[-1]] - x[lower[0]])
+    skin = np.isin(vertices, rig.faces[np.isin(rig.part, (Part.SKIN, Part.BROWS, Part.LASHES, Part.LIPS))])
     lids = Lids(
         vertices=vertices,
         before=after - 1,
@@ -112,7 +113,7 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> "
         blink=blink,
         closing=np.ascontiguousarray(rig.expression[[shapes["LookDown"], shapes["Squint"]]][:, vertices]),
         follow=np.clip(descent / np.maximum(margin, 1e-3), 0.0, 1.0),
-        skin=np.isin(vertices, rig.faces[np.isin(rig.part, (Part.SKIN, Part.BROWS, Part.LASHES, Part.LIPS))]),
+        skin=skin,
         travel=np.zeros(len(upper)),
         overlap=OVERLAP_M * np.clip(12.0 * middle * (1.0 - middle), 0.0, 1.0),
         blink_index=shapes["Blink"],
@@ -123,6 +124,7 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> "
             [np.interp(x[upper], np.maximum.accumulate(x[lower]), row) for row in np.eye(len(lower))]
         ),
         flip=flip,
+        lining=_first_linings(rig, vertices, skin),
     )
     mean_lid = rig.vertices[vertices] - rig.eye_center[side]
     blinking = np.empty(len(upper))
@@ -130,6 +132,13 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> "
     measure_gap(lids, mean_lid + 0.7 * blink, blinking)
     lids.travel[:] = (lids.travel - blinking) / 0.7
     return lids
+
+
+def _first_linings(rig: Rig, vertices: np.ndarray, skin: np.ndarray) -> np.ndarray:
+    """Which of ``vertices`` (M,) line the lids next to their margins, as positions (C,)."""
+    cavity = rig.faces[rig.part == Part.EYE_CAVITY]
+    beside = cavity[np.isin(cavity, vertices[skin]).any(axis=1)]
+    return np.flatnonzero(~skin & np.isin(vertices, beside))
 
 
 def _columns(margin: np.ndarray, x: np.ndarray) -> np.ndarray:
