@@ -16,9 +16,9 @@ BEHIND_M = 0.3e-3
 LINING_M, LINING_REACH_M = 0.15e-3, 3.0e-3
 """Near the cornea linings lie this far before the eye, beneath the skin: in it they would show before the iris. They do
 so this far beyond the limbus, too: of the faces to linings in the eye the white then hides what is in it."""
-CURTAIN_M, BELOW_M = 0.3e-3, 0.5e-3
-"""In the closed eye linings lie this far before it, and reach this far below the lower margin: a camera that looks in
-between the margins, or in at their corners, meets them instead of the eye."""
+CURTAIN_M, PASS_M = 0.3e-3, 1.0e-3
+"""In the closed eye linings lie this far before it, and pass the lower margin by this much, from above and from below:
+cameras that look in between the margins, or in at their corners, meet them instead of the eye."""
 FRONT_M = 0.5e-3
 """The upper margin's distance in front of the lower one in the closed eye."""
 STEADY_TRAVEL_M = 1.5e-3
@@ -185,8 +185,7 @@ def _rest_on_eye(
 @compiled
 def _contact(gap: float) -> float:
     """From nothing where the margins are 0.5 mm apart to 1 where they touch."""
-    nearness = min(max((0.5e-3 - gap) / 1e-3, 0.0), 1.0)
-    return nearness * nearness * (3.0 - 2.0 * nearness)
+    return min(max((0.5e-3 - gap) / 1e-3, 0.0), 1.0)
 
 
 @compiled
@@ -203,7 +202,8 @@ def _lay_in_front(lids: Lids, lid: np.ndarray, gap: np.ndarray, outwards: np.nda
         for j in range(len(lids.lower)):
             below += _length(lid, lids.lower[j]) * lids.partner[j, k]
         front = below + FRONT_M * lids.overlap[k] / OVERLAP_M
-        outwards[k] = (front - _length(lid, lids.upper[k])) * _contact(gap[k])
+        nearness = _contact(gap[k])
+        outwards[k] = (front - _length(lid, lids.upper[k])) * nearness * nearness * (3.0 - 2.0 * nearness)
     for i in range(len(lid)):
         along = outwards[lids.before[i]] * (1.0 - lids.share[i]) + outwards[lids.after[i]] * lids.share[i]
         length = _length(lid, i)
@@ -216,7 +216,7 @@ def _lay_in_front(lids: Lids, lid: np.ndarray, gap: np.ndarray, outwards: np.nda
 def _draw_linings(
     lids: Lids, lid: np.ndarray, radius: float, cornea_offset: float, gaze: np.ndarray, gap: np.ndarray
 ) -> None:
-    """Draw linings out of the eye and down behind the lower lid where the margins touch: a curtain before the eye.
+    """Draw linings out of the eye and behind the lower margin, from both its sides, where the margins touch.
 
     ``gap`` (U,) is overwritten.
     """
@@ -229,8 +229,9 @@ def _draw_linings(
         closed = gap[lids.before[i]] * (1.0 - lids.share[i]) + gap[lids.after[i]] * lids.share[i]
         a, b, share = _under(lids, lid, i)
         length, margin = _length(lid, i), _length(lid, a) * (1.0 - share) + _length(lid, b) * share
-        goal = (lid[a, 1] + share * (lid[b, 1] - lid[a, 1])) * length / margin - BELOW_M
-        y = lid[i, 1] + closed * min(goal - lid[i, 1], 0.0)
+        goal = (lid[a, 1] + share * (lid[b, 1] - lid[a, 1])) * length / margin
+        goal += -PASS_M if lid[i, 1] > goal else PASS_M
+        y = lid[i, 1] + closed * (goal - lid[i, 1])
         level = np.sqrt(max(length * length - y * y, 0.0) / (length * length - lid[i, 1] * lid[i, 1]))
         lid[i, 0], lid[i, 1], lid[i, 2] = level * lid[i, 0], y, level * lid[i, 2]
         support, _ = _support(lid, i, length, radius, cornea_offset, gaze)
