@@ -72,6 +72,22 @@ def test_collinear_faces_have_no_map(quick_model: Model, dataset):
     assert np.isnan(FastPredictor(quick_model).predict_frame(points[0])).all()
 
 
+@pytest.mark.parametrize("slope", [0.0, 0.3, -1.7])
+def test_lines_whose_moments_round_to_less_than_nothing_have_no_map(
+    quick_model: Model, dataset, slope: float
+):
+    points = dataset.points[:40].copy()
+    points[:, :, 1] = slope * points[:, :, 0] + 7
+    assert np.isnan(FastPredictor(quick_model).predict(points)).all()
+
+
+def test_a_point_at_infinity_leaves_no_weight_where_sums_cannot_cancel(model: Model, dataset):
+    networks = dataclasses.replace(model.networks, w1=np.abs(model.networks.w1))
+    points = dataset.points[:3].copy()
+    points[1, 50, 1] = np.inf
+    check_same(dataclasses.replace(model, networks=networks), points)
+
+
 def test_results_stay_when_the_next_frame_comes(quick_model: Model, dataset):
     fast = FastPredictor(quick_model)
     first = fast.predict_frame(dataset.points[0])
