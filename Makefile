@@ -13,6 +13,8 @@ READY   := $(VENV)/.ready
 MADE    := $(OUT)/.made
 LEARNER := $(VENV)/.learner
 TESTED  := headset-test headset-slip
+# a file's tests stay together, and share what they made
+TWO     := --numprocesses 2 --dist loadfile
 
 .DEFAULT_GOAL := help
 .PHONY: help setup rig dataset train export headset test test-farm test-headset test-quick lint format clean distclean
@@ -43,7 +45,7 @@ headset: models/headset/report.html  ## Headset pictures, a network of cameras, 
 	@echo "report:  models/headset/report.html"
 
 test: $(READY) $(RIG)  ## All tests but those of farms
-	$(BIN)/python -m pytest --ignore tests/real_tools
+	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools
 
 test-farm: $(READY) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
 	$(BIN)/python -m pytest tests/real_tools
@@ -53,7 +55,7 @@ test-headset: models/headset-tiny/report.html  ## Headset networks: their tests 
 	$(BIN)/python -m pytest tests/regress/headset tests/test_layers.py
 
 test-quick: $(READY) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)
-	$(BIN)/python -m pytest --ignore tests/real_tools -m "not slow and not blender"
+	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not slow and not blender"
 
 lint: $(READY)  ## Style, and the direction of imports
 	$(BIN)/ruff check .
