@@ -60,7 +60,7 @@ def test_a_sample_whose_worker_dies_or_hangs_is_made_by_the_next_one(make):
         [
             (faults.dies_once, {}),
             (faults.stops_once, {"silence_s": 1.0}),
-            (faults.loops_once, {"phase_s": 6.0}),  # starting is a step too, and slow on a busy machine
+            (faults.loops_once, {"phase_s": 10.0}),  # starting is a step too, and slow on a busy machine
         ]
     ):
         dataset, summary = make(target, str(number), **limits)
