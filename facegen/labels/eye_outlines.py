@@ -1,8 +1,8 @@
 """What a camera sees of eyes: the pupil through the cornea, the limbus, and the edges of the lids.
 
 The cornea refracts as a ball of one index does, which is what is rendered (`facegen.scene.eyes`): each point of the
-pupil's edge leaves the cornea at one place towards a camera, and appears there. The ellipse shares 97 % with that outline
-up to 45 degrees beside the optical axis where the pupil is 8 mm wide, up to 60 degrees where it is 4 mm.
+pupil's edge leaves the cornea at one place towards a camera, and appears there. The ellipse shares 97 % with that
+outline up to 45 degrees beside the optical axis where the pupil is 8 mm wide, up to 60 degrees where it is 4 mm.
 """
 
 from dataclasses import dataclass
