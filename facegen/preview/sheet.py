@@ -15,6 +15,12 @@ BARS = 7
 """Weights shown of each sample, the largest ones."""
 _CLOSED = ("right_eye", "left_eye", "outer_lip", "inner_lip")
 _VISIBLE, _HIDDEN, _INK, _PAPER = "#39d98a", "#ff6b6b", "#e8e8e8", "#141414"
+_OUTLINES = {
+    "pupil_ellipse": "#ffd166",
+    "iris_ellipse": "#4c9be8",
+    "upper_lid_2d": "#c792ea",
+    "lower_lid_2d": "#c792ea",
+}
 _CELL_INCHES = 1.7
 
 
@@ -32,7 +38,7 @@ def contact_sheet(
     columns
         Samples side by side.
     landmarks
-        Draw landmarks over the views.
+        Draw landmarks over the views, pupils, irises and the edges of lids.
     """
     rendered = set(dataset.folder.rendered())
     views = dataset.headset.camera_names if rendered.intersection(numbers) else ()
@@ -77,6 +83,10 @@ def _draw_view(axis: Axes, grey: np.ndarray, labels: dict | None) -> None:
     axis.imshow(grey, cmap="gray", vmin=0, vmax=255, interpolation="lanczos")
     if labels is None:
         return
+    for name, color in _OUTLINES.items():
+        for outline in labels.get(name, {}).values():
+            line = _ellipse(**outline) if isinstance(outline, dict) else np.array(outline, np.float64)
+            axis.plot(line[:, 0], line[:, 1], color=color, linewidth=0.4)
     visibility = np.array(labels["visibility"])
     points = np.array(labels["points_2d"], np.float64)
     for value, color in ((Visibility.HIDDEN, _HIDDEN), (Visibility.VISIBLE, _VISIBLE)):
@@ -84,6 +94,14 @@ def _draw_view(axis: Axes, grey: np.ndarray, labels: dict | None) -> None:
         axis.scatter(chosen[:, 0], chosen[:, 1], s=2.0, c=color, linewidths=0)
     axis.set_xlim(-0.5, grey.shape[1] - 0.5)
     axis.set_ylim(grey.shape[0] - 0.5, -0.5)
+
+
+def _ellipse(center: list, semi_axes: list, angle_rad: float) -> np.ndarray:
+    """An ellipse of a sample's record as a closed line (n, 2); NaN where it has none."""
+    turn, angle = np.linspace(0.0, 2.0 * np.pi, 61), np.array(angle_rad, np.float64)
+    axes = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    circle = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    return np.array(center, np.float64) + circle * np.array(semi_axes, np.float64) @ axes
 
 
 def _draw_keypoints(axis: Axes, points: np.ndarray, visibility: np.ndarray) -> None:
