@@ -41,7 +41,7 @@ class EyeOutlines:
         The same without refraction.
     iris
         The limbus circle, where the cornea ends at the sclera; it lies on the surface and is not refracted. From more
-        than 40 degrees beside the axis the cornea bulges out over its far side.
+        than 35 degrees beside the axis the cornea bulges out over its far side.
     upper_lid_2d, lower_lid_2d
         (n, 2) along the margins of the lids, inner canthus first; both have the canthi.
     """
