@@ -19,9 +19,9 @@ def numbers(array: np.ndarray) -> Any:
     array = np.asarray(array)
     if array.dtype.kind in "iub":
         return array.tolist()
-    rounded = array.astype(np.float32)
     # the shortest decimal that reads back as the same float32
-    return np.vectorize(lambda x: None if np.isnan(x) else float(str(x)), otypes=[object])(rounded).tolist()
+    shortest = array.astype(np.float32).astype(str).astype(np.float64)
+    return np.where(np.isnan(shortest), None, shortest.astype(object)).tolist()
 
 
 def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> dict:
