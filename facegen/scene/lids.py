@@ -16,7 +16,10 @@ CARUNCLE_M = (3.6e-3, 3.0e-3, 1.1e-3)
 .. [1] R. S. Snell and M. A. Lemp, "Clinical Anatomy of the Eye", 2nd ed., 1998, the lacrimal caruncle.
 """
 CARUNCLE_BEHIND_M, CARUNCLE_IN_M = 1.9e-3, 1.2e-3
-"""Its middle lies this far behind the lids' margins, so that these frame it, and this far from the corner."""
+"""Its middle lies this far behind the lids' margins, so that these frame it, and this far from the corner, where it
+ends: beyond, the nose's side falls away, and it would come through the skin."""
+CARUNCLE_LEAST_M = 0.05e-3
+"""What is left of its height between lids that touch."""
 TEARS_BEFORE_M = 0.25e-3
 """The meniscus stands this far before the lower lid's edge, as seen from the eyeball's centre."""
 
@@ -84,14 +87,14 @@ def caruncle_meshes(rig: Rig, vertices: np.ndarray, eye_center: np.ndarray) -> t
 def _caruncle(upper: np.ndarray, lower: np.ndarray, eye_center: np.ndarray, side: str) -> Mesh:
     inner, outer = upper[0], upper[-1]
     along = (outer - inner) / np.linalg.norm(outer - inner)
-    reach = CARUNCLE_M[0]
     above, below = (_at(margin, along, inner, CARUNCLE_IN_M) for margin in (upper, lower))
     middle = 0.5 * (above + below)
     outwards = middle - eye_center
     outwards -= (outwards @ along) * along
     outwards /= np.linalg.norm(outwards)
     across = np.cross(outwards, along)
-    half = min(1.2 * np.linalg.norm(above - below), CARUNCLE_M[1])
+    opening = np.sign(across[1]) * ((above - below) @ across)
+    half = np.clip(1.2 * opening, CARUNCLE_LEAST_M, CARUNCLE_M[1])
     rings, segments = 12, 32
     polar, turn = np.meshgrid(
         np.linspace(0.0, 0.75 * np.pi, rings),
@@ -100,6 +103,7 @@ def _caruncle(upper: np.ndarray, lower: np.ndarray, eye_center: np.ndarray, side
     )
     # a little uneven, as a gland with small hairs is
     uneven = 1.0 + 0.08 * np.sin(3.0 * turn + 1.0) * np.sin(2.0 * polar)
+    reach = np.where(np.cos(turn) < 0.0, CARUNCLE_IN_M, CARUNCLE_M[0])
     centre = middle - CARUNCLE_BEHIND_M * outwards
     points = (
         centre
