@@ -17,6 +17,8 @@ LINER_M = 1.1e-3
 """Half the width of eyeliner, from the lid's margin."""
 CREASE_DEPTH_M, CREASE_SHADE = 0.5e-3, 0.4
 """Of a lid crease of strength 1: depth, and the share of light that its ground lacks."""
+PORE_M, PORE_SHADE, LINE_M, LINE_SHADE = 0.3e-3, 1.0, 1.0e-3, 0.7
+"""Distance of pores, length of fine lines, and what both take of the albedo, in shares of ``mottle``."""
 UV_METRES = 0.9
 """Length on the face of one unit of the head's texture coordinates, about (0.43 mm a pixel at 2,048)."""
 
@@ -59,7 +61,8 @@ def _face_place(graph: Graph) -> Socket:
 def _skin(graph: Graph, subsurface: bool) -> Socket:
     p, place, math = graph.parameters, _face_place(graph), graph.math
     albedo = _mottled(graph, place, p["albedo"], 12e-3, 2.5e-3, 0.8e-3)
-    # fine wrinkles; cellular pores as well would cost a third of the render and are below a pixel
+    albedo = math("MULTIPLY", albedo, math("MULTIPLY_ADD", _grain(graph, place), p["mottle"], 1.0))
+    # fine wrinkles
     height = math("MULTIPLY", graph.noise(place, 1.0 / 1.0e-3, detail=1.0), p["bump_m"])
     crease = _crease(graph, place)
     height = math("MULTIPLY_ADD", crease, -CREASE_DEPTH_M, height)
@@ -68,6 +71,21 @@ def _skin(graph: Graph, subsurface: bool) -> Socket:
     albedo = math("MULTIPLY", albedo, math("SUBTRACT", 1.0, math("MULTIPLY", _liner(graph), p["liner"])))
     normal = graph.node("Bump", Strength=1.0, Distance=1.0, Height=height)
     return _surface(graph, albedo, subsurface=subsurface, normal=normal, Specular_IOR_Level=p["specular"])
+
+
+def _grain(graph: Graph, place: Socket) -> Socket:
+    """What skin lacks of light in pores and in the fine lines between them: 0 beside them, down to -3 or so.
+
+    In the albedo, for light that scatters below the skin fills what changes only its normals.
+    """
+    pores = graph.noise(place, 1.0 / PORE_M, detail=0.0, flat=True)
+    pores = graph.node(
+        "MapRange", pores, 0.0, 1.0, 0.0, -PORE_SHADE, settings={"interpolation_type": "SMOOTHSTEP"}
+    )
+    along = graph.node("VectorMath", place, (1.0, 2.2, 1.0), settings={"operation": "MULTIPLY"})
+    lines = graph.math("ABSOLUTE", graph.noise(along, 1.0 / LINE_M, detail=1.0, flat=True))
+    lines = graph.node("MapRange", lines, 0.0, 0.25, -LINE_SHADE, 0.0)
+    return graph.math("ADD", pores, lines)
 
 
 def _liner(graph: Graph) -> Socket:
@@ -95,8 +113,10 @@ def _crease(graph: Graph, place: Socket) -> Socket:
         off = math("DIVIDE", math("SUBTRACT", wander, at), width_m)
         return math("EXPONENT", math("MULTIPLY", math("MULTIPLY", off, off), -1.0))
 
-    second = math("MULTIPLY", groove(math("ADD", p["crease_m"], 1.9e-3), 0.5e-3), 0.35)
-    both = math("ADD", groove(p["crease_m"], 0.55e-3), second)
+    # lines of folded skin are deep in places and lost in others
+    depth = math("MULTIPLY_ADD", graph.noise(place, 1.0 / 5.0e-3, detail=0.0, flat=True), 0.5, 0.8)
+    second = math("MULTIPLY", groove(math("ADD", p["crease_m"], 1.7e-3), 0.3e-3), 0.25)
+    both = math("MULTIPLY", math("ADD", groove(p["crease_m"], 0.35e-3), second), depth)
     return math("MULTIPLY", math("MULTIPLY", both, share), p["crease"])
 
 

@@ -60,9 +60,10 @@ class Graph:
         """The shader that is ``first`` at factor 0 and ``second`` at factor 1."""
         return self.node("MixShader", factor, first, second)
 
-    def noise(self, place: Socket, scale: Socket, *, detail: float = 3.0) -> Socket:
-        """Smooth noise about 0, roughly within -1 to 1, at a place (vector)."""
-        value = self.node("TexNoise", Vector=place, Scale=scale, Detail=detail)
+    def noise(self, place: Socket, scale: Socket, *, detail: float = 3.0, flat: bool = False) -> Socket:
+        """Smooth noise about 0, roughly within -1 to 1, at a place (vector, of which ``flat`` noise takes x and y)."""
+        settings = {"noise_dimensions": "2D"} if flat else None
+        value = self.node("TexNoise", settings=settings, Vector=place, Scale=scale, Detail=detail)
         return self.math("MULTIPLY_ADD", value, 4.0, -2.0)
 
     def finish(self, surface: Socket) -> bpy.types.Material:

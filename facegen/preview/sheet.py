@@ -83,11 +83,14 @@ def _draw_view(axis: Axes, grey: np.ndarray, labels: dict | None) -> None:
     axis.imshow(grey, cmap="gray", vmin=0, vmax=255, interpolation="lanczos")
     if labels is None:
         return
+    visibility = np.array(labels["visibility"])
     for name, color in _OUTLINES.items():
-        for outline in labels.get(name, {}).values():
+        for side, outline in labels.get(name, {}).items():
+            # behind the housing an eye's outlines would only clutter the picture
+            if np.mean(visibility[list(LANDMARK_GROUPS[f"{side}_eye"])] == Visibility.VISIBLE) < 0.5:
+                continue
             line = _ellipse(**outline) if isinstance(outline, dict) else np.array(outline, np.float64)
             axis.plot(line[:, 0], line[:, 1], color=color, linewidth=0.4)
-    visibility = np.array(labels["visibility"])
     points = np.array(labels["points_2d"], np.float64)
     for value, color in ((Visibility.HIDDEN, _HIDDEN), (Visibility.VISIBLE, _VISIBLE)):
         chosen = points[visibility == value]

@@ -10,6 +10,8 @@ from facegen.scene.scene import Mesh
 
 BESIDE_M = 25e-3
 """Pushes places beside and below the upper lid out of a crease's reach."""
+FADED, FULL = 0.1, 0.23
+"""Where along the margin creases end and where they are full: share of the way times what is left of it."""
 CARUNCLE_M = (3.6e-3, 3.0e-3, 1.1e-3)
 """Largest half axes along the lids, across them and outwards; of it lids and eyeball leave 4 to 5 mm by 3 mm [1]_.
 
@@ -50,7 +52,7 @@ def crease_fields(rig: Rig) -> dict[str, np.ndarray]:
         course = (best + share[rows, best]) / len(step)
         arch = np.maximum(4.0 * course * (1.0 - course), 0.1) ** 0.35
         field = distance / arch + BESIDE_M * np.clip(0.8 - upright, 0.0, 2.0) ** 2
-        middle = np.clip(5.0 * course * (1.0 - course), 0.0, 1.0)
+        middle = np.clip((course * (1.0 - course) - FADED) / (FULL - FADED), 0.0, 1.0)
         faded = np.where(field < nearest, middle * middle * (3.0 - 2.0 * middle), faded)
         nearest = np.minimum(nearest, field)
     return {"crease_distance_m": nearest, "crease_share": faded}

@@ -1,0 +1,42 @@
+"""The people of the gallery, at one exposure, have the levels of real headset cameras."""
+
+import dataclasses
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facegen.spec import load_spec
+from facegen.store import resolve
+from facegen.work import generate
+
+ROOT = Path(__file__).resolve().parents[3]
+
+SIZE_PX = 128
+"""Half of the gallery's; with less still, pixels that pupil and iris share make pupils lighter than real ones."""
+
+pytestmark = [pytest.mark.slow, pytest.mark.blender, pytest.mark.usefixtures("anny")]
+
+
+@pytest.fixture(scope="module")
+def bench_look():
+    """`benchmarks/bench_look.py`, which measures and knows what real frames have."""
+    found = importlib.util.spec_from_file_location("bench_look", ROOT / "benchmarks" / "bench_look.py")
+    module = importlib.util.module_from_spec(found)
+    found.loader.exec_module(module)
+    return module
+
+
+def test_means_over_people_lie_in_the_ranges_of_real_frames(bench_look, tmp_path):
+    spec = load_spec(ROOT / "datasets" / "gallery.toml")
+    spec = dataclasses.replace(spec, render=dataclasses.replace(spec.render, size_px=SIZE_PX))
+    generate(resolve(spec, tmp_path / "gallery"), workers=1)
+    figures = bench_look.measure(tmp_path / "gallery")
+    assert {kind: len(rows) for kind, rows in figures.items()} == {"eye": 24, "mouth": 12}
+    for kind, ranges in (("eye", bench_look.EYE), ("mouth", bench_look.MOUTH)):
+        means = {name: float(np.nanmean([row[name] for row in figures[kind]])) for name in ranges}
+        outside = {
+            name: means[name] for name, (low, high) in ranges.items() if not low <= means[name] <= high
+        }
+        assert not outside, f"{kind} views"
