@@ -19,9 +19,8 @@ WORDS = {
     "same_seat_fallback": "the same, unless the network doubts the seat",
     "other_seat": "neutral picture of another seat",
     "other_seat_fallback": "the same, unless the network doubts the seat",
-    "mean": "floor: always the training mean",
-    "rest": "floor: always the resting face",
 }
+FLOORS = {"mean": "floor: always the training mean", "rest": "floor: always the resting face"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,9 +44,11 @@ def conditions_table(found: dict[str, Any], floors: dict[str, Any]) -> Table:
     """Every condition's summary, floors last."""
     head = ("given", "frames", "error in mm", "mean R²", "MAE", "RMSE", "blink R²", "gaze in degrees")
     keys = ("geometry_mm", "r2", "mae", "rmse", "blink_r2", "gaze_deg")
+    named = [(said(name), figures) for name, figures in _ordered(found)]
+    named += [(FLOORS[name], figures) for name, figures in floors.items()]
     rows = [
-        (Cell(text=said(name)), Cell(text=f"{figures['rows']:,}"), *(cell(figures[key]) for key in keys))
-        for name, figures in (*_ordered(found), *floors.items())
+        (Cell(text=name), Cell(text=f"{figures['rows']:,}"), *(cell(figures[key]) for key in keys))
+        for name, figures in named
     ]
     return Table(head=head, rows=tuple(rows))
 
@@ -133,7 +134,7 @@ def curve_table(points: Sequence[tuple[str, int, int, dict[str, Any]]]) -> Table
 
 
 def said(name: str) -> str:
-    """A condition or component in words."""
+    """A condition in words."""
     return WORDS.get(name, name.replace("_", " "))
 
 

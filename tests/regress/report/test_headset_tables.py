@@ -1,0 +1,22 @@
+"""Words of the tables of a headset network's report."""
+
+from regress.report.headset_tables import conditions_table, rivals_table
+
+ROW = {"rows": 4, "geometry_mm": 1.0, "rival_mm": 2.0, "better": 0.5, "people": 0.5}
+FIGURES = {
+    "rows": 4,
+    "geometry_mm": 1.0,
+    "r2": 0.5,
+    "mae": 0.1,
+    "rmse": 0.2,
+    "blink_r2": 0.9,
+    "gaze_deg": 3.0,
+}
+
+
+def test_faces_at_rest_are_no_floor():
+    # "rest" names a component of the expressions as well as the floor that always answers the resting face
+    rows = rivals_table({"rest": ROW, "one_sided": ROW}, names=("modular", "holistic")).rows
+    assert [row[0].text for row in rows] == ["rest", "one sided"]
+    rows = conditions_table({"uncalibrated": FIGURES}, {"rest": FIGURES}).rows
+    assert [row[0].text for row in rows] == ["no neutral picture", "floor: always the resting face"]
