@@ -31,7 +31,9 @@ class Settings:
     patience
         Accepted steps without a better held-out error before a problem stops.
     damping
-        Levenberg's mu at the start, in units of the cost's curvature; 0 starts undamped.
+        Levenberg's mu at the start, in units of the cost's curvature; 0 starts undamped. With 100 first steps are
+        short, and the held-out error is seen on the way; with 1 they pass the best place by (six networks of 1,400
+        rows, z-scored held-out error .238 with 1, .231 with 100, .232 with 1000).
     tolerance, products
         Of the conjugate gradients, see :func:`pcg_step`.
     improvement
@@ -43,7 +45,7 @@ class Settings:
 
     steps: int = 40
     patience: int = 6
-    damping: float = 1.0
+    damping: float = 100.0
     tolerance: float = 0.1
     products: int = 40
     improvement: float = 1e-4
