@@ -36,7 +36,7 @@ from regress.training.preparation import Split, network_columns, prepare
 
 NAMES = ("jaw.open", "mouth.close", "eyes.blink", "brows.down", "lips.press", "nose.sneer")
 HIDDEN = 20
-ALPHAS = (0.3, 1.0, 3.0, 10.0, 30.0)
+ALPHAS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
 PATIENCE = 6
 
 

@@ -69,7 +69,7 @@ VARIANTS: dict[str, Recipe] = {
     "default, less jitter": replace(
         DEFAULT, noise=_like(DEFAULT.noise, 0.02), calibrated_noise=_like(DEFAULT.calibrated_noise, 0.02)
     ),
-    "denoised": RECIPES["denoised"],
+    "default, not denoised": replace(DEFAULT, denoise=False),
     "default, random starts": replace(DEFAULT, start="nguyen_widrow"),
     "default, 40 hidden units": replace(DEFAULT, hidden=40),
     "default, strengths by evidence": replace(DEFAULT, strengths="evidence"),

@@ -64,6 +64,8 @@ def _values(formula: Formula, name: str) -> dict[str, object]:
         "axes": "" if denoising is None else _rows(np.concatenate([denoising.axes, denoising.noise_axes]).T),
         "offset": "" if denoising is None else _floats(denoising.offset),
         "signal": "" if denoising is None else _floats(denoising.signal),
+        "surplus": "" if denoising is None else _floats(denoising.surplus),
+        "usual": "0" if denoising is None else f"{float(denoising.usual):.17g}",
         "least": "0" if denoising is None else f"{float(denoising.least):.17g}",
         "hidden_count": len(stacked.hidden_bias),
         "connection_count": len(connections),

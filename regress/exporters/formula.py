@@ -8,8 +8,9 @@ A face's 68 points become 52 weights in five steps; an exporter only writes them
    the identity where ``alignment`` is ``"none"``;
 2. ``features``: lengths of the edges under the map, over the face's width under the map, less
    ``feature_mean``;
-   and where a model denoises: ``places = (axes features + offset) signal / (signal + noise)`` with ``noise`` the mean
-   square of ``noise_axes features``, plus ``least``, are its features from here on;
+   and where a model denoises: ``(places + offset) signal / (signal + noise)`` with ``places = axes features`` and
+   ``noise`` the mean square of ``noise_axes features``, or ``surplus places^2 - usual`` where that is larger, plus
+   ``least``, are its features from here on;
 3. ``hidden = tanh(hidden_weights features + hidden_bias)``, network by network;
 4. ``weights = output_weights hidden + output_bias``, clipped to `WEIGHT_RANGE`; shapes without a network
    are 0.
@@ -27,7 +28,10 @@ from regress.features import ANCHORS, turn_weights
 from regress.model import Model
 from regress.networks import Denoising
 
-FORMAT_VERSION = 3
+DENOISING = ("axes", "offset", "signal", "noise_axes", "surplus", "usual", "least")
+"""Arrays of a formula that denoises."""
+
+FORMAT_VERSION = 4
 """Of the JSON and NPZ files; raised by any change that breaks a reader."""
 
 WEIGHT_RANGE = (0.0, 1.0)

@@ -52,6 +52,8 @@ def _values(formula: Formula, name: str) -> dict[str, str]:
         "noise_count": str(0 if denoising is None else len(denoising.noise_axes)),
         "offset": "[]" if denoising is None else _listed(denoising.offset.tolist()),
         "signal": "[]" if denoising is None else _listed(denoising.signal.tolist()),
+        "surplus": "[]" if denoising is None else _listed(denoising.surplus.tolist()),
+        "usual": "0" if denoising is None else json.dumps(float(denoising.usual)),
         "least": "0" if denoising is None else json.dumps(float(denoising.least)),
         "hidden_weights": _floats(stacked.hidden_weights.T),
         "hidden_bias": _floats(stacked.hidden_bias),

@@ -3,7 +3,7 @@
 ===================  =====================================================================================
 key                  what
 ===================  =====================================================================================
-format, version      ``"regress-networks"`` and 3; a change that breaks readers raises the version
+format, version      ``"regress-networks"`` and 4; a change that breaks readers raises the version
 about                recipe, dataset and its SHA-256, licence, program version
 names                the 52 blendshapes in the order of the result
 depth, turn          68 numbers each, all 0 where a model does not undo the head's turn
@@ -13,8 +13,8 @@ reference            where each anchor is in the mean face, about their own mean
 edges                178 pairs of landmark indices
 width_landmarks      the pair whose distance is the face's width
 feature_mean         178 numbers
-denoising            null, or ``axes`` (A x 178), ``offset`` and ``signal`` (A numbers each), ``noise_axes``
-                     (32 x 178) and ``least``; networks then have A inputs
+denoising            null, or ``axes`` (A x 178), ``offset``, ``signal`` and ``surplus`` (A numbers each),
+                     ``noise_axes`` (32 x 178), ``usual`` and ``least``; networks then have A inputs
 networks             list of ``name``, ``outputs`` (names), ``hidden_weights`` (20 x 178), ``hidden_bias``,
                      ``output_weights`` (one row an output), ``output_bias``
 constant             names that no network gives, and their value (``tongueOut``: 68 points do not show it)
@@ -28,8 +28,9 @@ and with P the 31 anchor points of the face less their mean (rows) and R ``refer
 1. A = inverse(P'P) P'R, a 2 x 2 matrix (the identity where ``alignment`` is ``"none"``);
 2. length of a pair (i, j) = | (point j - point i) A |, points being rows;
 3. feature e = length of edge e / length of ``width_landmarks`` - ``feature_mean[e]``;
-   where ``denoising`` is not null: noise = mean of the squares of ``noise_axes`` feature, plus ``least``; then
-   feature = (``axes`` feature + ``offset``) ``signal`` / (``signal`` + noise), number by number;
+   where ``denoising`` is not null: place = ``axes`` feature; noise = mean of the squares of ``noise_axes``
+   feature, or the sum of ``surplus`` place place, less ``usual``, where that is larger, plus ``least``; then
+   feature = (place + ``offset``) ``signal`` / (``signal`` + noise), number by number;
 4. in each network hidden = tanh(``hidden_weights`` feature + ``hidden_bias``), and
    result = ``output_weights`` hidden + ``output_bias``, clipped.
 """
@@ -39,7 +40,7 @@ import json
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
-from regress.exporters.formula import FORMAT_VERSION, WEIGHT_RANGE, Formula
+from regress.exporters.formula import DENOISING, FORMAT_VERSION, WEIGHT_RANGE, Formula
 
 
 def export_json(formula: Formula, name: str) -> dict[str, bytes]:
@@ -60,10 +61,7 @@ def export_json(formula: Formula, name: str) -> dict[str, bytes]:
         "feature_mean": formula.feature_mean.tolist(),
         "denoising": None
         if formula.denoising is None
-        else {
-            key: _nine_digits(getattr(formula.denoising, key))
-            for key in ("axes", "offset", "signal", "noise_axes", "least")
-        },
+        else {key: _nine_digits(getattr(formula.denoising, key)) for key in DENOISING},
         "networks": [
             {
                 "name": network.name,

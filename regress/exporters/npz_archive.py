@@ -10,8 +10,10 @@ Points to weights, for ``points`` (n, 68, 2), with ``z = numpy.load(path)``::
     ratio = length(*z["edges"].T) / length(*z["width_landmarks"])[:, None]
     x = ratio - z["feature_mean"]
     if "axes" in z:    # a model that denoises
-        noise = ((x @ z["noise_axes"].T) ** 2).mean(1, keepdims=True) + z["least"]
-        x = (x @ z["axes"].T + z["offset"]) * (z["signal"] / (z["signal"] + noise))
+        place = x @ z["axes"].T
+        measured, surplus = ((x @ z["noise_axes"].T) ** 2).mean(1), place**2 @ z["surplus"] - z["usual"]
+        noise = numpy.maximum(measured, surplus)[:, None] + z["least"]
+        x = (place + z["offset"]) * (z["signal"] / (z["signal"] + noise))
     hidden = numpy.tanh(x @ z["hidden_weights"].T + z["hidden_bias"])
     weights = numpy.clip(hidden @ z["output_weights"].T + z["output_bias"], *z["weight_range"])  # (n, 52)
 
@@ -25,14 +27,14 @@ import json
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
-from regress.exporters.formula import FORMAT_VERSION, WEIGHT_RANGE, Formula
+from regress.exporters.formula import DENOISING, FORMAT_VERSION, WEIGHT_RANGE, Formula
 
 
 def export_npz(formula: Formula, name: str) -> dict[str, bytes]:
     """Make ``NAME.npz``; this module's first lines are its documentation."""
     stacked = formula.stacked()
     content = io.BytesIO()
-    kept = () if formula.denoising is None else ("axes", "offset", "signal", "noise_axes", "least")
+    kept = () if formula.denoising is None else DENOISING
     np.savez(  # not compressed: weights do not shrink, and zlib's versions differ in bytes
         content,
         about=np.array(json.dumps({"format_version": FORMAT_VERSION, **formula.about}, sort_keys=True)),

@@ -178,15 +178,24 @@ def _denoised(graph: _Graph, formula: Formula, features: str) -> str:
     denoising = formula.denoising
     graph.constant("noise_axes", denoising.noise_axes.T)
     graph.constant("axes", denoising.axes.T)
-    for key in ("offset", "signal", "least"):
+    graph.constant("surplus", denoising.surplus[:, None])
+    for key in ("offset", "signal", "usual", "least"):
         graph.constant(key, getattr(denoising, key))
     graph.node("MatMul", [features, "noise_axes"], "noise_places")
     graph.node("Mul", ["noise_places", "noise_places"], "noise_squares")
     graph.node("ReduceMean", ["noise_squares"], "noise_square", axes=[1], keepdims=1)
-    graph.node("Add", ["noise_square", "least"], "noise")
+    graph.node("MatMul", [features, "axes"], "places")
+    graph.node("Mul", ["places", "places"], "squares")
+    graph.node("MatMul", ["squares", "surplus"], "surplus_squares")
+    graph.node("Sub", ["surplus_squares", "usual"], "surplus_noise")
+    # the larger of the two without Max, which not every runtime has
+    graph.constant("no_less", np.array(0.0))
+    graph.node("Sub", ["noise_square", "surplus_noise"], "noise_beyond")
+    graph.node("Clip", ["noise_beyond", "no_less"], "noise_beyond_surplus")
+    graph.node("Add", ["surplus_noise", "noise_beyond_surplus"], "larger_noise")
+    graph.node("Add", ["larger_noise", "least"], "noise")
     graph.node("Add", ["noise", "signal"], "signal_and_noise")
     graph.node("Div", ["signal", "signal_and_noise"], "gain")
-    graph.node("MatMul", [features, "axes"], "places")
     graph.node("Add", ["places", "offset"], "places_offset")
     return graph.node("Mul", ["places_offset", "gain"], "places_shrunk")
 

@@ -69,6 +69,7 @@ class BatchPredictor:
             axes = [networks.denoising.axes, networks.denoising.noise_axes]
             self._axes = np.concatenate(axes).astype(np.float32)
             self._offset, self._signal = _column(self._denoising.offset), _column(self._denoising.signal)
+            self._surplus = self._denoising.surplus.astype(np.float32)
         # networks with most outputs first: those that have a k-th one are the first rows
         owners, size = networks.network_of_output, networks.hidden
         order = np.argsort(-np.bincount(owners), kind="stable")
@@ -185,6 +186,8 @@ class BatchPredictor:
         shown, share = len(self._signal), np.float32(1 / len(self._denoising.noise_axes))
         places = np.matmul(self._axes, buffers.lengths)
         noise = np.einsum("tf,tf->f", places[shown:], places[shown:]) * share
+        surplus = self._surplus @ np.square(places[:shown]) - np.float32(self._denoising.usual)
+        np.maximum(noise, surplus, out=noise)
         noise += np.float32(self._denoising.least)
         places = np.add(places[:shown], self._offset, out=buffers.inputs[:-1])
         gain = self._signal + noise

@@ -59,7 +59,8 @@ class FastPredictor:
                 denoising.offset.astype(np.float32),
                 denoising.signal.astype(np.float32),
             )
-            self._least = float(denoising.least)
+            self._surplus = denoising.surplus.astype(np.float32)
+            self._usual, self._least = float(denoising.usual), float(denoising.least)
             self._noise_share = 1 / len(denoising.noise_axes)
         rows = [BLENDSHAPE_INDEX[name] for name in model.outputs]
         self._w2 = np.zeros((len(BLENDSHAPES), len(networks.b1)), np.float32)
@@ -133,7 +134,9 @@ class FastPredictor:
         """What denoising leaves of one face's features, centred."""
         places = np.dot(features, self._axes_columns)
         shown, noise = places[: self._shown], places[self._shown :]
-        gain = self._signal + (float(noise.dot(noise)) * self._noise_share + self._least)
+        measured = float(noise.dot(noise)) * self._noise_share
+        surplus = float(np.square(shown).dot(self._surplus)) - self._usual
+        gain = self._signal + (max(measured, surplus) + self._least)
         np.divide(self._signal, gain, out=gain)
         shown += self._offset
         shown *= gain

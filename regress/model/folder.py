@@ -18,9 +18,10 @@ from regress.model.model import Calibrated, Model, Normalisation
 from regress.networks import Denoising, FoldedNetworks
 from regress.targets import Network, observability
 
-SCHEMAS = (1, 2, 3)
+SCHEMAS = (1, 2, 3, 4)
 """Those read; the last one is written. 1 knows no array ``depth``: its readers would take turned heads as they are. 2
-knows no arrays ``denoising_*``: its readers would show networks what they cannot read."""
+knows no arrays ``denoising_*``: its readers would show networks what they cannot read. 3 knows no surplus: its readers
+would take a face unlike those trained on for one without noise."""
 
 _CALIBRATED = "calibrated_"
 """Begins the names of the arrays that compare with a neutral frame."""
@@ -32,7 +33,8 @@ _DENOISING = "denoising_"
 _INFERENCE = (
     "clip(w2 tanh(w1 features + b1) + b2, 0, 1); features are raw, z-scores are folded in",
     "clip(w2 tanh(w1 p + b1) + b2, 0, 1) with p = (axes x + offset) signal / (signal + noise), x = features less "
-    "origin, noise = the mean square of noise_axes x, plus least (arrays denoising_*); features are raw",
+    "origin, noise = the mean square of noise_axes x, or surplus (axes x)^2 - usual where that is larger, plus "
+    "least (arrays denoising_*); features are raw",
 )
 """Of networks that see features, and of those that see what denoising leaves of them."""
 
@@ -210,6 +212,8 @@ def _networks(arrays: dict[str, np.ndarray]) -> FoldedNetworks:
     named = {
         name.removeprefix(_DENOISING): array for name, array in arrays.items() if name.startswith(_DENOISING)
     }
+    if named and "surplus" not in named:  # schema 3
+        named |= {"surplus": np.zeros(len(named["axes"])), "usual": np.zeros(())}
     return _taken(FoldedNetworks, {**arrays, "denoising": _taken(Denoising, named) if named else None})
 
 

@@ -13,6 +13,9 @@ _LEVELS = (0.003, 0.012)
 _LEAST = 0.001
 """Noise, in the unit of the axes, below which levels are not told apart: less than datasets and detectors have."""
 
+_TYPICAL = 0.005
+"""Noise at which the weights of the surplus measure it best: that of a good detector."""
+
 _FAINTEST = 1e-5
 """Variance under noise, of the largest, of the faintest axis kept: float32 has no digits for fainter ones."""
 
@@ -24,6 +27,10 @@ class Denoising:
     Points are displaced along axes in which no face differs from another, too, and there the mean square is the
     noise. One set of networks then serves exact points and bad detectors alike: without it what they learn of one
     they lose of the other.
+
+    A face that differs from those trained on by more than they do from each other, as heads of another make do, tells
+    as little along the faint axes as a noisy one. The surplus of its squares over the usual ones is a second measure
+    of the noise, and the larger of the two counts.
 
     Parameters
     ----------
@@ -37,6 +44,10 @@ class Denoising:
         Variance of undisturbed faces along them, and of noise that halves the last two.
     noise_axes : (32, E) float64
         What only noise shows in.
+    surplus : (A,) float64
+        Weights of the squares along the axes, 0 for the last two: their sum, less ``usual``, measures noise.
+    usual : float64
+        That sum for undisturbed faces, in the mean.
     least : float64
         Added to the noise's variance.
     """
@@ -46,13 +57,23 @@ class Denoising:
     offset: np.ndarray
     signal: np.ndarray
     noise_axes: np.ndarray
+    surplus: np.ndarray
+    usual: np.ndarray
     least: np.ndarray
 
     def shrunk(self, features: np.ndarray) -> np.ndarray:
         """Places along the axes (n, A) of raw features (n, E), shrunk; rows of NaN give rows of NaN."""
         centred = features - self.origin
-        noise = np.mean((centred @ self.noise_axes.T) ** 2, axis=1, keepdims=True) + self.least
-        return (centred @ self.axes.T + self.offset) * (self.signal / (self.signal + noise))
+        places = centred @ self.axes.T
+        measured = np.mean((centred @ self.noise_axes.T) ** 2, axis=1, keepdims=True)
+        surplus = (places**2 @ self.surplus)[:, None] - self.usual
+        noise = np.maximum(measured, surplus) + self.least
+        return (places + self.offset) * (self.signal / (self.signal + noise))
+
+    @property
+    def believing(self) -> "Denoising":
+        """The same without the second measure: for faces that are usual because they are trained on."""
+        return replace(self, surplus=np.zeros_like(self.surplus), usual=np.zeros(()))
 
     def shifted(self, origin: np.ndarray) -> "Denoising":
         """The filter that acts on features (E,) as this acts on features less an origin."""
@@ -108,11 +129,17 @@ def fit_denoising(clean: np.ndarray, moved: np.ndarray, partner: np.ndarray) -> 
     floor = variances[-NOISE_AXES:].mean()  # the noise that undisturbed faces have
     levels = np.square(_LEVELS)
     shown = len(axes) - NOISE_AXES
+    signal = np.maximum(variances[:shown] - floor, 0)
+    # the square along an axis has the mean signal + noise, and a variance that goes with the square of it
+    weights = 1 / (signal + _TYPICAL**2) ** 2
+    weights /= weights.sum()
     return Denoising(
         origin=(origin + origin[partner]) / 2,
         axes=np.concatenate([axes[:shown], np.zeros((len(levels), len(partner)))]),
         offset=np.concatenate([np.zeros(shown), np.ones(len(levels))]),
-        signal=np.concatenate([np.maximum(variances[:shown] - floor, 0), levels]),
+        signal=np.concatenate([signal, levels]),
         noise_axes=axes[-NOISE_AXES:],
+        surplus=np.concatenate([weights, np.zeros(len(levels))]),
+        usual=np.array(weights @ signal),
         least=np.array(_LEAST**2),
     )

@@ -202,7 +202,9 @@ def prepare(
     if denoising is not None:
         # shrunk, but features again: along the axes themselves z-scores would make the faintest as large as the rest
         back, count = denoising.back, len(denoising.axes)
-        raw = {split: (denoising.shrunk(each[0]) @ back, *each[1:]) for split, each in raw.items()}
+        # a lively face among these is no stranger; shrunk as one, it would teach networks that strangers are lively
+        believing = denoising.believing
+        raw = {split: (believing.shrunk(each[0]) @ back, *each[1:]) for split, each in raw.items()}
         input_mean, input_std = raw["train"][0].mean(axis=0), _spread(raw["train"][0])
     standard = (raw["train"][0] - input_mean) / input_std
     _, axes = np.linalg.eigh(standard.T @ standard)

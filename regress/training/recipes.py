@@ -1,6 +1,6 @@
 """Named ways to train. A new recipe is one new entry."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from regress.training.noise import DetectorNoise
 
@@ -74,6 +74,7 @@ class Recipe:
 RECIPES: dict[str, Recipe] = {
     "default": Recipe(
         name="default",
+        denoise=True,
         symmetric=True,
         noise=DetectorNoise(bias=0.5, jitter=0.002, jitter_most=0.03, clean=0.4, unbiased=0.25),
         calibrated_noise=DetectorNoise(bias=1.0, jitter=0.002, jitter_most=0.03, clean=0.35, unbiased=0.3),
@@ -92,9 +93,7 @@ RECIPES: dict[str, Recipe] = {
         calibrated=False,
     ),
 }
-RECIPES["denoised"] = replace(RECIPES["default"], name="denoised", denoise=True)
 """``paper`` follows the paper. ``exact`` adds mirrored faces, starts from ridge regression and has a second
 set of networks that compare a frame with the person's neutral one. ``default`` adds detectors' noise to that, as
-real landmarks are not where the dataset's are, and answers a mirrored face with the mirrored answer. ``denoised``
-measures the noise of each face and takes it off first: far better on the rig it learned from, worse on exact points of
-another, whose differences are no noise (docs/training.md)."""
+real landmarks are not where the dataset's are, measures the noise of each face and takes it off first, and answers a
+mirrored face with the mirrored answer."""

@@ -1,6 +1,8 @@
 """Denoising: the noise of a face is found and taken off, in the mirror as well, and a model with it is a model."""
 
 import dataclasses
+import hashlib
+import json
 
 import numpy as np
 import pytest
@@ -66,6 +68,18 @@ def test_noise_is_measured_and_more_of_it_shrinks_more(denoising: Denoising, siz
     assert (np.abs(seen[:, -2:]) > np.abs(level[:, -2:])).mean() > 0.95
 
 
+def test_a_face_unlike_those_trained_on_counts_as_noisy(denoising: Denoising):
+    # along the axes of expressions alone, so that no noise is measured; four times as far as faces usually go
+    spread = np.sqrt(denoising.signal[:-2])
+    places = 4 * spread * np.random.default_rng(5).standard_normal((60, len(spread)))
+    features = denoising.origin + places @ denoising.back[: len(spread), : len(PARTNER)]
+    believed, doubted = denoising.believing.shrunk(features), denoising.shrunk(features)
+    assert np.median(denoising.signal[-2] * (1 / believed[:, -2] - 1)) < 1e-5
+    expected = denoising.surplus[:-2] @ (16 * denoising.signal[:-2]) - denoising.usual
+    assert np.median(denoising.signal[-2] * (1 / doubted[:, -2] - 1)) == pytest.approx(expected, rel=0.3)
+    assert (np.abs(doubted) < np.abs(believed)).mean() > 0.95
+
+
 def test_what_is_left_is_nearer_to_the_undisturbed_face(denoising: Denoising):
     def restored(features: np.ndarray) -> np.ndarray:
         return (denoising.shrunk(features) @ denoising.back)[:, : len(PARTNER)] + denoising.origin
@@ -110,3 +124,18 @@ def test_a_model_with_it_is_fast_symmetric_and_saved_like_any_other(calibrated: 
     np.testing.assert_allclose([fast.predict_frame(face) for face in UNSEEN], weights, atol=1e-5)
     save_model(symmetric, tmp_path / "model")
     np.testing.assert_array_equal(load_model(tmp_path / "model").predict(UNSEEN), weights)
+
+
+def test_models_of_before_know_no_surplus(model: Model, tmp_path):
+    folder = tmp_path / "model"
+    save_model(model, folder)
+    with np.load(folder / "weights.npz") as arrays:
+        kept = {name: arrays[name] for name in arrays.files if not name.endswith(("_surplus", "_usual"))}
+    np.savez(folder / "weights.npz", **kept)
+    document = json.loads((folder / "model.json").read_text())
+    document["schema"] = 3
+    document["weights_sha256"] = hashlib.sha256((folder / "weights.npz").read_bytes()).hexdigest()
+    (folder / "model.json").write_text(json.dumps(document))
+    networks = dataclasses.replace(model.networks, denoising=model.networks.denoising.believing)
+    expected = dataclasses.replace(model, networks=networks).predict(UNSEEN)
+    np.testing.assert_array_equal(load_model(folder).predict(UNSEEN), expected)

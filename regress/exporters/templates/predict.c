@@ -44,7 +44,8 @@ $feature_mean
 
 #if NOISE_AXES
 /* What features are measured along: axes in which expressions show, then those in which only noise does. Of a place
- * along the former signal / (signal + noise) is left. */
+ * along the former signal / (signal + noise) is left. A face that differs from those of the training by more than they do
+ * from each other counts as noisy: by the surplus of its squares. */
 static const float axis[FEATURES][INPUTS + NOISE_AXES] = {
 $axes
 };
@@ -54,12 +55,15 @@ $offset
 static const float signal_of[INPUTS] = {
 $signal
 };
-static const double least = $least;
+static const float surplus_of[INPUTS] = {
+$surplus
+};
+static const double usual = $usual, least = $least;
 
 static void denoise(const float feature[FEATURES], float input[INPUTS])
 {
     float place[INPUTS + NOISE_AXES] = {0};
-    double square = 0;
+    double square = 0, surplus = -usual;
     float noise;
     int i, j;
 
@@ -68,7 +72,10 @@ static void denoise(const float feature[FEATURES], float input[INPUTS])
             place[j] += axis[i][j] * feature[i];
     for (j = INPUTS; j < INPUTS + NOISE_AXES; j++)
         square += (double)place[j] * place[j];
-    noise = (float)(square / NOISE_AXES + least);
+    for (j = 0; j < INPUTS; j++)
+        surplus += (double)surplus_of[j] * place[j] * place[j];
+    square /= NOISE_AXES;
+    noise = (float)((surplus > square ? surplus : square) + least);
     for (j = 0; j < INPUTS; j++)
         input[j] = (place[j] + place_offset[j]) * (signal_of[j] / (signal_of[j] + noise));
 }

@@ -27,11 +27,14 @@ const featureMean = $feature_mean;
 const featureCount = featureMean.length;
 
 /* Where there are noise axes, features are measured along axes in which expressions show, then along those in which
- * only noise does, and of each place along the former signal / (signal + noise) is left. */
+ * only noise does, and of each place along the former signal / (signal + noise) is left. A face that differs from those of
+ * the training by more than they do from each other counts as noisy: by the surplus of its squares. */
 const axes = floats("$axes");
 const noiseCount = $noise_count;
 const offset = $offset;
 const signal = $signal;
+const surplus = $surplus;
+const usual = $usual;
 const least = $least;
 
 /* All networks' hidden units in one table, a row an input; each weight reads one run of hidden units. */
@@ -83,13 +86,14 @@ export function predict(points, weights = new Float32Array(names.length)) {
 
 function denoised() {
   const count = signal.length;
-  let noise = 0;
+  let noise = 0, excess = -usual;
   for (let j = 0, k = 0; j < places.length; j++) {
     places[j] = 0;
     for (let i = 0; i < featureCount; i++) places[j] += axes[k++] * features[i];
-    if (j >= count) noise += (places[j] * places[j]) / noiseCount;
+    if (j < count) excess += surplus[j] * places[j] * places[j];
+    else noise += (places[j] * places[j]) / noiseCount;
   }
-  noise += least;
+  noise = Math.max(noise, excess) + least;
   for (let j = 0; j < count; j++) places[j] = ((places[j] + offset[j]) * signal[j]) / (signal[j] + noise);
   return places.subarray(0, count);
 }

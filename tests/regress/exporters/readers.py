@@ -13,7 +13,7 @@ import onnxruntime
 def read_json(paths: tuple[Path, ...]):
     """Follow the five steps that ``json_text`` documents, in float64."""
     document = json.loads(paths[0].read_text())
-    assert (document["format"], document["version"]) == ("regress-networks", 3)
+    assert (document["format"], document["version"]) == ("regress-networks", 4)
 
     def predict(points: np.ndarray) -> np.ndarray:
         rows = []
@@ -33,10 +33,12 @@ def read_json(paths: tuple[Path, ...]):
                 np.array([length(edge) / width for edge in document["edges"]]) - document["feature_mean"]
             )
             if (denoising := document["denoising"]) is not None:
-                noise = np.mean((np.array(denoising["noise_axes"]) @ feature) ** 2) + denoising["least"]
+                measured = np.mean((np.array(denoising["noise_axes"]) @ feature) ** 2)
+                place = np.array(denoising["axes"]) @ feature
+                surplus = np.sum(denoising["surplus"] * place**2) - denoising["usual"]
+                noise = max(measured, surplus) + denoising["least"]
                 signal = np.array(denoising["signal"])
-                places = np.array(denoising["axes"]) @ feature + denoising["offset"]
-                feature = places * signal / (signal + noise)
+                feature = (place + denoising["offset"]) * signal / (signal + noise)
             values = dict(document["constant"])
             for network in document["networks"]:
                 hidden = np.tanh(np.array(network["hidden_weights"]) @ feature + network["hidden_bias"])
@@ -68,8 +70,10 @@ def read_npz(paths: tuple[Path, ...]):
         ratio = length(*z["edges"].T) / length([i], [j])
         x = ratio - z["feature_mean"]
         if "axes" in z:
-            noise = ((x @ z["noise_axes"].T) ** 2).mean(1, keepdims=True) + z["least"]
-            x = (x @ z["axes"].T + z["offset"]) * (z["signal"] / (z["signal"] + noise))
+            place = x @ z["axes"].T
+            measured, surplus = ((x @ z["noise_axes"].T) ** 2).mean(1), place**2 @ z["surplus"] - z["usual"]
+            noise = np.maximum(measured, surplus)[:, None] + z["least"]
+            x = (place + z["offset"]) * (z["signal"] / (z["signal"] + noise))
         hidden = np.tanh(x @ z["hidden_weights"].T + z["hidden_bias"])
         return np.clip(hidden @ z["output_weights"].T + z["output_bias"], *z["weight_range"])
 
