@@ -4,8 +4,9 @@
 
 A sample is everything that a worker does: scene and labels, all views, glints, sensor, files. CPU seconds of all
 threads are counted; neighbours on the other thread of a core still make them longer. "outside" is the share of it
-outside Cycles' own render calls. ``--noise PATHS`` renders a reference with so many paths and says how near fewer come
-(PSNR in dB, 1 at the 99th percentile). ``--resident N`` makes N samples and says how the process's memory grows.
+outside Cycles' own render calls; ``--samples 0`` leaves that table out. ``--noise PATHS`` renders a reference with so
+many paths and says how near fewer come (PSNR in dB, 1 at the 99th percentile), and when a view reaches 33 dB (eyes) or
+42 dB (others). ``--resident N`` makes N samples and says how the process's memory grows.
 
 Result (2026-11-21, headset.toml, on two hardware threads of a busy machine, load 10):
 
@@ -51,7 +52,8 @@ WAYS = (
     {"size_px": 96, "samples_per_pixel": 4, "subsurface": True, "truth": True},
     {"size_px": 256, "samples_per_pixel": 8, "subsurface": True, "truth": True},
 )
-PATHS = (1, 2, 4, 8)
+PATHS = (1, 2, 4, 8, 16, 32, 64)
+ENOUGH_DB = {"eye": 33.0, "other": 42.0}
 TINY_PX = 16
 """A picture of this size with one path a pixel is all fixed cost."""
 
@@ -83,8 +85,9 @@ def main() -> None:
     parser.add_argument("--resident", type=int, default=0, metavar="N")
     arguments = parser.parse_args()
     spec = load_spec(arguments.spec)
-    print_costs(spec, arguments.samples)
-    print_fixed(spec, arguments.samples)
+    if arguments.samples:
+        print_costs(spec, arguments.samples)
+        print_fixed(spec, arguments.samples)
     if arguments.noise:
         print_noise(spec, arguments.noise)
     if arguments.resident:
@@ -152,16 +155,27 @@ def print_noise(spec: Spec, paths: int) -> None:
         found = renderer.glimpse(scene, view, samples=samples, seed=seed).radiance.astype(np.float64)
         return found, time.process_time() - start
 
-    print(f"\n| view, {spec.render.size_px} px | " + " | ".join(f"{n} paths" for n in PATHS) + " |")
-    print("|---" * (len(PATHS) + 1) + "|")
+    print(f"\n| view, {spec.render.size_px} px | " + " | ".join(f"{n} paths" for n in PATHS) + " | enough |")
+    print("|---" * (len(PATHS) + 2) + "|")
     for view in scene.views:
         reference, _ = radiance(view.name, paths, 99)
         white = np.percentile(reference, 99)
-        cells = []
+        enough = ENOUGH_DB["eye" if view.name.endswith("_eye") else "other"]
+        cells, reached = [], []
         for count in PATHS:
             found, spent = radiance(view.name, count, 1)
             error = np.mean((np.clip(found / white, 0, 1) - np.clip(reference / white, 0, 1)) ** 2)
-            cells.append(f"{-10 * np.log10(error):.1f} dB, {spent:.2f} s")
+            reached.append((-10 * np.log10(error), spent))
+            cells.append(f"{reached[-1][0]:.1f} dB, {spent:.2f} s")
+            if reached[-1][0] >= enough:
+                break
+        near, seconds = np.array(reached).T
+        when = (
+            f"{np.exp(np.interp(enough, near, np.log(seconds))):.1f} s"
+            if near[-1] >= enough
+            else "not reached"
+        )
+        cells += [""] * (len(PATHS) - len(cells)) + [f"{enough:g} dB: {when}"]
         print(f"| {view.name} | " + " | ".join(cells) + " |", flush=True)
 
 
