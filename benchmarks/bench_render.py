@@ -18,6 +18,16 @@ Result (2026-11-21, headset.toml, on two hardware threads of a busy machine, loa
 | 96 | 4 | False | False | 1.24 | 17% |
 | 96 | 4 | True | True | 1.84 | 14% |
 
+On 2026-11-22 (paper.toml, beside one other busy core) 256 px, 8 paths, scattering and truth cost 12.6 CPU s a sample, 4 %
+of it outside. 500 samples of headset.toml: 685 MB resident after 51, 700 after 251, 703 after 500. Noise of paper.toml's
+sample 1 at 160 px against 1,024 paths, denoised like the rest:
+
+| view | 8 paths | 16 paths | 32 paths | 64 paths | enough |
+|---|---|---|---|---|---|
+| left_eye | 30.8 dB, 2.0 s | 32.3 dB, 3.8 s | 33.9 dB, 7.3 s | | 33 dB: 5.0 s |
+| right_eye | 28.1 dB, 1.9 s | 29.9 dB, 3.4 s | 31.4 dB, 6.8 s | 32.9 dB, 14.9 s | 33 dB: some 15 s |
+| mouth | 37.4 dB, 1.6 s | 39.3 dB, 2.8 s | 40.8 dB, 5.6 s | 42.1 dB, 11.2 s | 42 dB: 10.4 s |
+
 The denoiser's quick network on noisy guides ("FAST", "NONE") is no way to save: at 96 px, against 256 paths, it gives
 28.6, 27.5 and 39.8 dB (left eye, right eye, mouth) with 4 paths for 1.11 CPU s, and 25.1, 24.7 and 36.5 dB with 2; the
 usual one gives 28.7, 27.3 and 38.0 dB with 2 for 0.77 CPU s, and 30.5, 29.5 and 41.0 dB with 4. One diffuse bounce and
