@@ -18,9 +18,9 @@ Result (2026-11-21, headset.toml, on two hardware threads of a busy machine, loa
 | 96 | 4 | False | False | 1.24 | 17% |
 | 96 | 4 | True | True | 1.84 | 14% |
 
-On 2026-11-22 (paper.toml, beside one other busy core) 256 px, 8 paths, scattering and truth cost 12.6 CPU s a sample, 4 %
-of it outside. 500 samples of headset.toml: 685 MB resident after 51, 700 after 251, 703 after 500. Noise of paper.toml's
-sample 1 at 160 px against 1,024 paths, denoised like the rest:
+On 2026-11-22 (paper.toml, beside one other busy core) 256 px, 8 paths, scattering and truth cost 12.6 CPU s a sample,
+4 % of it outside. 500 samples of headset.toml: 685 MB resident after 51, 700 after 251, 703 after 500. Noise of
+paper.toml's sample 1 at 160 px against 1,024 paths, denoised like the rest:
 
 | view | 8 paths | 16 paths | 32 paths | 64 paths | enough |
 |---|---|---|---|---|---|
