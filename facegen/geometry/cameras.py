@@ -123,7 +123,8 @@ def project(camera: Camera, points_camera: np.ndarray) -> np.ndarray:
     NaN where a camera cannot see: beyond its `turning_radius`, at z <= 0 of a pinhole, straight behind a fisheye.
     """
     points_camera = np.asarray(points_camera, np.float64)
-    x, y, z = np.moveaxis(points_camera, -1, 0)
+    # as in `rotations`, gaps would change the last bit
+    x, y, z = np.ascontiguousarray(np.moveaxis(points_camera, -1, 0))
     if camera.model == "pinhole":
         with np.errstate(divide="ignore", invalid="ignore"):
             in_front = z > 0
@@ -183,6 +184,8 @@ def _undistorted_radius(camera: Camera, distorted: np.ndarray) -> np.ndarray:
         with np.errstate(divide="ignore", invalid="ignore"):
             step = radius - excess / slope
         within = (step >= low) & (step <= high)
+        # steps from one end of the bracket to the other and back would never end
+        within &= ~(np.abs(step - radius) > 0.5 * (high - low))
         # without a turning point nothing bounds the first steps
         before, radius = (
             radius,

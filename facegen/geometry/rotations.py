@@ -20,9 +20,7 @@ def rotation_from_angles(yaw_rad: np.ndarray, pitch_rad: np.ndarray, roll_rad: n
     numpy.ndarray
         (..., 3, 3), ``Ry(yaw) @ Rx(-pitch) @ Rz(-roll)``.
     """
-    yaw, pitch, roll = np.broadcast_arrays(
-        *(np.asarray(a, np.float64) for a in (yaw_rad, pitch_rad, roll_rad))
-    )
+    yaw, pitch, roll = _compact(*np.broadcast_arrays(yaw_rad, pitch_rad, roll_rad))
     cy, sy, cp, sp, cr, sr = (f(a) for a in (yaw, pitch, roll) for f in (np.cos, np.sin))
     zero, one = np.zeros_like(cy), np.ones_like(cy)
 
@@ -41,22 +39,30 @@ def angles_from_rotation(rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray, 
     For a pitch within +-90 degrees; at these two only the sum of yaw and roll is known.
     """
     rotation = np.asarray(rotation, np.float64)
-    yaw = np.arctan2(rotation[..., 0, 2], rotation[..., 2, 2])
-    pitch = np.arcsin(np.clip(rotation[..., 1, 2], -1.0, 1.0))
-    roll = np.arctan2(-rotation[..., 1, 0], rotation[..., 1, 1])
-    return yaw, pitch, roll
+    places = ((0, 2), (2, 2), (1, 2), (1, 0), (1, 1))
+    r02, r22, r12, r10, r11 = _compact(*(rotation[..., row, column] for row, column in places))
+    return np.arctan2(r02, r22), np.arcsin(np.clip(r12, -1.0, 1.0)), np.arctan2(-r10, r11)
 
 
 def direction_from_angles(yaw_rad: np.ndarray, pitch_rad: np.ndarray) -> np.ndarray:
     """Unit vectors (..., 3) of a gaze: +z turned by ``yaw`` to the subject's left, by ``pitch`` upwards."""
-    yaw, pitch = np.broadcast_arrays(np.asarray(yaw_rad, np.float64), np.asarray(pitch_rad, np.float64))
+    yaw, pitch = _compact(*np.broadcast_arrays(yaw_rad, pitch_rad))
     return np.stack([np.sin(yaw) * np.cos(pitch), np.sin(pitch), np.cos(yaw) * np.cos(pitch)], axis=-1)
 
 
 def angles_from_direction(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """``(yaw_rad, pitch_rad)`` of unit vectors (..., 3); the inverse of `direction_from_angles`."""
-    x, y, z = np.moveaxis(np.asarray(direction, np.float64), -1, 0)
+    x, y, z = _compact(*np.moveaxis(np.asarray(direction), -1, 0))
     return np.arctan2(x, z), np.arcsin(np.clip(y, -1.0, 1.0))
+
+
+def _compact(*values: np.ndarray) -> list[np.ndarray]:
+    """Float64 arrays without gaps between their numbers.
+
+    NumPy's functions for AVX-512 leave an array with gaps to libm where its span, the gap after its last number
+    included, touches the result's memory. The two differ in the last bit: which one it was would hang on the heap.
+    """
+    return [np.array(each, np.float64, order="C") for each in values]
 
 
 def transform(rotation: np.ndarray, translation: np.ndarray) -> np.ndarray:

@@ -51,7 +51,7 @@ MATERIALS: dict[str, dict[str, float]] = {
         "vessels": 0.12,
         "limbus": 0.35,
     },
-    "iris": {"albedo": 0.33, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
+    "iris": {"albedo": 0.322, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
     "pupil": {"albedo": 0.15},
     "cornea": {"index": 1.336},
     "teeth": {"albedo": 0.62, "roughness": 0.2, "scatter_m": 1.0e-3},

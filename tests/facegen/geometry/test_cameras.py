@@ -125,6 +125,22 @@ def test_every_point_with_a_pixel_lies_on_this_pixels_ray(camera, seed):
     assert np.isnan(unproject(camera, pixels[~seen])).all()
 
 
+def test_newtons_method_does_not_run_in_circles():
+    # from this pixel plain steps within the bracket lead from 0.063 to 2.394 and back
+    camera = Camera(
+        model="fisheye",
+        width=256,
+        height=256,
+        fx=100,
+        fy=100,
+        cx=127.5,
+        cy=127.5,
+        distortion=(0, 0.049, 0.047, -0.007),
+    )
+    ray = np.array([0.99662771, 0.03671956, 0.0733818])
+    np.testing.assert_allclose(unproject(camera, project(camera, ray)), ray, atol=1e-8)
+
+
 def test_pixels_beyond_the_turning_point_see_no_ray():
     camera = replace(PINHOLE, distortion=(-0.08,), fx=116, fy=116, cx=99.5, cy=99.5)
     reach = 116 * 2 / 3 * turning_radius(camera)
