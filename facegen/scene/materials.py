@@ -52,7 +52,7 @@ MATERIALS: dict[str, dict[str, float]] = {
         "limbus": 0.35,
     },
     "iris": {"albedo": 0.322, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
-    "pupil": {"albedo": 0.15},
+    "pupil": {"albedo": 0.145},
     "cornea": {"index": 1.336},
     "teeth": {"albedo": 0.62, "roughness": 0.2, "scatter_m": 1.0e-3},
     "gums": {"albedo": 0.45, "roughness": 0.3, "scatter_m": 2.0e-3},
