@@ -19,7 +19,7 @@ from facegen.spec.distribution import as_data
 from facegen.spec.sample_ranges import parse_ranges
 from facegen.spec.spec import Clips, Spec
 
-LABEL_VERSION = 2
+LABEL_VERSION = 3
 """Raised with every change that alters labels or pixels for the same spec; part of every hash (see CHANGELOG.md)."""
 
 _LATE_KEYS: dict[str, Any] = {
