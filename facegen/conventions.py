@@ -87,6 +87,33 @@ SIDES = ("left", "right")
 """Order of every array with one row an eye: the subject's left first, as in ``BLENDSHAPES``."""
 
 
+LID_POINTS = 12
+"""Points along the margin of a lid in ``VIEW_POINTS``, equally far apart in the picture, inner canthus first."""
+
+VIEW_POINTS: tuple[str, ...] = (
+    *(f"landmark_{index}" for index in range(len(MIRRORED_LANDMARKS))),
+    *(
+        f"{side}_{name}"
+        for side in SIDES
+        for name in (
+            *(f"{lid}_lid_{place}" for lid in ("upper", "lower") for place in range(LID_POINTS)),
+            "pupil",
+            "iris",
+        )
+    ),
+)
+"""Points of the face that headset views may show: landmarks, lids, centres of pupil (through the cornea) and iris."""
+
+MIRRORED_VIEW_POINTS: tuple[int, ...] = (
+    *MIRRORED_LANDMARKS,
+    *(
+        VIEW_POINTS.index(f"{SIDES[1 - SIDES.index(side)]}_{name}")
+        for side, name in (point.split("_", 1) for point in VIEW_POINTS[len(MIRRORED_LANDMARKS) :])
+    ),
+)
+"""``points[..., MIRRORED_VIEW_POINTS, :]`` are the view points of the mirrored face, once x is mirrored too."""
+
+
 class Visibility(IntEnum):
     """COCO's numbers: outside the picture, inside but hidden, visible."""
 

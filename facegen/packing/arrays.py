@@ -13,17 +13,18 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, SIDES
+from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, SIDES, VIEW_POINTS
 from facegen.conventions import Part as FacePart
 from facegen.errors import InvalidData
 from facegen.geometry import angles_from_direction
 from facegen.packing.plan import Format, Options, Part
 from facegen.packing.rendered import chosen_views, read_rendered
+from facegen.packing.view_points import view_points
 from facegen.rigs import Rig, evaluate
 from facegen.store import Dataset, keypoint_schema, read_json, write_json
 
 ABOUT, LABELS, FACE = "arrays.json", "labels.parquet", "face.npz"
-VERSION = 1
+VERSION = 2
 ROW_GROUP = 1000
 """Rows of labels that are held in memory at a time, about 6 MB."""
 
@@ -48,7 +49,7 @@ def write_part(dataset: Dataset, part: Part, options: Options, path: Path) -> No
     if part.view is not None:
         _write_pictures(dataset, part, path)
     elif part.name == LABELS:
-        _write_labels(dataset, part, path)
+        _write_labels(dataset, part, chosen_views(dataset, options), path)
     elif part.name == FACE:
         displacement, rest = face_basis(dataset.rig)
         # no compression and, as NumPy writes it, no times: equal arrays give equal bytes
@@ -57,13 +58,18 @@ def write_part(dataset: Dataset, part: Part, options: Options, path: Path) -> No
         write_json(path, _about(dataset, part, options))
 
 
-def array_schema(dataset: Dataset) -> pa.Schema:
-    """Columns of ``labels.parquet``; every column says its unit and shape."""
+def array_schema(dataset: Dataset, views: Sequence[str]) -> pa.Schema:
+    """Columns of ``labels.parquet`` for these views; every column says its unit and shape."""
     keypoints = keypoint_schema(dataset.rig.components)
     angles = {
         "description": "left yaw, left pitch, right yaw, right pitch of the optical axes",
         "unit": "rad",
     }
+    places = {
+        "description": "VIEW_POINTS of facegen.conventions, NaN where its picture shows none",
+        "unit": "px",
+    }
+    points = pa.list_(pa.float32(), 2 * len(VIEW_POINTS))
     pose = {"description": "how the headset sits", "shape": "4 4", "unit": "m"}
     slip = {"description": "part of it that changes from frame to frame: x y z, then yaw pitch roll"}
     return pa.schema(
@@ -72,6 +78,7 @@ def array_schema(dataset: Dataset) -> pa.Schema:
             pa.field("gaze", pa.list_(pa.float32(), 4), nullable=False, metadata=angles),
             pa.field("head_from_headset", pa.list_(pa.float32(), 16), nullable=False, metadata=pose),
             pa.field("slip", pa.list_(pa.float32(), 6), nullable=False, metadata=slip | {"unit": "m, rad"}),
+            *(pa.field(f"points_{view}", points, nullable=False, metadata=places) for view in views),
         ],
         metadata={"licence": _licence(dataset), "spec_hash": dataset.hash},
     )
@@ -123,23 +130,25 @@ def _write_pictures(dataset: Dataset, part: Part, path: Path) -> None:
             file.write(picture.tobytes())
 
 
-def _write_labels(dataset: Dataset, part: Part, path: Path) -> None:
-    schema = array_schema(dataset)
+def _write_labels(dataset: Dataset, part: Part, views: Sequence[str], path: Path) -> None:
+    schema = array_schema(dataset, views)
     with pq.ParquetWriter(path, schema, compression="zstd", write_page_checksum=True) as writer:
         for start in range(0, len(part.samples), ROW_GROUP):
             numbers = part.samples[start : start + ROW_GROUP]
-            rows = [_row(sample.record) for sample in read_rendered(dataset, numbers, ())]
+            rows = [_row(sample.record, views) for sample in read_rendered(dataset, numbers, ())]
             writer.write_table(pa.Table.from_pylist(rows, schema=schema), row_group_size=ROW_GROUP)
 
 
-def _row(record: dict) -> dict:
+def _row(record: dict, views: Sequence[str]) -> dict:
     headset = record["headset"]
     axes = np.array([record["eyes"][side]["optical_axis"] for side in SIDES], np.float64)
+    points = {f"points_{view}": view_points(record["views"][view]).ravel() for view in views}
     return {name: record[name] for name in _FROM_SHARDS} | {
         "weights": [record["weights"][name] for name in BLENDSHAPES],
         "gaze": np.stack(angles_from_direction(axes), axis=-1).ravel().tolist(),
         "head_from_headset": np.ravel(headset["head_from_headset"]).tolist(),
         "slip": headset["slip"],
+        **points,
     }
 
 

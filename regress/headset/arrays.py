@@ -10,10 +10,13 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, VIEW_POINTS
 from regress.errors import InputError
 from regress.headset.geometry import FaceGeometry
 from regress.headset.model import CameraInput
+
+VERSION = 2
+"""Of arrays.json."""
 
 _ONE_REGION = ("neutral", "upper_face", "lower_face")
 
@@ -30,6 +33,8 @@ class HeadsetArrays:
         In its order.
     pictures : dict of (n, height, width) uint8
         By camera; memory-mapped.
+    points : dict of (n, P, 2) float32
+        By camera: pixels of ``VIEW_POINTS``, NaN where the picture does not show them.
     sample, person, session : (n,) int64
         A session is one seat of the headset on its wearer.
     split, component : (n,) str
@@ -45,6 +50,7 @@ class HeadsetArrays:
     description: dict[str, Any]
     cameras: tuple[CameraInput, ...]
     pictures: dict[str, np.ndarray]
+    points: dict[str, np.ndarray]
     sample: np.ndarray
     person: np.ndarray
     session: np.ndarray
@@ -137,8 +143,10 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
         version, count = description["version"], description["rows"]
     except (ValueError, KeyError, TypeError) as error:
         raise InputError(f"{path} does not describe arrays: {error}") from error
-    if version != 1:
-        raise InputError(f"{path} has version {version!r}; this version reads 1")
+    if version != VERSION:
+        raise InputError(
+            f"{path} has version {version!r}; this version reads {VERSION}: pack the dataset again with facegen pack"
+        )
     try:
         table = pq.read_table(folder / "labels.parquet")
         with np.load(folder / "face.npz", allow_pickle=False) as face:
@@ -149,6 +157,12 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
             pictures={camera.name: _pictures(folder, camera, count) for camera in cameras},
             face=geometry,
             weights=_lists(table, "weights", len(BLENDSHAPES)),
+            points={
+                camera.name: _lists(table, f"points_{camera.name}", 2 * len(VIEW_POINTS)).reshape(
+                    count, -1, 2
+                )
+                for camera in cameras
+            },
             gaze=_lists(table, "gaze", 4),
             split=np.asarray(table["split"].to_pylist(), dtype=str),
             component=np.asarray(table["component"].to_pylist(), dtype=str),

@@ -37,6 +37,9 @@ class HeadsetRecipe:
         Weight of each camera's own error on the shapes of its part and on all others (eq. 4); modular only.
     geometry_loss
         Weight of the face's squared displacement error beside the weights' own; 0 leaves it out.
+    points_loss
+        Weight of the errors of traced points (lids, pupils, brows, lips), on which weights are then read; 0 leaves
+        the tracing out.
     gaze_loss
         How much a gaze angle's squared error counts against a weight's.
     camera_dropout
@@ -67,7 +70,7 @@ class HeadsetRecipe:
     batch: int = 32
     learning_rate: float = 1.5e-3
     matrix_learning_rate: float = 0.02
-    weight_decay: float = 1e-2
+    weight_decay: float = 0.3
     input_size: int = 64
     code: int = 96
     hidden: int = 192
@@ -76,6 +79,7 @@ class HeadsetRecipe:
     part_loss: float = 1.0
     part_loss_elsewhere: float = 0.05
     geometry_loss: float = 0.5
+    points_loss: float = 5.0
     gaze_loss: float = 3.0
     camera_dropout: float = 0.15
     calibration: bool = True
@@ -84,9 +88,9 @@ class HeadsetRecipe:
     jitter_neutral: float = 0.1
     shut_eyes: int = 3
     mirror: bool = True
-    shift: float = 0.02
-    scale: float = 0.03
-    rotation_deg: float = 2.0
+    shift: float = 0.03
+    scale: float = 0.04
+    rotation_deg: float = 3.0
     randomise: float = 0.0
     withhold: str = "none"
     people: int = 0
@@ -122,6 +126,7 @@ class HeadsetRecipe:
             "part_loss",
             "part_loss_elsewhere",
             "geometry_loss",
+            "points_loss",
             "gaze_loss",
             "skip",
             "shut_eyes",

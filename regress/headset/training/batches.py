@@ -12,13 +12,14 @@ from regress.headset.parts import encoder_owners, is_symmetric, mirror_partner
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.resampling import reduced, warp_matrix
 from regress.headset.training.targets import MIRROR, MIRROR_SIGN, outputs_of
+from regress.headset.training.traced import mirrored_points, places_of, traced_points
 
 _BLINK = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
 _SHUT = 0.5
 """Weight of eyeBlink from which an eye counts as shut: 5 % of the frames of datasets/headset.toml."""
 
-_SEAT = 2.5
+_SEAT = 1.7
 """A neutral picture displaced as if from another seat is displaced this many times as far as a frame: donning
 scatters by 1.5 to 2 mm, five pixels of 96 in an eye camera."""
 
@@ -34,6 +35,8 @@ class Batch:
     present : (n, cameras) float32
     calibrated, same_seat : (n,) float32
         0 or 1; ``same_seat`` counts where ``calibrated``.
+    places : tuple of (n, P, 2) float32
+        By camera, where its traced points lie: 0 to 1 across and down what the encoder sees, NaN beyond.
     outputs : (n, 56) float32
         Weights and gaze.
     """
@@ -43,6 +46,7 @@ class Batch:
     present: np.ndarray
     calibrated: np.ndarray
     same_seat: np.ndarray
+    places: tuple[np.ndarray, ...]
     outputs: np.ndarray
 
 
@@ -60,6 +64,18 @@ class Frames:
         self._flipped = [owner is not None for owner in encoder_owners(names).values()]
         self._mirror = recipe.mirror and is_symmetric(names)
         self._partner = [names.index(mirror_partner(name)) if self._mirror else 0 for name in names]
+        owners = encoder_owners(names)
+        self.traced = traced_points(arrays, rows)
+        if not recipe.points_loss:
+            self.traced = {name: found[:0] for name, found in self.traced.items()}
+        self._traced = [self.traced[owners[name] or name] for name in names]
+        self._points = [arrays.points[name] for name in names]
+        self._reduction = np.array(
+            [
+                (seen.shape[2] / camera.width, seen.shape[1] / camera.height)
+                for seen, camera in zip(self._pictures, arrays.cameras, strict=True)
+            ]
+        )
         self._own_seat = arrays.neutral_rows()
         self._other_seat = arrays.neutral_rows(other_seat=True)
 
@@ -84,12 +100,14 @@ class Frames:
         still = _Affine(np.zeros((count, cameras, 2)), np.ones((count, cameras)), np.zeros((count, cameras)))
         known = (self._own_seat[rows] >= 0) & calibrated
         straight = np.zeros(count, bool)
+        pictures, places = self._seen(rows, still, straight)
         return Batch(
-            pictures=self._warped(rows, still, straight),
-            neutral=self._warped(np.where(known, self._own_seat[rows], -1), still, straight),
+            pictures=pictures,
+            neutral=self._seen(np.where(known, self._own_seat[rows], -1), still, straight)[0],
             present=np.ones((count, cameras), np.float32),
             calibrated=known.astype(np.float32),
             same_seat=known.astype(np.float32),
+            places=places,
             outputs=self.outputs[rows],
         )
 
@@ -106,44 +124,52 @@ class Frames:
         present = random.random((count, cameras)) >= recipe.camera_dropout
         present[~present.any(axis=1)] = True
         outputs = self.outputs[rows]
+        pictures, places = self._seen(rows, frame, mirrored)
+        neutral_rows = np.where(calibrated, neutral_rows, -1)
         return Batch(
-            pictures=self._warped(rows, frame, mirrored),
-            neutral=self._warped(
-                np.where(calibrated, neutral_rows, -1), _where(displaced, seat, frame), mirrored
-            ),
+            pictures=pictures,
+            neutral=self._seen(neutral_rows, _where(displaced, seat, frame), mirrored)[0],
             present=present.astype(np.float32),
             calibrated=calibrated.astype(np.float32),
             same_seat=(~displaced).astype(np.float32),
+            places=places,
             outputs=np.where(mirrored[:, None], outputs[:, MIRROR] * MIRROR_SIGN, outputs),
         )
 
-    def _warped(self, rows: np.ndarray, affine: "_Affine", mirrored: np.ndarray) -> np.ndarray:
-        """Pictures (n, cameras, size, size) uint8 of rows; -1 gives black ones."""
+    def _seen(
+        self, rows: np.ndarray, affine: "_Affine", mirrored: np.ndarray
+    ) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
+        """Pictures (n, cameras, size, size) uint8 of rows, -1 gives black ones, and places of points in them."""
         size = self._recipe.input_size
         found = np.zeros((len(rows), len(self._pictures), size, size), np.uint8)
-        for place, row in enumerate(rows):
-            if row < 0:
-                continue
-            for camera, flipped in enumerate(self._flipped):
-                source = self._pictures[self._partner[camera] if mirrored[place] else camera]
-                height, width = source.shape[1:]
-                matrix = warp_matrix(
+        places = []
+        for camera, flipped in enumerate(self._flipped):
+            sources = np.where(mirrored, self._partner[camera], camera)
+            turned = mirrored != flipped
+            warps = np.zeros((len(rows), 2, 3))
+            for place, (row, source) in enumerate(zip(rows, sources, strict=True)):
+                height, width = self._pictures[source].shape[1:]
+                warps[place] = warp_matrix(
                     width,
                     height,
                     size,
                     shift=affine.shift[place, camera],
                     scale=affine.scale[place, camera],
                     angle_rad=affine.angle_rad[place, camera],
-                    flipped=bool(flipped != mirrored[place]),
+                    flipped=bool(turned[place]),
                 )
-                found[place, camera] = cv2.warpAffine(
-                    source[row],
-                    matrix,
-                    (size, size),
-                    flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
-                    borderMode=cv2.BORDER_REPLICATE,
-                )
-        return found
+                if row >= 0:
+                    found[place, camera] = cv2.warpAffine(
+                        self._pictures[source][row],
+                        warps[place],
+                        (size, size),
+                        flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+                        borderMode=cv2.BORDER_REPLICATE,
+                    )
+            points = np.stack([self._points[source][row] for source, row in zip(sources, rows, strict=True)])
+            traced = np.where(turned[:, None], mirrored_points(self._traced[camera]), self._traced[camera])
+            places.append(places_of(points, traced, warps, scale=self._reduction[sources], size=size))
+        return found, tuple(places)
 
 
 @dataclass(frozen=True)

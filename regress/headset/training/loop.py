@@ -53,7 +53,8 @@ class Training:
         self._mean, self._std = torch.from_numpy(self.targets.mean), torch.from_numpy(self.targets.std)
         self._gram = _scaled_gram(arrays, self.targets, rows)
         names = tuple(camera.name for camera in arrays.cameras)
-        self.network = NETWORKS[recipe.architecture](names, recipe)
+        points = {name: len(found) for name, found in self._frames.traced.items()}
+        self.network = NETWORKS[recipe.architecture](names, recipe, points)
         self._set_scales()
         self._optimizers = optimizers_of(self.network, recipe)
         self._key = _key(arrays, recipe, rows)
@@ -129,12 +130,22 @@ class Training:
             self._wanted(batch),
             calibrated=calibrated,
             same_seat=torch.from_numpy(batch.same_seat),
+            places=self._places(batch),
             gram=self._gram,
             recipe=self.recipe,
         )
 
     def _wanted(self, batch: Batch) -> torch.Tensor:
         return (torch.from_numpy(batch.outputs) - self._mean) / self._std
+
+    def _places(self, batch: Batch) -> list[torch.Tensor]:
+        """Standardised places of each camera's points; none where they are not traced."""
+        found = []
+        for camera, places in zip(self.network.cameras, batch.places, strict=True):
+            tracer = self.network.encoder(camera).tracer
+            given = torch.from_numpy(places)
+            found.append(given if tracer is None else tracer.standardised(given))
+        return found
 
     def _validation_error(self) -> float:
         """Mean squared z-score without calibration; 1 is as good as the training mean. Without rows it is 0."""
@@ -162,7 +173,10 @@ class Training:
             if self.network.owners[camera] is not None:
                 continue
             differences = (pictures - neutral)[known, column]
-            self.network.encoder(camera).set_scale(
+            encoder = self.network.encoder(camera)
+            if encoder.tracer is not None:
+                encoder.tracer.set_usual(torch.from_numpy(batch.places[column]))
+            encoder.set_scale(
                 float(pictures[:, column].mean()),
                 max(float(pictures[:, column].std()), 1.0),
                 max(float(differences.std()), 1.0) if known.any() else 1.0,

@@ -1,5 +1,6 @@
 """The modular and the holistic network: part codes to outputs."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import torch
@@ -28,12 +29,15 @@ class Answer:
         What each camera says for itself.
     seat : (n,)
         Logit that the neutral pictures come from the frame's own seat.
+    places : tuple of (n, P, 2)
+        By camera, where the points that its encoder traces lie in what that sees, standardised.
     """
 
     blended: Blended
     means: torch.Tensor
     log_variances: torch.Tensor
     seat: torch.Tensor
+    places: tuple[torch.Tensor, ...]
 
 
 class _Head(nn.Module):
@@ -61,14 +65,18 @@ class HeadsetNetwork(nn.Module):
         Names, in order.
     recipe
         Sizes and modulation.
+    points
+        How many points each encoder traces, by the camera that owns it.
     """
 
-    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe) -> None:
+    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, int]) -> None:
         super().__init__()
         self.owners = encoder_owners(cameras)
         self.cameras = cameras
         own = [camera for camera in cameras if self.owners[camera] is None]
-        self.encoders = nn.ModuleDict({camera: Encoder(recipe.input_size, recipe.code) for camera in own})
+        self.encoders = nn.ModuleDict(
+            {camera: Encoder(recipe.input_size, recipe.code, points[camera]) for camera in own}
+        )
         self.register_buffer("mirror", torch.from_numpy(MIRROR.copy()))
         self.register_buffer("mirror_sign", torch.from_numpy(MIRROR_SIGN.copy()))
 
@@ -78,23 +86,27 @@ class HeadsetNetwork(nn.Module):
 
     def codes(
         self, pictures: torch.Tensor, neutral: torch.Tensor, calibrated: torch.Tensor
-    ) -> list[torch.Tensor]:
-        """Part code (n, code) of each camera from pictures (n, cameras, size, size) in grey levels."""
-        return [
-            self.encoder(camera)(pictures[:, column], neutral[:, column], calibrated)
-            for column, camera in enumerate(self.cameras)
-        ]
+    ) -> tuple[list[torch.Tensor], tuple[torch.Tensor, ...]]:
+        """Part codes (n, width) and places (n, P, 2) by camera, from grey pictures (n, cameras, size, size)."""
+        codes, places = zip(
+            *(
+                self.encoder(camera)(pictures[:, column], neutral[:, column], calibrated)
+                for column, camera in enumerate(self.cameras)
+            ),
+            strict=True,
+        )
+        return list(codes), places
 
 
 class ModularNetwork(HeadsetNetwork):
     """Each camera says every output with a variance; the answers are blended."""
 
-    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe) -> None:
-        super().__init__(cameras, recipe)
+    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, int]) -> None:
+        super().__init__(cameras, recipe, points)
         heard = recipe.skip * (len(cameras) - 1)
-        self.heads = nn.ModuleDict({name: _Head(recipe.code + heard) for name in self.encoders})
+        self.heads = nn.ModuleDict({name: _Head(own.width + heard) for name, own in self.encoders.items()})
         self.tells = nn.ModuleDict(
-            {name: nn.Linear(recipe.code, recipe.skip) for name in self.encoders if recipe.skip}
+            {name: nn.Linear(own.width, recipe.skip) for name, own in self.encoders.items() if recipe.skip}
         )
         self.others = [_others(camera, cameras) for camera in cameras]
         part = torch.stack([torch.from_numpy(part_mask(camera)) for camera in cameras])
@@ -110,7 +122,7 @@ class ModularNetwork(HeadsetNetwork):
     ) -> Answer:
         """Answer to (n, cameras, size, size) pictures and neutral ones, ``present`` (n, cameras)."""
         means, log_variances, seat = [], [], 0.0
-        codes = self.codes(pictures, neutral, calibrated)
+        codes, places = self.codes(pictures, neutral, calibrated)
         if self.tells:
             codes = self._with_heard(codes, present)
         for column, code in enumerate(codes):
@@ -124,7 +136,8 @@ class ModularNetwork(HeadsetNetwork):
             log_variances.append(log_variance)
             seat = seat + present[:, column] * logit
         mean, log_variance = torch.stack(means, dim=1), torch.stack(log_variances, dim=1)
-        return Answer(blend(mean, log_variance, self.modulation, present), mean, log_variance, seat)
+        blended = blend(mean, log_variance, self.modulation, present)
+        return Answer(blended, mean, log_variance, seat, places)
 
     def _with_heard(self, codes: list[torch.Tensor], present: torch.Tensor) -> list[torch.Tensor]:
         """Each camera's code, and behind it what the others tell (the second paper's skips); absent ones tell 0."""
@@ -141,9 +154,10 @@ class ModularNetwork(HeadsetNetwork):
 class HolisticNetwork(HeadsetNetwork):
     """All part codes together go through one hidden layer; a missing camera shows its mean training picture."""
 
-    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe) -> None:
-        super().__init__(cameras, recipe)
-        self.hidden = nn.Sequential(nn.Linear(recipe.code * len(cameras), recipe.hidden), nn.ReLU())
+    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, int]) -> None:
+        super().__init__(cameras, recipe, points)
+        width = sum(self.encoder(camera).width for camera in cameras)
+        self.hidden = nn.Sequential(nn.Linear(width, recipe.hidden), nn.ReLU())
         self.head = _Head(recipe.hidden)
         self.register_buffer("mean_pictures", torch.zeros(len(cameras), recipe.input_size, recipe.input_size))
 
@@ -158,12 +172,12 @@ class HolisticNetwork(HeadsetNetwork):
         here = present[..., None, None]
         seen = here * pictures + (1 - here) * self.mean_pictures
         compared = here * neutral + (1 - here) * self.mean_pictures  # no difference where no camera is
-        codes = self.codes(seen, compared, calibrated)
+        codes, places = self.codes(seen, compared, calibrated)
         mean, log_variance, logit = self.head(self.hidden(torch.cat(codes, dim=1)))
         cameras = len(self.cameras)
         shares = torch.full_like(mean[:, None], 1 / cameras).expand(-1, cameras, -1)
         blended = Blended(mean, torch.exp(log_variance), shares)
-        return Answer(blended, mean[:, None], log_variance[:, None], logit)
+        return Answer(blended, mean[:, None], log_variance[:, None], logit, places)
 
 
 def _others(camera: str, cameras: tuple[str, ...]) -> list[int]:

@@ -23,6 +23,7 @@ from facegen.errors import InputError, InvalidData
 from facegen.geometry import direction_from_angles
 from facegen.packing import FORMATS, Options, Part, plan_pack, write_pack
 from facegen.packing.arrays import face_basis, write_part
+from facegen.packing.view_points import view_points
 from facegen.packing.webdataset import write_tar
 from facegen.store import open_dataset, read_png
 
@@ -186,6 +187,8 @@ def test_arrays_hold_the_datasets_pictures_and_labels(rendered, tmp_path):
         pose = np.reshape(labels["head_from_headset"], (4, 4))
         np.testing.assert_allclose(pose, record["headset"]["head_from_headset"], atol=1e-7)
         np.testing.assert_allclose(labels["slip"], record["headset"]["slip"], atol=1e-7)
+        for name, view in record["views"].items():
+            np.testing.assert_array_equal(np.reshape(labels[f"points_{name}"], (-1, 2)), view_points(view))
     face = np.load(out / "face.npz")
     assert face["displacement"].shape == (52, *face["rest"].shape)
 

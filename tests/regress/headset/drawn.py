@@ -8,7 +8,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, mirrored_name
+from facegen.conventions import BLENDSHAPES, VIEW_POINTS, mirrored_name
 from regress.headset.parts import part_of
 
 CAMERAS = ("left_eye", "right_eye", "mouth")
@@ -47,6 +47,10 @@ def write_drawn_arrays(folder: Path, *, people: int = 30, sessions: int = 2, see
         "gaze": _lists(np.stack([row[4] for row in rows])),
         "head_from_headset": _lists(np.tile(np.eye(4).ravel(), (len(rows), 1))),
         "slip": _lists(np.zeros((len(rows), 6))),
+        **{
+            f"points_{camera}": _lists(np.stack([_points(camera, *row[3:5]) for row in rows]))
+            for camera in CAMERAS
+        },
     }
     pq.write_table(pa.table(columns), folder / "labels.parquet")
     for camera in CAMERAS:
@@ -57,7 +61,7 @@ def write_drawn_arrays(folder: Path, *, people: int = 30, sessions: int = 2, see
         folder / "face.npz", displacement=displacement.astype(np.float32), rest=np.zeros((40, 3), np.float32)
     )
     description = {
-        "version": 1,
+        "version": 2,
         "headset": "drawn3",
         "cameras": [{"name": camera, "width": SIDE, "height": SIDE} for camera in CAMERAS],
         "rows": len(rows),
@@ -86,6 +90,24 @@ def _expression(random: np.random.Generator, component: str) -> tuple[np.ndarray
     return weights, gaze
 
 
+def dot_of(camera: str, weights: np.ndarray, gaze: np.ndarray) -> np.ndarray:
+    """Pixel (2,) of the dark dot in a picture: an eye's pupil, or the chin."""
+    if camera == "mouth":
+        return np.array([11.5, 14 + 6 * weights[BLENDSHAPES.index("jawOpen")]])
+    yaw, pitch = gaze[:2] if camera == "left_eye" else gaze[2:]
+    return np.clip([11.5 + 10 * yaw, 11.5 - 10 * pitch], 1, SIDE - 2)
+
+
+DOTS = {"left_eye": "left_pupil", "right_eye": "right_pupil", "mouth": "landmark_8"}
+
+
+def _points(camera: str, weights: np.ndarray, gaze: np.ndarray) -> np.ndarray:
+    """(240,) pixels of all view points; the lens reaches none but the dot."""
+    points = np.full((len(VIEW_POINTS), 2), np.nan)
+    points[VIEW_POINTS.index(DOTS[camera])] = dot_of(camera, weights, gaze)
+    return points.ravel()
+
+
 def _picture(camera: str, weights: np.ndarray, gaze: np.ndarray) -> np.ndarray:
     """The right eye's picture is what the left eye's would be of the mirrored face, mirrored."""
     picture = np.full((SIDE, SIDE), 110.0)
@@ -95,7 +117,9 @@ def _picture(camera: str, weights: np.ndarray, gaze: np.ndarray) -> np.ndarray:
         yaw, pitch = gaze[:2] if camera == "left_eye" else gaze[2:] * (-1, 1)
         turned = 60 * (yaw * _pattern("left_eye", "yaw") + pitch * _pattern("left_eye", "pitch"))
         picture += turned if camera == "left_eye" else turned[:, ::-1]
-    return picture
+    down, across = np.indices((SIDE, SIDE))
+    x, y = dot_of(camera, weights, gaze)
+    return picture - 60 * np.exp(-((across - x) ** 2 + (down - y) ** 2) / 8)
 
 
 @cache

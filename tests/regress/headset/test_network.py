@@ -27,13 +27,15 @@ CAMERAS = (
     CameraInput(name="mouth", width=52, height=30),
 )
 SIZE = 16
+POINTS = {"left_eye": 5, "mouth": 3}
 
 
 def network(architecture: str, seed: int = 0, **settings):
     """An untrained network whose normalisations have seen something."""
     recipe = HeadsetRecipe(architecture=architecture, input_size=SIZE, code=12, hidden=20, **settings)
     torch.manual_seed(seed)
-    made = NETWORKS[architecture](tuple(camera.name for camera in CAMERAS), recipe)
+    points = POINTS if recipe.points_loss else dict.fromkeys(POINTS, 0)
+    made = NETWORKS[architecture](tuple(camera.name for camera in CAMERAS), recipe, points)
     for encoder in made.encoders.values():
         encoder.set_scale(100.0, 60.0, 40.0)
         encoder.switch.data.normal_()
@@ -46,10 +48,16 @@ def targets():
     return target_scale(np.random.default_rng(0).random((30, len(OUTPUTS))).astype(np.float32))
 
 
-@pytest.fixture(scope="module", params=["modular", "holistic", "modular with skips"])
+@pytest.fixture(
+    scope="module", params=["modular", "holistic", "modular with skips", "modular without points"]
+)
 def graph(request: pytest.FixtureRequest) -> HeadsetGraph:
-    architecture, _, skips = request.param.partition(" with ")
-    graph, difference = exported(network(architecture, skip=5 if skips else 0))
+    architecture, _, how = request.param.partition(" ")
+    settings = {
+        "skip": 5 if how == "with skips" else 0,
+        "points_loss": 0.0 if how == "without points" else 5.0,
+    }
+    graph, difference = exported(network(architecture, **settings))
     assert difference < 1e-4
     return HeadsetGraph(graph, CAMERAS)
 
@@ -179,5 +187,8 @@ def test_cameras_in_the_other_order_share_the_encoder_the_other_way_round():
         replace(CAMERAS[0], mirrored_of="right_eye"),
         CAMERAS[2],
     )
-    made = NETWORKS["modular"](tuple(camera.name for camera in cameras), HeadsetRecipe(input_size=SIZE))
+    points = {"right_eye": 5, "mouth": 3}
+    made = NETWORKS["modular"](
+        tuple(camera.name for camera in cameras), HeadsetRecipe(input_size=SIZE), points
+    )
     assert list(made.encoders) == ["right_eye", "mouth"]

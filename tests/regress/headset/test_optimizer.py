@@ -51,7 +51,7 @@ def test_a_step_of_a_convolution_is_that_of_its_matrix():
 @pytest.mark.parametrize("architecture", NETWORKS)
 def test_every_parameter_has_one_optimizer(architecture: str):
     recipe = HeadsetRecipe(architecture=architecture, input_size=16, skip=4)
-    network = NETWORKS[architecture](CAMERAS, recipe)
+    network = NETWORKS[architecture](CAMERAS, recipe, {"left_eye": 4, "mouth": 2})
     moved = [
         [id(parameter) for group in optimizer.param_groups for parameter in group["params"]]
         for optimizer in optimizers_of(network, recipe)

@@ -1,0 +1,48 @@
+"""The points of `VIEW_POINTS` that a headset view shows, from its labels."""
+
+import cv2
+import numpy as np
+
+from facegen.conventions import LANDMARK_GROUPS, LID_POINTS, SIDES, Visibility
+
+LEAST_LANDMARKS = 3
+"""Of an eye's six landmarks, how many must be visible for its lids to count as shown."""
+
+
+def view_points(view: dict) -> np.ndarray:
+    """(P, 2) float32 pixels of ``VIEW_POINTS``, NaN where the picture does not show the point.
+
+    Landmarks say themselves whether they are visible. The margins of an eye's lids count where at least
+    `LEAST_LANDMARKS` of its landmarks do, so not through the housing; the centres of pupil and iris where they lie
+    between the lids as well. Points of lids may lie beyond the picture.
+
+    Parameters
+    ----------
+    view
+        One of ``views`` of ``sample.json``.
+    """
+    visible = np.array(view["visibility"]) == Visibility.VISIBLE
+    points = [np.where(visible[:, None], _numbers(view["points_2d"]), np.nan)]
+    for side in SIDES:
+        upper, lower = (_numbers(view[f"{lid}_lid_2d"][side]) for lid in ("upper", "lower"))
+        centers = _numbers([view["pupil_center_refracted_2d"][side], view["iris_ellipse"][side]["center"]])
+        opening = np.concatenate([upper, lower[::-1]]).astype(np.float32)
+        between = [
+            cv2.pointPolygonTest(opening, center, measureDist=False) > 0 for center in centers.tolist()
+        ]
+        eye = [_along(upper), _along(lower), np.where(np.array(between)[:, None], centers, np.nan)]
+        shown = visible[list(LANDMARK_GROUPS[f"{side}_eye"])].sum() >= LEAST_LANDMARKS
+        points += [np.where(shown, part, np.nan) for part in eye]
+    return np.concatenate(points).astype(np.float32)
+
+
+def _numbers(values: object) -> np.ndarray:
+    """Floats of nested lists in which None stands for NaN."""
+    return np.array(values, dtype=np.float64)
+
+
+def _along(line: np.ndarray) -> np.ndarray:
+    """``LID_POINTS`` points (n, 2) along a line (m, 2), equally far apart."""
+    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    places = np.linspace(0.0, way[-1], LID_POINTS)
+    return np.stack([np.interp(places, way, column) for column in line.T], axis=-1)

@@ -1,0 +1,95 @@
+"""Traced points: which, where they lie in what encoders see, and that networks learn to find them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch")
+
+from facegen.conventions import VIEW_POINTS  # noqa: E402
+from regress.headset.arrays import HeadsetArrays  # noqa: E402
+from regress.headset.recipe import HeadsetRecipe  # noqa: E402
+from regress.headset.training.batches import Frames  # noqa: E402
+from regress.headset.training.loop import Training  # noqa: E402
+from regress.headset.training.losses import places_loss  # noqa: E402
+from regress.headset.training.traced import traced_points  # noqa: E402
+from regress.headset.training.tracers import Tracer  # noqa: E402
+from tests.regress.headset.drawn import DOTS, dot_of  # noqa: E402
+
+
+def test_a_camera_traces_what_its_pictures_show(arrays: HeadsetArrays):
+    rows = arrays.rows("train")
+    found = traced_points(arrays, rows)
+    assert {name: [VIEW_POINTS[index] for index in indices] for name, indices in found.items()} == {
+        "left_eye": ["left_pupil"],
+        "mouth": ["landmark_8"],
+    }
+    points = {name: seen.copy() for name, seen in arrays.points.items()}
+    points["mouth"][rows[: len(rows) * 3 // 4]] = np.nan  # shown in a quarter of the frames
+    points["left_eye"] += 100  # beyond the picture, but the right eye's are not: together they are half
+    found = traced_points(replace(arrays, points=points), rows)
+    assert [len(indices) for indices in found.values()] == [1, 0]
+
+
+@pytest.mark.parametrize("input_size", [24, 12])
+def test_places_are_where_the_dots_are_however_frames_are_displaced(arrays: HeadsetArrays, input_size: int):
+    """A dot that is all there is in a picture has its middle where the label says."""
+    rows = arrays.rows("train")
+    down, across = np.indices((24, 24))
+    pictures = {}
+    for name in DOTS:
+        spots = [dot_of(name, *labels) for labels in zip(arrays.weights, arrays.gaze, strict=True)]
+        pictures[name] = np.stack(
+            [255 * np.exp(-((across - x) ** 2 + (down - y) ** 2) / 8) for x, y in spots]
+        ).astype(np.uint8)
+    moved = HeadsetRecipe(input_size=input_size, batch=len(rows), shift=0.05, scale=0.1, rotation_deg=10.0)
+    (batch,) = Frames(replace(arrays, pictures=pictures), moved, rows).draw_epoch(np.random.default_rng(3))
+    middle = (np.arange(input_size) + 0.5) / input_size
+    for camera, places in enumerate(batch.places):
+        seen = batch.pictures[:, camera].astype(float) ** 2
+        mass = seen.sum(axis=(1, 2))
+        found = np.stack([(seen.sum(axis=1) @ middle) / mass, (seen.sum(axis=2) @ middle) / mass], axis=1)
+        inner = ((places[:, 0] > 0.25) & (places[:, 0] < 0.75)).all(axis=1)  # none of the dot is cut off
+        assert inner.sum() > 30
+        assert np.abs(found - places[:, 0])[inner].max() < 0.3 / input_size
+
+
+def test_a_heat_maps_peak_is_the_place():
+    tracer = Tracer((4, 6), (8, 4), 3)
+    tracer.head.weight.data.zero_()
+    tracer.set_usual(torch.full((5, 3, 2), float("nan")))
+    even = tracer([torch.zeros(2, 4, 8, 8), torch.zeros(2, 6, 4, 4)])
+    torch.testing.assert_close(even, torch.zeros(2, 3, 2))  # an even map's mean is the middle
+    known = torch.rand(50, 3, 2)
+    tracer.set_usual(known)
+    torch.testing.assert_close(tracer.standardised(known).mean(dim=0), torch.zeros(3, 2), atol=1e-5, rtol=0)
+    assert tracer.standardised(known).square().mean() == pytest.approx(1, abs=0.05)
+
+
+def test_points_that_are_not_shown_cost_nothing():
+    found = torch.randn(4, 3, 2, requires_grad=True)
+    wanted = torch.randn(4, 3, 2)
+    wanted[:, 1] = float("nan")
+    loss = places_loss([found, found[:, :0]], [wanted, wanted[:, :0]])
+    loss.backward()
+    assert torch.isfinite(loss)
+    assert not found.grad[:, 1].any()
+    assert found.grad[:, [0, 2]].all()
+    assert places_loss([wanted[:, ::2]], [wanted[:, ::2]]) == 0
+
+
+def test_networks_learn_where_things_are(arrays: HeadsetArrays):
+    recipe = HeadsetRecipe(input_size=24, code=24, epochs=12, batch=16)
+    training = Training(arrays, recipe)
+    network = training.run()
+    frames = Frames(arrays, recipe, training.rows)
+    batch = frames.plain_batch(arrays.rows("test"))
+    pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
+    with torch.no_grad():
+        answer = network(pictures, neutral, torch.from_numpy(batch.present), torch.zeros(len(pictures)))
+    for camera, found, places in zip(network.cameras, answer.places, batch.places, strict=True):
+        wanted = network.encoder(camera).tracer.standardised(torch.from_numpy(places))
+        assert (found - wanted).square().mean() < 0.3 * wanted.square().mean()
+    untraced = Training(arrays, replace(recipe, points_loss=0.0, epochs=1)).run()
+    assert untraced.encoder("mouth").tracer is None
