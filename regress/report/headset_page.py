@@ -29,6 +29,7 @@ from regress.report.headset_tables import (
     shapes_table,
 )
 from regress.report.histogram import histogram
+from regress.report.people_curve import people_curve
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -116,6 +117,7 @@ def write_headset_report(
         headlines=_headlines(judged[0].figures, timings),
         sections=[_section(one, name) for one in judged],
         curve=curve_table(curve) if curve else None,
+        drawn_curve=Markup(people_curve(curve)) if curve else None,
         timings=[(how, f"{microseconds / 1000:.2f} ms") for how, microseconds in timings],
         hidden=_hidden(judged[0].figures),
         provenance=_provenance(model),

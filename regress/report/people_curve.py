@@ -1,0 +1,52 @@
+"""The error of headset networks against how many people they learned from."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from regress.report.axes import Scale, label
+from regress.report.svg import line, picture, text
+
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 260, 52, 120, 14, 46
+SERIES = (("uncalibrated", "test", "no neutral picture"), ("same_seat", "train", "neutral picture"))
+"""Condition, class of its curve, words."""
+
+
+def people_curve(points: Sequence[tuple[str, int, int, dict[str, Any]]]) -> str:
+    """Geometry error in mm, without and with a neutral picture, over people (logarithmic).
+
+    Parameters
+    ----------
+    points
+        Models: title, people, frames, evaluation.
+    """
+    points = sorted(points, key=lambda point: point[1:3])
+    people = np.array([point[1] for point in points], float)
+    series = [
+        (
+            kind,
+            words,
+            np.array([point[3]["conditions"].get(name, {}).get("geometry_mm", np.nan) for point in points]),
+        )
+        for name, kind, words in SERIES
+    ]
+    highest = np.nanmax([errors for *_, errors in series])
+    x = Scale(low=people[0] * 0.9, high=people[-1] * 1.1, start=LEFT, stop=WIDTH - RIGHT, logarithmic=True)
+    y = Scale(low=0.0, high=float(highest) * 1.1, start=HEIGHT - BOTTOM, stop=TOP)
+    parts = []
+    for tick in y.ticks():
+        parts.append(line(LEFT, y(tick), WIDTH - RIGHT, y(tick), "grid"))
+        parts.append(text(LEFT - 6, y(tick) + 4, label(tick), "tick end"))
+    for count in sorted(set(people)):
+        parts.append(text(x(count), HEIGHT - BOTTOM + 18, label(count), "tick middle"))
+    middle = (LEFT + WIDTH - RIGHT) / 2
+    parts.append(text(middle, HEIGHT - 8, "people learned from; error in mm upwards", "tick middle"))
+    for kind, words, errors in series:
+        known = np.isfinite(errors)
+        if known.any():
+            places = list(zip(x(people[known]), y(errors[known]), strict=True))
+            path = "L".join(f"{a:.1f} {b:.1f}" for a, b in places)
+            parts.append(f'<path class="curve {kind}" d="M{path}"/>')
+            parts.append(text(WIDTH - RIGHT + 8, places[-1][1] + 4, words, f"label {kind}"))
+    return picture(WIDTH, HEIGHT, parts, "Error by people learned from")
