@@ -90,7 +90,7 @@ def label(one: HeadsetPredictor, plain: dict[str, object]) -> str:
 
 def recipe_of(training: dict[str, object]) -> dict[str, object]:
     """A model's recipe; settings that are younger than it have the values that change nothing."""
-    return {"skip": 0, "gaze_loss": 1.0, "shut_eyes": 0, **training["recipe"]}
+    return {"skip": 0, "gaze_loss": 1.0, "shut_eyes": 0, "points_loss": 0.0, **training["recipe"]}
 
 
 def print_main(groups: dict[str, list[Path]], found: dict[Path, Figures], title: str) -> None:
