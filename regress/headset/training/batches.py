@@ -61,10 +61,10 @@ class Frames:
         self._shown = np.concatenate([rows, np.repeat(rows[shut], recipe.shut_eyes)])
         self._recipe = recipe
         self._pictures = [reduced(arrays.pictures[name], recipe.input_size) for name in names]
-        self._flipped = [owner is not None for owner in encoder_owners(names).values()]
-        self._mirror = recipe.mirror and is_symmetric(names)
-        self._partner = [names.index(mirror_partner(name)) if self._mirror else 0 for name in names]
         owners = encoder_owners(names)
+        self._flipped = np.array([owner is not None for owner in owners.values()])
+        self._mirror = recipe.mirror and is_symmetric(names)
+        self._partner = np.array([names.index(mirror_partner(name)) if self._mirror else 0 for name in names])
         self.traced = traced_points(arrays, rows)
         if not recipe.points_loss:
             self.traced = {name: found[:0] for name, found in self.traced.items()}
@@ -100,14 +100,14 @@ class Frames:
         still = _Affine(np.zeros((count, cameras, 2)), np.ones((count, cameras)), np.zeros((count, cameras)))
         known = (self._own_seat[rows] >= 0) & calibrated
         straight = np.zeros(count, bool)
-        pictures, places = self._seen(rows, still, straight)
+        warps = self._warps(still, straight)
         return Batch(
-            pictures=pictures,
-            neutral=self._seen(np.where(known, self._own_seat[rows], -1), still, straight)[0],
+            pictures=self._warped(rows, warps, straight),
+            neutral=self._warped(np.where(known, self._own_seat[rows], -1), warps, straight),
             present=np.ones((count, cameras), np.float32),
             calibrated=known.astype(np.float32),
             same_seat=known.astype(np.float32),
-            places=places,
+            places=self._places(rows, warps, straight),
             outputs=self.outputs[rows],
         )
 
@@ -124,52 +124,72 @@ class Frames:
         present = random.random((count, cameras)) >= recipe.camera_dropout
         present[~present.any(axis=1)] = True
         outputs = self.outputs[rows]
-        pictures, places = self._seen(rows, frame, mirrored)
-        neutral_rows = np.where(calibrated, neutral_rows, -1)
+        warps, neutral_warps = (
+            self._warps(affine, mirrored) for affine in (frame, _where(displaced, seat, frame))
+        )
         return Batch(
-            pictures=pictures,
-            neutral=self._seen(neutral_rows, _where(displaced, seat, frame), mirrored)[0],
+            pictures=self._warped(rows, warps, mirrored),
+            neutral=self._warped(np.where(calibrated, neutral_rows, -1), neutral_warps, mirrored),
             present=present.astype(np.float32),
             calibrated=calibrated.astype(np.float32),
             same_seat=(~displaced).astype(np.float32),
-            places=places,
+            places=self._places(rows, warps, mirrored),
             outputs=np.where(mirrored[:, None], outputs[:, MIRROR] * MIRROR_SIGN, outputs),
         )
 
-    def _seen(
-        self, rows: np.ndarray, affine: "_Affine", mirrored: np.ndarray
-    ) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
-        """Pictures (n, cameras, size, size) uint8 of rows, -1 gives black ones, and places of points in them."""
-        size = self._recipe.input_size
-        found = np.zeros((len(rows), len(self._pictures), size, size), np.uint8)
-        places = []
-        for camera, flipped in enumerate(self._flipped):
-            sources = np.where(mirrored, self._partner[camera], camera)
-            turned = mirrored != flipped
-            warps = np.zeros((len(rows), 2, 3))
-            for place, (row, source) in enumerate(zip(rows, sources, strict=True)):
-                height, width = self._pictures[source].shape[1:]
-                warps[place] = warp_matrix(
-                    width,
-                    height,
-                    size,
-                    shift=affine.shift[place, camera],
-                    scale=affine.scale[place, camera],
-                    angle_rad=affine.angle_rad[place, camera],
-                    flipped=bool(turned[place]),
+    def _sources(self, mirrored: np.ndarray) -> np.ndarray:
+        """(n, cameras) of whose pictures each camera sees: a mirrored frame's are its partner's."""
+        own = np.arange(len(self._pictures))
+        return np.where(mirrored[:, None], self._partner, own)
+
+    def _warps(self, affine: "_Affine", mirrored: np.ndarray) -> np.ndarray:
+        """(n, cameras, 2, 3) from the encoders' pixels to the reduced pictures'."""
+        sources = self._sources(mirrored)
+        warps = np.zeros((*sources.shape, 2, 3))
+        for place, camera in np.ndindex(*sources.shape):
+            height, width = self._pictures[sources[place, camera]].shape[1:]
+            warps[place, camera] = warp_matrix(
+                width,
+                height,
+                self._recipe.input_size,
+                shift=affine.shift[place, camera],
+                scale=affine.scale[place, camera],
+                angle_rad=affine.angle_rad[place, camera],
+                flipped=bool(self._flipped[camera] != mirrored[place]),
+            )
+        return warps
+
+    def _warped(self, rows: np.ndarray, warps: np.ndarray, mirrored: np.ndarray) -> np.ndarray:
+        """Pictures (n, cameras, size, size) uint8 of rows; -1 gives black ones."""
+        sources, size = self._sources(mirrored), self._recipe.input_size
+        found = np.zeros((*sources.shape, size, size), np.uint8)
+        for place, camera in np.ndindex(*sources.shape):
+            if rows[place] >= 0:
+                found[place, camera] = cv2.warpAffine(
+                    self._pictures[sources[place, camera]][rows[place]],
+                    warps[place, camera],
+                    (size, size),
+                    flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+                    borderMode=cv2.BORDER_REPLICATE,
                 )
-                if row >= 0:
-                    found[place, camera] = cv2.warpAffine(
-                        self._pictures[source][row],
-                        warps[place],
-                        (size, size),
-                        flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
-                        borderMode=cv2.BORDER_REPLICATE,
-                    )
+        return found
+
+    def _places(self, rows: np.ndarray, warps: np.ndarray, mirrored: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Places (n, P, 2) of each camera's traced points in its warped pictures."""
+        found = []
+        for camera, sources in enumerate(self._sources(mirrored).T):
             points = np.stack([self._points[source][row] for source, row in zip(sources, rows, strict=True)])
-            traced = np.where(turned[:, None], mirrored_points(self._traced[camera]), self._traced[camera])
-            places.append(places_of(points, traced, warps, scale=self._reduction[sources], size=size))
-        return found, tuple(places)
+            turned, traced = mirrored != self._flipped[camera], self._traced[camera]
+            found.append(
+                places_of(
+                    points,
+                    np.where(turned[:, None], mirrored_points(traced), traced),
+                    warps[:, camera],
+                    scale=self._reduction[sources],
+                    size=self._recipe.input_size,
+                )
+            )
+        return tuple(found)
 
 
 @dataclass(frozen=True)
