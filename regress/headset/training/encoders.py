@@ -12,7 +12,8 @@ class Encoder(nn.Module):
     """Four convolutions that halve the picture; a tracer of points beside them; a code of looks and one of places.
 
     Its input is the picture and, where a neutral picture is known, the difference from it. Without one the
-    difference is zero, which is also what a neutral face gives: a switch says which is meant.
+    difference is zero, which is also what a neutral face gives: a switch says which is meant. Points are traced in the
+    neutral picture as well, for a lid that hangs half shut is a blink in one face and rest in another.
 
     Parameters
     ----------
@@ -39,12 +40,12 @@ class Encoder(nn.Module):
             sides.append(input_size)
         self.convolutions = nn.ModuleList(layers)
         self.switch = nn.Parameter(torch.zeros(_CHANNELS[0]))
-        self.tracer = Tracer(_CHANNELS[1:], tuple(sides[1:]), points) if points else None
-        self.looks = nn.Sequential(nn.Linear(channels * sides[-1] ** 2 + 1 + 2 * points, code), nn.ReLU())
+        told = 4 * points + 1  # places, how far from the neutral picture's, and whether there is one
+        self.looks = nn.Sequential(nn.Linear(channels * sides[-1] ** 2 + told, code), nn.ReLU())
+        self.tracer = self.shape = None
         if points:
-            self.shape = nn.Sequential(
-                nn.Linear(2 * points + 1, code), nn.ReLU(), nn.Linear(code, code), nn.ReLU()
-            )
+            self.tracer = Tracer(_CHANNELS[1:], tuple(sides[1:]), points)
+            self.shape = nn.Sequential(nn.Linear(told, code), nn.ReLU(), nn.Linear(code, code), nn.ReLU())
         self.width = 2 * code if points else code
         self.register_buffer("scale", torch.tensor([0.0, 1.0, 1.0]))
         # on a CPU this order of memory trains a third faster than channels first
@@ -61,20 +62,31 @@ class Encoder(nn.Module):
 
         Pictures are in grey levels; ``calibrated`` (n,) is 1 where the neutral one counts.
         """
-        mean, std, difference_std = self.scale.unbind()
-        known = calibrated[:, None, None]
-        seen = torch.stack([(pictures - mean) / std, (pictures - neutral) / difference_std * known], dim=1)
-        seen = seen.contiguous(memory_format=torch.channels_last)
-        steps = []
-        for step, layer in enumerate(self.convolutions):
-            seen = layer(seen)
-            if step == 0:
-                seen = seen + calibrated[:, None, None, None] * self.switch[:, None, None]
-            seen = torch.relu(seen)
-            steps.append(seen)
-        flat, known = seen.flatten(1), calibrated[:, None]
-        if self.tracer is None:
+        known = calibrated[:, None]
+        # without a neutral picture the frame stands in for it: batch statistics see no black ones
+        before = torch.where(known[..., None] > 0, neutral, pictures)
+        features = self._features(pictures, pictures - before, calibrated)
+        flat = features[-1].flatten(1)
+        if self.tracer is None or self.shape is None:
             return self.looks(torch.cat([flat, known], dim=1)), flat.new_zeros(len(flat), 0, 2)
-        places = self.tracer(steps[1:])
-        told = torch.cat([places.flatten(1), known], dim=1)
+        places = self.tracer(features[1:])
+        rest = self.tracer(self._features(before, torch.zeros_like(before), torch.zeros_like(calibrated))[1:])
+        moved = (places - rest.detach()).flatten(1) * known  # learns to trace from the frame itself
+        told = torch.cat([places.flatten(1), moved, known], dim=1)
         return torch.cat([self.looks(torch.cat([flat, told], dim=1)), self.shape(told)], dim=1), places
+
+    def _features(
+        self, pictures: torch.Tensor, difference: torch.Tensor, calibrated: torch.Tensor
+    ) -> list[torch.Tensor]:
+        """Features after each convolution, finest first."""
+        mean, std, difference_std = self.scale.unbind()
+        found = torch.stack([(pictures - mean) / std, difference / difference_std], dim=1)
+        found = found.contiguous(memory_format=torch.channels_last)
+        features = []
+        for layer in self.convolutions:
+            found = layer(found)
+            if not features:
+                found = found + calibrated[:, None, None, None] * self.switch[:, None, None]
+            found = torch.relu(found)
+            features.append(found)
+        return features
