@@ -101,6 +101,7 @@ def print_main(groups: dict[str, list[Path]], found: dict[Path, Figures], title:
         "RMSE": ("uncalibrated", "rmse"),
         "blink R²": ("uncalibrated", "blink_r2"),
         "gaze °": ("uncalibrated", "gaze_deg"),
+        "open eyes °": ("uncalibrated", "gaze_open_deg"),
         "calibrated mm": ("same_seat", "geometry_mm"),
         "calibrated R²": ("same_seat", "r2"),
         "reseated mm": ("other_seat", "geometry_mm"),

@@ -79,6 +79,13 @@ def predict(
             "auto, which looks for it. Again a later frame: it counts from there on, after a new seat.",
         ),
     ] = None,
+    keep_neutral: Annotated[
+        bool,
+        typer.Option(
+            "--keep-neutral",
+            help="Stay calibrated after a change of seat: the same person wears the headset.",
+        ),
+    ] = False,
     strict: Annotated[
         bool, typer.Option("--strict", help="Fail where a given camera has no usable picture in a frame.")
     ] = False,
@@ -146,11 +153,14 @@ def predict(
     for note in footage.notes:
         say(note)
     neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None)
-    performance = perform(predictor, footage, neutrals, output=output, amplify_eyes=amplify_eyes)
+    performance = perform(
+        predictor, footage, neutrals, output=output, amplify_eyes=amplify_eyes, keep_neutral=keep_neutral
+    )
+    worth = "less well calibrated" if keep_neutral else "not calibrated (--keep-neutral for the same person)"
     for row in performance.reseated:
         say(
-            f"frame {footage.numbers[row]}: the headset does not sit as in the neutral pictures; weights are not "
-            f"calibrated from here on, until a --neutral frame of the new seat"
+            f"frame {footage.numbers[row]}: the headset does not sit as in the neutral pictures; weights are {worth} "
+            f"from here on, until a --neutral frame of the new seat"
         )
     if video is not None:
         rate = fps or (ASSUMED_FPS if footage.time_s is None else _rate(footage.time_s))

@@ -50,24 +50,33 @@ class Performance:
 
 
 def estimate_footage(
-    predictor: HeadsetPredictor, footage: Footage, neutrals: Sequence[Neutral] = ()
-) -> tuple[Estimates, np.ndarray]:
+    predictor: HeadsetPredictor,
+    footage: Footage,
+    neutrals: Sequence[Neutral] = (),
+    *,
+    keep_neutral: bool = False,
+) -> tuple[Estimates, np.ndarray, tuple[int, ...]]:
     """Run the network on footage, calibrated as long as the headset stays in the seat of the neutral pictures.
 
     Parameters
     ----------
     neutrals
         Each counts from its row to the next one's; the first from the beginning, wherever it was taken.
+    keep_neutral
+        Stay calibrated after a change of seat: another seat's neutral picture of the same person is worth more than
+        none, another person's is not.
 
     Returns
     -------
     estimates
     calibrated : (n,) bool
-        Frames that were compared with neutral pictures: of those that count there, up to a change of seat.
+        Frames that were compared with neutral pictures.
+    reseated
+        Rows at which the seat was no longer that of the neutral pictures that count there.
     """
     present = footage.present
     if not neutrals:
-        return predictor.predict(footage.pictures, present=present), np.zeros(len(present), dtype=bool)
+        return predictor.predict(footage.pictures, present=present), np.zeros(len(present), dtype=bool), ()
     rows = np.arange(len(present))
     starts = [0, *(neutral.row for neutral in neutrals[1:])]
     which = np.searchsorted(starts, rows, side="right") - 1
@@ -76,17 +85,18 @@ def estimate_footage(
         for name in neutrals[0].pictures
     }
     estimates = predictor.predict(footage.pictures, present=present, neutral=pictures)
-    calibrated = np.ones(len(rows), dtype=bool)
+    calibrated, reseated = np.ones(len(rows), dtype=bool), []
     for number in range(len(neutrals)):
         span = rows[which == number]
         change = seat_change(estimates.same_seat[span], present[span].any(axis=1), fps=_fps(footage))
         if change is not None:
-            calibrated[span[change:]] = False
+            reseated.append(int(span[change]))
+            calibrated[span[change:]] = keep_neutral
     if not calibrated.all():
         estimates = predictor.predict(
             footage.pictures, present=present, neutral=pictures, calibrated=calibrated
         )
-    return estimates, calibrated
+    return estimates, calibrated, tuple(reseated)
 
 
 def perform(
@@ -96,12 +106,13 @@ def perform(
     *,
     output: Output | None = None,
     amplify_eyes: float = 1.0,
+    keep_neutral: bool = False,
 ) -> Performance:
     """Weights, gaze and confidence of footage, finished as asked.
 
     Parameters
     ----------
-    neutrals
+    neutrals, keep_neutral
         As ``estimate_footage`` takes them.
     output
         What happens after the network; nothing by default. Smoothing of landmarks has no meaning here.
@@ -118,7 +129,9 @@ def perform(
         raise InputError(
             f"{footage.source} does not say when its frames were taken; One-Euro smoothing needs it"
         )
-    estimates, calibrated = estimate_footage(predictor, footage, neutrals)
+    estimates, calibrated, reseated = estimate_footage(
+        predictor, footage, neutrals, keep_neutral=keep_neutral
+    )
     seen = footage.present.any(axis=1)
     weights = np.where(seen[:, None], np.clip(estimates.weights.astype(np.float64), 0, 1), np.nan)
     gaze = np.where(seen[:, None], estimates.gaze.astype(np.float64).reshape(-1, 4), np.nan)
@@ -131,13 +144,12 @@ def perform(
     if output.mirror:
         gaze = gaze[:, [2, 3, 0, 1]] * [-1, 1, -1, 1]
         trust = None if trust is None else mirror(trust)
-    lost = np.flatnonzero(np.diff(calibrated, prepend=True) & ~calibrated) if neutrals else ()
     return Performance(
         names=output.names,
         weights=output.finish(weights),
         gaze=gaze,
         confidence=trust,
-        reseated=tuple(map(int, lost)),
+        reseated=reseated,
     )
 
 

@@ -204,6 +204,10 @@ def test_a_new_seat_is_said_once_with_its_frame(run, model: Path, tmp_path: Path
     assert len(said.splitlines()) == 1
     frame = int(said.removeprefix("frame ").partition(":")[0])
     assert 40 <= frame <= 55
+    kept = run("headset", "predict", model, *options, "--neutral", 0, "--keep-neutral", "--fps", 30)
+    assert kept[2].startswith(f"frame {frame}:")
+    assert "less well calibrated" in kept[2]
+    assert float(_rows(kept[1])[79]["jawOpen"]) == pytest.approx(110 / 255, abs=0.01)
     again = run("headset", "predict", model, *options, "--neutral", 0, "--neutral", 70, "--fps", 30)
     assert again[2] == said
     assert float(_rows(again[1])[79]["jawOpen"]) == pytest.approx(0, abs=0.01)

@@ -112,6 +112,9 @@ def test_a_reseated_headset_is_seen_and_goes_on_uncalibrated(predictor: HeadsetP
     assert change <= row <= change + fps / 2
     assert made.weights[: change - 1] == pytest.approx(0, abs=0.005)
     assert made.weights[row:] == pytest.approx(160 / 255, abs=0.005)
+    kept = perform(predictor, footage, [first], keep_neutral=True)
+    assert kept.reseated == (row,)
+    assert kept.weights[row:] == pytest.approx(100 / 255, abs=0.005)
     again = perform(predictor, footage, [first, later])
     assert again.reseated == (row,)
     assert np.array_equal(again.weights[: later.row], made.weights[: later.row])
