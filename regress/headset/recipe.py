@@ -66,7 +66,7 @@ class HeadsetRecipe:
 
     architecture: str = "modular"
     seed: int = 0
-    epochs: int = 36
+    epochs: int = 30
     batch: int = 32
     learning_rate: float = 1.5e-3
     matrix_learning_rate: float = 0.02
@@ -86,7 +86,7 @@ class HeadsetRecipe:
     calibration_dropout: float = 0.4
     other_seat: float = 0.15
     jitter_neutral: float = 0.1
-    shut_eyes: int = 3
+    shut_eyes: int = 1
     mirror: bool = True
     shift: float = 0.03
     scale: float = 0.04
