@@ -27,7 +27,7 @@ class HeadsetRecipe:
     input_size
         Side in pixels of what the encoders see.
     code, hidden
-        Numbers of a camera's part code; hidden units of the holistic network.
+        Numbers of each half of a camera's part code; hidden units of each camera's head, or of the holistic network.
     modulation
         Factor on a camera's share of shapes outside its part (the paper's eq. 6); modular only.
     skip
