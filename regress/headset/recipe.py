@@ -27,14 +27,15 @@ class HeadsetRecipe:
     input_size
         Side in pixels of what the encoders see.
     code, hidden
-        Numbers of each half of a camera's part code; hidden units of each camera's head, or of the holistic network.
+        Numbers of each half of a camera's part code; hidden units of the holistic network.
     modulation
         Factor on a camera's share of shapes outside its part (the paper's eq. 6); modular only.
     skip
         Numbers that each camera's code hands to the others' heads (the paper's skips between modules), which then
         answer with what they have not seen themselves; modular only.
     part_loss, part_loss_elsewhere
-        Weight of each camera's own error on the shapes of its part and on all others (eq. 4); modular only.
+        Weight of each camera's own error on the shapes of its part and on all others (eq. 4), of weights and of
+        geometry as below; modular only.
     geometry_loss
         Weight of the face's squared displacement error beside the weights' own; 0 leaves it out.
     points_loss

@@ -52,7 +52,11 @@ def total_loss(
     own = answer.means - wanted[:, None]
     if isinstance(network, ModularNetwork) and recipe.part_loss:
         share = torch.where(network.part, 1.0, recipe.part_loss_elsewhere)
-        loss = loss + recipe.part_loss * (importance * share * own.square()).mean()
+        part = (importance * share * own.square()).mean()
+        if recipe.geometry_loss:
+            inside = (own * network.part)[..., : len(gram)]
+            part = part + recipe.geometry_loss * ((inside @ gram) * inside).sum(dim=(1, 2)).mean()
+        loss = loss + recipe.part_loss * part
     # Detached: a variance learns how wrong its mean is, and does not excuse it from getting better.
     log_variances = answer.log_variances
     loss = loss + 0.5 * (log_variances + own.detach().square() * torch.exp(-log_variances)).mean()

@@ -99,18 +99,12 @@ class HeadsetNetwork(nn.Module):
 
 
 class ModularNetwork(HeadsetNetwork):
-    """Each camera's code goes through a hidden layer and says every output with a variance; the answers are blended."""
+    """Each camera says every output with a variance; the answers are blended."""
 
     def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, int]) -> None:
         super().__init__(cameras, recipe, points)
         heard = recipe.skip * (len(cameras) - 1)
-        self.hidden = nn.ModuleDict(
-            {
-                name: nn.Sequential(nn.Linear(own.width + heard, recipe.hidden), nn.ReLU())
-                for name, own in self.encoders.items()
-            }
-        )
-        self.heads = nn.ModuleDict({name: _Head(recipe.hidden) for name in self.encoders})
+        self.heads = nn.ModuleDict({name: _Head(own.width + heard) for name, own in self.encoders.items()})
         self.tells = nn.ModuleDict(
             {name: nn.Linear(own.width, recipe.skip) for name, own in self.encoders.items() if recipe.skip}
         )
@@ -134,8 +128,7 @@ class ModularNetwork(HeadsetNetwork):
         for column, code in enumerate(codes):
             camera = self.cameras[column]
             owner = self.owners[camera]
-            own = owner or camera
-            mean, log_variance, logit = self.heads[own](self.hidden[own](code))
+            mean, log_variance, logit = self.heads[owner or camera](code)
             if owner is not None:
                 mean = mean[:, self.mirror] * self.mirror_sign
                 log_variance = log_variance[:, self.mirror]
