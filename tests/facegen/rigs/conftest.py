@@ -20,7 +20,8 @@ def ict(tmp_path_factory: pytest.TempPathFactory) -> Rig:
         pytest.skip(f"{archive} is not there; FACEGEN_REAL names the folder of real recordings")
     folder = tmp_path_factory.mktemp("ict")
     with tarfile.open(archive) as tar:
-        tar.extractall(folder, filter="data")
+        # Python knows filters from 3.11.4 on; Debian 12 has 3.11.2
+        tar.extractall(folder, **({"filter": "data"} if hasattr(tarfile, "data_filter") else {}))
     build_rig("ict", path=folder / "ICT-FaceKit", folder=folder)
     return load_rig("ict", folder)
 
