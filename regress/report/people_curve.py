@@ -8,7 +8,7 @@ import numpy as np
 from regress.report.axes import Scale, label
 from regress.report.svg import line, picture, text
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 260, 52, 120, 14, 46
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 900, 300, 52, 150, 14, 46
 SERIES = (("uncalibrated", "test", "no neutral picture"), ("same_seat", "train", "neutral picture"))
 """Condition, class of its curve, words."""
 
@@ -48,5 +48,6 @@ def people_curve(points: Sequence[tuple[str, int, int, dict[str, Any]]]) -> str:
             places = list(zip(x(people[known]), y(errors[known]), strict=True))
             path = "L".join(f"{a:.1f} {b:.1f}" for a, b in places)
             parts.append(f'<path class="curve {kind}" d="M{path}"/>')
+            parts += [f'<circle class="label {kind}" cx="{a:.1f}" cy="{b:.1f}" r="3.5"/>' for a, b in places]
             parts.append(text(WIDTH - RIGHT + 8, places[-1][1] + 4, words, f"label {kind}"))
     return picture(WIDTH, HEIGHT, parts, "Error by people learned from")
