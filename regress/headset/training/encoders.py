@@ -42,7 +42,7 @@ class Encoder(nn.Module):
         self.switch = nn.Parameter(torch.zeros(_CHANNELS[0]))
         told = 4 * points + 1  # places, how far from the neutral picture's, and whether there is one
         self.looks = nn.Sequential(nn.Linear(channels * sides[-1] ** 2 + told, code), nn.ReLU())
-        self.tracer = self.shape = None
+        self.tracer = None
         if points:
             self.tracer = Tracer(_CHANNELS[1:], tuple(sides[1:]), points)
             self.shape = nn.Sequential(nn.Linear(told, code), nn.ReLU(), nn.Linear(code, code), nn.ReLU())
@@ -67,7 +67,7 @@ class Encoder(nn.Module):
         before = torch.where(known[..., None] > 0, neutral, pictures)
         features = self._features(pictures, pictures - before, calibrated)
         flat = features[-1].flatten(1)
-        if self.tracer is None or self.shape is None:
+        if self.tracer is None:
             return self.looks(torch.cat([flat, known], dim=1)), flat.new_zeros(len(flat), 0, 2)
         places = self.tracer(features[1:])
         rest = self.tracer(self._features(before, torch.zeros_like(before), torch.zeros_like(calibrated))[1:])

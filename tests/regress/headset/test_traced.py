@@ -7,12 +7,16 @@ import pytest
 
 torch = pytest.importorskip("torch")
 
-from facegen.conventions import VIEW_POINTS  # noqa: E402
+from facegen.conventions import BLENDSHAPES, VIEW_POINTS  # noqa: E402
 from regress.headset.arrays import HeadsetArrays  # noqa: E402
 from regress.headset.recipe import HeadsetRecipe  # noqa: E402
 from regress.headset.training.batches import Frames  # noqa: E402
+from regress.headset.training.blend import Blended  # noqa: E402
+from regress.headset.training.encoders import Encoder  # noqa: E402
 from regress.headset.training.loop import Training  # noqa: E402
-from regress.headset.training.losses import places_loss  # noqa: E402
+from regress.headset.training.losses import places_loss, total_loss  # noqa: E402
+from regress.headset.training.networks import Answer, ModularNetwork  # noqa: E402
+from regress.headset.training.targets import OUTPUTS  # noqa: E402
 from regress.headset.training.traced import traced_points  # noqa: E402
 from regress.headset.training.tracers import Tracer  # noqa: E402
 from tests.regress.headset.drawn import DOTS, dot_of  # noqa: E402
@@ -60,15 +64,72 @@ def test_places_are_where_the_dots_are_however_frames_are_displaced(arrays: Head
 
 
 def test_a_heat_maps_peak_is_the_place():
+    tracer = Tracer((1, 1), (8, 4), 1).eval()
+    for layer in (tracer.lifts[0], tracer.head):
+        torch.nn.init.zeros_(layer.weight)
+        torch.nn.init.zeros_(layer.bias)
+    finest = torch.zeros(2, 1, 8, 8)
+    finest[:, 0, 2, 5] = 1.0  # down, across
+    even = tracer([finest, torch.zeros(2, 1, 4, 4)])
+    torch.testing.assert_close(even, torch.zeros(2, 1, 2))  # an even map's mean is the middle
+    torch.nn.init.dirac_(tracer.mixes[0][0].weight)
+    torch.nn.init.constant_(tracer.head.weight, 50.0)
+    peak = tracer([finest, torch.zeros(2, 1, 4, 4)])
+    wanted = tracer.standardised(torch.tensor([[[5.5 / 8, 2.5 / 8]]]).expand(2, -1, -1))
+    torch.testing.assert_close(peak, wanted, atol=1e-3, rtol=0)
+
+
+def test_places_are_standardised_by_what_training_saw():
     tracer = Tracer((4, 6), (8, 4), 3)
-    tracer.head.weight.data.zero_()
     tracer.set_usual(torch.full((5, 3, 2), float("nan")))
-    even = tracer([torch.zeros(2, 4, 8, 8), torch.zeros(2, 6, 4, 4)])
-    torch.testing.assert_close(even, torch.zeros(2, 3, 2))  # an even map's mean is the middle
+    torch.testing.assert_close(tracer.standardised(torch.full((1, 3, 2), 0.5)), torch.zeros(1, 3, 2))
     known = torch.rand(50, 3, 2)
     tracer.set_usual(known)
     torch.testing.assert_close(tracer.standardised(known).mean(dim=0), torch.zeros(3, 2), atol=1e-5, rtol=0)
     assert tracer.standardised(known).square().mean() == pytest.approx(1, abs=0.05)
+
+
+def test_what_moved_since_the_neutral_picture_counts():
+    """Also where the difference of the pictures is too faint to be seen."""
+    torch.manual_seed(0)
+    encoder = Encoder(16, 12, 4).eval()
+    encoder.set_scale(100.0, 60.0, 1e9)
+    seen, *neutral = torch.rand(3, 5, 16, 16) * 255
+    (one, places), (other, same) = (encoder(seen, rest, torch.ones(5)) for rest in neutral)
+    torch.testing.assert_close(places, same, atol=1e-5, rtol=0)
+    assert (one - other).abs().max() > 1e-3
+    (one, _), (other, _) = (encoder(seen, rest, torch.zeros(5)) for rest in neutral)
+    assert torch.equal(one, other)
+
+
+def test_a_cameras_own_part_counts_in_millimetres_too():
+    recipe = HeadsetRecipe(input_size=16, calibration=False, points_loss=0.0)
+    network = ModularNetwork(("left_eye", "mouth"), recipe, {"left_eye": 0, "mouth": 0})
+    jaw, outputs = BLENDSHAPES.index("jawOpen"), len(OUTPUTS)
+    gram = torch.zeros(52, 52)
+    gram[jaw, jaw] = 3.0
+
+    def loss(camera: int, geometry_loss: float) -> float:
+        means = torch.zeros(1, 2, outputs)
+        means[0, camera, jaw] = 2.0
+        blended = Blended(torch.zeros(1, outputs), torch.ones(1, outputs), torch.zeros(1, 2, outputs))
+        answer = Answer(blended, means, torch.zeros_like(means), torch.zeros(1), ())
+        return float(
+            total_loss(
+                network,
+                answer,
+                torch.zeros(1, outputs),
+                calibrated=torch.zeros(1),
+                same_seat=torch.zeros(1),
+                places=(),
+                gram=gram,
+                recipe=replace(recipe, geometry_loss=geometry_loss),
+            )
+        )
+
+    eye, mouth = (loss(camera, 0.5) - loss(camera, 0.0) for camera in (0, 1))
+    assert eye == pytest.approx(0, abs=1e-6)  # the jaw is no part of the eye's camera
+    assert mouth == pytest.approx(0.5 * 3 * 2**2, rel=1e-5)
 
 
 def test_points_that_are_not_shown_cost_nothing():
