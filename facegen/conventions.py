@@ -90,6 +90,9 @@ SIDES = ("left", "right")
 LID_POINTS = 12
 """Points along the margin of a lid in ``VIEW_POINTS``, equally far apart in the picture, inner canthus first."""
 
+IRIS_POINTS = 8
+"""Points of an iris' outline in ``VIEW_POINTS``: the one farthest along x, and on towards y (down) by eighths."""
+
 VIEW_POINTS: tuple[str, ...] = (
     *(f"landmark_{index}" for index in range(len(MIRRORED_LANDMARKS))),
     *(
@@ -98,18 +101,24 @@ VIEW_POINTS: tuple[str, ...] = (
         for name in (
             *(f"{lid}_lid_{place}" for lid in ("upper", "lower") for place in range(LID_POINTS)),
             "pupil",
-            "iris",
+            *(f"iris_{place}" for place in range(IRIS_POINTS)),
         )
     ),
 )
-"""Points of the face that headset views may show: landmarks, lids, centres of pupil (through the cornea) and iris."""
+"""Points of the face that headset views may show: landmarks, lids, centre of the pupil (through the cornea), iris."""
+
+
+def _mirrored_view_point(name: str) -> str:
+    side, part = name.split("_", 1)
+    other = SIDES[1 - SIDES.index(side)]
+    if part.startswith("iris_"):  # what lay farthest along x now lies farthest against it
+        return f"{other}_iris_{(IRIS_POINTS // 2 - int(part.removeprefix('iris_'))) % IRIS_POINTS}"
+    return f"{other}_{part}"
+
 
 MIRRORED_VIEW_POINTS: tuple[int, ...] = (
     *MIRRORED_LANDMARKS,
-    *(
-        VIEW_POINTS.index(f"{SIDES[1 - SIDES.index(side)]}_{name}")
-        for side, name in (point.split("_", 1) for point in VIEW_POINTS[len(MIRRORED_LANDMARKS) :])
-    ),
+    *(VIEW_POINTS.index(_mirrored_view_point(name)) for name in VIEW_POINTS[len(MIRRORED_LANDMARKS) :]),
 )
 """``points[..., MIRRORED_VIEW_POINTS, :]`` are the view points of the mirrored face, once x is mirrored too."""
 

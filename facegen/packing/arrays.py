@@ -24,7 +24,7 @@ from facegen.rigs import Rig, evaluate
 from facegen.store import Dataset, keypoint_schema, read_json, write_json
 
 ABOUT, LABELS, FACE = "arrays.json", "labels.parquet", "face.npz"
-VERSION = 2
+VERSION = 3
 ROW_GROUP = 1000
 """Rows of labels that are held in memory at a time, about 6 MB."""
 

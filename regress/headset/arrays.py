@@ -15,7 +15,7 @@ from regress.errors import InputError
 from regress.headset.geometry import FaceGeometry
 from regress.headset.model import CameraInput
 
-VERSION = 2
+VERSION = 3
 """Of arrays.json."""
 
 _ONE_REGION = ("neutral", "upper_face", "lower_face")

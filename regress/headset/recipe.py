@@ -10,6 +10,9 @@ WITHHOLDINGS = ("none", "combined", "regions")
 """What training may leave out: ``combined`` drops frames with an open jaw (> .25) and closed lids (> .2);
 ``regions`` keeps only frames in which one region moves (neutral, upper_face, lower_face)."""
 
+_DETAIL = 1.5
+"""Side of squares as a multiple of ``input_size``: more would alias when they are sampled linearly."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class HeadsetRecipe:
@@ -25,7 +28,7 @@ class HeadsetRecipe:
         Of orthogonalised steps (Muon), for convolutions and what makes the codes; 0 leaves them to AdamW, which
         learned half as fast.
     input_size
-        Side in pixels of what the encoders see.
+        Side in pixels to which encoders reduce the squares that they see; irises they look at again in the squares.
     code, hidden
         Numbers of each half of a camera's part code; hidden units of the holistic network.
     modulation
@@ -135,6 +138,11 @@ class HeadsetRecipe:
         for name in (*unsigned, "shift", "scale", "rotation_deg", "randomise", "people"):
             if getattr(self, name) < 0:
                 raise InputError(f"{name} is {getattr(self, name)}; 0 or more is allowed")
+
+    @property
+    def square_size(self) -> int:
+        """Side in pixels of the squares that encoders see."""
+        return round(_DETAIL * self.input_size)
 
     def settings(self) -> dict[str, Any]:
         """The fields as JSON data."""

@@ -60,7 +60,7 @@ class Frames:
         shut = arrays.weights[rows][:, _BLINK].max(axis=1) > _SHUT
         self._shown = np.concatenate([rows, np.repeat(rows[shut], recipe.shut_eyes)])
         self._recipe = recipe
-        self._pictures = [reduced(arrays.pictures[name], recipe.input_size) for name in names]
+        self._pictures = [reduced(arrays.pictures[name], recipe.square_size) for name in names]
         owners = encoder_owners(names)
         self._flipped = np.array([owner is not None for owner in owners.values()])
         self._mirror = recipe.mirror and is_symmetric(names)
@@ -151,7 +151,7 @@ class Frames:
             warps[place, camera] = warp_matrix(
                 width,
                 height,
-                self._recipe.input_size,
+                self._recipe.square_size,
                 shift=affine.shift[place, camera],
                 scale=affine.scale[place, camera],
                 angle_rad=affine.angle_rad[place, camera],
@@ -161,7 +161,7 @@ class Frames:
 
     def _warped(self, rows: np.ndarray, warps: np.ndarray, mirrored: np.ndarray) -> np.ndarray:
         """Pictures (n, cameras, size, size) uint8 of rows; -1 gives black ones."""
-        sources, size = self._sources(mirrored), self._recipe.input_size
+        sources, size = self._sources(mirrored), self._recipe.square_size
         found = np.zeros((*sources.shape, size, size), np.uint8)
         for place, camera in np.ndindex(*sources.shape):
             if rows[place] >= 0:
@@ -186,7 +186,7 @@ class Frames:
                     np.where(turned[:, None], mirrored_points(traced), traced),
                     warps[:, camera],
                     scale=self._reduction[sources],
-                    size=self._recipe.input_size,
+                    size=self._recipe.square_size,
                 )
             )
         return tuple(found)

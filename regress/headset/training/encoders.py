@@ -1,8 +1,13 @@
 """A camera's encoder: pictures to the places of the face's points, and to a part code."""
 
+from collections.abc import Sequence
+
 import torch
 from torch import nn
 
+from regress.headset.recipe import HeadsetRecipe
+from regress.headset.training.foveas import Fovea, iris_columns
+from regress.headset.training.resampling import linear_matrix
 from regress.headset.training.tracers import Tracer
 
 _CHANNELS = (16, 32, 48, 64)
@@ -13,20 +18,22 @@ class Encoder(nn.Module):
 
     Its input is the picture and, where a neutral picture is known, the difference from it. Without one the
     difference is zero, which is also what a neutral face gives: a switch says which is meant. Points are traced in the
-    neutral picture as well, for a lid that hangs half shut is a blink in one face and rest in another.
+    neutral picture as well, for a lid that hangs half shut is a blink in one face and rest in another. All this sees
+    the picture reduced; irises are then looked at again in all its pixels.
 
     Parameters
     ----------
-    input_size
-        Side of the pictures in pixels.
-    code
-        Numbers of each of the two codes.
-    points
-        How many points are traced; 0 leaves out the tracer and the code of places.
+    recipe
+        Sizes.
+    traced
+        Which of ``VIEW_POINTS`` are traced; none leaves out the tracer and the code of places.
     """
 
-    def __init__(self, input_size: int, code: int, points: int) -> None:
+    def __init__(self, recipe: HeadsetRecipe, traced: Sequence[int]) -> None:
         super().__init__()
+        input_size, code, points = recipe.input_size, recipe.code, len(traced)
+        reduction = linear_matrix(recipe.square_size, input_size)
+        self.register_buffer("reduction", torch.from_numpy(reduction.astype("float32")))
         layers, channels, sides = [], 2, []
         for step, wider in enumerate(_CHANNELS):
             kernel = 5 if step == 0 else 3
@@ -40,11 +47,15 @@ class Encoder(nn.Module):
             sides.append(input_size)
         self.convolutions = nn.ModuleList(layers)
         self.switch = nn.Parameter(torch.zeros(_CHANNELS[0]))
-        told = 4 * points + 1  # places, how far from the neutral picture's, and whether there is one
+        irises = iris_columns(traced)
+        # places, those of irises again, how far from the neutral picture's, and whether there is one
+        told = 4 * points + sum(2 * len(columns) for columns in irises) + 1
         self.looks = nn.Sequential(nn.Linear(channels * sides[-1] ** 2 + told, code), nn.ReLU())
         self.tracer = None
         if points:
             self.tracer = Tracer(_CHANNELS[1:], tuple(sides[1:]), points)
+            self.irises = irises
+            self.foveas = nn.ModuleList([Fovea() for _ in self.irises])
             self.shape = nn.Sequential(nn.Linear(told, code), nn.ReLU(), nn.Linear(code, code), nn.ReLU())
         self.width = 2 * code if points else code
         self.register_buffer("scale", torch.tensor([0.0, 1.0, 1.0]))
@@ -55,25 +66,54 @@ class Encoder(nn.Module):
         """Mean and standard deviation of the pictures and of differences from neutral ones, grey levels."""
         self.scale.copy_(torch.tensor([mean, std, difference_std]))
 
+    def set_usual(self, places: torch.Tensor) -> None:
+        """Take usual places from those (n, P, 2) of training pictures, shares of the side; NaN where not shown."""
+        if self.tracer is None:
+            return
+        self.tracer.set_usual(places)
+        for fovea, columns in zip(self.foveas, self.irises, strict=True):
+            fovea.set_usual(places[:, columns])
+
+    def standardised(self, places: torch.Tensor) -> torch.Tensor:
+        """Places (n, P + 9 irises, 2) as `forward` gives them: of all points traced, and of irises looked at again."""
+        if self.tracer is None:
+            return places
+        again = [self.tracer.standardised(places)[:, columns] for columns in self.irises]
+        return torch.cat([self.tracer.standardised(places), *again], dim=1)
+
     def forward(
         self, pictures: torch.Tensor, neutral: torch.Tensor, calibrated: torch.Tensor
     ) -> tuple[torch.Tensor, torch.Tensor]:
-        """Part codes (n, width) and places (n, P, 2), standardised, of pictures and neutral ones (n, size, size).
+        """Part codes (n, width) and standardised places of pictures and neutral ones (n, size, size).
 
         Pictures are in grey levels; ``calibrated`` (n,) is 1 where the neutral one counts.
         """
         known = calibrated[:, None]
         # without a neutral picture the frame stands in for it: batch statistics see no black ones
         before = torch.where(known[..., None] > 0, neutral, pictures)
-        features = self._features(pictures, pictures - before, calibrated)
+        small, small_before = (self.reduction @ seen @ self.reduction.T for seen in (pictures, before))
+        features = self._features(small, small - small_before, calibrated)
         flat = features[-1].flatten(1)
         if self.tracer is None:
             return self.looks(torch.cat([flat, known], dim=1)), flat.new_zeros(len(flat), 0, 2)
         places = self.tracer(features[1:])
-        rest = self.tracer(self._features(before, torch.zeros_like(before), torch.zeros_like(calibrated))[1:])
+        rest = self.tracer(
+            self._features(small_before, torch.zeros_like(small), torch.zeros_like(calibrated))[1:]
+        )
         moved = (places - rest.detach()).flatten(1) * known  # learns to trace from the frame itself
-        told = torch.cat([places.flatten(1), moved, known], dim=1)
-        return torch.cat([self.looks(torch.cat([flat, told], dim=1)), self.shape(told)], dim=1), places
+        again = [
+            self._look_again(fovea, pictures, places[:, columns], columns)
+            for fovea, columns in zip(self.foveas, self.irises, strict=True)
+        ]
+        told = torch.cat([places.flatten(1), *(found.flatten(1) for found in again), moved, known], dim=1)
+        code = torch.cat([self.looks(torch.cat([flat, told], dim=1)), self.shape(told)], dim=1)
+        return code, torch.cat([places, *again], dim=1)
+
+    def _look_again(
+        self, fovea: Fovea, pictures: torch.Tensor, places: torch.Tensor, columns: Sequence[int]
+    ) -> torch.Tensor:
+        usual, spread = self.tracer.usual[list(columns)], self.tracer.spread
+        return (fovea(pictures, places * spread + usual) - usual) / spread
 
     def _features(
         self, pictures: torch.Tensor, difference: torch.Tensor, calibrated: torch.Tensor

@@ -2,6 +2,7 @@
 
 import io
 import warnings
+from collections.abc import Sequence
 
 import numpy as np
 import onnxruntime
@@ -28,7 +29,7 @@ class Deployed(nn.Module):
         network: HeadsetNetwork,
         cameras: tuple[CameraInput, ...],
         targets: Targets,
-        input_size: int,
+        square_size: int,
         deviation_scale: np.ndarray,
     ) -> None:
         super().__init__()
@@ -36,12 +37,11 @@ class Deployed(nn.Module):
         self.register_buffer("deviation_std", torch.from_numpy(targets.std * deviation_scale))
         self.register_buffer("mean", torch.from_numpy(targets.mean))
         self.register_buffer("std", torch.from_numpy(targets.std))
+        self.cameras, self.square_size = cameras, square_size
         for column, camera in enumerate(cameras):
-            flipped = camera.mirrored_of is not None
-            rows = resampling_matrix(camera.height, input_size)
-            columns = resampling_matrix(camera.width, input_size, flipped=flipped)
+            rows, columns = (resampling_matrix(side, square_size) for side in (camera.height, camera.width))
             self.register_buffer(f"rows_{column}", torch.from_numpy(rows))
-            self.register_buffer(f"columns_{column}", torch.from_numpy(np.ascontiguousarray(columns.T)))
+            self.register_buffer(f"columns_{column}", torch.from_numpy(columns.T.copy()))
 
     def forward(self, *inputs: torch.Tensor) -> tuple[torch.Tensor, ...]:
         """Outputs ``GRAPH_OUTPUTS`` of each camera's pictures and neutral ones, ``present``, ``calibrated``."""
@@ -54,12 +54,14 @@ class Deployed(nn.Module):
         weights, shares = said[:, :WEIGHTS].clamp(0, 1), answer.blended.shares[..., :WEIGHTS]
         return weights, deviation[:, :WEIGHTS], gaze, shares, torch.sigmoid(answer.seat)
 
-    def _squares(self, pictures: list[torch.Tensor] | tuple[torch.Tensor, ...]) -> torch.Tensor:
-        squares = [
-            getattr(self, f"rows_{column}") @ seen.float() @ getattr(self, f"columns_{column}")
-            for column, seen in enumerate(pictures)
-        ]
-        return torch.stack(squares, dim=1)
+    def _squares(self, pictures: Sequence[torch.Tensor]) -> list[torch.Tensor]:
+        return [self._square(column, seen.float()) for column, seen in enumerate(pictures)]
+
+    def _square(self, column: int, seen: torch.Tensor) -> torch.Tensor:
+        camera = self.cameras[column]
+        if (camera.width, camera.height) != (self.square_size, self.square_size):
+            seen = getattr(self, f"rows_{column}") @ seen @ getattr(self, f"columns_{column}")
+        return seen if camera.mirrored_of is None else seen.flip(-1)
 
 
 def export_graph(
@@ -67,7 +69,7 @@ def export_graph(
     cameras: tuple[CameraInput, ...],
     targets: Targets,
     *,
-    input_size: int,
+    square_size: int,
     deviation_scale: np.ndarray,
 ) -> tuple[bytes, float]:
     """The graph's bytes, and its largest difference from PyTorch on random frames.
@@ -76,7 +78,7 @@ def export_graph(
     ----------
     network
         Trained, in evaluation mode.
-    cameras, targets, input_size
+    cameras, targets, square_size
         What it was trained with.
     deviation_scale : (56,) float32
         Factor on each output's predicted deviation.
@@ -86,7 +88,7 @@ def export_graph(
     ModelError
         Where the difference is above ``TOLERANCE``.
     """
-    deployed = Deployed(network, cameras, targets, input_size, deviation_scale).eval()
+    deployed = Deployed(network, cameras, targets, square_size, deviation_scale).eval()
     names = [f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")]
     names += ["present", "calibrated"]
     buffer = io.BytesIO()

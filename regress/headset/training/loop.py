@@ -53,8 +53,7 @@ class Training:
         self._mean, self._std = torch.from_numpy(self.targets.mean), torch.from_numpy(self.targets.std)
         self._gram = _scaled_gram(arrays, self.targets, rows)
         names = tuple(camera.name for camera in arrays.cameras)
-        points = {name: len(found) for name, found in self._frames.traced.items()}
-        self.network = NETWORKS[recipe.architecture](names, recipe, points)
+        self.network = NETWORKS[recipe.architecture](names, recipe, self._frames.traced)
         self._set_scales()
         self._optimizers = optimizers_of(self.network, recipe)
         self._key = _key(arrays, recipe, rows)
@@ -123,7 +122,8 @@ class Training:
         if self.recipe.randomise:
             pictures, neutral = draw_photometry(random, pictures, neutral, self.recipe.randomise)
         calibrated = torch.from_numpy(batch.calibrated)
-        answer = self.network(pictures, neutral, torch.from_numpy(batch.present), calibrated)
+        present = torch.from_numpy(batch.present)
+        answer = self.network(pictures.unbind(1), neutral.unbind(1), present, calibrated)
         return total_loss(
             self.network,
             answer,
@@ -142,9 +142,7 @@ class Training:
         """Standardised places of each camera's points; none where they are not traced."""
         found = []
         for camera, places in zip(self.network.cameras, batch.places, strict=True):
-            tracer = self.network.encoder(camera).tracer
-            given = torch.from_numpy(places)
-            found.append(given if tracer is None else tracer.standardised(given))
+            found.append(self.network.encoder(camera).standardised(torch.from_numpy(places)))
         return found
 
     def _validation_error(self) -> float:
@@ -174,8 +172,7 @@ class Training:
                 continue
             differences = (pictures - neutral)[known, column]
             encoder = self.network.encoder(camera)
-            if encoder.tracer is not None:
-                encoder.tracer.set_usual(torch.from_numpy(batch.places[column]))
+            encoder.set_usual(torch.from_numpy(batch.places[column]))
             encoder.set_scale(
                 float(pictures[:, column].mean()),
                 max(float(pictures[:, column].std()), 1.0),
@@ -221,7 +218,8 @@ class Training:
 def answer_to(network: HeadsetNetwork, batch: Batch) -> Answer:
     """A network's answer to a batch as it is."""
     pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
-    return network(pictures, neutral, torch.from_numpy(batch.present), torch.from_numpy(batch.calibrated))
+    present, calibrated = torch.from_numpy(batch.present), torch.from_numpy(batch.calibrated)
+    return network(pictures.unbind(1), neutral.unbind(1), present, calibrated)
 
 
 def _scaled_gram(arrays: HeadsetArrays, targets: Targets, rows: np.ndarray) -> torch.Tensor:

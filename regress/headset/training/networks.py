@@ -1,6 +1,6 @@
 """The modular and the holistic network: part codes to outputs."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import torch
@@ -66,17 +66,17 @@ class HeadsetNetwork(nn.Module):
     recipe
         Sizes and modulation.
     points
-        How many points each encoder traces, by the camera that owns it.
+        Which of ``VIEW_POINTS`` each encoder traces, by the camera that owns it.
     """
 
-    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, int]) -> None:
+    def __init__(
+        self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, Sequence[int]]
+    ) -> None:
         super().__init__()
         self.owners = encoder_owners(cameras)
         self.cameras = cameras
         own = [camera for camera in cameras if self.owners[camera] is None]
-        self.encoders = nn.ModuleDict(
-            {camera: Encoder(recipe.input_size, recipe.code, points[camera]) for camera in own}
-        )
+        self.encoders = nn.ModuleDict({camera: Encoder(recipe, points[camera]) for camera in own})
         self.register_buffer("mirror", torch.from_numpy(MIRROR.copy()))
         self.register_buffer("mirror_sign", torch.from_numpy(MIRROR_SIGN.copy()))
 
@@ -85,23 +85,30 @@ class HeadsetNetwork(nn.Module):
         return self.encoders[self.owners[camera] or camera]
 
     def codes(
-        self, pictures: torch.Tensor, neutral: torch.Tensor, calibrated: torch.Tensor
+        self, pictures: Sequence[torch.Tensor], neutral: Sequence[torch.Tensor], calibrated: torch.Tensor
     ) -> tuple[list[torch.Tensor], tuple[torch.Tensor, ...]]:
-        """Part codes (n, width) and places (n, P, 2) by camera, from grey pictures (n, cameras, size, size)."""
-        codes, places = zip(
-            *(
-                self.encoder(camera)(pictures[:, column], neutral[:, column], calibrated)
-                for column, camera in enumerate(self.cameras)
-            ),
-            strict=True,
-        )
-        return list(codes), places
+        """Part codes (n, width) and places (n, P, 2) by camera, from grey pictures (n, size, size) by camera.
+
+        Cameras that share an encoder go through it together.
+        """
+        codes: dict[str, torch.Tensor] = {}
+        places: dict[str, torch.Tensor] = {}
+        for name, encoder in self.encoders.items():
+            users = [camera for camera in self.cameras if camera == name or self.owners[camera] == name]
+            columns = [self.cameras.index(camera) for camera in users]
+            seen, rest = (torch.cat([given[column] for column in columns]) for given in (pictures, neutral))
+            found = encoder(seen, rest, calibrated.repeat(len(users)))
+            for said, all_said in zip((codes, places), found, strict=True):
+                said |= zip(users, all_said.unflatten(0, (len(users), -1)).unbind(), strict=True)
+        return [codes[camera] for camera in self.cameras], tuple(places[camera] for camera in self.cameras)
 
 
 class ModularNetwork(HeadsetNetwork):
     """Each camera says every output with a variance; the answers are blended."""
 
-    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, int]) -> None:
+    def __init__(
+        self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, Sequence[int]]
+    ) -> None:
         super().__init__(cameras, recipe, points)
         heard = recipe.skip * (len(cameras) - 1)
         self.heads = nn.ModuleDict({name: _Head(own.width + heard) for name, own in self.encoders.items()})
@@ -115,12 +122,12 @@ class ModularNetwork(HeadsetNetwork):
 
     def forward(
         self,
-        pictures: torch.Tensor,
-        neutral: torch.Tensor,
+        pictures: Sequence[torch.Tensor],
+        neutral: Sequence[torch.Tensor],
         present: torch.Tensor,
         calibrated: torch.Tensor,
     ) -> Answer:
-        """Answer to (n, cameras, size, size) pictures and neutral ones, ``present`` (n, cameras)."""
+        """Answer to pictures and neutral ones (n, size, size) by camera, ``present`` (n, cameras)."""
         means, log_variances, seat = [], [], 0.0
         codes, places = self.codes(pictures, neutral, calibrated)
         if self.tells:
@@ -154,28 +161,36 @@ class ModularNetwork(HeadsetNetwork):
 class HolisticNetwork(HeadsetNetwork):
     """All part codes together go through one hidden layer; a missing camera shows its mean training picture."""
 
-    def __init__(self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, int]) -> None:
+    def __init__(
+        self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, Sequence[int]]
+    ) -> None:
         super().__init__(cameras, recipe, points)
         width = sum(self.encoder(camera).width for camera in cameras)
         self.hidden = nn.Sequential(nn.Linear(width, recipe.hidden), nn.ReLU())
         self.head = _Head(recipe.hidden)
-        self.register_buffer("mean_pictures", torch.zeros(len(cameras), recipe.input_size, recipe.input_size))
+        self.register_buffer(
+            "mean_pictures", torch.zeros(len(cameras), recipe.square_size, recipe.square_size)
+        )
 
     def forward(
         self,
-        pictures: torch.Tensor,
-        neutral: torch.Tensor,
+        pictures: Sequence[torch.Tensor],
+        neutral: Sequence[torch.Tensor],
         present: torch.Tensor,
         calibrated: torch.Tensor,
     ) -> Answer:
-        """Answer to (n, cameras, size, size) pictures and neutral ones, ``present`` (n, cameras)."""
-        here = present[..., None, None]
-        seen = here * pictures + (1 - here) * self.mean_pictures
-        compared = here * neutral + (1 - here) * self.mean_pictures  # no difference where no camera is
+        """Answer to pictures and neutral ones (n, size, size) by camera, ``present`` (n, cameras)."""
+        # no difference where no camera is
+        seen, compared = (
+            [
+                torch.lerp(mean, one, here[:, None, None])
+                for mean, one, here in zip(self.mean_pictures, given, present.unbind(1), strict=True)
+            ]
+            for given in (pictures, neutral)
+        )
         codes, places = self.codes(seen, compared, calibrated)
         mean, log_variance, logit = self.head(self.hidden(torch.cat(codes, dim=1)))
-        cameras = len(self.cameras)
-        shares = torch.full_like(mean[:, None], 1 / cameras).expand(-1, cameras, -1)
+        shares = (torch.ones_like(present) / len(self.cameras))[..., None].expand(-1, -1, _COUNT)
         blended = Blended(mean, torch.exp(log_variance), shares)
         return Answer(blended, mean[:, None], log_variance[:, None], logit, places)
 

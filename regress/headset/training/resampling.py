@@ -1,18 +1,14 @@
-"""From a camera's pictures to the encoders' squares: once for training, by the same rule inside the exported graph."""
+"""From a camera's pictures to the squares that encoders see, in training and by the same rule in the exported graph."""
 
 import math
 
 import cv2
 import numpy as np
 
-OVERSIZE = 1.5
-"""Pictures wider than this many times the encoder's input are reduced to it first, each pixel by its area:
-sampling them linearly at once would alias."""
-
 
 def reduced(pictures: np.ndarray, size: int) -> np.ndarray:
-    """Pictures (n, h, w) uint8, each side at most ``OVERSIZE`` times ``size``."""
-    height, width = (_reduced_side(side, size) for side in pictures.shape[1:])
+    """Pictures (n, h, w) uint8, each side at most ``size``, each pixel by its area: sampling them would alias."""
+    height, width = (min(side, size) for side in pictures.shape[1:])
     if (height, width) == pictures.shape[1:]:
         return pictures
     return np.stack(
@@ -20,25 +16,22 @@ def reduced(pictures: np.ndarray, size: int) -> np.ndarray:
     )
 
 
-def resampling_matrix(side: int, size: int, *, flipped: bool = False) -> np.ndarray:
-    """(size, side) float32: takes one side's pixels to the encoder's; ``rows @ picture @ columns.T`` is its input.
+def resampling_matrix(side: int, size: int) -> np.ndarray:
+    """(size, side) float32: takes one side's pixels to the square's; ``rows @ picture @ columns.T`` is the square.
 
     Parameters
     ----------
     side, size
-        Pixels of the camera's picture and of the encoder's input.
-    flipped
-        Mirror this side.
+        Pixels of the camera's picture and of the square.
     """
-    middle = _reduced_side(side, size)
-    matrix = _linear(middle, size) @ _area(side, middle)
-    return (matrix[::-1] if flipped else matrix).astype(np.float32)
+    middle = min(side, size)
+    return (linear_matrix(middle, size) @ _area(side, middle)).astype(np.float32)
 
 
 def warp_matrix(
     width: int, height: int, size: int, *, shift: np.ndarray, scale: float, angle_rad: float, flipped: bool
 ) -> np.ndarray:
-    """(2, 3) float64: takes the encoder's pixels to a picture's, as ``cv2.WARP_INVERSE_MAP`` wants it.
+    """(2, 3) float64: takes a square's pixels to a picture's, as ``cv2.WARP_INVERSE_MAP`` wants it.
 
     Without displacement it samples the picture where ``resampling_matrix`` does.
 
@@ -59,11 +52,8 @@ def warp_matrix(
     return np.array([[a, b, x - half * (a + b)], [c, d, y - half * (c + d)]])
 
 
-def _reduced_side(side: int, size: int) -> int:
-    return min(side, round(OVERSIZE * size))
-
-
-def _linear(side: int, size: int) -> np.ndarray:
+def linear_matrix(side: int, size: int) -> np.ndarray:
+    """(size, side): samples ``side`` pixels linearly at the middles of ``size``; at most half as many do not alias."""
     places = np.clip((np.arange(size) + 0.5) * side / size - 0.5, 0, side - 1)
     return np.clip(1 - np.abs(places[:, None] - np.arange(side)), 0, None)
 

@@ -61,7 +61,7 @@ def train_headset(
     cameras = tuple(replace(camera, mirrored_of=owners[camera.name]) for camera in arrays.cameras)
     scale = training.deviation_scale()
     graph, difference = export_graph(
-        network, cameras, training.targets, input_size=recipe.input_size, deviation_scale=scale
+        network, cameras, training.targets, square_size=recipe.square_size, deviation_scale=scale
     )
     description = arrays.description
     model = HeadsetModel(

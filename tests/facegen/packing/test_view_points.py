@@ -5,10 +5,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from facegen.conventions import LID_POINTS, MIRRORED_VIEW_POINTS, VIEW_POINTS, Visibility
+from facegen.conventions import IRIS_POINTS, LID_POINTS, MIRRORED_VIEW_POINTS, VIEW_POINTS, Visibility
 from facegen.packing.view_points import view_points
 
 LEFT_EYE = range(42, 48)
+IRIS = [f"left_iris_{place}" for place in range(IRIS_POINTS)]
+
+
+def an_ellipse(x=40.0, y=48.0, long=6.0, short=4.0, angle_rad=0.3) -> dict:
+    return {"center": [x, y], "semi_axes": [long, short], "angle_rad": angle_rad}
 
 
 def a_view(**changes) -> dict:
@@ -26,7 +31,7 @@ def a_view(**changes) -> dict:
         "points_2d": np.random.default_rng(0).uniform(20, 60, (68, 2)).tolist(),
         **{f"{lid}_lid_2d": {"left": line, "right": line} for lid, line in lids.items()},
         "pupil_center_refracted_2d": {"left": [41.0, 47.0], "right": [None, None]},
-        "iris_ellipse": {"left": {"center": [40.0, 48.0]}, "right": {"center": [None, None]}},
+        "iris_ellipse": {"left": an_ellipse(), "right": an_ellipse(None, None, None, None, None)},
     }
     return view | changes
 
@@ -42,7 +47,7 @@ def test_what_the_picture_shows_is_there_and_nothing_else():
     view = a_view()
     found = shown(view)
     lids = [f"left_{lid}_lid_{place}" for lid in ("upper", "lower") for place in range(LID_POINTS)]
-    assert set(found) == {*(f"landmark_{index}" for index in LEFT_EYE), *lids, "left_pupil", "left_iris"}
+    assert set(found) == {*(f"landmark_{index}" for index in LEFT_EYE), *lids, "left_pupil", *IRIS}
     np.testing.assert_allclose(found["landmark_43"], view["points_2d"][43], rtol=1e-6)
     np.testing.assert_allclose(found["left_pupil"], [41, 47])
 
@@ -59,7 +64,24 @@ def test_lids_count_where_half_of_the_eyes_landmarks_are_seen(visible: int, ther
 def test_a_pupil_behind_a_lid_is_not_shown():
     found = shown(a_view(pupil_center_refracted_2d={"left": [41.0, 38.0], "right": [None, None]}))
     assert "left_pupil" not in found
-    assert "left_iris" in found
+    assert set(IRIS) <= set(found)
+    ellipses = {"left": an_ellipse(y=38.0), "right": an_ellipse(None, None, None, None, None)}
+    assert not set(IRIS) & set(shown(a_view(iris_ellipse=ellipses)))
+
+
+@given(long=st.floats(3, 9), flat=st.floats(0.2, 1), angle_rad=st.floats(-1.5, 1.5))
+def test_an_iris_is_told_by_the_points_farthest_in_every_direction(
+    long: float, flat: float, angle_rad: float
+):
+    ellipse = an_ellipse(long=long, short=flat * long, angle_rad=angle_rad)
+    found = shown(a_view(iris_ellipse={"left": ellipse, "right": an_ellipse(*[None] * 5)}))
+    way = np.linspace(0, 2 * np.pi, 4001)
+    axis = np.array([np.cos(angle_rad), np.sin(angle_rad)])
+    outline = np.cos(way)[:, None] * long * axis + np.sin(way)[:, None] * flat * long * [-axis[1], axis[0]]
+    for place, name in enumerate(IRIS):
+        direction = 2 * np.pi * place / IRIS_POINTS
+        farthest = outline[(outline @ [np.cos(direction), np.sin(direction)]).argmax()]
+        np.testing.assert_allclose(found[name], farthest + ellipse["center"], atol=0.02)
 
 
 @given(count=st.integers(2, 30), seed=st.integers(0, 99))
@@ -79,8 +101,25 @@ def test_mirroring_twice_is_nothing_and_sides_change():
     mirrored = np.array(MIRRORED_VIEW_POINTS)
     assert sorted(mirrored) == list(range(len(VIEW_POINTS)))
     np.testing.assert_array_equal(mirrored[mirrored], np.arange(len(VIEW_POINTS)))
+    other_side = {"left": "right", "right": "left"}
     for name, other in zip(VIEW_POINTS[68:], mirrored[68:], strict=True):
-        assert VIEW_POINTS[other].split("_", 1) == [
-            {"left": "right", "right": "left"}[name.split("_")[0]],
-            name.split("_", 1)[1],
-        ]
+        side, part = name.split("_", 1)
+        if not part.startswith("iris"):
+            assert VIEW_POINTS[other] == f"{other_side[side]}_{part}"
+
+
+@given(angle_rad=st.floats(-1.5, 1.5))
+def test_an_iris_outline_is_mirrored_with_its_picture(angle_rad: float):
+    ellipse = an_ellipse(angle_rad=angle_rad)
+    flipped = an_ellipse(x=-40.0, angle_rad=-angle_rad)
+    one = a_view(iris_ellipse={"left": ellipse, "right": an_ellipse(*[None] * 5)})
+    other = a_view(iris_ellipse={"left": an_ellipse(*[None] * 5), "right": flipped})
+    for lid in ("upper", "lower"):
+        left = np.array(one[f"{lid}_lid_2d"]["left"])
+        other[f"{lid}_lid_2d"]["right"] = (left * (-1, 1)).tolist()
+    visibility = np.full(68, Visibility.HIDDEN)
+    visibility[36:42] = Visibility.VISIBLE
+    other["visibility"] = visibility.tolist()
+    found, mirrored = view_points(one), view_points(other)[list(MIRRORED_VIEW_POINTS)] * (-1, 1)
+    columns = [VIEW_POINTS.index(name) for name in IRIS]
+    np.testing.assert_allclose(mirrored[columns], found[columns], atol=1e-4)

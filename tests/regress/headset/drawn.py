@@ -8,7 +8,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, VIEW_POINTS, mirrored_name
+from facegen.conventions import BLENDSHAPES, IRIS_POINTS, VIEW_POINTS, mirrored_name
 from regress.headset.parts import part_of
 
 CAMERAS = ("left_eye", "right_eye", "mouth")
@@ -61,7 +61,7 @@ def write_drawn_arrays(folder: Path, *, people: int = 30, sessions: int = 2, see
         folder / "face.npz", displacement=displacement.astype(np.float32), rest=np.zeros((40, 3), np.float32)
     )
     description = {
-        "version": 2,
+        "version": 3,
         "headset": "drawn3",
         "cameras": [{"name": camera, "width": SIDE, "height": SIDE} for camera in CAMERAS],
         "rows": len(rows),
@@ -98,13 +98,20 @@ def dot_of(camera: str, weights: np.ndarray, gaze: np.ndarray) -> np.ndarray:
     return np.clip([11.5 + 10 * yaw, 11.5 - 10 * pitch], 1, SIDE - 2)
 
 
+IRIS_RADIUS = 3.0
 DOTS = {"left_eye": "left_pupil", "right_eye": "right_pupil", "mouth": "landmark_8"}
 
 
 def _points(camera: str, weights: np.ndarray, gaze: np.ndarray) -> np.ndarray:
-    """(240,) pixels of all view points; the lens reaches none but the dot."""
+    """(268,) pixels of all view points; the lens reaches none but the dot, which counts as an eye's pupil and iris."""
     points = np.full((len(VIEW_POINTS), 2), np.nan)
-    points[VIEW_POINTS.index(DOTS[camera])] = dot_of(camera, weights, gaze)
+    dot = dot_of(camera, weights, gaze)
+    points[VIEW_POINTS.index(DOTS[camera])] = dot
+    if camera != "mouth":
+        angles = 2 * np.pi * np.arange(IRIS_POINTS) / IRIS_POINTS
+        for place, towards in enumerate(np.stack([np.cos(angles), np.sin(angles)], axis=-1)):
+            name = DOTS[camera].replace("pupil", f"iris_{place}")
+            points[VIEW_POINTS.index(name)] = dot + IRIS_RADIUS * towards
     return points.ravel()
 
 

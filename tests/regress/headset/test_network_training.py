@@ -122,8 +122,9 @@ def test_settings_train(arrays: HeadsetArrays, tmp_path: Path, settings: dict):
 def test_batches_pair_frames_with_neutral_pictures_of_the_same_person(arrays: HeadsetArrays):
     still = {"shift": 0.0, "scale": 0.0, "rotation_deg": 0.0, "mirror": False, "camera_dropout": 0.0}
     recipe = HeadsetRecipe(
-        input_size=24, batch=len(arrays.rows("train")), other_seat=0.5, jitter_neutral=0, **still
+        input_size=16, batch=len(arrays.rows("train")), other_seat=0.5, jitter_neutral=0, **still
     )
+    assert recipe.square_size == 24  # as the pictures
     frames = Frames(arrays, recipe, arrays.rows("train"))
     (batch,) = frames.draw_epoch(np.random.default_rng(0))
     left, mouth = arrays.pictures["left_eye"].astype(int), arrays.pictures["mouth"].astype(int)
@@ -142,7 +143,7 @@ def test_batches_pair_frames_with_neutral_pictures_of_the_same_person(arrays: He
 
 def test_a_mirrored_frame_is_the_frame_of_the_mirrored_face(arrays: HeadsetArrays):
     still = {"shift": 0.0, "scale": 0.0, "rotation_deg": 0.0, "camera_dropout": 0.0}
-    recipe = HeadsetRecipe(input_size=24, batch=len(arrays.rows("train")), **still)
+    recipe = HeadsetRecipe(input_size=16, batch=len(arrays.rows("train")), **still)
     frames = Frames(arrays, recipe, arrays.rows("train"))
     (batch,) = frames.draw_epoch(np.random.default_rng(0))
     left, right, mouth = (arrays.pictures[name].astype(int) for name in ("left_eye", "right_eye", "mouth"))

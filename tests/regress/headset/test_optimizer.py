@@ -7,10 +7,12 @@ from hypothesis import strategies as st
 
 torch = pytest.importorskip("torch")
 
+from facegen.conventions import VIEW_POINTS  # noqa: E402
 from regress.headset.recipe import HeadsetRecipe  # noqa: E402
 from regress.headset.training.networks import NETWORKS  # noqa: E402
 from regress.headset.training.optimizer import Muon, optimizers_of, orthogonalised  # noqa: E402
 
+EYE = tuple(range(VIEW_POINTS.index("left_pupil"), VIEW_POINTS.index("right_upper_lid_0")))
 CAMERAS = ("left_eye", "right_eye", "mouth")
 
 
@@ -51,7 +53,7 @@ def test_a_step_of_a_convolution_is_that_of_its_matrix():
 @pytest.mark.parametrize("architecture", NETWORKS)
 def test_every_parameter_has_one_optimizer(architecture: str):
     recipe = HeadsetRecipe(architecture=architecture, input_size=16, skip=4)
-    network = NETWORKS[architecture](CAMERAS, recipe, {"left_eye": 4, "mouth": 2})
+    network = NETWORKS[architecture](CAMERAS, recipe, {"left_eye": EYE, "mouth": (48, 54)})
     moved = [
         [id(parameter) for group in optimizer.param_groups for parameter in group["params"]]
         for optimizer in optimizers_of(network, recipe)
