@@ -83,7 +83,7 @@ class HeadsetRecipe:
     part_loss: float = 1.0
     part_loss_elsewhere: float = 0.05
     geometry_loss: float = 0.5
-    points_loss: float = 5.0
+    points_loss: float = 10.0
     gaze_loss: float = 3.0
     camera_dropout: float = 0.15
     calibration: bool = True
