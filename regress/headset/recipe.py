@@ -44,6 +44,8 @@ class HeadsetRecipe:
     points_loss
         Weight of the errors of traced points (lids, pupils, brows, lips), on which weights are then read; 0 leaves
         the tracing out.
+    second_look
+        Whether irises that are traced are looked at again in all pixels of the square.
     gaze_loss
         How much a gaze angle's squared error counts against a weight's.
     camera_dropout
@@ -84,6 +86,7 @@ class HeadsetRecipe:
     part_loss_elsewhere: float = 0.05
     geometry_loss: float = 0.5
     points_loss: float = 10.0
+    second_look: bool = True
     gaze_loss: float = 3.0
     camera_dropout: float = 0.15
     calibration: bool = True

@@ -47,7 +47,7 @@ class Encoder(nn.Module):
             sides.append(input_size)
         self.convolutions = nn.ModuleList(layers)
         self.switch = nn.Parameter(torch.zeros(_CHANNELS[0]))
-        irises = iris_columns(traced)
+        irises = iris_columns(traced) if recipe.second_look else ()
         # places, those of irises again, how far from the neutral picture's, and whether there is one
         told = 4 * points + sum(2 * len(columns) for columns in irises) + 1
         self.looks = nn.Sequential(nn.Linear(channels * sides[-1] ** 2 + told, code), nn.ReLU())

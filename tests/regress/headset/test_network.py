@@ -52,13 +52,21 @@ def targets():
 
 
 @pytest.fixture(
-    scope="module", params=["modular", "holistic", "modular with skips", "modular without points"]
+    scope="module",
+    params=[
+        "modular",
+        "holistic",
+        "modular with skips",
+        "modular without points",
+        "modular without second look",
+    ],
 )
 def graph(request: pytest.FixtureRequest) -> HeadsetGraph:
     architecture, _, how = request.param.partition(" ")
     settings = {
         "skip": 5 if how == "with skips" else 0,
         "points_loss": 0.0 if how == "without points" else 5.0,
+        "second_look": how != "without second look",
     }
     graph, difference = exported(network(architecture, **settings))
     assert difference < 1e-4
