@@ -22,12 +22,13 @@ from regress.cli.options import (
     SmoothOption,
     TrustOption,
 )
-from regress.cli.results import Format, write_avatar, write_confidence, write_table
+from regress.cli.results import Format, write_avatar, write_confidence, write_points, write_table
 from regress.cli.talk import say
 from regress.errors import InputError
 from regress.headset.film import check_film_name, write_film
 from regress.headset.footage import Footage
 from regress.headset.performance import ASSUMED_FPS, Performance, perform
+from regress.headset.points import check_points, points_csv
 from regress.headset.predictor import load_headset_predictor
 from regress.inputs import Frames
 from regress.predict import Output, Prediction, prediction_csv
@@ -106,6 +107,12 @@ def predict(
     ] = 1.0,
     left_right_blend: BlendOption = 0.0,
     mirror: MirrorOption = False,
+    points: Annotated[
+        Path | None,
+        typer.Option(
+            "--points", help="CSV to write: the points that each camera traces, in pixels of its picture."
+        ),
+    ] = None,
     video: Annotated[
         Path | None, typer.Option("--video", help="Film to write: the cameras' pictures and the avatar.")
     ] = None,
@@ -130,14 +137,11 @@ def predict(
         mirror=mirror,
         retargeting=None if retarget is None else read_retargeting(retarget),
     )
-    if (table_format is Format.livelink or video is not None) and retarget is not None:
-        raise InputError("--format livelink and --video take ARKit's shapes: leave out --retarget")
-    if table_format is Format.livelink and gltf is not None:
-        raise InputError("--format livelink has the app's own columns: leave out --gltf")
-    if gltf is not None and out is None:
-        raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
+    _check_tables(table_format, out, gltf, video, retarget)
     if trust is not None and not predictor.model.scores:
         raise InputError(f"{model} has no scores on a test split, from which confidence is made")
+    if points is not None:
+        check_points(predictor)
     if video is not None:
         check_film_name(video)
     short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
@@ -167,7 +171,20 @@ def predict(
         text = prediction_csv(_prediction(performance, footage, gaze=False))
         write_film(video, footage, text, rig=rig, fps=rate)
         say(f"film in {video}")
+    if points is not None:
+        write_points(points_csv(predictor, footage), points)
     _write(performance, footage, table_format, out, gltf, trust)
+
+
+def _check_tables(
+    table_format: Format, out: Path | None, gltf: Path | None, video: Path | None, retarget: Path | None
+) -> None:
+    if (table_format is Format.livelink or video is not None) and retarget is not None:
+        raise InputError("--format livelink and --video take ARKit's shapes: leave out --retarget")
+    if table_format is Format.livelink and gltf is not None:
+        raise InputError("--format livelink has the app's own columns: leave out --gltf")
+    if gltf is not None and out is None:
+        raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
 
 
 def _prediction(performance: Performance, footage: Footage, *, gaze: bool) -> Prediction:

@@ -41,6 +41,11 @@ def write_confidence(prediction: Prediction, trust: np.ndarray, out: Path) -> No
     _write(out, prediction_csv(Prediction(weights=trust, frames=prediction.frames)))
 
 
+def write_points(table: str, out: Path) -> None:
+    """Write a table of traced points."""
+    _write(out, table)
+
+
 def write_avatar(prediction: Prediction, avatar: Path, out: Path) -> None:
     """Write an avatar with the prediction as an animation more, and say which shapes it lacks."""
     title = Path(prediction.frames.source).stem

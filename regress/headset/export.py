@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from regress.headset.model import HeadsetModel
+from regress.headset.model import HeadsetModel, points_output
 
 FORMAT = "regress-headset"
 
@@ -53,6 +53,11 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
         "shares": (["n", len(cameras), shapes], "how much each camera had to say"),
         "same_seat": (["n"], "probability that picture and neutral picture are of one seat of the headset"),
     }
+    for camera in model.cameras:
+        meanings[points_output(camera.name)] = (
+            ["n", len(model.points.get(camera.name, ())), 2],
+            "pixels of the points named by points, x to the right and y down, 0 in the middle of the first pixel",
+        )
     outputs = {
         name: {"type": "float32", "shape": meanings[name][0], "meaning": meanings[name][1]}
         for name in model.outputs
@@ -65,6 +70,7 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
         "headset": model.headset,
         "cameras": cameras,
         "shapes": list(model.weights),
+        "points": {name: list(points) for name, points in model.points.items()},
         "inputs": inputs,
         "outputs": outputs,
         "calibration": model.calibration,

@@ -1,6 +1,7 @@
 """The trained graph, run by onnxruntime on one core."""
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -8,7 +9,7 @@ import numpy as np
 import onnxruntime
 
 from regress.errors import ModelError
-from regress.headset.model import GRAPH_OUTPUTS, CameraInput
+from regress.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
 
 _BLOCK_ROWS = 64
 """Frames run at a time: more need more memory and are no faster."""
@@ -91,6 +92,29 @@ class HeadsetGraph:
         calibrated : (n,) float or None
             1 where the neutral pictures count; all, where they are given.
         """
+        found = self._outputs(GRAPH_OUTPUTS, pictures, neutral, present, calibrated)
+        return Estimates(**dict(zip(GRAPH_OUTPUTS, found, strict=True)))
+
+    def trace(self, pictures: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """Pixels (n, P, 2) float32 of the points that each of these cameras traces; see ``HeadsetModel.points``.
+
+        Cameras that trace none are left out, and so are all of older models.
+        """
+        known = {value.name for value in self._session.get_outputs()}
+        cameras = [name for name in pictures if points_output(name) in known]
+        found = self._outputs([points_output(name) for name in cameras], pictures, None, None, None)
+        return dict(zip(cameras, found, strict=True))
+
+    def _outputs(
+        self,
+        names: Sequence[str],
+        pictures: dict[str, np.ndarray],
+        neutral: dict[str, np.ndarray] | None,
+        present: np.ndarray | None,
+        calibrated: np.ndarray | None,
+    ) -> list[np.ndarray]:
+        if not names:
+            return []
         rows = len(next(iter(pictures.values())))
         here = np.ones((rows, len(self._cameras)), np.float32)
         if present is not None:
@@ -108,9 +132,8 @@ class HeadsetGraph:
                     feed["present"][:, column] = 0
                 feed[f"pictures_{camera.name}"] = _rows(pictures, camera.name, block, blank)
                 feed[f"neutral_{camera.name}"] = _rows(neutral or {}, camera.name, block, blank)
-            blocks.append(self._session.run(GRAPH_OUTPUTS, feed))
-        joined = map(np.concatenate, zip(*blocks, strict=True))
-        return Estimates(**dict(zip(GRAPH_OUTPUTS, joined, strict=True)))
+            blocks.append(self._session.run(names, feed))
+        return [np.concatenate(found) for found in zip(*blocks, strict=True)]
 
 
 def _rows(arrays: dict[str, np.ndarray], name: str, block: slice, blank: np.ndarray) -> np.ndarray:

@@ -19,7 +19,13 @@ GAZE_OUTPUTS = ("gazeYawLeft", "gazePitchLeft", "gazeYawRight", "gazePitchRight"
 """Radians in the head frame: yaw to the subject's left, pitch upwards, of each eye's optical axis."""
 
 GRAPH_OUTPUTS = ("weights", "deviation", "gaze", "shares", "same_seat")
-"""Outputs of network.onnx, in order."""
+"""Outputs of network.onnx, in order; behind them ``points_<camera>`` of each camera that traces points."""
+
+
+def points_output(camera: str) -> str:
+    """Name of the graph's output that holds a camera's traced points."""
+    return f"points_{camera}"
+
 
 ARCHITECTURES = ("modular", "holistic")
 CALIBRATIONS = ("optional", "none")
@@ -53,7 +59,9 @@ class HeadsetModel:
     ``present`` (n, cameras) and ``calibrated`` (n,) float32, 0 or 1. It gives ``weights`` (n, 52) in [0, 1],
     ``deviation`` (n, 52) their predicted standard deviation, ``gaze`` (n, 2, 2) yaw and pitch in radians of the
     left and the right eye, ``shares`` (n, cameras, 52) how much each camera had to say, and ``same_seat`` (n,)
-    the probability that the neutral pictures come from the seat of the headset that the frame has.
+    the probability that the neutral pictures come from the seat of the headset that the frame has. For each camera that
+    traces points there is ``points_<camera>`` (n, P, 2): pixels of its pictures, x to the right and y down, whole
+    numbers in the pixels' middles; places of points that the picture does not show are guesses.
 
     Parameters
     ----------
@@ -69,6 +77,8 @@ class HeadsetModel:
         One of ``ARCHITECTURES``.
     calibration
         ``"optional"``: neutral pictures help; ``"none"``: they are not looked at.
+    points
+        For each camera that traces any, which of ``VIEW_POINTS`` ``points_<camera>`` has; none in older models.
     weights
         Names of the columns of ``weights``, ``deviation`` and ``shares``.
     outputs
@@ -89,6 +99,7 @@ class HeadsetModel:
     modulation: float
     architecture: str
     calibration: str
+    points: dict[str, tuple[str, ...]] = field(default_factory=dict)
     weights: tuple[str, ...] = BLENDSHAPES
     outputs: tuple[str, ...] = GRAPH_OUTPUTS
     training: dict[str, Any] = field(default_factory=dict)
@@ -186,6 +197,7 @@ def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
                 **document,
                 "cameras": tuple(CameraInput(**camera) for camera in document["cameras"]),
                 "parts": {name: tuple(shapes) for name, shapes in document["parts"].items()},
+                "points": {name: tuple(points) for name, points in document.get("points", {}).items()},
                 "weights": tuple(document["weights"]),
                 "outputs": tuple(document["outputs"]),
                 "licences": tuple(document["licences"]),

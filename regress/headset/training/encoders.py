@@ -81,6 +81,14 @@ class Encoder(nn.Module):
         again = [self.tracer.standardised(places)[:, columns] for columns in self.irises]
         return torch.cat([self.tracer.standardised(places), *again], dim=1)
 
+    def shares(self, places: torch.Tensor) -> torch.Tensor:
+        """Places (n, P, 2), shares of the side, from those of `forward`; irises where the second look saw them."""
+        best, found = list(range(len(self.tracer.usual))), len(self.tracer.usual)
+        for columns in self.irises:
+            for column in columns:
+                best[column], found = found, found + 1
+        return places[:, best] * self.tracer.spread + self.tracer.usual
+
     def forward(
         self, pictures: torch.Tensor, neutral: torch.Tensor, calibrated: torch.Tensor
     ) -> tuple[torch.Tensor, torch.Tensor]:

@@ -10,7 +10,7 @@ import torch
 from torch import nn
 
 from regress.errors import ModelError
-from regress.headset.model import GRAPH_OUTPUTS, CameraInput
+from regress.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
 from regress.headset.training.networks import HeadsetNetwork
 from regress.headset.training.resampling import resampling_matrix
 from regress.headset.training.targets import WEIGHTS, Targets
@@ -44,7 +44,7 @@ class Deployed(nn.Module):
             self.register_buffer(f"columns_{column}", torch.from_numpy(columns.T.copy()))
 
     def forward(self, *inputs: torch.Tensor) -> tuple[torch.Tensor, ...]:
-        """Outputs ``GRAPH_OUTPUTS`` of each camera's pictures and neutral ones, ``present``, ``calibrated``."""
+        """Outputs of each camera's pictures and neutral ones, ``present``, ``calibrated``; see ``GRAPH_OUTPUTS``."""
         *seen, present, calibrated = inputs
         answer = self.network(self._squares(seen[0::2]), self._squares(seen[1::2]), present, calibrated)
         said = answer.blended.mean * self.std + self.mean
@@ -52,7 +52,20 @@ class Deployed(nn.Module):
         # yaw and pitch of the left eye, then of the right
         gaze = said[:, WEIGHTS:].reshape(-1, 2, 2)
         weights, shares = said[:, :WEIGHTS].clamp(0, 1), answer.blended.shares[..., :WEIGHTS]
-        return weights, deviation[:, :WEIGHTS], gaze, shares, torch.sigmoid(answer.seat)
+        points = [
+            self._pixels(camera, places) for camera, places in zip(self.cameras, answer.places, strict=True)
+        ]
+        known = [pixels for pixels in points if pixels is not None]
+        return weights, deviation[:, :WEIGHTS], gaze, shares, torch.sigmoid(answer.seat), *known
+
+    def _pixels(self, camera: CameraInput, places: torch.Tensor) -> torch.Tensor | None:
+        """Places (n, P, 2) that the camera's encoder found, in pixels of the camera's own picture."""
+        encoder = self.network.encoder(camera.name)
+        if encoder.tracer is None:
+            return None
+        across, down = encoder.shares(places).unbind(2)
+        across = across if camera.mirrored_of is None else 1 - across
+        return torch.stack([across * camera.width - 0.5, down * camera.height - 0.5], dim=2)
 
     def _squares(self, pictures: Sequence[torch.Tensor]) -> list[torch.Tensor]:
         return [self._square(column, seen.float()) for column, seen in enumerate(pictures)]
@@ -91,6 +104,10 @@ def export_graph(
     deployed = Deployed(network, cameras, targets, square_size, deviation_scale).eval()
     names = [f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")]
     names += ["present", "calibrated"]
+    outputs = [
+        *GRAPH_OUTPUTS,
+        *(points_output(c.name) for c in cameras if network.encoder(c.name).tracer is not None),
+    ]
     buffer = io.BytesIO()
     with warnings.catch_warnings():
         # The exporter that needs no further package is called deprecated, and warns of what tracing fixes.
@@ -100,8 +117,8 @@ def export_graph(
             _probe(cameras, 2),
             buffer,
             input_names=names,
-            output_names=list(GRAPH_OUTPUTS),
-            dynamic_axes={name: {0: "frames"} for name in (*names, *GRAPH_OUTPUTS)},
+            output_names=outputs,
+            dynamic_axes={name: {0: "frames"} for name in (*names, *outputs)},
             opset_version=_OPSET,
             dynamo=False,
         )
@@ -134,6 +151,9 @@ def _difference(deployed: Deployed, graph: bytes, names: list[str], probe: tuple
     options.intra_op_num_threads, options.log_severity_level = 1, 3
     session = onnxruntime.InferenceSession(graph, options, providers=["CPUExecutionProvider"])
     feed = {name: value.numpy() for name, value in zip(names, probe, strict=True)}
-    found = session.run(GRAPH_OUTPUTS, feed)
-    pairs = zip(found, expected, strict=True)
-    return float(max(np.abs(one - other.numpy()).max() for one, other in pairs))
+    found = session.run(None, feed)
+    # points as shares of the picture: pixels are up to hundreds, and float32 has seven digits
+    largest = max(max(camera.width, camera.height) for camera in deployed.cameras)
+    scales = [1.0] * len(GRAPH_OUTPUTS) + [1 / largest] * (len(found) - len(GRAPH_OUTPUTS))
+    pairs = zip(found, expected, scales, strict=True)
+    return float(max(scale * np.abs(one - other.numpy()).max() for one, other, scale in pairs))

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import torch
 
+from facegen.conventions import VIEW_POINTS
 from regress.errors import InputError, Interrupted, OutputError
 from regress.files import write_whole
 from regress.headset.arrays import HeadsetArrays
@@ -21,6 +22,7 @@ from regress.headset.training.networks import NETWORKS, Answer, HeadsetNetwork, 
 from regress.headset.training.optimizer import optimizers_of
 from regress.headset.training.photometry import draw_photometry
 from regress.headset.training.targets import WEIGHTS, Targets, target_scale
+from regress.headset.training.traced import mirrored_points
 
 Progress = Callable[[int, int, dict[str, float]], None]
 """Called with epochs done, epochs in all and the epoch's figures."""
@@ -64,6 +66,16 @@ class Training:
     def rows(self) -> np.ndarray:
         """Training rows of the arrays."""
         return self._frames.rows
+
+    def points(self) -> dict[str, tuple[str, ...]]:
+        """Names of what each camera traces, in order; a mirrored camera's are those of the other side."""
+        found = {}
+        for camera in self.network.cameras:
+            owner = self.network.owners[camera]
+            traced = self._frames.traced[owner or camera]
+            chosen = traced if owner is None else mirrored_points(traced)
+            found[camera] = tuple(VIEW_POINTS[index] for index in chosen)
+        return {camera: names for camera, names in found.items() if names}
 
     def run(self, progress: Progress | None = None) -> HeadsetNetwork:
         """Train what is left to train.

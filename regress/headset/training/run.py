@@ -12,7 +12,7 @@ import torch
 from regress.headset.arrays import HeadsetArrays
 from regress.headset.evaluation import evaluate
 from regress.headset.graph import HeadsetGraph
-from regress.headset.model import HeadsetModel, save_headset_model
+from regress.headset.model import GRAPH_OUTPUTS, HeadsetModel, points_output, save_headset_model
 from regress.headset.parts import encoder_owners, part_of
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.export import export_graph
@@ -63,6 +63,7 @@ def train_headset(
     graph, difference = export_graph(
         network, cameras, training.targets, square_size=recipe.square_size, deviation_scale=scale
     )
+    points = training.points()
     description = arrays.description
     model = HeadsetModel(
         headset=description["headset"],
@@ -71,6 +72,8 @@ def train_headset(
         modulation=recipe.modulation if recipe.architecture == "modular" else 1.0,
         architecture=recipe.architecture,
         calibration="optional" if recipe.calibration else "none",
+        points=points,
+        outputs=(*GRAPH_OUTPUTS, *map(points_output, points)),
         training={
             "recipe": recipe.settings(),
             "rows": len(training.rows),

@@ -55,6 +55,13 @@ def test_a_take_becomes_a_table_with_gaze_and_confidence(run, model: Path, take:
     assert all(float(trust[0][shape]) > 0.5 for shape in BLENDSHAPES)
 
 
+def test_a_model_without_points_cannot_give_any(run, model: Path, take: list[str], tmp_path: Path):
+    code, out, said = run("headset", "predict", model, *take, "--points", tmp_path / "points.csv")
+    assert (code, out) == (2, "")
+    assert "the model gives no points: train one with points_loss above 0" in said
+    assert not (tmp_path / "points.csv").exists()
+
+
 def test_each_predict_says_which_command_takes_the_others_model(
     run, model: Path, take: list[str], quick_model_folder: Path
 ):

@@ -1,5 +1,6 @@
 """Training of headset networks on drawn arrays: it learns, repeats, goes on after a stop, and says what it did."""
 
+import csv
 import errno
 import subprocess
 import sys
@@ -11,7 +12,7 @@ import pytest
 
 torch = pytest.importorskip("torch")
 
-from facegen.conventions import BLENDSHAPE_INDEX  # noqa: E402
+from facegen.conventions import BLENDSHAPE_INDEX, IRIS_POINTS, VIEW_POINTS  # noqa: E402
 from regress.errors import InputError, Interrupted, OutputError  # noqa: E402
 from regress.headset import HeadsetGraph, read_headset_model  # noqa: E402
 from regress.headset.arrays import HeadsetArrays  # noqa: E402
@@ -23,6 +24,7 @@ from regress.headset.recipe import HeadsetRecipe  # noqa: E402
 from regress.headset.training import train_headset  # noqa: E402
 from regress.headset.training.batches import Frames  # noqa: E402
 from regress.headset.training.targets import MIRROR, MIRROR_SIGN  # noqa: E402
+from tests.regress.headset.takes import write_pictures  # noqa: E402
 
 QUICK = HeadsetRecipe(input_size=16, code=48, hidden=64, epochs=16, batch=16, learning_rate=4e-3)
 
@@ -33,6 +35,37 @@ def trained(
 ) -> tuple[HeadsetModel, Path]:
     folder = tmp_path_factory.mktemp("models") / request.param
     return train_headset(arrays, replace(QUICK, architecture=request.param), folder), folder
+
+
+def test_it_says_where_points_lie_in_each_cameras_own_pictures(
+    trained: tuple[HeadsetModel, Path], arrays: HeadsetArrays, run, tmp_path: Path
+):
+    model, folder = trained
+    irises = {side: [f"{side}_iris_{place}" for place in range(IRIS_POINTS)] for side in ("left", "right")}
+    assert {name: sorted(points) for name, points in model.points.items()} == {
+        "left_eye": sorted(["left_pupil", *irises["left"]]),
+        "right_eye": sorted(["right_pupil", *irises["right"]]),
+        "mouth": ["landmark_8"],
+    }
+    rows = arrays.rows("test")
+    options = []
+    for name, pictures in arrays.pictures.items():
+        write_pictures(tmp_path / name, pictures[rows])
+        options += ["--camera", f"{name}={tmp_path / name}"]
+    table = tmp_path / "points.csv"
+    code, _, said = run(
+        "headset", "predict", folder, *options, "--points", table, "--out", tmp_path / "w.csv"
+    )
+    assert code == 0, said
+    with table.open() as file:
+        found = list(csv.DictReader(file))
+    assert len(found) == len(rows)
+    for camera, points in model.points.items():
+        for point in points:
+            said = np.array([[float(row[f"{camera}.{point}.{axis}"]) for axis in "xy"] for row in found])
+            true = arrays.points[camera][rows, VIEW_POINTS.index(point)]
+            spread = np.linalg.norm(true - true.mean(axis=0), axis=1).mean()
+            assert np.linalg.norm(said - true, axis=1).mean() < 0.5 * spread, (camera, point)
 
 
 def test_it_learns_what_unseen_people_do(trained: tuple[HeadsetModel, Path]):
