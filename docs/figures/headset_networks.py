@@ -6,8 +6,9 @@
     python docs/figures/headset_networks.py network models/headset ARRAYS
 
 `headset` makes headset-mine.png and headset-mine-views.png, `network` headset-network-training.png,
-headset-network-cameras.png and headset-network-faces.png: of unseen people in the arrays' test split, the cameras'
-pictures, the true face and the predicted one, both drawn on the rig's mean head.
+headset-network-cameras.png, headset-network-points.png and headset-network-faces.png: of unseen people in the arrays'
+test split, the points that the network traces; and the cameras' pictures, the true face and the predicted one, both
+drawn on the rig's mean head.
 """
 
 import sys
@@ -19,7 +20,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from facegen.conventions import BLENDSHAPES
+from facegen.conventions import BLENDSHAPES, VIEW_POINTS
 from facegen.preview import pictures, play_weights
 from facegen.rigs import load_rig
 from regress.headset.arrays import read_arrays
@@ -60,6 +61,7 @@ def draw_network(model: Path, arrays: Path) -> None:
     figures = evaluate(predictor.graph, predictor.model, frames)
     draw_training(predictor.model.training["history"])
     draw_cameras(figures)
+    draw_points(predictor, frames)
     draw_faces(predictor, frames)
 
 
@@ -100,6 +102,38 @@ def draw_cameras(figures: dict) -> None:
     axes.set_yticks(range(len(series)), list(series), fontsize=8)
     figure.colorbar(drawn, ax=axes, pad=0.01, fraction=0.03).set_label("R²", fontsize=8)
     _save(figure, axes, "headset-network-cameras.png")
+
+
+def draw_points(predictor, frames) -> None:
+    """What is traced in a left eye's pictures and the mouth's, from small errors of the iris to large ones."""
+    rows = np.flatnonzero((frames.split == "test") & ~frames.neutral)
+    cameras = ("left_eye", "mouth")
+    found = predictor.graph.trace({name: frames.pictures[name][rows] for name in cameras})
+    names = {name: predictor.model.points[name] for name in cameras}
+    true = {
+        name: frames.points[name][np.ix_(rows, [VIEW_POINTS.index(point) for point in names[name]])]
+        for name in cameras
+    }
+    iris = [column for column, point in enumerate(names["left_eye"]) if "_iris_" in point]
+    errors = np.linalg.norm(found["left_eye"] - true["left_eye"], axis=2)[:, iris].mean(axis=1)
+    known = np.flatnonzero(np.isfinite(errors))
+    order = known[np.argsort(errors[known])]
+    chosen = order[np.linspace(0, len(order) - 1, FACES + 2).round().astype(int)[1:-1]]
+    figure = Figure(figsize=(14, 4.2), dpi=100)
+    FigureCanvasAgg(figure)
+    grid = figure.subplots(len(cameras), FACES)
+    figure.subplots_adjust(left=0.002, right=0.998, top=0.94, bottom=0.005, wspace=0.02, hspace=0.02)
+    for column, place in enumerate(chosen):
+        for axes, name in zip(grid[:, column], cameras, strict=True):
+            axes.imshow(frames.pictures[name][rows[place]], cmap="gray", vmin=0, vmax=255)
+            shown = np.isfinite(true[name][place]).all(axis=1)
+            axes.scatter(*true[name][place].T, s=26, facecolors="none", edgecolors="#ffd33d", linewidths=0.7)
+            axes.scatter(*found[name][place][shown].T, s=5, color="#2dd4ff", linewidths=0)
+            axes.set_xlim(-0.5, 95.5)
+            axes.set_ylim(95.5, -0.5)
+            axes.set_axis_off()
+        grid[0, column].set_title(f"iris {errors[place]:.2f} px", fontsize=9)
+    figure.savefig(OUT / "headset-network-points.png")
 
 
 def draw_faces(predictor, frames) -> None:
