@@ -5,8 +5,9 @@ from typing import Any
 import numpy as np
 
 from regress.errors import InputError
+from regress.headset.accuracy import share_better
 from regress.headset.arrays import HeadsetArrays
-from regress.headset.evaluation import HELD_OUT, conditions, estimate, share_better
+from regress.headset.evaluation import HELD_OUT, conditions, estimate
 from regress.headset.predictor import HeadsetPredictor
 
 

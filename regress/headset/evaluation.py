@@ -5,22 +5,16 @@ from typing import Any
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.conventions import BLENDSHAPES
 from regress.errors import InputError
+from regress.headset.accuracy import SCORED, r2_of, summary
 from regress.headset.arrays import HeadsetArrays
-from regress.headset.geometry import FaceGeometry
 from regress.headset.graph import Estimates, HeadsetGraph
 from regress.headset.model import HeadsetModel
 
 CALIBRATIONS = ("none", "same_seat", "other_seat")
 HELD_OUT = "combined"
 """Component of frames in which the jaw opens while the lids close: reported apart from ordinary frames."""
-
-OPEN = 0.3
-"""Weight of eyeBlink up to which an eye counts as open."""
-
-_SCORED = [column for column, name in enumerate(BLENDSHAPES) if name != "tongueOut"]
-_BLINK = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,38 +34,6 @@ class Condition:
     calibration: str = "none"
     cameras: tuple[str, ...] | None = None
     fallback: bool = False
-
-
-@dataclass(frozen=True, kw_only=True)
-class Summary:
-    """Figures over frames; None where they are undefined.
-
-    Parameters
-    ----------
-    rows
-        Frames.
-    geometry_mm
-        Mean distance of the face's vertices from their true places.
-    r2
-        Mean over the 51 shapes that cameras can see (not tongueOut) of the share of variance explained.
-    mae, rmse
-        Of the 51 weights.
-    blink_r2
-        Mean of both lids.
-    gaze_deg
-        Mean angle between predicted and true optical axes.
-    gaze_open_deg
-        The same of eyes whose lids are less than ``OPEN`` closed: nobody sees where a closed eye looks.
-    """
-
-    rows: int
-    geometry_mm: float
-    r2: float | None
-    mae: float
-    rmse: float
-    blink_r2: float | None
-    gaze_deg: float
-    gaze_open_deg: float | None
 
 
 def estimate(
@@ -101,42 +63,6 @@ def estimate(
     calibrated = answer.same_seat >= 0.5
     settled = graph.run(pictures, neutral=neutral, calibrated=calibrated)
     return Estimates(**{**vars(settled), "same_seat": answer.same_seat})
-
-
-def r2_of(predicted: np.ndarray, true: np.ndarray) -> np.ndarray:
-    """Share of each column's variance explained, (O,) float64; NaN where a column does not move."""
-    true = np.asarray(true, np.float64)
-    variance = true.var(axis=0)
-    wrong = np.mean((np.asarray(predicted, np.float64) - true) ** 2, axis=0)
-    return np.where(variance > 0, 1 - wrong / np.where(variance > 0, variance, 1), np.nan)
-
-
-def gaze_error_deg(predicted: np.ndarray, true: np.ndarray) -> np.ndarray:
-    """Angle (n, 2) float64 in degrees between gaze directions (n, 2, 2): yaw and pitch of both eyes, radians."""
-    one, other = _axis(predicted), _axis(true)
-    # the sine as well: the cosine alone loses small angles
-    crossed = np.linalg.norm(np.cross(one, other), axis=-1)
-    return np.rad2deg(np.arctan2(crossed, np.sum(one * other, axis=-1)))
-
-
-def summary(
-    face: FaceGeometry, weights: np.ndarray, gaze: np.ndarray, true_weights: np.ndarray, true_gaze: np.ndarray
-) -> Summary:
-    """Figures of predicted weights (n, 52) and gaze (n, 2, 2)."""
-    error = (np.asarray(weights, np.float64) - true_weights)[:, _SCORED]
-    r2 = r2_of(weights, true_weights)
-    gaze_error = gaze_error_deg(gaze, true_gaze)
-    is_open = true_weights[:, _BLINK] < OPEN
-    return Summary(
-        rows=len(weights),
-        geometry_mm=float(face.error_mm(weights, true_weights).mean()),
-        r2=_mean(r2[_SCORED]),
-        mae=float(np.abs(error).mean()),
-        rmse=float(np.sqrt(np.mean(error**2))),
-        blink_r2=_mean(r2[_BLINK]),
-        gaze_deg=float(gaze_error.mean()),
-        gaze_open_deg=float(gaze_error[is_open].mean()) if is_open.any() else None,
-    )
 
 
 def evaluate(
@@ -222,11 +148,6 @@ def conditions(model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray) -> 
     return found
 
 
-def share_better(error: np.ndarray, rival_error: np.ndarray) -> float:
-    """Share of frames in which the first error (n,) is smaller; ties count half."""
-    return float(np.mean((error < rival_error) + 0.5 * (error == rival_error)))
-
-
 def _check_cameras(model: HeadsetModel, arrays: HeadsetArrays) -> None:
     needed = {camera.name: (camera.width, camera.height) for camera in model.cameras}
     there = {camera.name: (camera.width, camera.height) for camera in arrays.cameras}
@@ -288,7 +209,7 @@ def _grouped(keys: np.ndarray, errors: dict[str, np.ndarray]) -> dict[str, Any]:
 
 def _honesty(said: Estimates, true: np.ndarray) -> dict[str, float | None]:
     """Mean squared error over predicted variance (1 is honest), and how error and deviation correlate."""
-    error, deviation = (said.weights - true)[:, _SCORED], said.deviation[:, _SCORED]
+    error, deviation = (said.weights - true)[:, SCORED], said.deviation[:, SCORED]
     alike = np.corrcoef(np.abs(error).ravel(), deviation.ravel())[0, 1] if np.ptp(deviation) > 0 else np.nan
     return {
         "squared_error_over_variance": float(np.mean(error**2) / np.mean(deviation**2)),
@@ -296,18 +217,8 @@ def _honesty(said: Estimates, true: np.ndarray) -> dict[str, float | None]:
     }
 
 
-def _axis(gaze: np.ndarray) -> np.ndarray:
-    yaw, pitch = np.moveaxis(np.asarray(gaze, np.float64), -1, 0)
-    return np.stack([np.sin(yaw) * np.cos(pitch), np.sin(pitch), np.cos(yaw) * np.cos(pitch)], axis=-1)
-
-
 def _named(values: np.ndarray) -> dict[str, float | None]:
     return {
         name: None if np.isnan(value) else float(value)
         for name, value in zip(BLENDSHAPES, values, strict=True)
     }
-
-
-def _mean(values: np.ndarray) -> float | None:
-    known = values[~np.isnan(values)]
-    return float(known.mean()) if len(known) else None

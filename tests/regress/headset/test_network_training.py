@@ -15,8 +15,9 @@ torch = pytest.importorskip("torch")
 from facegen.conventions import BLENDSHAPE_INDEX, IRIS_POINTS, VIEW_POINTS  # noqa: E402
 from regress.errors import InputError, Interrupted, OutputError  # noqa: E402
 from regress.headset import HeadsetGraph, read_headset_model  # noqa: E402
+from regress.headset.accuracy import share_better, summary  # noqa: E402
 from regress.headset.arrays import HeadsetArrays  # noqa: E402
-from regress.headset.evaluation import evaluate, share_better, summary  # noqa: E402
+from regress.headset.evaluation import evaluate  # noqa: E402
 from regress.headset.graph import Estimates  # noqa: E402
 from regress.headset.model import HeadsetModel  # noqa: E402
 from regress.headset.parts import part_of  # noqa: E402
