@@ -10,7 +10,8 @@ from facegen.conventions import BLENDSHAPE_INDEX, Part
 from facegen.raster import triangles_of
 from facegen.rigs import evaluate, eye_geometry
 from facegen.scene.accessories import draw_accessories
-from facegen.scene.beards import KINDS, LENGTH_M, beard_map, beard_strands, draw_beard
+from facegen.scene.beard_maps import beard_map
+from facegen.scene.beards import KINDS, LENGTH_M, beard_strands, draw_beard
 from facegen.scene.glasses import draw_glasses, glasses_meshes, place_lenses
 
 EXPRESSIONS = (
