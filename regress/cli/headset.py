@@ -6,6 +6,7 @@ from regress.cli.headset_evaluate import evaluate
 from regress.cli.headset_export import export
 from regress.cli.headset_predict import predict
 from regress.cli.headset_report import report
+from regress.cli.headset_temporal import temporal
 from regress.cli.headset_train import train
 
 headset = typer.Typer(
@@ -17,6 +18,7 @@ headset = typer.Typer(
 )
 headset.command()(train)
 headset.command()(evaluate)
+headset.command()(temporal)
 headset.command()(predict)
 headset.command()(report)
 headset.command()(export)

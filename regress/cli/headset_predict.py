@@ -87,6 +87,12 @@ def predict(
             help="Stay calibrated after a change of seat: the same person wears the headset.",
         ),
     ] = False,
+    temporal: Annotated[
+        bool,
+        typer.Option(
+            "--temporal", help="Let the four frames before count, as `regress headset temporal` found."
+        ),
+    ] = False,
     strict: Annotated[
         bool, typer.Option("--strict", help="Fail where a given camera has no usable picture in a frame.")
     ] = False,
@@ -138,6 +144,8 @@ def predict(
         retargeting=None if retarget is None else read_retargeting(retarget),
     )
     _check_tables(table_format, out, gltf, video, retarget)
+    if temporal and dataset is not None:
+        raise InputError("--temporal needs a take: pictures of a dataset do not follow one another")
     if trust is not None and not predictor.model.scores:
         raise InputError(f"{model} has no scores on a test split, from which confidence is made")
     if points is not None:
@@ -158,7 +166,13 @@ def predict(
         say(note)
     neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None)
     performance = perform(
-        predictor, footage, neutrals, output=output, amplify_eyes=amplify_eyes, keep_neutral=keep_neutral
+        predictor,
+        footage,
+        neutrals,
+        output=output,
+        amplify_eyes=amplify_eyes,
+        keep_neutral=keep_neutral,
+        temporal=temporal,
     )
     worth = "less well calibrated" if keep_neutral else "not calibrated (--keep-neutral for the same person)"
     for row in performance.reseated:

@@ -35,8 +35,10 @@ class HeadsetArrays:
         By camera; memory-mapped.
     points : dict of (n, P, 2) float32
         By camera: pixels of ``VIEW_POINTS``, NaN where the picture does not show them.
-    sample, person, session : (n,) int64
-        A session is one seat of the headset on its wearer.
+    sample, person, session, clip, frame : (n,) int
+        A session is one seat of the headset on its wearer; stills are clips of one frame.
+    time_s : (n,) float
+        Seconds from the clip's start.
     split, component : (n,) str
     neutral : (n,) bool
     weights : (n, 52) float32
@@ -54,6 +56,9 @@ class HeadsetArrays:
     sample: np.ndarray
     person: np.ndarray
     session: np.ndarray
+    clip: np.ndarray
+    frame: np.ndarray
+    time_s: np.ndarray
     split: np.ndarray
     component: np.ndarray
     neutral: np.ndarray
@@ -64,6 +69,17 @@ class HeadsetArrays:
     def rows(self, split: str) -> np.ndarray:
         """Row numbers of a split."""
         return np.flatnonzero(self.split == split)
+
+    def clip_starts(self) -> np.ndarray:
+        """(n,) bool: rows whose frame does not follow that of the row before."""
+        follows = np.diff(self.frame.astype(np.int64)) == 1
+        for column in (self.person, self.session, self.clip):
+            follows &= column[1:] == column[:-1]
+        return np.concatenate([[True], ~follows])
+
+    def frames_a_second(self) -> float:
+        """Of clips: from the times of frames that follow one another."""
+        return 1 / float(np.median(np.diff(self.time_s)[~self.clip_starts()[1:]]))
 
     def neutral_rows(self, *, other_seat: bool = False) -> np.ndarray:
         """(n,) int64: for each row a neutral row of its person, -1 where there is none.
@@ -166,7 +182,10 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
             gaze=_lists(table, "gaze", 4),
             split=np.asarray(table["split"].to_pylist(), dtype=str),
             component=np.asarray(table["component"].to_pylist(), dtype=str),
-            **{name: table[name].to_numpy() for name in ("sample", "person", "session", "neutral")},
+            **{
+                name: table[name].to_numpy()
+                for name in ("sample", "person", "session", "clip", "frame", "time_s", "neutral")
+            },
         )
     except (OSError, ValueError, KeyError, pa.ArrowException) as error:
         raise InputError(f"{folder} is not a complete folder of arrays: {error}") from error

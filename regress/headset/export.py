@@ -71,8 +71,19 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
         "cameras": cameras,
         "shapes": list(model.weights),
         "points": {name: list(points) for name, points in model.points.items()},
+        "temporal": _temporal(model),
         "inputs": inputs,
         "outputs": outputs,
         "calibration": model.calibration,
         "licences": list(model.licences),
+    }
+
+
+def _temporal(model: HeadsetModel) -> dict[str, Any] | None:
+    if model.temporal is None:
+        return None
+    return {
+        "fps": model.temporal.fps,
+        "taps": model.temporal.taps,
+        "meaning": "what is said is the sum of taps[k] times the answer k frames before; shapes, then gaze",
     }

@@ -52,6 +52,29 @@ class CameraInput:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Temporal:
+    """A convolution over the frames before, which may stand behind the network (``regress.headset.temporal``).
+
+    Parameters
+    ----------
+    fps
+        Frames a second that the taps are for.
+    taps
+        For each of the 52 weights and the 4 angles of the gaze, how much the frame itself counts and those before it.
+    people, dataset_hash
+        Whose clips they were chosen on.
+    scores
+        Figures on other people's clips: of one frame alone, of the mean of as many frames, and of the taps.
+    """
+
+    fps: float
+    taps: tuple[tuple[float, ...], ...]
+    people: int
+    dataset_hash: str
+    scores: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
 class HeadsetModel:
     """Description of a trained network; the network itself is network.onnx in the same folder.
 
@@ -83,6 +106,8 @@ class HeadsetModel:
         Names of the columns of ``weights``, ``deviation`` and ``shares``.
     outputs
         Names of the graph's outputs.
+    temporal
+        What the frames before add; None until ``regress headset temporal`` has found it.
     training
         Every setting and figure of the training, unrounded.
     scores
@@ -102,6 +127,7 @@ class HeadsetModel:
     points: dict[str, tuple[str, ...]] = field(default_factory=dict)
     weights: tuple[str, ...] = BLENDSHAPES
     outputs: tuple[str, ...] = GRAPH_OUTPUTS
+    temporal: Temporal | None = None
     training: dict[str, Any] = field(default_factory=dict)
     scores: dict[str, Any] = field(default_factory=dict)
     dataset_hash: str = ""
@@ -200,6 +226,7 @@ def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
                 "points": {name: tuple(points) for name, points in document.get("points", {}).items()},
                 "weights": tuple(document["weights"]),
                 "outputs": tuple(document["outputs"]),
+                "temporal": _temporal(document.get("temporal")),
                 "licences": tuple(document["licences"]),
             }
         )
@@ -212,3 +239,9 @@ def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
         if value not in allowed:
             raise ModelError(f"{path} has {name} {value!r}; {' or '.join(allowed)} is needed")
     return model
+
+
+def _temporal(document: dict[str, Any] | None) -> Temporal | None:
+    if document is None:
+        return None
+    return Temporal(**{**document, "taps": tuple(map(tuple, document["taps"]))})

@@ -14,6 +14,7 @@ from regress.headset.graph import Estimates
 from regress.headset.neutral import Neutral
 from regress.headset.predictor import HeadsetPredictor
 from regress.headset.seats import seat_change
+from regress.headset.temporal import convolve
 from regress.predict import Output
 from regress.smoothing import EYES_FASTER, OneEuroStream, moving_average, one_euro
 
@@ -107,6 +108,7 @@ def perform(
     output: Output | None = None,
     amplify_eyes: float = 1.0,
     keep_neutral: bool = False,
+    temporal: bool = False,
 ) -> Performance:
     """Weights, gaze and confidence of footage, finished as asked.
 
@@ -118,11 +120,13 @@ def perform(
         What happens after the network; nothing by default. Smoothing of landmarks has no meaning here.
     amplify_eyes
         Factor on blink, wide and squint of each eye, before everything but smoothing.
+    temporal
+        Let the frames before count, as the model's taps say.
 
     Raises
     ------
     InputError
-        Where One-Euro smoothing is asked for and times are not known.
+        Where the model has no taps and they are asked for; where One-Euro smoothing is, and times are not known.
     """
     output = output or Output()
     if output.one_euro is not None and footage.time_s is None:
@@ -135,6 +139,8 @@ def perform(
     seen = footage.present.any(axis=1)
     weights = np.where(seen[:, None], np.clip(estimates.weights.astype(np.float64), 0, 1), np.nan)
     gaze = np.where(seen[:, None], estimates.gaze.astype(np.float64).reshape(-1, 4), np.nan)
+    if temporal:
+        weights, gaze = _convolved(predictor, weights, gaze)
     weights, gaze = _smoothed(weights, gaze, footage.time_s, output)
     if amplify_eyes != 1:
         weights = adjust(weights, dict.fromkeys(AMPLIFIED, ShapeAdjustment(gain=amplify_eyes)))
@@ -151,6 +157,20 @@ def perform(
         confidence=trust,
         reseated=reseated,
     )
+
+
+def _convolved(
+    predictor: HeadsetPredictor, weights: np.ndarray, gaze: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    found = predictor.model.temporal
+    if found is None:
+        raise InputError(
+            "the model does not know what the frames before are worth; `regress headset temporal` finds it on clips"
+        )
+    starts = np.arange(len(weights)) == 0
+    values = convolve(np.concatenate([weights, gaze], axis=1), starts, np.array(found.taps))
+    columns = weights.shape[1]
+    return np.clip(values[:, :columns], 0, 1), values[:, columns:]
 
 
 def _smoothed(

@@ -1,0 +1,36 @@
+"""``regress headset temporal``: what a network gains from the frames before."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regress.headset.arrays import read_arrays
+from regress.headset.model import save_headset_model
+from regress.headset.predictor import load_headset_predictor
+from regress.headset.temporal import fit_temporal
+
+_COLUMNS = {"geometry_mm": "mm", "r2": "R2", "blink_r2": "blink R2", "gaze_deg": "gaze deg", "shake": "shake"}
+
+
+def temporal(
+    model: Annotated[Path, typer.Argument(help="Model folder of `regress headset train`.")],
+    clips: Annotated[
+        Path, typer.Argument(help="Arrays of clips (`facegen pack --format arrays`), unseen people.")
+    ],
+) -> None:
+    """Find how much the four frames before each should count, and keep it in the model for `predict --temporal`.
+
+    Taps are chosen on the clips' training people and judged on their test people; the network stays as it is. Shake is
+    how far the error of a weight moves from frame to frame. Example: regress headset temporal models/headset
+    datasets/out/headset-clips-arrays
+    """
+    predictor = load_headset_predictor(model)
+    found = fit_temporal(predictor, read_arrays(clips))
+    save_headset_model(replace(predictor.model, temporal=found), (model / "network.onnx").read_bytes(), model)
+    typer.echo(f"{'':<14} " + " ".join(f"{title:>9}" for title in _COLUMNS.values()))
+    for name, figures in found.scores.items():
+        cells = ("-" if figures[column] is None else f"{figures[column]:.4f}" for column in _COLUMNS)
+        typer.echo(f"{name:<14} " + " ".join(f"{cell:>9}" for cell in cells))
+    typer.echo(f"taps for {found.fps:.0f} frames a second in {model}")

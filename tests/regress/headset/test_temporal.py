@@ -1,0 +1,198 @@
+"""The convolution over the frames before: what taps do, how they are found, and what a person is told."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from facegen.conventions import BLENDSHAPE_INDEX, MIRRORED_BLENDSHAPES
+from regress.errors import InputError
+from regress.headset.arrays import HeadsetArrays
+from regress.headset.graph import Estimates
+from regress.headset.model import Temporal, read_headset_model, save_headset_model
+from regress.headset.temporal import TAPS, convolve, fit_taps, fit_temporal
+from tests.regress.headset.takes import pictures, write_take
+from tests.regress.headset.tiny import NAMES, write_tiny_model
+
+LENGTH = 20
+"""Frames of a clip here."""
+
+
+def clips(count: int, seed: int, noise: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Slow sines, what is said of them, and where clips start."""
+    random = np.random.default_rng(seed)
+    phase, pace = random.uniform(0, 6, (2, count, 1, 56))
+    true = 0.5 + 0.4 * np.sin(phase + 0.05 * pace * np.arange(LENGTH)[:, None])
+    said = true + noise * random.standard_normal(true.shape)
+    starts = np.tile(np.arange(LENGTH) == 0, count)
+    return said.reshape(-1, 56), true.reshape(-1, 56), starts
+
+
+@given(taps=st.lists(st.floats(-1, 1), min_size=TAPS - 1, max_size=TAPS - 1), seed=st.integers(0, 99))
+def test_a_held_face_stays_and_clips_do_not_mix(taps: list[float], seed: int):
+    random = np.random.default_rng(seed)
+    held = np.repeat(random.random((4, 3)), 6, axis=0)  # four clips of six equal frames
+    starts = np.arange(24) % 6 == 0
+    weighed = np.tile([1 - sum(taps), *taps], (3, 1))
+    np.testing.assert_allclose(convolve(held, starts, weighed), held, atol=1e-12)
+
+
+def test_each_frame_is_weighed_with_those_before_it():
+    values = np.array([[1.0], [2.0], [4.0], [np.nan], [8.0], [16.0]])
+    taps = np.array([[0.5, 0.25, 0.25, 0.0, 0.0]])
+    found = convolve(values, np.arange(6) == 0, taps)[:, 0]
+    # the first frame stands in for what lacks; so does the first after a frame without a picture
+    np.testing.assert_allclose(found, [1.0, 1.5, 2.75, np.nan, 8.0, 12.0])
+
+
+def test_taps_take_noise_off_unseen_clips_and_leave_clean_ones_alone():
+    said, true, starts = clips(40, seed=0, noise=0.1)
+    taps = fit_taps(said, true, starts)
+    np.testing.assert_allclose(taps.sum(axis=1), 1)
+    said, true, starts = clips(40, seed=1, noise=0.1)
+    error = np.square(convolve(said, starts, taps) - true).mean()
+    assert error < 0.6 * np.square(said - true).mean()
+    assert error < np.square(convolve(said, starts, np.full_like(taps, 1 / TAPS)) - true).mean()
+    clean = fit_taps(true, true, starts)
+    np.testing.assert_allclose(clean, np.eye(TAPS)[[0] * 56], atol=1e-9)
+
+
+def test_taps_are_least_squares_and_the_same_for_both_sides():
+    said, true, starts = clips(10, seed=2, noise=0.2)
+    taps = fit_taps(said, true, starts)
+    left, right = BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]
+    np.testing.assert_allclose(taps[left], taps[right])
+    assert MIRRORED_BLENDSHAPES[left] == right
+    columns = [left, right]
+
+    def squares(changed: np.ndarray) -> float:
+        off = convolve(said[:, columns], starts, np.stack([changed, changed])) - true[:, columns]
+        return float(np.square(off).sum())
+
+    least = squares(taps[left])
+    for place in range(1, TAPS):
+        for step in (-0.03, 0.03):  # the ridge moves the least by less
+            other = taps[left].copy()
+            other[[0, place]] += [-step, step]
+            assert squares(other) > least
+
+
+class Noisy:
+    """Says the truth with noise; rows are told apart by how many they are."""
+
+    def __init__(self, arrays: HeadsetArrays, noise: float) -> None:
+        random = np.random.default_rng(0)
+        self._said = {}
+        for split in ("train", "test"):
+            rows = arrays.rows(split)
+            weights, gaze = arrays.weights[rows], arrays.gaze[rows].reshape(-1, 2, 2)
+            self._said[len(rows)] = Estimates(
+                weights=weights + noise * random.standard_normal(weights.shape),
+                deviation=weights,
+                gaze=gaze + noise * random.standard_normal(gaze.shape),
+                shares=weights,
+                same_seat=weights[:, 0],
+            )
+
+    def run(self, pictures: dict[str, np.ndarray]) -> Estimates:
+        return self._said[len(pictures["mouth"])]
+
+
+@pytest.fixture
+def as_clips(arrays: HeadsetArrays) -> HeadsetArrays:
+    """The drawn arrays with slow faces, ten frames a clip; fewer test frames than training ones."""
+    rows = len(arrays.sample)
+    number = np.arange(rows) // 10
+    random = np.random.default_rng(3)
+    weights = np.repeat(random.random((number.max() + 1, 52)), 10, axis=0)[:rows].astype(np.float32)
+    split = np.where(number % 3 == 0, "test", "train")
+    return replace(
+        arrays,
+        person=number,
+        session=0 * number,
+        clip=0 * number,
+        frame=np.arange(rows) % 10,
+        time_s=np.arange(rows) % 10 / 60,
+        split=split,
+        weights=weights,
+        gaze=0 * arrays.gaze,
+    )
+
+
+def test_a_models_taps_are_judged_on_other_people(as_clips: HeadsetArrays):
+    model = SimpleNamespace(cameras=as_clips.cameras, camera_names=NAMES)
+    found = fit_temporal(SimpleNamespace(model=model, graph=Noisy(as_clips, 0.1)), as_clips)
+    assert found.fps == pytest.approx(60)
+    assert found.people == len(np.unique(as_clips.person[as_clips.split == "train"]))
+    assert np.shape(found.taps) == (56, TAPS)
+    alone, even, taps = (found.scores[name] for name in ("one frame", "mean of five", "taps"))
+    assert alone["rmse"] == pytest.approx(0.1, rel=0.2)  # clipped at 0 and 1
+    assert taps["rmse"] < 0.7 * alone["rmse"]
+    assert taps["rmse"] == pytest.approx(even["rmse"], rel=0.1)  # faces that are held want even taps
+    assert taps["shake"] < 0.5 * alone["shake"]
+    assert taps["rows"] == (as_clips.split == "test").sum()
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"frame": 0}, "no frames that follow one another"),
+        ({"split": "train"}, "have no test people"),
+    ],
+)
+def test_arrays_that_cannot_tell_are_refused(as_clips: HeadsetArrays, changes: dict, message: str):
+    wrong = replace(
+        as_clips, **{name: np.full(len(as_clips.split), value) for name, value in changes.items()}
+    )
+    model = SimpleNamespace(cameras=as_clips.cameras, camera_names=NAMES)
+    with pytest.raises(InputError, match=message):
+        fit_temporal(SimpleNamespace(model=model, graph=Noisy(as_clips, 0.1)), wrong)
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    return write_tiny_model(tmp_path / "tiny")
+
+
+def test_predicting_weighs_the_frames_before(run, model: Path, tmp_path: Path):
+    steps = {name: pictures([51] * 6 + [153] * 6) for name in NAMES}
+    take = write_take(tmp_path / "take", steps)
+    code, out, said = run("headset", "predict", model, *take, "--temporal")
+    assert (code, out) == (2, "")
+    assert "`regress headset temporal` finds it on clips" in said
+    taps = tuple((0.5, 0.25, 0.25, 0.0, 0.0) for _ in range(56))
+    known = replace(
+        read_headset_model(model), temporal=Temporal(fps=30.0, taps=taps, people=1, dataset_hash="")
+    )
+    save_headset_model(known, (model / "network.onnx").read_bytes(), model)
+    assert read_headset_model(model) == replace(
+        known, network_sha256=read_headset_model(model).network_sha256
+    )
+    for options, wanted in (([], [0.2, 0.6, 0.6, 0.6]), (["--temporal"], [0.2, 0.4, 0.5, 0.6])):
+        code, out, said = run("headset", "predict", model, *take, *options)
+        assert code == 0, said
+        header, *rows = out.splitlines()
+        column = header.split(",").index("jawOpen")
+        found = [float(row.split(",")[column]) for row in rows]
+        np.testing.assert_allclose(found[5:9], wanted, atol=0.01)
+    code, _, said = run("headset", "export", model, "--out", tmp_path / "exports")
+    assert code == 0, said
+    assert json.loads((tmp_path / "exports" / "headset.json").read_text())["temporal"]["taps"][0] == list(
+        taps[0]
+    )
+
+
+def test_stills_have_no_frames_before(run, model: Path, arrays_folder: Path, tmp_path: Path):
+    before = (model / "model.json").read_bytes()
+    code, out, said = run("headset", "temporal", model, arrays_folder)
+    assert (code, out) == (2, "")
+    assert 'pack a dataset of kind "sequence"' in said
+    assert (model / "model.json").read_bytes() == before
+    code, _, said = run("headset", "predict", model, tmp_path, "--temporal")
+    assert code == 2
+    assert "--temporal needs a take" in said
