@@ -27,6 +27,7 @@ from regress.report.headset_tables import (
     percent,
     rivals_table,
     shapes_table,
+    temporal_table,
 )
 from regress.report.histogram import histogram
 from regress.report.people_curve import people_curve
@@ -118,6 +119,7 @@ def write_headset_report(
         sections=[_section(one, name) for one in judged],
         curve=curve_table(curve) if curve else None,
         drawn_curve=Markup(people_curve(curve)) if curve else None,
+        temporal=temporal_table(model.temporal) if model.temporal and model.temporal.scores else None,
         timings=[(how, f"{microseconds / 1000:.2f} ms") for how, microseconds in timings],
         hidden=_hidden(judged[0].figures),
         provenance=_provenance(model),

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
+from regress.headset.model import Temporal
 from regress.report.axes import figure
 from regress.report.content import PARTLY_R2, SEEN_R2
 
@@ -130,6 +131,28 @@ def curve_table(points: Sequence[tuple[str, int, int, dict[str, Any]]]) -> Table
         found = figures["conditions"]
         cells = [cell(found.get(name, {}).get(key)) for name in MAIN[:2] for key in ("geometry_mm", "r2")]
         rows.append((Cell(text=title), Cell(text=f"{people:,}"), Cell(text=f"{frames:,}"), *cells))
+    return Table(head=head, rows=tuple(rows))
+
+
+def temporal_table(temporal: Temporal) -> Table:
+    """What the frames before add, on clips."""
+    head = (
+        "what is said of a frame",
+        "frames",
+        "error in mm",
+        "mean R²",
+        "blink R²",
+        "gaze in degrees",
+        "shake",
+    )
+    rows = [
+        (
+            Cell(text={"taps": "frames before, by their taps"}.get(name, name)),
+            Cell(text=f"{one['rows']:,}"),
+            *(cell(one[key]) for key in ("geometry_mm", "r2", "blink_r2", "gaze_deg", "shake")),
+        )
+        for name, one in temporal.scores.items()
+    ]
     return Table(head=head, rows=tuple(rows))
 
 

@@ -3,6 +3,7 @@
 import base64
 import json
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from facegen.conventions import BLENDSHAPES
 from regress.headset.arrays import HeadsetArrays
 from regress.headset.comparison import compare
 from regress.headset.evaluation import evaluate
+from regress.headset.model import Temporal, read_headset_model, save_headset_model
 from regress.headset.predictor import load_headset_predictor
 from regress.headset.worst import worst_frames
 from tests.regress.headset.drawn import SIDE
@@ -117,6 +119,27 @@ def test_a_model_is_reported_by_its_own_scores_without_data(
     code, _, said = run("headset", "report", bare, "--out", tmp_path / "none.html")
     assert (code, len(said.splitlines())) == (2, 1)
     assert "give --data to measure some" in said
+
+
+def test_what_the_frames_before_add_is_reported(run, arrays_folder: Path, tmp_path: Path):
+    folder = write_tiny_model(tmp_path / "tiny", width=SIDE, height=SIDE)
+    figures = {
+        "rows": 1234,
+        "geometry_mm": 0.6789,
+        "r2": 0.5,
+        "blink_r2": None,
+        "gaze_deg": 2.0,
+        "shake": 0.01,
+    }
+    temporal = Temporal(fps=30, taps=((1.0,) * 5,) * 56, people=3, dataset_hash="", scores={"taps": figures})
+    model = replace(read_headset_model(folder), temporal=temporal)
+    save_headset_model(model, (folder / "network.onnx").read_bytes(), folder)
+    out = tmp_path / "report.html"
+    code, _, said = run("headset", "report", folder, "--data", arrays_folder, "--no-time", "--out", out)
+    assert code == 0, said
+    page = out.read_text()
+    for word in ("What the frames before add", "frames before, by their taps", "1,234", "0.679"):
+        assert word in page
 
 
 def test_comparison_is_even_with_itself_and_turns_round(models: tuple[Path, Path], arrays: HeadsetArrays):
