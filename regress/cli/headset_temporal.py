@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from regress.headset.arrays import read_arrays
-from regress.headset.model import save_headset_model
+from regress.headset.model import describe_headset_model
 from regress.headset.predictor import load_headset_predictor
 from regress.headset.temporal import fit_temporal
 
@@ -28,7 +28,7 @@ def temporal(
     """
     predictor = load_headset_predictor(model)
     found = fit_temporal(predictor, read_arrays(clips))
-    save_headset_model(replace(predictor.model, temporal=found), (model / "network.onnx").read_bytes(), model)
+    describe_headset_model(replace(predictor.model, temporal=found), model)
     typer.echo(f"{'':<14} " + " ".join(f"{title:>9}" for title in _COLUMNS.values()))
     for name, figures in found.scores.items():
         cells = ("-" if figures[column] is None else f"{figures[column]:.4f}" for column in _COLUMNS)

@@ -4,12 +4,13 @@ import hashlib
 import json
 import os
 import tempfile
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError, OutputError
+from regress.files import write_whole
 from regress.model import check_place
 
 KIND = "headset"
@@ -161,9 +162,7 @@ def save_headset_model(model: HeadsetModel, graph: bytes, folder: str | os.PathL
     """
     folder = Path(folder)
     check_place(folder)
-    document = {"kind": KIND, "version": VERSION, **asdict(model)}
-    document["network_sha256"] = hashlib.sha256(graph).hexdigest()
-    text = json.dumps(document, indent=1, allow_nan=False) + "\n"
+    text = _text(replace(model, network_sha256=hashlib.sha256(graph).hexdigest()))
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         # the temporary folder holds the new model and later the old one; it goes, whatever happens
@@ -178,6 +177,26 @@ def save_headset_model(model: HeadsetModel, graph: bytes, folder: str | os.PathL
     except OSError as error:
         raise OutputError(f"the model cannot be written to {folder}: {error.strerror or error}") from error
     return read_headset_model(folder)
+
+
+def describe_headset_model(model: HeadsetModel, folder: str | os.PathLike[str]) -> HeadsetModel:
+    """Write what a model folder says of its network anew; the network and whatever else lies there stay.
+
+    Raises
+    ------
+    OutputError
+        Where it cannot be written.
+    """
+    path = Path(folder) / "model.json"
+    try:
+        write_whole(path, _text(model))
+    except OSError as error:
+        raise OutputError(f"{path} cannot be written: {error.strerror or error}") from error
+    return read_headset_model(folder)
+
+
+def _text(model: HeadsetModel) -> str:
+    return json.dumps({"kind": KIND, "version": VERSION, **asdict(model)}, indent=1, allow_nan=False) + "\n"
 
 
 def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
