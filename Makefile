@@ -119,8 +119,10 @@ models/headset-holistic/model.json: datasets/out/headset-arrays/index.json $(LEA
 	$(BIN)/regress headset train $(<D) --out $(@D) --architecture holistic
 
 # two trainings of one core each, side by side whatever --jobs says
-models/headset/report.html: $(TESTED:%=datasets/out/%-arrays/index.json) datasets/out/headset-arrays/index.json $(LEARNER)
+models/headset/report.html: $(TESTED:%=datasets/out/%-arrays/index.json) datasets/out/headset-arrays/index.json \
+  datasets/out/headset-clips-arrays/index.json $(LEARNER)
 	@$(MAKE) --no-print-directory --jobs 2 models/headset/model.json models/headset-holistic/model.json
+	$(BIN)/regress headset temporal models/headset datasets/out/headset-clips-arrays
 	$(BIN)/regress headset report models/headset --against models/headset-holistic $(TESTED:%=--data datasets/out/%-arrays) --out $@
 
 models/headset-tiny/report.html: datasets/out/headset-tiny-arrays/index.json $(LEARNER)

@@ -15,7 +15,7 @@ from facegen.conventions import BLENDSHAPES
 from regress.headset.arrays import HeadsetArrays
 from regress.headset.comparison import compare
 from regress.headset.evaluation import evaluate
-from regress.headset.model import Temporal, read_headset_model, save_headset_model
+from regress.headset.model import Temporal, describe_headset_model, read_headset_model
 from regress.headset.predictor import load_headset_predictor
 from regress.headset.worst import worst_frames
 from tests.regress.headset.drawn import SIDE
@@ -132,8 +132,7 @@ def test_what_the_frames_before_add_is_reported(run, arrays_folder: Path, tmp_pa
         "shake": 0.01,
     }
     temporal = Temporal(fps=30, taps=((1.0,) * 5,) * 56, people=3, dataset_hash="", scores={"taps": figures})
-    model = replace(read_headset_model(folder), temporal=temporal)
-    save_headset_model(model, (folder / "network.onnx").read_bytes(), folder)
+    describe_headset_model(replace(read_headset_model(folder), temporal=temporal), folder)
     out = tmp_path / "report.html"
     code, _, said = run("headset", "report", folder, "--data", arrays_folder, "--no-time", "--out", out)
     assert code == 0, said
