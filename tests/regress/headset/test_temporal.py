@@ -1,11 +1,14 @@
 """The convolution over the frames before: what taps do, how they are found, and what a person is told."""
 
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -16,6 +19,7 @@ from regress.headset.arrays import HeadsetArrays
 from regress.headset.graph import Estimates
 from regress.headset.model import Temporal, describe_headset_model, read_headset_model
 from regress.headset.temporal import TAPS, convolve, fit_taps, fit_temporal
+from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.takes import pictures, write_take
 from tests.regress.headset.tiny import NAMES, write_tiny_model
 
@@ -195,3 +199,28 @@ def test_stills_have_no_frames_before(run, model: Path, arrays_folder: Path, tmp
     code, _, said = run("headset", "predict", model, tmp_path, "--temporal")
     assert code == 2
     assert "--temporal needs a take" in said
+
+
+def test_by_command_taps_go_into_the_model(run, arrays_folder: Path, tmp_path: Path):
+    model = write_tiny_model(tmp_path / "tiny", width=SIDE, height=SIDE)
+    clips = tmp_path / "clips"
+    shutil.copytree(arrays_folder, clips)
+    table = pq.read_table(clips / "labels.parquet")
+    number, frame = np.divmod(np.arange(len(table)), 10)
+    split = np.where(number % 3 == 0, "test", "train")
+    for name, values in {
+        "person": number,
+        "clip": number,
+        "frame": frame,
+        "time_s": frame / 30,
+        "split": split,
+    }.items():
+        table = table.set_column(table.column_names.index(name), name, pa.array(values))
+    pq.write_table(table, clips / "labels.parquet")
+    code, out, said = run("headset", "temporal", model, clips)
+    assert code == 0, said
+    assert [line.split("  ")[0] for line in out.splitlines()[1:-1]] == ["one frame", "mean of five", "taps"]
+    assert "taps for 30 frames a second" in out
+    found = read_headset_model(model).temporal
+    assert np.shape(found.taps) == (56, TAPS)
+    np.testing.assert_allclose(np.sum(found.taps, axis=1), 1)
