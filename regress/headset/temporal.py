@@ -23,7 +23,7 @@ TAPS = 5
 """The frame itself, and the four before it (the second paper's)."""
 
 _RIDGE = 1e-3
-"""Of the mean squared difference between frames: an output that never moves in training keeps even taps."""
+"""Of the mean squared difference between frames: an output that says the same throughout keeps its own frame alone."""
 
 _WEIGHTS = len(BLENDSHAPES)
 _MIRROR = np.array([*MIRRORED_BLENDSHAPES, *(_WEIGHTS + column for column in (2, 3, 0, 1))])
