@@ -1,6 +1,7 @@
 """``regress headset predict``: the pictures of a headset's cameras in, a table of weights out."""
 
 import dataclasses
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
@@ -30,6 +31,7 @@ from regress.headset.footage import Footage
 from regress.headset.performance import ASSUMED_FPS, Performance, perform
 from regress.headset.points import check_points, points_csv
 from regress.headset.predictor import load_headset_predictor
+from regress.headset.temporal import TAPS
 from regress.inputs import Frames
 from regress.predict import Output, Prediction, prediction_csv
 from regress.retargeting import read_retargeting
@@ -37,6 +39,9 @@ from regress.smoothing import OneEuro
 
 GAZE_COLUMNS = ("left_eye_yaw_deg", "left_eye_pitch_deg", "right_eye_yaw_deg", "right_eye_pitch_deg")
 """Of the CSV, behind the weights: yaw to the subject's left, pitch upwards, in the head frame."""
+
+_SAME_RATE = 0.05
+"""Relative difference of frame rates that --temporal does not speak of: 29.97 are 30."""
 
 
 def predict(
@@ -174,12 +179,8 @@ def predict(
         keep_neutral=keep_neutral,
         temporal=temporal,
     )
-    worth = "less well calibrated" if keep_neutral else "not calibrated (--keep-neutral for the same person)"
-    for row in performance.reseated:
-        say(
-            f"frame {footage.numbers[row]}: the headset does not sit as in the neutral pictures; weights are {worth} "
-            f"from here on, until a --neutral frame of the new seat"
-        )
+    for note in _notes(performance, footage, keep_neutral=keep_neutral):
+        say(note)
     if video is not None:
         rate = fps or (ASSUMED_FPS if footage.time_s is None else _rate(footage.time_s))
         text = prediction_csv(_prediction(performance, footage, gaze=False))
@@ -199,6 +200,25 @@ def _check_tables(
         raise InputError("--format livelink has the app's own columns: leave out --gltf")
     if gltf is not None and out is None:
         raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
+
+
+def _notes(performance: Performance, footage: Footage, *, keep_neutral: bool) -> Iterator[str]:
+    """What a person should know of how the answers came about."""
+    worth = "less well calibrated" if keep_neutral else "not calibrated (--keep-neutral for the same person)"
+    for row in performance.reseated:
+        yield (
+            f"frame {footage.numbers[row]}: the headset does not sit as in the neutral pictures; weights are {worth} "
+            f"from here on, until a --neutral frame of the new seat"
+        )
+    taps_fps = performance.taps_fps
+    if taps_fps is None or footage.time_s is None or len(footage.time_s) < 2:
+        return
+    found_fps = _rate(footage.time_s)
+    if abs(found_fps / taps_fps - 1) > _SAME_RATE:
+        yield (
+            f"--temporal: the model's taps are for {taps_fps:g} frames a second and the take has {found_fps:.4g}; they "
+            f"reach {1000 * (TAPS - 1) / found_fps:.0f} ms back in place of {1000 * (TAPS - 1) / taps_fps:.0f}"
+        )
 
 
 def _prediction(performance: Performance, footage: Footage, *, gaze: bool) -> Prediction:

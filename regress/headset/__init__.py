@@ -1,13 +1,8 @@
 """Networks that see the pictures of a headset's cameras; training alone needs PyTorch (the extra ``headset``)."""
 
 from regress.headset.graph import Estimates, HeadsetGraph
-from regress.headset.model import (
-    GAZE_OUTPUTS,
-    CameraInput,
-    HeadsetModel,
-    read_headset_model,
-    save_headset_model,
-)
+from regress.headset.model import CameraInput, HeadsetModel, read_headset_model, save_headset_model
+from regress.headset.outputs import GAZE_OUTPUTS
 
 __all__ = [
     "GAZE_OUTPUTS",

@@ -16,9 +16,6 @@ from regress.model import check_place
 KIND = "headset"
 VERSION = 1
 
-GAZE_OUTPUTS = ("gazeYawLeft", "gazePitchLeft", "gazeYawRight", "gazePitchRight")
-"""Radians in the head frame: yaw to the subject's left, pitch upwards, of each eye's optical axis."""
-
 GRAPH_OUTPUTS = ("weights", "deviation", "gaze", "shares", "same_seat")
 """Outputs of network.onnx, in order; behind them ``points_<camera>`` of each camera that traces points."""
 

@@ -41,6 +41,8 @@ class Performance:
         Of the ARKit weights; 0 where no camera has a picture. None for a model without scores.
     reseated
         Rows from which neutral pictures were no longer used.
+    taps_fps
+        Frames a second of the clips on which the taps that were used were found; None where none were.
     """
 
     names: tuple[str, ...]
@@ -48,6 +50,7 @@ class Performance:
     gaze: np.ndarray
     confidence: np.ndarray | None
     reseated: tuple[int, ...] = ()
+    taps_fps: float | None = None
 
 
 def estimate_footage(
@@ -156,6 +159,7 @@ def perform(
         gaze=gaze,
         confidence=trust,
         reseated=reseated,
+        taps_fps=predictor.model.temporal.fps if temporal else None,
     )
 
 

@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
 from regress.headset.accuracy import summary
 from regress.headset.arrays import HeadsetArrays
 from regress.headset.evaluation import Condition, estimate
 from regress.headset.graph import Estimates
 from regress.headset.model import Temporal
+from regress.headset.outputs import MIRROR, WEIGHTS
 from regress.headset.predictor import HeadsetPredictor
 
 TAPS = 5
@@ -24,9 +24,6 @@ TAPS = 5
 
 _RIDGE = 1e-3
 """Of the mean squared difference between frames: an output that says the same throughout keeps its own frame alone."""
-
-_WEIGHTS = len(BLENDSHAPES)
-_MIRROR = np.array([*MIRRORED_BLENDSHAPES, *(_WEIGHTS + column for column in (2, 3, 0, 1))])
 
 
 def convolve(values: np.ndarray, starts: np.ndarray, taps: np.ndarray) -> np.ndarray:
@@ -63,7 +60,7 @@ def fit_taps(said: np.ndarray, true: np.ndarray, starts: np.ndarray) -> np.ndarr
     change = lagged[:, 1:] - lagged[:, :1]
     gram = np.einsum("nio,njo->oij", change, change)
     moment = np.einsum("nio,no->oi", change, true - said)
-    gram, moment = gram + gram[_MIRROR], moment + moment[_MIRROR]
+    gram, moment = gram + gram[MIRROR], moment + moment[MIRROR]
     ridge = _RIDGE * np.trace(gram, axis1=1, axis2=2) / (TAPS - 1) + 1e-12
     before = np.linalg.solve(gram + ridge[:, None, None] * np.eye(TAPS - 1), moment[..., None])[..., 0]
     return np.concatenate([1 - before.sum(axis=1, keepdims=True), before], axis=1)
@@ -110,7 +107,7 @@ def fit_temporal(predictor: HeadsetPredictor, arrays: HeadsetArrays) -> Temporal
 def _scores(arrays: HeadsetArrays, rows: np.ndarray, said: Estimates, taps: np.ndarray) -> dict[str, Any]:
     starts = arrays.clip_starts()[rows]
     values = convolve(_joined(said), starts, taps)
-    weights, gaze = np.clip(values[:, :_WEIGHTS], 0, 1), values[:, _WEIGHTS:].reshape(-1, 2, 2)
+    weights, gaze = np.clip(values[:, :WEIGHTS], 0, 1), values[:, WEIGHTS:].reshape(-1, 2, 2)
     true = arrays.weights[rows]
     figures = summary(arrays.face, weights, gaze, true, arrays.gaze[rows].reshape(-1, 2, 2))
     shake = np.diff(weights - true, axis=0)[~starts[1:]]

@@ -8,10 +8,11 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.headset.arrays import HeadsetArrays
+from regress.headset.outputs import MIRROR, MIRROR_SIGN
 from regress.headset.parts import encoder_owners, is_symmetric, mirror_partner
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.resampling import reduced, warp_matrix
-from regress.headset.training.targets import MIRROR, MIRROR_SIGN, outputs_of
+from regress.headset.training.targets import outputs_of
 from regress.headset.training.traced import mirrored_points, places_of, traced_points
 
 _BLINK = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]

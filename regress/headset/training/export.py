@@ -11,9 +11,10 @@ from torch import nn
 
 from regress.errors import ModelError
 from regress.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
+from regress.headset.outputs import WEIGHTS
 from regress.headset.training.networks import HeadsetNetwork
 from regress.headset.training.resampling import resampling_matrix
-from regress.headset.training.targets import WEIGHTS, Targets
+from regress.headset.training.targets import Targets
 
 TOLERANCE = 1e-4
 """Largest difference between the graph and PyTorch that is let through."""

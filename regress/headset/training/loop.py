@@ -15,13 +15,14 @@ from facegen.conventions import VIEW_POINTS
 from regress.errors import InputError, Interrupted, OutputError
 from regress.files import write_whole
 from regress.headset.arrays import HeadsetArrays
+from regress.headset.outputs import WEIGHTS
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.batches import Batch, Frames
 from regress.headset.training.losses import total_loss
 from regress.headset.training.networks import NETWORKS, Answer, HeadsetNetwork, HolisticNetwork
 from regress.headset.training.optimizer import optimizers_of
 from regress.headset.training.photometry import draw_photometry
-from regress.headset.training.targets import WEIGHTS, Targets, target_scale
+from regress.headset.training.targets import Targets, target_scale
 from regress.headset.training.traced import mirrored_points
 
 Progress = Callable[[int, int, dict[str, float]], None]

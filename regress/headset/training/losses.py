@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import torch
 from torch.nn import functional
 
+from regress.headset.outputs import WEIGHTS
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.networks import Answer, HeadsetNetwork, ModularNetwork
-from regress.headset.training.targets import WEIGHTS
 
 _SEAT = 0.1
 """Weight of the seat's cross-entropy."""

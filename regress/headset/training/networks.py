@@ -6,11 +6,12 @@ from dataclasses import dataclass
 import torch
 from torch import nn
 
+from regress.headset.outputs import MIRROR, MIRROR_SIGN, OUTPUTS
 from regress.headset.parts import encoder_owners, mirror_partner
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.blend import LEAST_MODULATION, Blended, blend
 from regress.headset.training.encoders import Encoder
-from regress.headset.training.targets import MIRROR, MIRROR_SIGN, OUTPUTS, part_mask
+from regress.headset.training.targets import part_mask
 
 _COUNT = len(OUTPUTS)
 _LOG_VARIANCE = (-6.0, 3.0)

@@ -4,17 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES, MIRRORED_BLENDSHAPES
+from facegen.conventions import BLENDSHAPES
 from regress.headset.arrays import HeadsetArrays
-from regress.headset.model import GAZE_OUTPUTS
+from regress.headset.outputs import MIRROR, MIRROR_SIGN
 from regress.headset.parts import part_of
-
-WEIGHTS = len(BLENDSHAPES)
-OUTPUTS = (*BLENDSHAPES, *GAZE_OUTPUTS)
-
-MIRROR = np.array([*MIRRORED_BLENDSHAPES, *(WEIGHTS + column for column in (2, 3, 0, 1))])
-"""``outputs[:, MIRROR] * MIRROR_SIGN`` are the outputs of the mirrored face."""
-MIRROR_SIGN = np.array([*[1.0] * WEIGHTS, -1.0, 1.0, -1.0, 1.0], dtype=np.float32)
 
 _LEAST_STD = 0.02
 """A shape that hardly moves in the data would count as much as all others otherwise."""

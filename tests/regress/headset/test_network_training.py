@@ -20,11 +20,11 @@ from regress.headset.arrays import HeadsetArrays  # noqa: E402
 from regress.headset.evaluation import evaluate  # noqa: E402
 from regress.headset.graph import Estimates  # noqa: E402
 from regress.headset.model import HeadsetModel  # noqa: E402
+from regress.headset.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
 from regress.headset.parts import part_of  # noqa: E402
 from regress.headset.recipe import HeadsetRecipe  # noqa: E402
 from regress.headset.training import train_headset  # noqa: E402
 from regress.headset.training.batches import Frames  # noqa: E402
-from regress.headset.training.targets import MIRROR, MIRROR_SIGN  # noqa: E402
 from tests.regress.headset.takes import write_pictures  # noqa: E402
 
 QUICK = HeadsetRecipe(input_size=16, code=48, hidden=64, epochs=16, batch=16, learning_rate=4e-3)

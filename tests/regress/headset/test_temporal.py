@@ -190,6 +190,30 @@ def test_predicting_weighs_the_frames_before(run, model: Path, tmp_path: Path):
     )
 
 
+@pytest.mark.parametrize(
+    ("options", "said_so"),
+    [
+        (
+            ["--temporal", "--fps", "60"],
+            "30 frames a second and the take has 60; they reach 67 ms back in place of 133",
+        ),
+        (["--temporal", "--fps", "29.97"], ""),
+        (["--temporal"], ""),
+        (["--fps", "60"], ""),
+    ],
+)
+def test_taps_of_another_rate_are_told(run, model: Path, tmp_path: Path, options: list[str], said_so: str):
+    taps = tuple((0.5, 0.25, 0.25, 0.0, 0.0) for _ in range(56))
+    temporal = Temporal(fps=30.0, taps=taps, people=1, dataset_hash="")
+    describe_headset_model(replace(read_headset_model(model), temporal=temporal), model)
+    # pictures that change with every frame, so that none is frozen
+    take = write_take(tmp_path / "take", {name: pictures(range(60, 120, 5)) for name in NAMES})
+    code, _, said = run("headset", "predict", model, *take, *options)
+    assert code == 0, said
+    assert ("taps are for" in said) == bool(said_so)
+    assert said_so in said
+
+
 def test_stills_have_no_frames_before(run, model: Path, arrays_folder: Path, tmp_path: Path):
     before = (model / "model.json").read_bytes()
     code, out, said = run("headset", "temporal", model, arrays_folder)

@@ -9,6 +9,7 @@ torch = pytest.importorskip("torch")
 
 from facegen.conventions import BLENDSHAPES, IRIS_POINTS, VIEW_POINTS  # noqa: E402
 from regress.headset.arrays import HeadsetArrays  # noqa: E402
+from regress.headset.outputs import OUTPUTS  # noqa: E402
 from regress.headset.recipe import HeadsetRecipe  # noqa: E402
 from regress.headset.training.batches import Frames  # noqa: E402
 from regress.headset.training.blend import Blended  # noqa: E402
@@ -16,7 +17,6 @@ from regress.headset.training.encoders import Encoder  # noqa: E402
 from regress.headset.training.loop import Training  # noqa: E402
 from regress.headset.training.losses import places_loss, total_loss  # noqa: E402
 from regress.headset.training.networks import Answer, ModularNetwork  # noqa: E402
-from regress.headset.training.targets import OUTPUTS  # noqa: E402
 from regress.headset.training.traced import traced_points  # noqa: E402
 from regress.headset.training.tracers import Tracer  # noqa: E402
 from tests.regress.headset.drawn import DOTS, dot_of  # noqa: E402
