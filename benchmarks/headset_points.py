@@ -16,6 +16,9 @@ from regress.headset.arrays import HeadsetArrays, read_arrays
 from regress.headset.evaluation import HELD_OUT
 from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
 
+NEAR_DEG = 12.0
+"""Of gaze, within which a pupil moves about evenly with it."""
+
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -34,6 +37,28 @@ def main() -> None:
             for mean, spread in zip(np.mean(figures, 0), np.std(figures, 0), strict=True)
         ]
         print(f"| {camera} | {part} | {shown:.0f} | {' | '.join(cells)} |")
+    for camera, side in (("left_eye", "left"), ("right_eye", "right")):
+        if camera in arrays.points:
+            yaw_px, pitch_px = pupil_motion(arrays, camera, side)
+            print(
+                f"\n{camera}: a degree of yaw moves the pupil by {yaw_px:.2f} px, one of pitch by {pitch_px:.2f}."
+            )
+
+
+def pupil_motion(arrays: HeadsetArrays, camera: str, side: str) -> np.ndarray:
+    """Pixels (2,) by which a degree of an eye's yaw, and one of its pitch, move its pupil.
+
+    Least squares over frames whose gaze is near that of the person's neutral picture in the same seat.
+    """
+    neutral = arrays.neutral_rows(other_seat=False)
+    rows = np.flatnonzero(~arrays.neutral & (neutral >= 0))
+    places = arrays.points[camera][:, VIEW_POINTS.index(f"{side}_pupil")]
+    moved_px = places[rows] - places[neutral[rows]]
+    columns = slice(0, 2) if side == "left" else slice(2, 4)
+    turned_deg = np.degrees(arrays.gaze[rows] - arrays.gaze[neutral[rows]])[:, columns]
+    near = np.isfinite(moved_px).all(axis=1) & (np.abs(turned_deg) < NEAR_DEG).all(axis=1)
+    by_degree = np.linalg.lstsq(turned_deg[near], moved_px[near], rcond=None)[0]
+    return np.linalg.norm(by_degree, axis=1)
 
 
 def errors_by_part(predictor: HeadsetPredictor, arrays: HeadsetArrays) -> dict[tuple[str, str], np.ndarray]:

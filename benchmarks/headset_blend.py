@@ -1,0 +1,79 @@
+"""How cameras are blended: the modulation and the variances of a trained network, changed in its graph.
+
+    python benchmarks/headset_blend.py models/headset ARRAYS
+
+The second paper's equation 6 weighs each camera by its inverse variance, and multiplies what lies outside its part by a
+factor. Training knows one factor; this evaluates others, and equal variances, without training again. Prints Markdown;
+the result stands in docs/headset-networks.md.
+"""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import onnx
+from onnx import numpy_helper
+
+from regress.headset import HeadsetGraph, read_headset_model
+from regress.headset.arrays import read_arrays
+from regress.headset.evaluation import evaluate
+
+FACTORS = (1e-4, 0.03, 0.1, 0.3, 1.0)
+
+
+def main() -> None:
+    """Print the sweep of the model in the first argument on the arrays in the second."""
+    folder, arrays = Path(sys.argv[1]), read_arrays(sys.argv[2])
+    model = read_headset_model(folder)
+    graph = onnx.load(str(folder / "network.onnx"))
+    place = modulation_of(graph, len(model.cameras), model.modulation)
+    trained = numpy_helper.to_array(place)
+    print(
+        "| variances | modulation | ordinary mm | calibrated mm | left eye lost mm | held-out combinations mm "
+        "| mean R² | gaze ° |"
+    )
+    print("|---|---|---|---|---|---|---|---|")
+    for variances in ("predicted", "equal"):
+        if variances == "equal":
+            make_variances_equal(graph)
+        for factor in FACTORS:
+            changed = np.where(trained == 1, 1, factor).astype(np.float32)
+            place.CopyFrom(numpy_helper.from_array(changed, place.name))
+            one = replace(model, modulation=factor)
+            found = evaluate(HeadsetGraph(graph.SerializeToString(), model.cameras), one, arrays)
+            alone, held_out = found["conditions"]["uncalibrated"], found["held_out"]["uncalibrated"]
+            shown = [
+                alone,
+                found["conditions"]["same_seat"],
+                found["conditions"]["without_left_eye"],
+                held_out,
+            ]
+            errors = " | ".join(f"{one['geometry_mm']:.3f}" for one in shown)
+            print(f"| {variances} | {factor} | {errors} | {alone['r2']:.3f} | {alone['gaze_deg']:.2f} |")
+
+
+def modulation_of(graph: onnx.ModelProto, cameras: int, modulation: float) -> onnx.TensorProto:
+    """The graph's tensor of factors: a row a camera, 1 within its part and the trained modulation without."""
+    for tensor in graph.graph.initializer:
+        values = numpy_helper.to_array(tensor)
+        if (
+            values.ndim == 2
+            and len(values) == cameras
+            and set(np.unique(values)) == {1, np.float32(modulation)}
+        ):
+            return tensor
+    raise SystemExit(f"the graph holds no modulation of {modulation}: it is not modular")
+
+
+def make_variances_equal(graph: onnx.ModelProto) -> None:
+    """Let every camera predict the same variance of every output: what is left is the modulation."""
+    layers = [tensor for tensor in graph.graph.initializer if ".log_variances." in tensor.name]
+    if not layers:
+        raise SystemExit("the graph holds no layer of log variances by that name")
+    for tensor in layers:
+        tensor.CopyFrom(numpy_helper.from_array(np.zeros_like(numpy_helper.to_array(tensor)), tensor.name))
+
+
+if __name__ == "__main__":
+    main()
