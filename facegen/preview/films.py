@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-import cv2
 import matplotlib.style
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -11,7 +10,8 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from facegen.conventions import BLENDSHAPES
-from facegen.errors import InputError, OutputError
+from facegen.errors import InputError
+from facegen.formats.film import encode_film
 from facegen.preview.performance import Performance, pictures
 
 FILMS, ANIMATIONS = (".mp4",), (".gif", ".webp")
@@ -27,7 +27,7 @@ def write_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None:
     ------
     InputError
         If the suffix is none of `FILMS` and `ANIMATIONS`.
-    OutputError
+    OSError
         If OpenCV cannot write the film.
     """
     suffix = path.suffix.lower()
@@ -41,21 +41,7 @@ def write_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None:
         return
     if suffix not in FILMS:
         raise InputError(f"{path}: films end in {', '.join((*FILMS, *ANIMATIONS))}")
-    writer = None
-    try:
-        for frame in frames:
-            if writer is None:
-                size = frame.shape[1], frame.shape[0]
-                # MPEG-4 part 2: the wheel's FFmpeg has no H.264 encoder
-                writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"mp4v"), fps, size)
-                if not writer.isOpened():
-                    raise OutputError(
-                        f"{path}: OpenCV cannot write films here; try a name that ends in .webp"
-                    )
-            writer.write(cv2.cvtColor(frame, cv2.COLOR_RGB2BGR))
-    finally:
-        if writer is not None:
-            writer.release()
+    encode_film(path, frames, fps=fps)
 
 
 def clip_strip(

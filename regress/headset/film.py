@@ -10,6 +10,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from facegen.formats.film import encode_film
 from regress.errors import InputError, OutputError
 from regress.headset.footage import Footage
 from regress.headset.recordings import FILMS
@@ -48,7 +49,7 @@ def write_film(
             table, face = Path(folder, "weights.csv"), Path(folder, "face.mp4")
             table.write_text(weights_csv, encoding="utf-8")
             _draw_face(table, face, rig=rig, fps=fps, height_px=height_px)
-            _write(part, _tiled(footage, face, height_px), fps)
+            encode_film(part, _tiled(footage, face, height_px), fps=fps)
         part.replace(path)
     except OSError as error:
         raise OutputError(f"the film cannot be written to {path}: {error.strerror or error}") from error
@@ -119,22 +120,6 @@ def _tiled(footage: Footage, face: Path, height_px: int) -> Iterator[np.ndarray]
             number = str(footage.numbers[row])
             place = (8, picture.shape[0] - 10)
             cv2.putText(picture, number, place, cv2.FONT_HERSHEY_SIMPLEX, 0.5, (90,) * 3, 1, cv2.LINE_AA)
-            yield np.hstack([beside, picture])
+            yield cv2.cvtColor(np.hstack([beside, picture]), cv2.COLOR_BGR2RGB)
     finally:
         film.release()
-
-
-def _write(path: Path, frames: Iterator[np.ndarray], fps: float) -> None:
-    writer = None
-    try:
-        for frame in frames:
-            if writer is None:
-                # MPEG-4 part 2: the wheel's FFmpeg has no H.264 encoder
-                size = frame.shape[1], frame.shape[0]
-                writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"mp4v"), fps, size)
-                if not writer.isOpened():
-                    raise OutputError(f"{path}: OpenCV cannot write films of this kind here; try .mp4")
-            writer.write(frame)
-    finally:
-        if writer is not None:
-            writer.release()
