@@ -1,7 +1,7 @@
 """Recordings of several cameras laid side by side, frame by frame."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -33,6 +33,8 @@ class Footage:
         For people.
     notes
         What a person should be told, a sentence each.
+    scaled_from
+        Width and height of the recorded pictures, of cameras whose pictures were scaled.
     """
 
     cameras: tuple[str, ...]
@@ -42,6 +44,7 @@ class Footage:
     time_s: np.ndarray | None
     source: str
     notes: tuple[str, ...]
+    scaled_from: dict[str, tuple[int, int]] = field(default_factory=dict)
 
     @property
     def present(self) -> np.ndarray:
@@ -138,6 +141,7 @@ def line_up(
         time_s=_times(recordings, len(numbers), fps),
         source=source,
         notes=tuple(notes),
+        scaled_from={name: one.scaled_from for name, one in recordings.items() if one.scaled_from},
     )
 
 

@@ -25,11 +25,19 @@ def check_points(predictor: HeadsetPredictor) -> None:
 
 
 def traced_points(predictor: HeadsetPredictor, footage: Footage) -> dict[str, np.ndarray]:
-    """Pixels (n, P, 2) by camera of ``HeadsetModel.points``, NaN where the camera has no picture that counts."""
+    """Pixels (n, P, 2) by camera of ``HeadsetModel.points``, NaN where the camera has no picture that counts.
+
+    They are pixels of the pictures as they were recorded, whatever size the network sees them at.
+    """
     found = predictor.graph.trace(footage.pictures)
     for column, name in enumerate(footage.cameras):
-        if name in found:
-            found[name][~footage.present[:, column]] = np.nan
+        if name not in found:
+            continue
+        if name in footage.scaled_from:
+            height, width = footage.pictures[name].shape[1:]
+            # 0 is the middle of the first pixel, before scaling and after
+            found[name] = (found[name] + 0.5) * np.divide(footage.scaled_from[name], (width, height)) - 0.5
+        found[name][~footage.present[:, column]] = np.nan
     return found
 
 

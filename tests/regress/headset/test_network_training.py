@@ -49,24 +49,32 @@ def test_it_says_where_points_lie_in_each_cameras_own_pictures(
         "mouth": ["landmark_8"],
     }
     rows = arrays.rows("test")
-    options = []
-    for name, pictures in arrays.pictures.items():
-        write_pictures(tmp_path / name, pictures[rows])
-        options += ["--camera", f"{name}={tmp_path / name}"]
-    table = tmp_path / "points.csv"
-    code, _, said = run(
-        "headset", "predict", folder, *options, "--points", table, "--out", tmp_path / "w.csv"
-    )
-    assert code == 0, said
-    with table.open() as file:
-        found = list(csv.DictReader(file))
-    assert len(found) == len(rows)
+    found = {}
+    for times in (1, 3):  # the second take is recorded with pictures of three times the side
+        options = []
+        for name, pictures in arrays.pictures.items():
+            take = tmp_path / f"{name}_{times}"
+            write_pictures(take, pictures[rows].repeat(times, axis=1).repeat(times, axis=2))
+            options += ["--camera", f"{name}={take}"]
+        table = tmp_path / f"points_{times}.csv"
+        code, _, said = run(
+            "headset", "predict", folder, *options, "--points", table, "--out", tmp_path / "w.csv"
+        )
+        assert code == 0, said
+        with table.open() as file:
+            found[times] = list(csv.DictReader(file))
+        assert len(found[times]) == len(rows)
     for camera, points in model.points.items():
         for point in points:
-            said = np.array([[float(row[f"{camera}.{point}.{axis}"]) for axis in "xy"] for row in found])
+            said, larger = (
+                np.array([[float(row[f"{camera}.{point}.{axis}"]) for axis in "xy"] for row in table])
+                for table in found.values()
+            )
             true = arrays.points[camera][rows, VIEW_POINTS.index(point)]
             spread = np.linalg.norm(true - true.mean(axis=0), axis=1).mean()
             assert np.linalg.norm(said - true, axis=1).mean() < 0.5 * spread, (camera, point)
+            # middles of pixels: pixel 0 became pixels 0, 1 and 2
+            np.testing.assert_allclose(larger, 3 * said + 1, atol=0.02)
 
 
 def test_it_learns_what_unseen_people_do(trained: tuple[HeadsetModel, Path]):
