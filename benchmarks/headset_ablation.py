@@ -5,7 +5,7 @@
 
 A network is some three processor minutes at these defaults; those that lie under `--out` are not trained again, and one
 that was stopped goes on. Errors of unseen people, and on combinations that training never shows. Prints Markdown, which
-stands in docs/headset-networks.md.
+stands in docs/headset-network-figures.md.
 """
 
 import argparse
