@@ -3,7 +3,8 @@
     python benchmarks/headset_points.py models/headset* --data datasets/out/headset-test-arrays
 
 Of unseen people, ordinary frames without a neutral picture; a camera and the one that mirrors it count together.
-Several models give mean and standard deviation over them. Prints Markdown, which stands in docs/headset-network-figures.md.
+Several models give mean and standard deviation over them. Prints Markdown, which stands in
+docs/headset-network-figures.md.
 """
 
 import argparse
