@@ -181,14 +181,14 @@ def predict(
     )
     for note in _notes(performance, footage, keep_neutral=keep_neutral):
         say(note)
+    if points is not None:
+        write_points(points_csv(predictor, footage), points)
+    _write(performance, footage, table_format, out, gltf, trust)
     if video is not None:
         rate = fps or (ASSUMED_FPS if footage.time_s is None else _rate(footage.time_s))
         text = prediction_csv(_prediction(performance, footage, gaze=False))
         write_film(video, footage, text, rig=rig, fps=rate)
         say(f"film in {video}")
-    if points is not None:
-        write_points(points_csv(predictor, footage), points)
-    _write(performance, footage, table_format, out, gltf, trust)
 
 
 def _check_tables(

@@ -8,7 +8,7 @@ import typer
 
 from regress.cli.headset_evaluate import SplitName
 from regress.cli.talk import say
-from regress.errors import OutputError
+from regress.errors import InputError, ModelError, OutputError
 from regress.files import write_whole
 from regress.headset.arrays import read_arrays
 from regress.headset.comparison import compare
@@ -52,9 +52,9 @@ def report(
     --out report.html
     """
     predictor = load_headset_predictor(model)
-    rivals = [(path.name, load_headset_predictor(path)) for path in against or ()]
-    fewer = [(path.name, load_headset_predictor(path)) for path in curve or ()]
-    folders = [(path.name, read_arrays(path)) for path in data or ()]
+    rivals = [(name, load_headset_predictor(path)) for name, path in _titled("--against", against)]
+    fewer = [(name, load_headset_predictor(path)) for name, path in _titled("--curve", curve)]
+    folders = [(name, read_arrays(path)) for name, path in _titled("--data", data)]
     judged, points = [], []
     for title, arrays in folders:
         judged.append(
@@ -71,6 +71,8 @@ def report(
         found = one.model.scores
         if folders:
             found = evaluate(one.graph, one.model, folders[0][1], split=split.value)
+        elif not found:
+            raise ModelError(f"{name} has no scores on a test split; give --data to measure some")
         points.append((name, one.model.training["people"], one.model.training["rows"], found))
     timings = [(timing.name, timing.microseconds) for timing in time_headset(predictor)] if timed else []
     typer.echo(
@@ -78,6 +80,19 @@ def report(
     )
     if figures is not None:
         _write_figures(figures, judged, points, timings)
+
+
+def _titled(option: str, paths: list[Path] | None) -> list[tuple[str, Path]]:
+    """Folders by their names, or by their paths where names are not enough to tell them apart."""
+    paths = paths or []
+    names = [path.resolve().name for path in paths]
+    titled = [
+        (str(path) if names.count(name) > 1 else name, path) for name, path in zip(names, paths, strict=True)
+    ]
+    for title, path in titled:
+        if [other for other, _ in titled].count(title) > 1:
+            raise InputError(f"{option} {path} is given twice")
+    return titled
 
 
 def _write_figures(

@@ -77,7 +77,7 @@ def evaluate(
     dict
         ``conditions`` and ``held_out``: summaries by condition; ``floors``: of the training mean and of the
         resting face; ``shapes``: R2, MAE and RMSE by shape and calibration; ``cameras``: R2 of each shape from
-        one camera alone; ``components`` and ``people``: geometry error in mm by condition; ``deviation``: how
+        one camera alone; ``components`` and ``people_mm``: geometry error in mm by condition; ``deviation``: how
         honest the predicted standard deviations are; ``seat``: how often the network names the seat rightly.
 
     Raises

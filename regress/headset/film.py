@@ -15,6 +15,9 @@ from regress.errors import InputError, OutputError
 from regress.headset.footage import Footage
 from regress.headset.recordings import FILMS
 
+WRITTEN = tuple(suffix for suffix in FILMS if suffix != ".webm")
+"""Endings of films that can be written: WebM holds no MPEG-4."""
+
 _GREY = 40
 """Of what surrounds the pictures, and of a camera that has none."""
 
@@ -58,9 +61,11 @@ def write_film(
 
 
 def check_film_name(path: Path) -> None:
-    """Refuse a name whose ending is no film's."""
-    if path.suffix.lower() not in FILMS:
-        raise InputError(f"{path} is no film's name; films end in {', '.join(FILMS)}")
+    """Refuse a name whose ending is not one of ``WRITTEN``."""
+    if path.suffix.lower() not in WRITTEN:
+        raise InputError(
+            f"{path} is no name of a film that can be written; these end in {', '.join(WRITTEN)}"
+        )
 
 
 def tiles(footage: Footage, row: int, height_px: int) -> np.ndarray:

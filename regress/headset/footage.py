@@ -12,6 +12,9 @@ from regress.headset.recordings import Recording
 _LONGEST_GRID = 4
 """Frames of an even count for each that is there; numbers farther apart, or not even, are clock times."""
 
+_SAME_RATE = 1.01
+"""Factor between frame rates that are taken for one: 29.97 and 30."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Footage:
@@ -89,15 +92,18 @@ def line_up(
     still
         For frames that have nothing to do with each other: none is frozen, and no number is lacking between others.
     fps
-        Frames a second; without it a film's own, or times are not known.
+        Frames a second, whatever films say; without it a film's own, or times are not known.
 
     Raises
     ------
     InputError
-        Where there is no recording, numbers have nothing in common, or no picture is usable.
+        Where there is no recording, films have other frame rates, numbers have nothing in common, or no picture is
+        usable.
     """
     if not recordings:
         raise InputError(f"no camera is given; the model has {', '.join(sizes)}")
+    if fps is None:
+        _check_rates(recordings)
     notes = [note for recording in recordings.values() for note in _scaling_note(recording, sizes)]
     by_number = all(recording.numbered for recording in recordings.values()) and not from_start
     if by_number:
@@ -143,6 +149,17 @@ def line_up(
         notes=tuple(notes),
         scaled_from={name: one.scaled_from for name, one in recordings.items() if one.scaled_from},
     )
+
+
+def _check_rates(recordings: Mapping[str, Recording]) -> None:
+    """Refuse films whose frames are not of the same times: they are matched by their numbers."""
+    rates = {name: recording.fps for name, recording in recordings.items() if recording.fps is not None}
+    if rates and max(rates.values()) > _SAME_RATE * min(rates.values()):
+        told = ", ".join(f"{name} has {rate:.4g}" for name, rate in rates.items())
+        raise InputError(
+            f"the films have different frames a second ({told}); give films of one rate, or --fps to match them frame "
+            f"by frame"
+        )
 
 
 def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) -> list[str]:

@@ -4,6 +4,7 @@ import hashlib
 import io
 import json
 import math
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -44,6 +45,7 @@ class Training:
     """
 
     def __init__(self, arrays: HeadsetArrays, recipe: HeadsetRecipe, checkpoint: Path | None = None) -> None:
+        self._began_s, self._earlier_s = time.process_time(), 0.0
         torch.set_num_threads(1)  # other splits of a sum end in other last bits
         torch.manual_seed(recipe.seed)
         rows = arrays.kept_rows("train", withhold=recipe.withhold, people=recipe.people)
@@ -62,6 +64,11 @@ class Training:
         self._key = _key(arrays, recipe, rows)
         if checkpoint is not None and checkpoint.exists():
             self._resume(checkpoint)
+
+    @property
+    def cpu_s(self) -> float:
+        """Processor seconds so far, those before it was stopped among them."""
+        return self._earlier_s + time.process_time() - self._began_s
 
     @property
     def rows(self) -> np.ndarray:
@@ -198,6 +205,7 @@ class Training:
         state = {
             "key": self._key,
             "history": self.history,
+            "cpu_s": self.cpu_s,
             "network": self.network.state_dict(),
             "optimizers": [optimizer.state_dict() for optimizer in self._optimizers],
         }
@@ -222,7 +230,7 @@ class Training:
                 f"{path} is the checkpoint of a training with other settings or data; "
                 "remove it, or repeat that training's command"
             )
-        self.history = state["history"]
+        self.history, self._earlier_s = state["history"], state["cpu_s"]
         self.network.load_state_dict(state["network"])
         for optimizer, kept in zip(self._optimizers, state["optimizers"], strict=True):
             optimizer.load_state_dict(kept)

@@ -1,7 +1,6 @@
 """Training from arrays to a model folder."""
 
 import os
-import time
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
@@ -53,7 +52,6 @@ def train_headset(
     folder = Path(folder)
     check_place(folder)
     checkpoint = folder.parent / f".{folder.name}.checkpoint"
-    started = time.process_time()
     training = Training(arrays, recipe, checkpoint)
     resumed = len(training.history)
     network = training.run(progress)
@@ -80,7 +78,7 @@ def train_headset(
             "people": len(set(arrays.person[training.rows].tolist())),
             "parameters": sum(parameter.numel() for parameter in network.parameters()),
             "history": training.history,
-            "cpu_s": time.process_time() - started,
+            "cpu_s": training.cpu_s,
             "resumed_after_epochs": resumed,
             "onnx_difference": difference,
             "deviation_scale": scale.tolist(),

@@ -164,7 +164,11 @@ def test_eyes_of_one_take_and_the_mouth_of_another(run, model: Path, take: list[
         (["TAKE", "--one-euro", "1"], "does not say when its frames were taken; give --fps"),
         (["TAKE", "--format", "livelink"], "does not say when its frames were taken; give --fps"),
         (["TAKE", "--retarget", "vrm1", "--video", "a.mp4"], "leave out --retarget"),
-        (["TAKE", "--video", "a.gif"], "is no film's name"),
+        (
+            ["TAKE", "--video", "a.gif"],
+            "a.gif is no name of a film that can be written; these end in .mp4, .avi",
+        ),
+        (["TAKE", "--video", "a.webm"], "a.webm is no name of a film that can be written"),
     ],
 )
 def test_what_cannot_be_done_is_one_sentence(

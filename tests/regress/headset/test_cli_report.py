@@ -3,6 +3,7 @@
 import base64
 import json
 import re
+import shutil
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -62,7 +63,8 @@ def test_the_page_is_whole_and_fetches_nothing(
 ):
     many, few = models
     out, figures = tmp_path / "deep" / "report.html", tmp_path / "figures.json"
-    words = ["--data", arrays_folder, "--data", arrays_folder, "--against", few, "--curve", few, "--no-time"]
+    other = shutil.copytree(arrays_folder, tmp_path / "other" / arrays_folder.name)
+    words = ["--data", arrays_folder, "--data", other, "--against", few, "--curve", few, "--no-time"]
     code, printed, said = run("headset", "report", many, *words, "--out", out, "--figures", figures)
     assert (code, printed.strip()) == (0, str(out)), said
     page = out.read_text()
@@ -82,7 +84,7 @@ def test_the_page_is_whole_and_fetches_nothing(
     document = json.loads(figures.read_text())
     predictor = load_headset_predictor(many)
     found = evaluate(predictor.graph, predictor.model, arrays)
-    assert document["data"] == {"arrays": found}
+    assert document["data"] == {str(arrays_folder): found, str(other): found}
     assert [(one["model"], one["people"]) for one in document["curve"]] == [("few", 5), ("many", 20)]
     assert f"{found['conditions']['uncalibrated']['geometry_mm']:.3f}" in page
     assert f"{found['shapes']['jawOpen']['same_seat']['r2']:.3f}".replace("-", "−") in page
@@ -119,6 +121,13 @@ def test_a_model_is_reported_by_its_own_scores_without_data(
     code, _, said = run("headset", "report", bare, "--out", tmp_path / "none.html")
     assert (code, len(said.splitlines())) == (2, 1)
     assert "give --data to measure some" in said
+    code, _, said = run("headset", "report", scored, "--curve", bare, "--out", tmp_path / "none.html")
+    assert (code, said.strip()) == (
+        2,
+        "regress: bare has no scores on a test split; give --data to measure some",
+    )
+    code, _, said = run("headset", "report", scored, "--data", arrays_folder, "--data", arrays_folder)
+    assert (code, said.strip()) == (2, f"regress: --data {arrays_folder} is given twice")
 
 
 def test_what_the_frames_before_add_is_reported(run, arrays_folder: Path, tmp_path: Path):

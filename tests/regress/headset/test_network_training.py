@@ -122,10 +122,14 @@ def test_a_stopped_training_goes_on_to_the_same_model(arrays: HeadsetArrays, tmp
     assert not (tmp_path / "stopped").exists()
     with pytest.raises(InputError, match="other settings"):
         train_headset(arrays, replace(recipe, seed=1), tmp_path / "stopped")
+    state = torch.load(tmp_path / ".stopped.checkpoint", weights_only=True)
+    assert 0 < state["cpu_s"] < 1000
+    torch.save(state | {"cpu_s": 1000.0}, tmp_path / ".stopped.checkpoint")
     epochs = []
     model = train_headset(arrays, recipe, tmp_path / "stopped", progress=lambda done, *_: epochs.append(done))
     assert epochs == [3]
     assert model.training["resumed_after_epochs"] == 2
+    assert 1000 < model.training["cpu_s"] < 2000
     graphs = [(tmp_path / name / "network.onnx").read_bytes() for name in ("whole", "stopped")]
     assert graphs[0] == graphs[1]
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from regress.errors import InputError
 from regress.headset.faults import FROZEN_FRAMES, Fault, frozen_frames, picture_fault, told_faults
 from regress.headset.footage import line_up
-from regress.headset.recordings import read_recording, read_rendered
+from regress.headset.recordings import Recording, read_recording, read_rendered
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 
 SIZES = {"left_eye": (WIDTH, HEIGHT), "right_eye": (WIDTH, HEIGHT), "mouth": (WIDTH, HEIGHT)}
@@ -50,6 +50,22 @@ def test_numbers_that_all_cameras_lack_are_frames_without_pictures():
     assert footage.present.any(axis=1).tolist() == [True] * 3 + [False] * 3 + [True] * 2
     assert footage.time_s == pytest.approx(np.arange(8) / 10)
     assert "mouth: 3 of 8 frames have no picture: 3-5" in footage.notes
+
+
+def test_films_of_other_rates_are_not_matched_by_number():
+    def films(eye_fps: float, mouth_fps: float) -> dict[str, Recording]:
+        rates = {"left_eye": eye_fps, "mouth": mouth_fps}
+        return {
+            name: recording(name, pictures([100] * 5, seed=2), numbered=False, fps=rate)
+            for name, rate in rates.items()
+        }
+
+    assert line_up(films(30, 29.97), SIZES).time_s == pytest.approx(np.arange(5) / 30)
+    with pytest.raises(
+        InputError, match=r"left_eye has 60, mouth has 30\); give films of one rate, or --fps"
+    ):
+        line_up(films(60, 30), SIZES)
+    assert line_up(films(60, 30), SIZES, fps=10).time_s == pytest.approx(np.arange(5) / 10)
 
 
 def test_clock_times_for_numbers_are_no_grid():
