@@ -21,7 +21,7 @@ TWO     := --numprocesses 2 --dist loadfile
 .DELETE_ON_ERROR:
 
 help:  ## Say what the targets are
-	@echo "facegen: synthetic people with exact labels; regress: avatar blendshapes from 68 keypoints."
+	@echo "facegen: synthetic people with exact labels; regress: avatar blendshapes from 68 keypoints or headset pictures."
 	@echo
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 	@echo
@@ -66,7 +66,7 @@ format: $(READY)  ## Put the code into its format
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-clean:  ## Remove rigs, datasets and models that make can make again
+clean:  ## Remove all of blender_assets/build, datasets/out and models, your own among them
 	rm -rf blender_assets/build datasets/out models
 
 distclean: clean  ## Remove the virtual environment as well

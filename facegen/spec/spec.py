@@ -262,7 +262,7 @@ class Render:
     samples: str = ""
     """Samples that are rendered, for example "0-99,140,200-240:10"."""
     size_px: Annotated[int, Field(ge=16, le=4096)] = 256
-    """Width and height of each picture."""
+    """Width of each picture; its height follows from the shape of the camera's own."""
     samples_per_pixel: Annotated[int, Field(ge=1, le=65536)] = 8
     """Light paths per pixel."""
     denoise: bool = True

@@ -110,7 +110,9 @@ def predict(
     adjust: Annotated[
         Path | None,
         typer.Option(
-            "--adjust", "--calibration", help="JSON with gain, offset, dead_zone, low and high by shape."
+            "--adjust",
+            "--calibration",
+            help="JSON with gain, offset, dead_zone, low and high by shape; a resting face is --neutral's.",
         ),
     ] = None,
     amplify_eyes: Annotated[
@@ -121,7 +123,7 @@ def predict(
     points: Annotated[
         Path | None,
         typer.Option(
-            "--points", help="CSV to write: the points that each camera traces, in pixels of its picture."
+            "--points", help="CSV to write: the points that each camera traces, in pixels of its pictures."
         ),
     ] = None,
     video: Annotated[

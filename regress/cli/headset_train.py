@@ -61,7 +61,9 @@ def train(
     settings: Annotated[
         list[str] | None,
         typer.Option(
-            "--set", metavar="NAME=VALUE", help="Any other setting of the recipe, as learning_rate=1e-3."
+            "--set",
+            metavar="NAME=VALUE",
+            help="Any other setting of regress/headset/recipe.py, as learning_rate=1e-3.",
         ),
     ] = None,
 ) -> None:
