@@ -38,7 +38,7 @@ VARIANTS: dict[str, dict[str, object]] = {
     "no neutral pictures": {"calibration": False},
     "randomised pictures": {"randomise": 1},
     "pictures as they are": {"shift": 0, "scale": 0, "rotation_deg": 0},
-    "no mirror images": {"mirror": False},
+    "little weight decay": {"weight_decay": 0.01},
 }
 """What differs from the default recipe, by what the table calls it."""
 
