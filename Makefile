@@ -51,7 +51,7 @@ test-farm: $(READY) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with k
 	$(BIN)/python -m pytest tests/real_tools
 
 test-headset: models/headset-tiny/report.html  ## Headset networks: their tests with PyTorch, and make headset in small
-	$(BIN)/regress headset predict models/headset-tiny datasets/out/headset-tiny --out models/headset-tiny/predicted.csv
+	$(BIN)/regress headset predict models/headset-tiny datasets/out/headset-tiny --out models/headset-tiny.csv
 	$(BIN)/python -m pytest tests/regress/headset tests/test_layers.py
 
 test-quick: $(READY) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)

@@ -24,7 +24,7 @@ _PLAIN = HeadsetRecipe()
 def train(
     arrays: Annotated[Path, typer.Argument(help="Folder that `facegen pack --format arrays` made.")],
     out: Annotated[
-        Path, typer.Option("--out", help="Model folder to write; an older model there is replaced.")
+        Path, typer.Option("--out", help="Model folder to write; an older model of this kind is replaced.")
     ],
     architecture: Annotated[
         Architecture,

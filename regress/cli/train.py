@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from regress.cli.talk import progress, say
-from regress.model import check_place, save_model
+from regress.model import KEYPOINTS, check_place, save_model
 from regress.training import RECIPES, read_dataset
 from regress.training import train as train_model
 
@@ -18,7 +18,7 @@ RecipeName = StrEnum("RecipeName", list(RECIPES))
 def train(
     dataset: Annotated[Path, typer.Argument(help="Folder that `facegen generate` made.")],
     out: Annotated[
-        Path, typer.Option("--out", help="Model folder to write; an older model there is replaced.")
+        Path, typer.Option("--out", help="Model folder to write; an older model of this kind is replaced.")
     ],
     recipe: Annotated[RecipeName, typer.Option("--recipe", help="How to train.")] = RecipeName.default,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the networks' starts.")] = 0,
@@ -28,7 +28,7 @@ def train(
     Example: regress train datasets/out/default --out models/default
     """
     keypoints = read_dataset(dataset)
-    check_place(out)
+    check_place(out, KEYPOINTS)
     began = time.monotonic()
     with progress() as draw:
         model = train_model(keypoints, RECIPES[recipe.value], seed=seed, progress=draw)

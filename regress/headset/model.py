@@ -3,7 +3,6 @@
 import hashlib
 import json
 import os
-import tempfile
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -11,9 +10,8 @@ from typing import Any
 from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError, OutputError
 from regress.files import write_whole
-from regress.model import check_place
+from regress.model import HEADSET, KEYPOINTS, write_folder
 
-KIND = "headset"
 VERSION = 1
 
 GRAPH_OUTPUTS = ("weights", "deviation", "gaze", "shares", "same_seat")
@@ -140,7 +138,7 @@ class HeadsetModel:
 
 
 def save_headset_model(model: HeadsetModel, graph: bytes, folder: str | os.PathLike[str]) -> HeadsetModel:
-    """Write a model folder whole, by one rename; a folder that is already a model is replaced.
+    """Write a model folder whole, by one rename.
 
     Parameters
     ----------
@@ -155,24 +153,11 @@ def save_headset_model(model: HeadsetModel, graph: bytes, folder: str | os.PathL
     Raises
     ------
     OutputError
-        Where the place cannot be written, or holds something that is not a model.
+        Where the place cannot be written, or holds anything but an older headset model (``check_place``).
     """
     folder = Path(folder)
-    check_place(folder)
     text = _text(replace(model, network_sha256=hashlib.sha256(graph).hexdigest()))
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        # the temporary folder holds the new model and later the old one; it goes, whatever happens
-        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
-            new, old = Path(temporary, "new"), Path(temporary, "old")
-            new.mkdir()
-            (new / "network.onnx").write_bytes(graph)
-            (new / "model.json").write_text(text)
-            if folder.exists():
-                folder.rename(old)  # a folder cannot be renamed over a full one
-            new.rename(folder)
-    except OSError as error:
-        raise OutputError(f"the model cannot be written to {folder}: {error.strerror or error}") from error
+    write_folder(folder, HEADSET, {"network.onnx": graph, "model.json": text.encode()})
     return read_headset_model(folder)
 
 
@@ -193,7 +178,10 @@ def describe_headset_model(model: HeadsetModel, folder: str | os.PathLike[str]) 
 
 
 def _text(model: HeadsetModel) -> str:
-    return json.dumps({"kind": KIND, "version": VERSION, **asdict(model)}, indent=1, allow_nan=False) + "\n"
+    return (
+        json.dumps({"kind": HEADSET.name, "version": VERSION, **asdict(model)}, indent=1, allow_nan=False)
+        + "\n"
+    )
 
 
 def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
@@ -218,13 +206,13 @@ def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
         )
     try:
         document = json.loads(path.read_text())
-        kind, version = document.pop("kind", "keypoints"), document.pop("version", None)
+        kind, version = document.pop("kind", KEYPOINTS.name), document.pop("version", None)
     except (ValueError, AttributeError, TypeError, OSError) as error:
         raise ModelError(f"{path} is not a model's description: {error}") from error
-    if (kind, version) != (KIND, VERSION):
+    if (kind, version) != (HEADSET.name, VERSION):
         raise ModelError(
             f"{path} describes a model of kind {kind!r}, version {version!r}; "
-            f"kind {KIND!r}, version {VERSION} is needed"
+            f"kind {HEADSET.name!r}, version {VERSION} is needed"
         )
     model = _model(document, path)
     if hashlib.sha256(graph.read_bytes()).hexdigest() != model.network_sha256:

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from regress.headset.graph import Estimates, HeadsetGraph
-from regress.headset.model import KIND, HeadsetModel, read_headset_model
+from regress.headset.model import HeadsetModel, read_headset_model
+from regress.model import HEADSET
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -65,7 +66,7 @@ class HeadsetPredictor:
 def is_headset_model(folder: str | os.PathLike[str]) -> bool:
     """Whether a folder says of itself that it is a headset network's; False as well where it says nothing."""
     try:
-        return json.loads((Path(folder) / "model.json").read_bytes()).get("kind") == KIND
+        return json.loads((Path(folder) / "model.json").read_bytes()).get("kind") == HEADSET.name
     except (OSError, ValueError, AttributeError):
         return False
 

@@ -5,16 +5,16 @@ import hashlib
 import io
 import json
 import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
-from regress.errors import ModelError, OutputError
+from regress.errors import ModelError
 from regress.features import Features
 from regress.model.model import Calibrated, Model, Normalisation
+from regress.model.place import KEYPOINTS, write_folder
 from regress.networks import Denoising, FoldedNetworks
 from regress.targets import Network, observability
 
@@ -40,54 +40,16 @@ _INFERENCE = (
 
 
 def save_model(model: Model, folder: str | os.PathLike[str]) -> None:
-    """Write a model folder: into a temporary folder beside it, then one rename.
-
-    Equal models give equal bytes. A folder that is already a model is replaced; any other is left alone.
+    """Write a model folder whole, by one rename; equal models give equal bytes.
 
     Raises
     ------
     OutputError
-        Where the place cannot be written, or holds something that is not a model.
+        Where the place cannot be written, or holds anything but an older model of 68 points (``check_place``).
     """
-    folder = Path(folder)
-    check_place(folder)
     weights = _weights_bytes(model)
     text = json.dumps(_document(model, hashlib.sha256(weights).hexdigest()), indent=1, allow_nan=False) + "\n"
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        # The temporary folder holds the new model and later the old one; it goes, whatever happens.
-        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
-            new, old = Path(temporary, "new"), Path(temporary, "old")
-            new.mkdir()
-            _write_synced(new / "weights.npz", weights)
-            _write_synced(new / "model.json", text.encode())
-            if folder.exists():
-                folder.rename(old)  # a folder cannot be renamed over a full one
-            new.rename(folder)
-    except OSError as error:
-        raise OutputError(f"the model cannot be written to {folder}: {error.strerror or error}") from error
-
-
-def check_place(folder: str | os.PathLike[str]) -> None:
-    """Say early that a model cannot be written there: training takes minutes.
-
-    Raises
-    ------
-    OutputError
-        Where the folder holds something else, or nobody may write beside it.
-    """
-    folder = Path(folder)
-    if folder.exists():
-        is_model = folder.is_dir() and ((folder / "model.json").exists() or not any(folder.iterdir()))
-        if not is_model:
-            raise OutputError(
-                f"{folder} exists and is not a model folder; choose another place for the model"
-            )
-    parent = folder.absolute().parent
-    while not parent.exists():
-        parent = parent.parent
-    if not (parent.is_dir() and os.access(parent, os.W_OK)):
-        raise OutputError(f"the model cannot be written to {folder}: {parent} is not a writable folder")
+    write_folder(Path(folder), KEYPOINTS, {"weights.npz": weights, "model.json": text.encode()})
 
 
 def load_model(folder: str | os.PathLike[str]) -> Model:
@@ -219,10 +181,3 @@ def _networks(arrays: dict[str, np.ndarray]) -> FoldedNetworks:
 
 def _taken(kind: type, arrays: dict[str, np.ndarray]) -> Any:
     return kind(**{field.name: arrays[field.name] for field in dataclasses.fields(kind)})
-
-
-def _write_synced(path: Path, content: bytes) -> None:
-    with open(path, "wb") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())

@@ -17,7 +17,7 @@ from regress.headset.parts import encoder_owners, part_of
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.export import export_graph
 from regress.headset.training.loop import Progress, Training
-from regress.model import check_place
+from regress.model import HEADSET, check_place
 
 
 def train_headset(
@@ -50,7 +50,7 @@ def train_headset(
         Where the model cannot be written.
     """
     folder = Path(folder)
-    check_place(folder)
+    check_place(folder, HEADSET)
     checkpoint = folder.parent / f".{folder.name}.checkpoint"
     training = Training(arrays, recipe, checkpoint)
     resumed = len(training.history)

@@ -1,0 +1,153 @@
+"""The place of a model: what its folder may hold before a new model takes it, and one rename that does."""
+
+import json
+import os
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from regress.errors import OutputError
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModelKind:
+    """One of the kinds of model folder.
+
+    Parameters
+    ----------
+    name
+        As ``model.json`` has it under ``kind``; where it has none, it is of ``KEYPOINTS``.
+    title
+        For people.
+    keys
+        That every ``model.json`` of this kind has.
+    numbers
+        The file beside ``model.json``.
+    """
+
+    name: str
+    title: str
+    keys: frozenset[str]
+    numbers: str
+
+
+KEYPOINTS = ModelKind(
+    name="keypoints",
+    title="a model of 68 points",
+    keys=frozenset({"schema", "blendshapes", "weights_sha256"}),
+    numbers="weights.npz",
+)
+HEADSET = ModelKind(
+    name="headset",
+    title="a model of headset pictures",
+    keys=frozenset({"version", "headset", "network_sha256"}),
+    numbers="network.onnx",
+)
+
+_MADE_OF_IT = ("report.html", "exports")
+"""What `make` puts into a model's folder: of the old model, so it goes with it."""
+
+
+def check_place(folder: str | os.PathLike[str], kind: ModelKind) -> None:
+    """Say early that a model cannot be written there: training takes minutes.
+
+    An empty folder will do, and so will one with a model of this kind and nothing else but its report and exports.
+
+    Raises
+    ------
+    OutputError
+        Where the folder holds anything that would be lost, or nobody may write beside it.
+    """
+    folder = Path(folder)
+    if folder.name in ("", ".."):
+        raise OutputError(f"the model cannot be written to {folder}, which has no name; choose another --out")
+    if folder.exists():
+        _check_old(folder, kind)
+    parent = folder.absolute().parent
+    while not parent.exists():
+        parent = parent.parent
+    if not (parent.is_dir() and os.access(parent, os.W_OK)):
+        raise OutputError(f"the model cannot be written to {folder}: {parent} is not a writable folder")
+
+
+def write_folder(folder: Path, kind: ModelKind, files: Mapping[str, bytes]) -> None:
+    """Write a model's folder whole: into a temporary folder beside it, then one rename.
+
+    Parameters
+    ----------
+    folder
+        A model of the same kind there is replaced.
+    files
+        Content by name.
+
+    Raises
+    ------
+    OutputError
+        Where the place cannot be written, or holds anything that would be lost.
+    """
+    check_place(folder, kind)
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        # The temporary folder holds the new model and later the old one; it goes, whatever happens.
+        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
+            new, old = Path(temporary, "new"), Path(temporary, "old")
+            new.mkdir()
+            for name, content in files.items():
+                _write_synced(new / name, content)
+            replaced = folder.exists()
+            if replaced:
+                folder.rename(old)  # a folder cannot be renamed over a full one
+            try:
+                new.rename(folder)
+            except BaseException:
+                if replaced:
+                    old.rename(folder)
+                raise
+    except OSError as error:
+        raise OutputError(f"the model cannot be written to {folder}: {error.strerror or error}") from error
+
+
+def _check_old(folder: Path, kind: ModelKind) -> None:
+    try:
+        names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else None
+    except OSError as error:
+        raise OutputError(f"{folder} cannot be looked into: {error.strerror or error}") from error
+    if names == []:
+        return
+    if names is None or "model.json" not in names:
+        raise OutputError(f"{folder} exists and is not a model folder; choose another --out")
+    found = _kind_of(folder / "model.json")
+    if found is None:
+        raise OutputError(f"{folder / 'model.json'} is of no model that regress wrote; choose another --out")
+    if found is not kind:
+        raise OutputError(
+            f"{folder} is {found.title}, and {kind.title} would replace it; choose another --out"
+        )
+    others = [name for name in names if name not in ("model.json", kind.numbers, *_MADE_OF_IT)]
+    if others:
+        raise OutputError(
+            f"{folder} holds {', '.join(others)} beside its model, which would be lost; move that away, or choose "
+            f"another --out"
+        )
+
+
+def _kind_of(path: Path) -> ModelKind | None:
+    """Of the model that a model.json describes; None where it is not of this package."""
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    if not isinstance(document, dict):
+        return None
+    name = document.get("kind", KEYPOINTS.name)
+    return next(
+        (kind for kind in (KEYPOINTS, HEADSET) if kind.name == name and kind.keys <= document.keys()), None
+    )
+
+
+def _write_synced(path: Path, content: bytes) -> None:
+    with open(path, "wb") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())
