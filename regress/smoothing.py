@@ -131,12 +131,12 @@ def one_euro(weights: np.ndarray, time_s: np.ndarray, settings: OneEuro) -> np.n
     Raises
     ------
     InputError
-        Where a time is missing or no later than the one before; the message has the row's number.
+        Where the time of a row with weights is missing or no later than the one before; the message has its number.
     """
     stream = OneEuroStream(settings)
     rows = []
     for number, (time, row) in enumerate(zip(time_s, weights, strict=True), start=1):
-        if not np.isfinite(time):
+        if not (np.isfinite(time) or np.isnan(row).any()):
             raise InputError(f"row {number} has no time, which One-Euro smoothing needs")
         try:
             rows.append(stream.step(float(time), row))

@@ -121,6 +121,15 @@ def test_frames_out_of_order_are_left_out_and_the_others_smoothed(
     assert ": 4, 6" in err
 
 
+def test_a_frame_without_a_time_is_left_out_and_the_others_smoothed(run, quick_model_folder, tmp_path):
+    _openface(tmp_path / "take.csv", GOOD, [0.0, 0.1, float("nan"), *np.arange(3, 9) / 10])
+    for smoothing in ("--one-euro", "--smooth-landmarks"):
+        code, out, err = run("predict", quick_model_folder, tmp_path / "take.csv", smoothing, 2)
+        assert (code, err) == (0, f"{tmp_path / 'take.csv'}: 1 of 9 rows have {Fault.TIMELESS.value}: 3\n")
+        rows = [line.split(",")[2:] for line in out.splitlines()[1:]]
+        assert [set(row) == {""} for row in rows] == [row == 2 for row in range(9)]
+
+
 def test_a_neutral_face_the_wrong_way_round_is_refused(run, quick_model_folder, tmp_path):
     np.save(tmp_path / "take.npy", GOOD)
     np.save(tmp_path / "rest.npy", _exchanged(GOOD[:2]))
