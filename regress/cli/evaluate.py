@@ -30,9 +30,8 @@ def evaluate(
 
     Example: regress evaluate models/default datasets/out/default
     """
-    scores = evaluate_model(
-        load_model(model), read_dataset(dataset), split=split.value, calibrated=calibrated
-    )
+    loaded, keypoints = load_model(model), read_dataset(dataset, splits=(split.value,))
+    scores = evaluate_model(loaded, keypoints, split=split.value, calibrated=calibrated)
     visible = tuple(name for name in VISIBLE_SHAPES if name in scores)
     summary = {
         "mean_r2": mean_r2(scores, tuple(scores)),
@@ -40,9 +39,8 @@ def evaluate(
     }
     if as_json:
         shapes = {name: dataclasses.asdict(figures) for name, figures in scores.items()}
-        typer.echo(
-            json.dumps({"split": split.value, "calibrated": calibrated, "summary": summary, "scores": shapes})
-        )
+        document = {"split": split.value, "calibrated": calibrated, "summary": summary, "scores": shapes}
+        typer.echo(json.dumps(document, allow_nan=False))
         return
     typer.echo(f"{'shape':<20} {'R2':>7} {'MAE':>7} {'r':>7}")
     for name in OUTPUTS:

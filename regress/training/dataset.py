@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -80,7 +81,9 @@ class KeypointDataset:
         return np.where(people[place] == self.person, candidates[first][place], -1)
 
 
-def read_dataset(folder: str | os.PathLike[str], *, points: str = "detected_2d") -> KeypointDataset:
+def read_dataset(
+    folder: str | os.PathLike[str], *, points: str = "detected_2d", splits: Collection[str] = SPLITS
+) -> KeypointDataset:
     """Read the keypoints of a dataset made by ``facegen generate``; rows without a face are left out.
 
     Parameters
@@ -89,11 +92,13 @@ def read_dataset(folder: str | os.PathLike[str], *, points: str = "detected_2d")
         With dataset.json and keypoints.
     points
         Column of the points: ``detected_2d``, or ``points_2d`` for the exact ones.
+    splits
+        Those that must have samples: training takes all of them.
 
     Raises
     ------
     InputError
-        Where the folder is no dataset, a column is missing or has another width, or a split is empty.
+        Where the folder is no dataset, a column is missing or has another width, or one of ``splits`` is empty.
     """
     folder = Path(folder)
     description = _description(folder / "dataset.json")
@@ -116,10 +121,10 @@ def read_dataset(folder: str | os.PathLike[str], *, points: str = "detected_2d")
     if not (np.isfinite(places).all() and np.isfinite(weights).all()):
         raise InputError(f"{folder / 'keypoints'} holds points or weights that are not finite numbers")
     split = np.array(table.column("split").to_pylist())
-    for name in SPLITS:
+    for name in splits:
         if not np.any(split == name):
             raise InputError(
-                f"{folder} has no sample in the {name} split; it needs people in all of {', '.join(SPLITS)}"
+                f"{folder} has no sample in the {name} split; people are needed in {', '.join(splits)}"
             )
     return KeypointDataset(
         name=folder.resolve().name,

@@ -61,8 +61,20 @@ def score(predicted: np.ndarray, true: np.ndarray) -> tuple[Scores, ...]:
 def evaluate_model(
     model: Model, dataset: KeypointDataset, *, split: str = "test", calibrated: bool = False
 ) -> dict[str, Scores]:
-    """Scores of a model's outputs on one split of a dataset, where asked with each person's neutral frame."""
-    return score_faces(model, faces_of(dataset, split, calibrated=calibrated))
+    """Scores of a model's outputs on one split of a dataset, where asked with each person's neutral frame.
+
+    Raises
+    ------
+    InputError
+        Where no face of the split can be scored, or neutral frames are given to a model without calibrated networks.
+    """
+    faces = faces_of(dataset, split, calibrated=calibrated)
+    if not len(faces.points):
+        beside = " beside a neutral frame of its person" if calibrated else ""
+        raise InputError(
+            f"{dataset.name} has no face in the {split} split{beside}, so there is nothing to score"
+        )
+    return score_faces(model, faces)
 
 
 def score_faces(model: Model, faces: Faces) -> dict[str, Scores]:

@@ -16,7 +16,7 @@ from regress.neutral import estimate_neutral
 from regress.training import KeypointDataset, evaluate_model, train
 from regress.training.noise import DetectorNoise, displace, draw_bias, draw_displacements
 from regress.training.preparation import faces_of, prepare
-from tests.regress.conftest import QUICK
+from tests.regress.conftest import QUICK, write_dataset
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 from tests.regress.exporters.readers import READERS
 
@@ -241,3 +241,24 @@ def test_evaluate_counts_calibrated_weights(run, quick_model_folder, quick_model
     assert figures["calibrated"]
     recorded = quick_model.record["scores"]["jawOpen"]["calibrated"]["r2"]
     assert figures["scores"]["jawOpen"]["r2"] == pytest.approx(recorded, abs=1e-4)
+
+
+def test_calibrated_figures_need_neutral_faces(run, quick_model_folder, dataset: KeypointDataset, tmp_path):
+    write_dataset(dataclasses.replace(dataset, neutral=dataset.split == "none"), tmp_path / "data")
+    for words in ([], ["--json"]):
+        code, out, err = run("evaluate", quick_model_folder, tmp_path / "data", "--calibrated", *words)
+        assert (code, out, len(err.splitlines())) == (2, "", 1)
+        assert "no face in the test split beside a neutral frame of its person" in err
+
+
+def test_evaluating_needs_the_split_that_is_scored_and_no_other(
+    run, quick_model_folder, quick_model, dataset: KeypointDataset, tmp_path
+):
+    write_dataset(dataset.take(dataset.rows("test")), tmp_path / "data")
+    code, out, err = run("evaluate", quick_model_folder, tmp_path / "data", "--json")
+    assert code == 0, err
+    recorded = quick_model.record["scores"]["jawOpen"]["network"]["r2"]
+    assert json.loads(out)["scores"]["jawOpen"]["r2"] == pytest.approx(recorded, abs=1e-4)
+    code, _, err = run("evaluate", quick_model_folder, tmp_path / "data", "--split", "train")
+    assert code == 2
+    assert "no sample in the train split" in err

@@ -47,6 +47,8 @@ def test_what_is_no_dataset_is_refused(dataset: KeypointDataset, tmp_path: Path)
     write_dataset(one_split, tmp_path / "one_split")
     with pytest.raises(InputError, match="no sample in the validation split"):
         read_dataset(tmp_path / "one_split")
+    with pytest.raises(InputError, match="no sample in the test split; people are needed in test"):
+        read_dataset(tmp_path / "one_split", splits=("test",))
     damaged = dataset.points.copy()
     damaged[3, 5, 1] = np.nan
     write_dataset(dataclasses.replace(dataset, points=damaged), tmp_path / "damaged")
