@@ -1,5 +1,6 @@
 """Files that appear whole: written under a temporary name, then renamed."""
 
+import errno
 import os
 from pathlib import Path
 
@@ -19,7 +20,14 @@ def write_whole(path: Path, content: bytes | str) -> Path:
     -------
     Path
         ``path``, for the exporter's list of what it wrote.
+
+    Raises
+    ------
+    OSError
+        Where it cannot be written.
     """
+    if not path.name:  # "." and "/"
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     data = content.encode() if isinstance(content, str) else content
     try:

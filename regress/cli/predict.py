@@ -137,9 +137,14 @@ def _predict_stream(model: Model, neutral: str, output: Output, fps: float | Non
     if neutral not in ("auto", "none"):
         model = model.calibrate(_neutral_file(neutral, "standard input").points)
     lines = stream_csv(sys.stdin, model, output, fps=fps, auto=neutral == "auto", strict=strict, say=say)
-    for line in lines:
-        sys.stdout.write(line)
-        sys.stdout.flush()  # the reader wants each frame as it comes
+    try:
+        for line in lines:
+            sys.stdout.write(line)
+            sys.stdout.flush()  # the reader wants each frame as it comes
+    except UnicodeDecodeError as error:
+        raise InputError(
+            f"standard input is not text ({error}); lines of 136 numbers are needed, and files are read by name"
+        ) from error
 
 
 def _calibrated(model: Model, frames: Frames, neutral: str) -> Model:

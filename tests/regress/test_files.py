@@ -1,6 +1,7 @@
 """A file's name never stands for half of it."""
 
 import os
+from pathlib import Path
 
 import pytest
 
@@ -18,3 +19,11 @@ def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monke
         write_whole(path, "new, and half of it\n")
     assert path.read_bytes() == b"old\n"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_folder_is_no_place_for_a_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for path in (Path("."), Path("/"), tmp_path):
+        with pytest.raises(OSError, match="Is a directory"):
+            write_whole(path, "new\n")
+    assert not list(tmp_path.iterdir())

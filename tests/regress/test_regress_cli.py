@@ -4,6 +4,7 @@ import csv
 import importlib
 import io
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -113,6 +114,41 @@ def test_a_place_that_cannot_be_written_exits_with_74(
         assert "written" in err.splitlines()[-1]
         assert "Traceback" not in err
     assert (tmp_path / "file").read_text() == "mine"
+
+
+def test_a_folder_for_a_file_exits_with_74(
+    run, quick_model_folder: Path, points_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    shipped = json.loads((ROOT / "regress" / "data" / "reference_shape.json").read_text())
+    (tmp_path / "points.json").write_text(json.dumps(shipped["points"]))
+    (tmp_path / "empty").mkdir()
+    monkeypatch.chdir(tmp_path / "empty")
+    for arguments in (
+        ("predict", quick_model_folder, points_file, "--out", "."),
+        ("predict", quick_model_folder, points_file, "--confidence", "."),
+        ("report", quick_model_folder, "--out", "."),
+        ("edges", tmp_path / "points.json", "--out", "."),
+    ):
+        code, _, err = run(*arguments)
+        assert code == 74, arguments
+        assert "written" in err.splitlines()[-1]
+    assert not list(Path().iterdir())
+
+
+def test_a_file_of_numbers_on_standard_input_is_one_sentence(quick_model_folder: Path, points_file: Path):
+    program = "from regress.cli import main; main()"
+    command = [sys.executable, "-c", program, "predict", str(quick_model_folder), "-"]
+    with points_file.open("rb") as file:
+        left = subprocess.run(
+            command,
+            cwd=ROOT,
+            stdin=file,
+            capture_output=True,
+            env={**os.environ, "PYTHONIOENCODING": "utf-8:strict"},
+        )
+    assert (left.returncode, left.stdout) == (2, b"")
+    assert left.stderr.startswith(b"regress: standard input is not text")
+    assert len(left.stderr.splitlines()) == 1
 
 
 def test_edges_makes_the_shipped_reference_shape_again(run, tmp_path: Path):
