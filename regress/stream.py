@@ -32,9 +32,16 @@ class RunningNeutral:
         With calibrated networks; serves without a neutral frame until one is found.
     say
         Told when it is sure, and why.
+
+    Raises
+    ------
+    InputError
+        Where the model has no calibrated networks.
     """
 
     def __init__(self, model: Model, say: Callable[[str], None]) -> None:
+        if model.calibrated is None:
+            raise InputError("the model has no calibrated networks, so a neutral frame is of no use to it")
         self.model = model
         self._say = say
         self._seen: deque[np.ndarray] = deque(maxlen=_REMEMBERED)
@@ -122,6 +129,33 @@ class WeightStream:
         return self._output.finish(weights[None])[0]
 
 
+class _Rows:
+    """Rows of the CSV, which wait while no line has said whether frames have times: the header says it first."""
+
+    def __init__(self, names: tuple[str, ...], *, timed: bool | None) -> None:
+        self._names, self._timed = names, timed
+        self._waiting: list[tuple[int, float | None, np.ndarray]] = []
+        self._begun = False
+
+    def step(self, number: int, time_s: float | None, weights: np.ndarray, *, empty: bool) -> Iterator[str]:
+        """Take the weights of a line, and give what can leave; an empty line says nothing of times."""
+        self._waiting.append((number, time_s, weights))
+        if self._timed is None and not empty:
+            self._timed = time_s is not None
+        if self._timed is not None:
+            yield from self.finish()
+
+    def finish(self) -> Iterator[str]:
+        """Give all that waits."""
+        if self._waiting and not self._begun:
+            self._begun = True
+            yield csv_header(self._names, timed=bool(self._timed))
+        for number, time_s, weights in self._waiting:
+            cell = None if not self._timed else math.nan if time_s is None else time_s
+            yield csv_row(str(number), cell, weights)
+        self._waiting.clear()
+
+
 def stream_csv(
     lines: Iterable[str],
     model: Model,
@@ -138,11 +172,12 @@ def stream_csv(
     ----------
     lines
         136 numbers ``x y x y ...`` each, or 137 with the time in seconds first; separated by blanks or
-        commas. An empty line, or one with nan, is a frame without a face.
+        commas. An empty line, or one with nan, is a frame without a face. The first that is not empty says
+        whether weights leave with times; empty ones before it wait for it, unless ``fps`` is given.
     model, output
         What to run, and what happens before and after it.
     fps
-        Frames a second, where lines carry no time.
+        Frames a second; goes before times in lines.
     auto
         Whether to look for the neutral face.
     strict
@@ -158,14 +193,13 @@ def stream_csv(
     """
     running = RunningNeutral(model, say) if auto else None
     stream, order, runs = WeightStream(model, output), TimeOrder(strictly=output.needs_times), FaultRuns(say)
-    number, timed = 0, False
+    number, rows = 0, _Rows(output.names, timed=None if fps is None else True)
     for number, line in enumerate(lines, start=1):
         time_s, points = _frame(line, number)
-        if time_s is None and fps is not None:
+        if fps is not None:
             time_s = (number - 1) / fps
-        if number == 1:
-            timed = time_s is not None
-            yield csv_header(output.names, timed=timed)
+        elif time_s is not None and not math.isfinite(time_s):
+            raise InputError(f"line {number} has {time_s} for a time")
         fault = face_faults(points[None])[0]
         if fault is None and time_s is None and output.needs_times:
             raise InputError(f"line {number} has no time, which smoothing needs; give --fps")
@@ -180,8 +214,8 @@ def stream_csv(
             running.step(points)
             if running.model is not before:
                 stream.use(running.model)
-        cell = None if not timed else math.nan if time_s is None else time_s
-        yield csv_row(str(number), cell, stream.step(time_s, points))
+        yield from rows.step(number, time_s, stream.step(time_s, points), empty=not line.strip(" ,\t\r\n"))
+    yield from rows.finish()
     runs.step(number + 1, None)
 
 
@@ -199,6 +233,4 @@ def _frame(line: str, number: int) -> tuple[float | None, np.ndarray]:
             f"or the time before them as well"
         )
     time_s = numbers.pop(0) if len(numbers) > _NUMBERS else None
-    if time_s is not None and not math.isfinite(time_s):
-        raise InputError(f"line {number} has {time_s} for a time")
     return time_s, np.array(numbers).reshape(LANDMARK_COUNT, 2)

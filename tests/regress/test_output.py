@@ -1,5 +1,6 @@
 """After the networks: smoothing by time, adjustment, sides, and frames from a pipe."""
 
+import dataclasses
 import io
 import json
 import sys
@@ -58,6 +59,10 @@ def test_one_euro_knows_gaps_empty_rows_and_disorder():
         one_euro(weights, times, OneEuro())
     with pytest.raises(InputError, match="row 1 has no time"):
         one_euro(weights, np.full(20, np.nan), OneEuro())
+    times[12] = times[11] + 0.01
+    expected = one_euro(weights, times, OneEuro())
+    times[5] = np.nan  # of a row that is empty, so nobody needs it
+    assert np.array_equal(one_euro(weights, times, OneEuro()), expected, equal_nan=True)
 
 
 def test_one_euro_steps_as_it_runs():
@@ -195,6 +200,42 @@ def test_a_pipe_finds_the_neutral_face_while_it_runs(quick_model: Model):
     assert np.allclose(last, quick_model.calibrate(frames).predict(frames)[-1], atol=1e-4)
     first = np.array(rows[1].split(",")[2:], dtype=float)
     assert np.allclose(first, quick_model.predict(frames)[0], atol=1e-4)
+
+
+def test_fps_goes_before_times_of_lines(quick_model: Model):
+    lines = _lines(drawn_faces(np.random.default_rng(4), 4), np.array([7.0, 8.0, 8.0, np.nan]))
+    lines[1] = "\n"
+    rows = [line.split(",") for line in stream_csv(lines, quick_model, Output(), fps=10)]
+    assert [row[1] for row in rows] == ["time_s", "0.000000", "0.100000", "0.200000", "0.300000"]
+    assert [row[2] == "" for row in rows] == [False, False, True, False, False]
+
+
+@pytest.mark.parametrize("timed", [True, False])
+@pytest.mark.parametrize("empty", ["\n", "," * 135 + "\n"])
+def test_empty_lines_at_the_start_leave_the_columns_to_the_first_face(
+    quick_model: Model, timed: bool, empty: str
+):
+    times = np.array([0.5, 0.6]) if timed else None
+    lines = [empty, empty, *_lines(drawn_faces(np.random.default_rng(4), 2), times)]
+    header, *rows = (line.strip().split(",") for line in stream_csv(lines, quick_model, Output()))
+    assert header == ["frame", *(["time_s"] if timed else []), *BLENDSHAPES]
+    assert [row[0] for row in rows] == ["1", "2", "3", "4"]
+    assert {len(row) for row in rows} == {len(header)}
+    if timed:
+        assert [row[1] for row in rows] == ["", "", "0.500000", "0.600000"]
+
+
+def test_a_pipe_of_empty_lines_has_a_header_and_a_row_each(quick_model: Model):
+    rows = list(stream_csv(["\n", "\n"], quick_model, Output()))
+    assert [row.split(",")[0] for row in rows] == ["frame", "1", "2"]
+    assert list(stream_csv([], quick_model, Output())) == []
+
+
+def test_a_neutral_face_is_not_looked_for_by_a_model_without_calibrated_networks(quick_model: Model):
+    bare = dataclasses.replace(quick_model, calibrated=None)
+    lines = _lines(drawn_faces(np.random.default_rng(4), 2))
+    with pytest.raises(InputError, match="no calibrated networks"):
+        next(stream_csv(lines, bare, Output(), auto=True))
 
 
 @pytest.mark.parametrize(
