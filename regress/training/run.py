@@ -3,6 +3,7 @@
 import dataclasses
 from dataclasses import dataclass
 
+from regress.errors import Interrupted
 from regress.features import Features, closed_under_mirror, depths_of, load_reference_shape, mean_shape
 from regress.model import Calibrated, Model, symmetrised
 from regress.networks import FoldedNetworks, fold
@@ -29,7 +30,19 @@ def train(
         Of the starts and of the rows on which alphas are compared.
     progress
         Called as work goes on, from any thread.
+
+    Raises
+    ------
+    Interrupted
+        On Ctrl-C.
     """
+    try:
+        return _trained(dataset, recipe, seed, progress)
+    except KeyboardInterrupt:
+        raise Interrupted("training was stopped; no model was written") from None
+
+
+def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Progress | None) -> Model:
     reference = load_reference_shape()
     features = Features(
         alignment=recipe.alignment,

@@ -1,10 +1,10 @@
 """The regress command: what it writes, what it says, how it exits."""
 
 import csv
-import importlib
 import io
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -174,18 +174,28 @@ def test_version_and_help(run):
         assert "Example" in out
 
 
-def test_ctrl_c_leaves_no_traceback(
-    run, dataset_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
-    def interrupted(*arguments: object, **options: object) -> None:
-        raise KeyboardInterrupt
+_ENDLESS = """
+import dataclasses, signal
+from regress.cli import main, talk
+from regress.training import RECIPES
+from tests.regress.conftest import QUICK
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
+talk._PLAIN_SECONDS = 0
+RECIPES["default"] = dataclasses.replace(QUICK, steps=10**6, search_steps=10**6, patience=10**6, improvement=0.0)
+main()
+"""
 
-    # the package names the command like its module, so the module is asked for by name
-    monkeypatch.setattr(importlib.import_module("regress.cli.train"), "train_model", interrupted)
-    code, _, err = run("train", dataset_folder, "--out", tmp_path / "model")
-    assert code in (75, 130)
+
+def test_ctrl_c_stops_training_with_a_sentence(dataset_folder: Path, tmp_path: Path):
+    command = [sys.executable, "-c", _ENDLESS, "train", str(dataset_folder), "--out", str(tmp_path / "model")]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stderr.readline().startswith("alpha 0.3: 1 of ")
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out) == (75, "")
+    assert err.splitlines()[-1] == "regress: training was stopped; no model was written"
     assert "Traceback" not in err
-    assert not (tmp_path / "model").exists()
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_closed_pipe_is_quiet(quick_model_folder: Path, tmp_path: Path):
