@@ -17,6 +17,7 @@ from facegen.cli.pack import pack
 from facegen.cli.preview import preview
 from facegen.cli.rig import rig_app
 from facegen.cli.spec import spec_app
+from facegen.cli.talk import hang_up, say
 from facegen.cli.validate import validate
 from facegen.errors import FacegenError
 
@@ -65,11 +66,19 @@ def _options(
 
 def main() -> None:
     """Entry point of the console script: one sentence and an exit code for every error on purpose."""
+    code: int | str | None = 0
     try:
         app()
     except FacegenError as error:
-        print(f"facegen: {error}", file=sys.stderr)
-        sys.exit(error.exit_code)
+        say(f"facegen: {error}")
+        code = error.exit_code
+    except SystemExit as left:
+        if isinstance(left.__context__, BrokenPipeError):
+            hang_up(sys.stdout)  # its reader has gone, as `| head` does, of which Typer and rich make 1
+        else:
+            code = left.code
+    try:
+        sys.stdout.flush()
     except BrokenPipeError:
-        sys.stderr.close()  # the reader of our output has gone, as `| head` does
-        sys.exit(0)
+        hang_up(sys.stdout)
+    sys.exit(code)

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from facegen.cli.talk import say
 from facegen.conventions import ExitCode
 from facegen.errors import InputError
 
@@ -140,10 +141,7 @@ def resume(
         if step in open_steps or (step == "generate" and (what.shards or what.samples))
     )
     if not steps:
-        print(
-            f"facegen: nothing to submit; {state.missing} things are missing and all have tasks",
-            file=sys.stderr,
-        )
+        say(f"facegen: nothing to submit; {state.missing} things are missing and all have tasks")
         _print({"job": None, "tasks": 0}, as_json=as_json)
         return
     if retry_quarantined and not dry_run:

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from facegen.cli.progress import progress
+from facegen.cli.talk import say
 from facegen.conventions import ExitCode
 
 
@@ -108,15 +109,10 @@ def generate(
         as_json=as_json,
     )
     if summary.left:
-        print(
-            f"facegen: stopped with {summary.left} things left; run the same command to go on",
-            file=sys.stderr,
-        )
+        say(f"facegen: stopped with {summary.left} things left; run the same command to go on")
         raise typer.Exit(ExitCode.DRAINED)
     if names:
-        print(
-            f"facegen: {len(names)} failed three times; their logs are in {out}/quarantine", file=sys.stderr
-        )
+        say(f"facegen: {len(names)} failed three times; their logs are in {out}/quarantine")
         raise typer.Exit(ExitCode.INVALID)
 
 

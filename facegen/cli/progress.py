@@ -1,6 +1,5 @@
 """Progress of long work: a bar with rate and time left on a terminal, plain lines elsewhere."""
 
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -15,6 +14,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from facegen.cli.talk import say
 from facegen.errors import InputError
 
 LINE_EVERY_S = 10.0
@@ -64,7 +64,7 @@ def progress(what: str, total: int, *, style: str = "auto") -> Iterator[Callable
         if done == total or now - last >= LINE_EVERY_S:
             last, elapsed = now, now - started
             left = f", about {elapsed / done * (total - done):.0f} s left" if 0 < done < total else ""
-            print(f"{what}: {done}/{total}, {elapsed:.0f} s{left}", file=sys.stderr, flush=True)
+            say(f"{what}: {done}/{total}, {elapsed:.0f} s{left}")
 
     yield line
 

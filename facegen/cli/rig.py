@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from facegen.cli.talk import say
 from facegen.preview.portraits import draw_portraits
 from facegen.rigs.building import add_rig, build_rig
 from facegen.rigs.files import load_rig, read_record
@@ -46,12 +47,10 @@ def add(
     """
     path, added = add_rig(file, landmarks, name=name, force=force)
     if added.left_out:
-        typer.echo(f"Left out of the head: {', '.join(added.left_out)}.", err=True)
+        say(f"Left out of the head: {', '.join(added.left_out)}.")
     if added.rig.missing:
-        typer.echo(
-            f"{len(added.rig.missing)} of 52 blendshapes are missing and stay zero: {', '.join(added.rig.missing)}.",
-            err=True,
-        )
+        missing = added.rig.missing
+        say(f"{len(missing)} of 52 blendshapes are missing and stay zero: {', '.join(missing)}.")
     typer.echo(f"{path} added")
 
 

@@ -1,7 +1,6 @@
 """``facegen validate``."""
 
 import json
-import sys
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
@@ -9,6 +8,7 @@ from typing import Annotated
 import typer
 
 from facegen.cli.progress import progress
+from facegen.cli.talk import say
 from facegen.conventions import ExitCode
 
 
@@ -55,14 +55,13 @@ def validate(
         wrong = sum(verdict.wrong.values())
         print(f"{verdict.shards} shards and {verdict.renders} rendered samples checked, {wrong} things wrong")
         if verdict.renders and not opened.spec.render.truth:
-            print(
-                f"facegen: {dataset} has no EXR files (render.truth = false), so no label was held against depths",
-                file=sys.stderr,
+            say(
+                f"facegen: {dataset} has no EXR files (render.truth = false), so no label was held against depths"
             )
     if verdict.wrong and repaired is None:
         raise typer.Exit(ExitCode.INVALID)
     if verdict.missing or (repaired is not None and not _only_extras(verdict)):
-        print(f"facegen: {_missing(verdict, repaired)}; facegen generate goes on with them", file=sys.stderr)
+        say(f"facegen: {_missing(verdict, repaired)}; facegen generate goes on with them")
         raise typer.Exit(ExitCode.OK if partial and repaired is None else ExitCode.DRAINED)
 
 

@@ -1,13 +1,11 @@
 """The ``regress`` command. Only this package prints: results to stdout, talk to stderr."""
 
-import os
 import sys
 from importlib.metadata import version as installed
 from typing import Annotated
 
 import typer
 
-from facegen.conventions import ExitCode
 from facegen.formats import FormatError
 from regress import __version__
 from regress.cli.bench import bench
@@ -17,6 +15,7 @@ from regress.cli.export import export
 from regress.cli.headset import headset
 from regress.cli.predict import predict
 from regress.cli.report import report
+from regress.cli.talk import hang_up, say
 from regress.cli.train import train
 from regress.errors import RegressError
 
@@ -59,12 +58,19 @@ def _options(
 
 def main() -> None:
     """Entry point of the console script: one sentence and an exit code for every error on purpose."""
+    code: int | str | None = 0
     try:
         app()
     except (RegressError, FormatError) as error:
-        print(f"regress: {error}", file=sys.stderr)
-        sys.exit(int(error.exit_code))
+        say(f"regress: {error}")
+        code = int(error.exit_code)
+    except SystemExit as left:
+        if isinstance(left.__context__, BrokenPipeError):
+            hang_up(sys.stdout)  # its reader has gone, as `| head` does, of which Typer and rich make 1
+        else:
+            code = left.code
+    try:
+        sys.stdout.flush()
     except BrokenPipeError:
-        # The reader of our output has gone, as `| head` does; closing stdout at exit would complain again.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(int(ExitCode.OK))
+        hang_up(sys.stdout)
+    sys.exit(code)

@@ -1,10 +1,12 @@
 """Talk to the person: one-liners and progress on standard error, results on standard output."""
 
+import os
 import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TextIO
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -16,8 +18,16 @@ _PLAIN_SECONDS = 10.0
 
 
 def say(message: str) -> None:
-    """One line on standard error."""
-    print(message, file=sys.stderr, flush=True)
+    """One line on standard error; a listener who has gone stops no work."""
+    try:
+        print(message, file=sys.stderr, flush=True)
+    except BrokenPipeError:
+        hang_up(sys.stderr)
+
+
+def hang_up(stream: TextIO) -> None:
+    """Send nowhere what is left of a stream whose reader has gone: its end would complain again."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 @contextmanager

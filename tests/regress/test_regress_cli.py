@@ -203,9 +203,23 @@ def test_a_closed_pipe_is_quiet(quick_model_folder: Path, tmp_path: Path):
     np.save(tmp_path / "many.npy", faces)
     program = "import sys; sys.argv[0] = 'regress'; from regress.cli import main; main()"
     command = [sys.executable, "-c", program, "predict", str(quick_model_folder), str(tmp_path / "many.npy")]
-    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    process = subprocess.Popen(
+        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=buffered
+    )
     process.stdout.readline()
     process.stdout.close()
     _, err = process.communicate(timeout=60)
+    assert process.returncode == 0
     assert b"Traceback" not in err
     assert b"Error" not in err
+
+
+def test_a_listener_who_has_gone_stops_no_work(quick_model_folder: Path, points_file: Path):
+    program = "from regress.cli import main; main()"
+    command = [sys.executable, "-c", program, "predict", str(quick_model_folder), str(points_file)]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process.stderr.close()
+    process.stderr = None
+    out, _ = process.communicate(timeout=60)
+    assert (process.returncode, len(out.splitlines())) == (0, 6)
