@@ -75,6 +75,7 @@ def evaluate(
     Returns
     -------
     dict
+        ``people`` and how many of them the arrays' training split has too, ``people_in_training``;
         ``conditions`` and ``held_out``: summaries by condition; ``floors``: of the training mean and of the
         resting face; ``shapes``: R2, MAE and RMSE by shape and calibration; ``cameras``: R2 of each shape from
         one camera alone; ``components`` and ``people_mm``: geometry error in mm by condition; ``deviation``: how
@@ -89,7 +90,7 @@ def evaluate(
     rows = np.flatnonzero((arrays.split == split) & ~arrays.neutral)
     if not len(rows):
         raise InputError(f"the arrays have no {split} row with an expression; choose another split")
-    held_out = arrays.component[rows] == HELD_OUT
+    people, held_out = np.unique(arrays.person[rows]), arrays.component[rows] == HELD_OUT
     true, true_gaze = arrays.weights[rows], arrays.gaze[rows].reshape(-1, 2, 2)
     found = {
         name: estimate(graph, model, arrays, rows, condition)
@@ -111,7 +112,8 @@ def evaluate(
     return {
         "split": split,
         "rows": len(rows),
-        "people": len(np.unique(arrays.person[rows])),
+        "people": len(people),
+        "people_in_training": int(np.isin(people, arrays.person[arrays.split == "train"]).sum()),
         "dataset_hash": arrays.description.get("dataset_hash", ""),
         "conditions": figures(ordinary),
         "held_out": figures(held_out),

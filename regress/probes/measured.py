@@ -69,7 +69,7 @@ def measure(model: Model, folder: Path) -> Measured:
     if dataset.sha256 != expected:
         raise InputError(
             f"{folder} holds keypoints with SHA-256 {dataset.sha256}, and the model was trained on "
-            f"{expected}; give the dataset that it was trained on, whose test people it has not seen"
+            f"{expected}; give the dataset that it was trained on, whose test faces it has not seen"
         )
     everyone = read_faces(folder)
     seen = everyone.take(np.flatnonzero(everyone.split == "train"))

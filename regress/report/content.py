@@ -12,7 +12,7 @@ SEEN_R2, PARTLY_R2 = 0.7, 0.3
 
 @dataclass(frozen=True, kw_only=True)
 class Figures:
-    """How well one method gives one shape, on people it has never seen.
+    """How well one method gives one shape, on the test split.
 
     Parameters
     ----------
@@ -128,6 +128,10 @@ class ReportContent:
     Parameters
     ----------
     title, summary : str
+    unseen : str
+        What of the test split the networks have never seen: people, or sessions where splits are by session.
+    people_in_training : int
+        People of the test split who are in training too.
     headlines : tuple of Headline
     scores : tuple of ShapeScores
         In the networks' order, region by region.
@@ -150,6 +154,8 @@ class ReportContent:
 
     title: str
     summary: str
+    unseen: str
+    people_in_training: int
     headlines: tuple[Headline, ...]
     scores: tuple[ShapeScores, ...]
     constant: tuple[str, ...]

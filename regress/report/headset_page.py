@@ -176,8 +176,19 @@ def _lead(model: HeadsetModel, first: Judged) -> str:
         f"A {model.architecture} network turns the pictures of {len(model.cameras)} cameras of the headset "
         f"{model.headset} ({cameras}) into {len(model.weights)} avatar weights and the gaze. Trained on "
         f"{model.training.get('rows', 0):,} synthetic frames of {model.training.get('people', 0):,} people. The first "
-        f"figures are of {first.title}: {first.figures['people']:,} people that it has never seen."
+        f"figures are of {first.title}: {_whose(first.figures)}."
     )
+
+
+def _whose(figures: dict[str, Any]) -> str:
+    """The people of an evaluation, and whether the network knows them; older figures do not count those it does."""
+    people = f"{figures['people']:,} people"
+    if figures["split"] == "train":
+        return f"{people} of the training split, whom it may have learned from"
+    known = figures.get("people_in_training", 0)
+    if known:
+        return f"{people}, of whom {known:,} are in the training split too"
+    return f"{people} that it has never seen"
 
 
 def _headlines(figures: dict[str, Any], timings: Sequence[tuple[str, float]]) -> list[Headline]:

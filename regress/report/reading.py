@@ -38,10 +38,15 @@ def content_of(model: Model) -> ReportContent:
             for output in network.outputs
         )
         curves = tuple(_curve(network.key, record["networks"][network.key]) for network in model.table)
+        # records of older models do not say; theirs were split by person as a rule
+        known = record["dataset"].get("people_in_training", {}).get("test", 0)
+        unseen = "sessions" if known else "people"
         return ReportContent(
             title=f"Model report: {model.recipe} recipe",
-            summary=_summary(model),
-            headlines=_headlines(scores),
+            summary=_summary(model, known),
+            unseen=unseen,
+            people_in_training=known,
+            headlines=_headlines(scores, unseen),
             scores=scores,
             constant=tuple(name for name in BLENDSHAPES if name not in model.outputs),
             curve=mean_curve(curves),
@@ -86,17 +91,18 @@ def _regression(split: str, record: dict[str, Any]) -> RegressionPlot:
     )
 
 
-def _summary(model: Model) -> str:
+def _summary(model: Model, known: int) -> str:
     dataset = model.record["dataset"]
     samples = dataset["samples"]
+    whose = f"sessions they have never seen, though of {known:,} people whom they have" if known else ""
     return (
         f"{len(model.table)} networks turn 68 facial landmarks into {len(model.outputs)} avatar weights. "
-        f"Trained on {samples['train']:,} synthetic faces, judged on {samples['test']:,} faces of people "
-        f"they have never seen."
+        f"Trained on {samples['train']:,} synthetic faces, judged on {samples['test']:,} faces of "
+        f"{whose or 'people they have never seen'}."
     )
 
 
-def _headlines(scores: tuple[ShapeScores, ...]) -> tuple[Headline, ...]:
+def _headlines(scores: tuple[ShapeScores, ...], unseen: str) -> tuple[Headline, ...]:
     visible = [score for score in scores if score.name in VISIBLE_SHAPES]
 
     def mean(method: str, figure: str, among=visible) -> float:
@@ -114,7 +120,7 @@ def _headlines(scores: tuple[ShapeScores, ...]) -> tuple[Headline, ...]:
         Headline(
             value=mae, caption=f"mean absolute error of a visible shape's weight; always the mean {mean_mae}"
         ),
-        Headline(value=f"{seen} of {len(scores)}", caption=f"shapes reach R² {SEEN_R2} on unseen people"),
+        Headline(value=f"{seen} of {len(scores)}", caption=f"shapes reach R² {SEEN_R2} on unseen {unseen}"),
     )
 
 

@@ -1,4 +1,4 @@
-"""A model's training record: figures on unseen people, baselines, and how each network's training went."""
+"""A model's training record: figures on the test split, baselines, and how each network's training went."""
 
 import dataclasses
 from typing import Any
@@ -50,7 +50,8 @@ def training_record(
     frame alone, ``calibrated`` and ``calibrated_ridge`` a neutral frame as well. Those two ridges are trained on
     faces as the dataset has them; where the networks' faces are displaced, ``ridge_same_rows`` and
     ``calibrated_ridge_same_rows`` are trained on the very rows that the networks were (``floors`` says so).
-    ``as_detected`` is of the same faces with detectors' bias and jitter.
+    ``as_detected`` is of the same faces with detectors' bias and jitter. Whether the test split's people are
+    strangers, ``dataset`` says under ``people_in_training``.
     """
     sets = [False] if model.calibrated is None else [False, True]
     scores = {
@@ -73,6 +74,7 @@ def training_record(
             "licence": dataset.description.get("licence"),
             "samples": {split: len(dataset.rows(split)) for split in SPLITS},
             "people": len(np.unique(dataset.person)),
+            "people_in_training": {split: _people_in_training(dataset, split) for split in SPLITS[1:]},
         },
         "training_rows": training_rows,
         "licence": "Apache-2.0",
@@ -99,6 +101,12 @@ def training_record(
         "networks": networks["alone"],
         **({"calibrated_networks": networks["calibrated"]} if "calibrated" in networks else {}),
     }
+
+
+def _people_in_training(dataset: KeypointDataset, split: str) -> int:
+    """How many people of a split are in training too: none where splits are by person, most where by session."""
+    held_out, trained = (np.unique(dataset.person[dataset.rows(name)]) for name in (split, "train"))
+    return int(np.isin(held_out, trained).sum())
 
 
 def _summary(shapes: dict[str, Scores]) -> dict[str, float | None]:

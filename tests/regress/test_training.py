@@ -142,6 +142,17 @@ def test_a_progress_callback_that_raises_stops_training(dataset: KeypointDataset
     assert calls
 
 
+def test_the_record_says_whom_training_knows(dataset: KeypointDataset, quick_model: Model):
+    assert quick_model.record["dataset"]["people_in_training"] == {"validation": 0, "test": 0}
+    split = dataset.split.copy()
+    rows = np.flatnonzero(np.isin(dataset.person, [0, 1, 2]) & ~dataset.neutral)  # of training people
+    split[rows[::2]] = "test"
+    model = train(
+        dataclasses.replace(dataset, split=split), dataclasses.replace(QUICK, steps=2, alphas=(1.0,))
+    )
+    assert model.record["dataset"]["people_in_training"] == {"validation": 0, "test": 3}
+
+
 @pytest.mark.parametrize("name", RECIPES)
 def test_every_recipe_trains(dataset: KeypointDataset, name: str):
     quick = dataclasses.replace(RECIPES[name], alphas=(1.0,), steps=3, search_rows=100)

@@ -19,6 +19,7 @@ from regress.headset.evaluation import evaluate
 from regress.headset.model import Temporal, describe_headset_model, read_headset_model
 from regress.headset.predictor import load_headset_predictor
 from regress.headset.worst import worst_frames
+from regress.report.headset_page import Judged, write_headset_report
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.tiny import NAMES, write_tiny_model
 
@@ -99,6 +100,31 @@ def test_the_page_is_whole_and_fetches_nothing(
     again = tmp_path / "again.html"
     run("headset", "report", many, *words, "--out", again)
     assert again.read_bytes() == out.read_bytes()
+
+
+def test_people_are_called_unseen_in_no_split_that_training_knows(
+    run, models: tuple[Path, Path], arrays_folder: Path, arrays: HeadsetArrays, tmp_path: Path
+):
+    out = tmp_path / "report.html"
+    words = ("headset", "report", models[0], "--data", arrays_folder, "--no-time", "--out", out)
+    for split, whose in {
+        "train": "people of the training split, whom it may have learned from.",
+        "test": "people that it has never seen.",
+    }.items():
+        assert run(*words, "--split", split)[0] == 0
+        page = out.read_text()
+        assert f"{len(set(arrays.person[arrays.split == split]))} {whose}" in page
+        assert ("never seen" in page) == (split == "test")
+    predictor = load_headset_predictor(models[0])
+    known = np.where(np.arange(len(arrays.split)) % 3 == 0, "train", arrays.split)
+    figures = evaluate(predictor.graph, predictor.model, replace(arrays, split=known))
+    assert figures["people_in_training"] == figures["people"]  # a third of each one's frames
+    path = write_headset_report(
+        predictor.model, out, [Judged(title="sessions", figures=figures)], name="tiny"
+    )
+    assert f"{figures['people']} people, of whom {figures['people']} are in the training split too." in (
+        path.read_text()
+    )
 
 
 def test_a_model_is_reported_by_its_own_scores_without_data(

@@ -125,6 +125,18 @@ def test_the_command_writes_page_and_figures(model, measured, folder, run, tmp_p
     assert len(found["poses"][0]["loss"]) == len(OUTPUTS)
 
 
+def test_probed_faces_of_known_people_are_not_called_unseen_peoples(model, measured, page, tmp_path):
+    assert len(re.findall(r"[uU]nseen people", page)) == 3
+    dataset = {**model.record["dataset"], "people_in_training": {"validation": 4, "test": 4}}
+    record = {**model.record, "dataset": dataset}
+    said = write_report(
+        dataclasses.replace(model, record=record), tmp_path / "report.html", measured
+    ).read_text()
+    assert "people in unseen sessions, with normal noise" in said
+    assert "Faces of unseen sessions with the largest mean error" in said
+    assert not re.search(r"[uU]nseen people", said)
+
+
 def test_figures_without_data_are_refused(quick_model_folder, run, tmp_path):
     code, _, said = run("report", quick_model_folder, "--figures", tmp_path / "figures.json")
     assert code == 2

@@ -98,6 +98,26 @@ def test_page_says_plainly_what_cannot_be_seen(model, page):
     assert "never moves" in section
 
 
+def _of_sessions(model, known):
+    dataset = {**model.record["dataset"], "people_in_training": {"validation": known, "test": known}}
+    return dataclasses.replace(model, record={**model.record, "dataset": dataset})
+
+
+def test_page_calls_nobody_unseen_whom_training_knows(model, page):
+    assert page.count("people they have never seen") == 1
+    assert "people that appear nowhere in training. 1" in page
+    assert "on unseen people" in page
+    said = render_page(content_of(_of_sessions(model, 12)))
+    assert "sessions they have never seen, though of 12 people whom they have" in said
+    assert "sessions that appear nowhere in training, though 12 of their people do. 1" in said
+    assert "on sessions the networks have never seen" in said
+    assert "on unseen sessions" in said
+    assert not re.search(r"unseen people|people (they|the networks) have never|people that appear", said)
+    dataset = {key: value for key, value in model.record["dataset"].items() if key != "people_in_training"}
+    old = dataclasses.replace(model, record={**model.record, "dataset": dataset})
+    assert render_page(content_of(old)) == page
+
+
 def test_page_says_how_the_model_was_made(model, page):
     dataset = model.record["dataset"]
     for value in (
