@@ -21,7 +21,7 @@ from regress.errors import RegressError
 
 app = typer.Typer(
     name="regress",
-    help="68 facial landmarks, or a headset's pictures, in; 52 avatar blendshape weights out; learnt from synthetic people.",
+    help="68 facial landmarks or a headset's pictures in, 52 blendshape weights out, learnt from synthetic people.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
