@@ -22,9 +22,9 @@ def encode_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None
     Raises
     ------
     OSError
-        Where OpenCV has no writer for such files.
+        Where OpenCV has no writer for such files, or not every frame can be read back, as on a full disk.
     """
-    writer = None
+    writer, written = None, 0
     try:
         for frame in frames:
             if writer is None:
@@ -32,8 +32,24 @@ def encode_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None
                 # MPEG-4 part 2: the wheel's FFmpeg has no H.264 encoder
                 writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"mp4v"), fps, size)
                 if not writer.isOpened():
-                    raise OSError(f"OpenCV cannot write films that end in {path.suffix} here")
+                    raise OSError(
+                        f"OpenCV cannot write films that end in {path.suffix} here, or no space is left"
+                    )
             writer.write(cv2.cvtColor(frame, cv2.COLOR_RGB2BGR))
+            written += 1
     finally:
         if writer is not None:
             writer.release()
+    there = _count_frames(path) if written else 0  # the writer itself never says that a write has failed
+    if there != written:
+        raise OSError(
+            f"{there} of {written} frames can be read back: no space is left, or the disk loses what is written"
+        )
+
+
+def _count_frames(path: Path) -> int:
+    film, count = cv2.VideoCapture(str(path)), 0
+    while film.grab():
+        count += 1
+    film.release()
+    return count

@@ -1,11 +1,15 @@
 """Films by OpenCV; what they hold is tested where faces are drawn."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from facegen.formats.film import encode_film
+
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def test_a_film_that_cannot_be_written_says_so(tmp_path: Path):
@@ -21,3 +25,20 @@ def test_a_frame_that_fails_ends_the_film(tmp_path: Path):
 
     with pytest.raises(ValueError, match="no more faces"):
         encode_film(tmp_path / "face.mp4", frames(), fps=25)
+
+
+@pytest.mark.parametrize("suffix", [".mp4", ".avi"])
+def test_a_film_that_finds_no_room_says_so(tmp_path: Path, suffix: str):
+    # beyond this size every write fails, as on a full disk; a process of its own, because the limit stays
+    program = f"""
+import resource, signal
+import numpy as np
+from pathlib import Path
+from facegen.formats.film import encode_film
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+frames = np.random.default_rng(0).integers(0, 255, (20, 160, 160, 3), dtype=np.uint8)
+encode_film(Path({str(tmp_path / f"face{suffix}")!r}), frames, fps=25)
+"""
+    done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
+    assert "of 20 frames can be read back: no space is left" in done.stderr.splitlines()[-1]
