@@ -9,7 +9,7 @@ import pyarrow.parquet as pq
 from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
 from facegen.packing.plan import Format, Options, Part, shards
-from facegen.store import Dataset, keypoint_schema, read_json
+from facegen.store import Dataset, keypoint_schema, read_json, read_shard
 
 SHARD_SAMPLES = 100_000
 """About 250 MB with all columns."""
@@ -39,9 +39,7 @@ def write_keypoints(dataset: Dataset, part: Part, options: Options, path: Path) 
     numbers = np.asarray(part.samples, np.int64)
     with pq.ParquetWriter(path, schema, compression="zstd", write_page_checksum=True) as writer:
         for shard in np.unique(numbers // SHARD_ROWS):
-            table = pq.read_table(
-                dataset.folder.shard(int(shard)), columns=columns, page_checksum_verification=True
-            )
+            table = read_shard(dataset.folder.shard(int(shard)), columns)
             rows = table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS))
             writer.write_table(rows.replace_schema_metadata(None).cast(schema), row_group_size=SHARD_ROWS)
 

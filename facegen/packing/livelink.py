@@ -8,13 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
 from facegen.formats import live_link_csv
 from facegen.packing.plan import Format, Options, Part
-from facegen.store import Dataset, column_array
+from facegen.store import Dataset, column_array, read_shard
 
 
 def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> list[Part]:
@@ -24,6 +23,8 @@ def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> l
     ------
     InputError
         If the dataset has no clips but stills.
+    InvalidData
+        If a shard is damaged.
     """
     if dataset.spec.kind == "still":
         raise InputError(
@@ -53,9 +54,7 @@ def _rows(dataset: Dataset, numbers: np.ndarray, columns: list[str]) -> pa.Table
     """Columns of samples by number, in order; one shard in memory at a time."""
     tables = []
     for shard in np.unique(numbers // SHARD_ROWS):
-        table = pq.read_table(
-            dataset.folder.shard(int(shard)), columns=columns, page_checksum_verification=True
-        )
+        table = read_shard(dataset.folder.shard(int(shard)), columns)
         tables.append(table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS)))
     return pa.concat_tables(tables)
 

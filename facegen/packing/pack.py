@@ -75,6 +75,8 @@ def plan_pack(dataset: Dataset, name: str, options: Options | None = None) -> Pa
     ------
     InputError
         If samples are missing, or the format does not take an option.
+    InvalidData
+        If a shard that is needed for it is damaged.
     """
     if name not in FORMATS:
         raise InputError(f"--format: {name!r} is none of {', '.join(FORMATS)}")
@@ -107,7 +109,7 @@ def write_pack(
     InputError
         If the folder holds something else.
     InvalidData
-        If a sample is damaged.
+        If a sample or a shard is damaged.
     OutputError
         If the folder cannot be written.
     """

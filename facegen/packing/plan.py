@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as pq
 
 from facegen.conventions import SHARD_ROWS, SPLITS
 from facegen.errors import InputError
-from facegen.store import Dataset
+from facegen.store import Dataset, read_shard
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,6 +99,8 @@ def chosen_samples(dataset: Dataset, options: Options, *, rendered: bool) -> Seq
     ------
     InputError
         If samples are missing, or nothing is left to pack.
+    InvalidData
+        If a shard that tells the split is damaged.
     """
     if rendered:
         there = dataset.folder.rendered()
@@ -138,7 +139,7 @@ def _of_split(dataset: Dataset, numbers: Sequence[int], split: str) -> list[int]
             raise InputError(
                 f"{path}: is missing, so the split of its samples is unknown; run facegen generate"
             )
-        splits = pq.read_table(path, columns=["split"]).column("split").to_numpy(zero_copy_only=False)
+        splits = read_shard(path, ["split"]).column("split").to_numpy(zero_copy_only=False)
         inside = wanted[wanted // SHARD_ROWS == shard]
         kept += inside[splits[inside % SHARD_ROWS] == split].tolist()
     return kept

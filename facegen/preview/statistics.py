@@ -4,14 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 
-from facegen.conventions import Visibility
+from facegen.conventions import SHARD_ROWS, Visibility
 from facegen.errors import InputError
 from facegen.geometry import angles_from_direction, angles_from_rotation
 from facegen.rigs import eye_centers
 from facegen.sampling.cameras import FACING
-from facegen.store import Dataset, column_array
+from facegen.store import Dataset, column_array, read_shard
 
 MOST_ROWS = 100_000
 """Rows read at most: whole shards, evenly spread over the dataset. Percentiles do not move with more."""
@@ -92,6 +91,8 @@ def dataset_statistics(dataset: Dataset) -> Statistics:
     ------
     InputError
         If nothing has been made yet.
+    InvalidData
+        If a shard is damaged.
     """
     table = _read(dataset)
     column = {name: column_array(table, name) for name in _COLUMNS}
@@ -119,10 +120,9 @@ def _read(dataset: Dataset) -> pa.Table:
     shards = dataset.folder.shards()
     if not shards:
         raise InputError(f"{dataset.folder.path}: has no keypoints yet; run: facegen generate")
-    rows = pq.read_metadata(shards[0]).num_rows
-    count = min(len(shards), max(1, MOST_ROWS // max(rows, 1)))
+    count = min(len(shards), MOST_ROWS // SHARD_ROWS)
     chosen = np.linspace(0, len(shards) - 1, count).round().astype(int)
-    return pa.concat_tables([pq.read_table(shards[index], columns=list(_COLUMNS)) for index in chosen])
+    return pa.concat_tables([read_shard(shards[index], _COLUMNS) for index in chosen])
 
 
 def _counts(values: np.ndarray) -> dict[str, int]:

@@ -11,7 +11,13 @@ from facegen.store.folder import (
     write_json,
 )
 from facegen.store.images import exr_bytes, png_bytes, read_exr, read_png
-from facegen.store.keypoint_table import column_array, keypoint_schema, keypoint_table, write_shard
+from facegen.store.keypoint_table import (
+    column_array,
+    keypoint_schema,
+    keypoint_table,
+    read_shard,
+    write_shard,
+)
 from facegen.store.merging import Merged, merge
 from facegen.store.record import sample_record
 from facegen.store.stage import is_alive, place, staging, sweep
@@ -36,6 +42,7 @@ __all__ = [
     "read_exr",
     "read_json",
     "read_png",
+    "read_shard",
     "resolve",
     "sample_record",
     "shard_samples",

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 import tomli_w
 from pydantic import TypeAdapter
 
@@ -21,7 +20,7 @@ from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset
 from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_hash, spec_table
 from facegen.store.folder import DatasetFolder, commit_file, output_errors, read_json, write_json
-from facegen.store.keypoint_table import column_array
+from facegen.store.keypoint_table import column_array, read_shard
 from facegen.store.stage import staging
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "opencv-contrib-python-headless", "OpenEXR")
@@ -74,11 +73,19 @@ class Dataset:
         return sample_numbers(text, total=self.plan.samples, where=where)
 
     def keypoints(self) -> pa.Table:
-        """All finished keypoint shards as one Arrow table."""
+        """All finished keypoint shards as one Arrow table.
+
+        Raises
+        ------
+        InputError
+            If nothing has been made yet.
+        InvalidData
+            If a shard is damaged.
+        """
         shards = self.folder.shards()
         if not shards:
             raise InputError(f"{self.folder.path}: has no keypoints yet; run: facegen generate")
-        return pa.concat_tables([pq.read_table(shard) for shard in shards])
+        return pa.concat_tables([read_shard(shard) for shard in shards])
 
     def array(self, column: str) -> np.ndarray:
         """A keypoint column as (n, ...) array, for example ``array("points_2d")`` (n, 68, 2)."""

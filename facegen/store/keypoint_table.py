@@ -1,5 +1,6 @@
-"""Keypoint shards: the columns of the Parquet files, and their writer."""
+"""Keypoint shards: the columns of the Parquet files, their writer and their reader."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from facegen.conventions import BLENDSHAPES, SPLITS
+from facegen.errors import InvalidData
 from facegen.labels import Keypoints
 from facegen.sampling import COMPONENT_NAMES, Samples
 
@@ -149,6 +151,24 @@ def write_shard(table: pa.Table, path: Path) -> None:
         write_statistics=True,
         write_page_checksum=True,
     )
+
+
+def read_shard(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
+    """Read a shard, or some of its columns; the checksums of all pages read are verified.
+
+    Raises
+    ------
+    InvalidData
+        If the file cannot be read, or is not what was written.
+    """
+    try:
+        return pq.read_table(
+            path, columns=None if columns is None else list(columns), page_checksum_verification=True
+        )
+    except (OSError, pa.ArrowException) as error:
+        raise InvalidData(
+            f"{path}: cannot be read as Parquet ({error}); run facegen validate --repair, then facegen generate"
+        ) from error
 
 
 def column_array(table: pa.Table, name: str) -> np.ndarray:

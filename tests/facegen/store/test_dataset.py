@@ -1,11 +1,14 @@
 """A dataset's folder holds all that says what it is."""
 
 import re
+import shutil
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
-from facegen.errors import InputError
+from facegen.cli import app
+from facegen.errors import InputError, InvalidData
 from facegen.headsets import headset_path
 from facegen.spec import load_spec
 from facegen.store import begin, open_dataset, resolve
@@ -58,3 +61,35 @@ def test_a_damaged_description_is_refused(folder):
     )
     with pytest.raises(InputError, match="another version"):
         open_dataset(folder / "out")
+
+
+@pytest.mark.parametrize("damage", ["flipped", "truncated"])
+def test_a_damaged_shard_is_named_by_all_that_read_it(recorded, tmp_path, damage):
+    copy = shutil.copytree(recorded.folder.path, tmp_path / "copy")
+    shard = copy / "keypoints" / "shard-00000.parquet"
+    content = bytearray(shard.read_bytes())
+    if damage == "truncated":
+        del content[len(content) // 2 :]
+    else:
+        for place in range(1000, len(content) // 2, 1000):  # in the pages of every column
+            content[place] ^= 1
+    shard.write_bytes(content)
+    readers = [
+        ("pack", copy, "--format", name, "--out", tmp_path / name) for name in ("keypoints", "livelink")
+    ]
+    readers += [
+        ("pack", copy, "--format", "keypoints", "--split", "train", "--out", tmp_path / "split"),
+        ("preview", copy, "--out", tmp_path / "page.html"),
+        ("preview", copy, "--out", tmp_path / "sheet.png"),
+        ("preview", copy, "--out", tmp_path / "clip.png", "--clip", "0"),
+    ]
+    for arguments in readers:
+        error = CliRunner().invoke(app, list(map(str, arguments))).exception
+        assert isinstance(error, InvalidData), (arguments, error)
+        assert str(shard) in str(error)
+        assert "run facegen validate --repair" in str(error)
+    assert not [
+        path
+        for path in tmp_path.rglob("*")
+        if path.is_file() and copy not in path.parents and path.name != "pack.json"
+    ]
