@@ -121,6 +121,8 @@ def resume(
 ) -> None:
     """Submit again what is missing and no engine is at, as the newest job was submitted.
 
+    Later steps that any job left undone are submitted too, as soon as no engine is at what they need.
+
     Example: facegen farm resume /shared/faces
     """
     import shutil
@@ -129,17 +131,23 @@ def resume(
     from facegen.store import open_dataset
 
     opened = open_dataset(dataset)
-    last, _ = _newest(opened)
+    jobs = _jobs(opened)
+    last = jobs[-1]
     state = farm.farm_state(opened)
     what = farm.remaining(
         opened, last.samples, shards=last.shards, busy=state.busy, retry_quarantined=retry_quarantined
     )
-    open_steps = {step.step for step in state.steps if step.state == "to do"}
-    steps = tuple(
-        step
-        for step in last.steps
-        if step in open_steps or (step == "generate" and (what.shards or what.samples))
-    )
+    by_name = {job.name: job for job in jobs}
+    to_do = {step.step: by_name[step.job] for step in state.steps if step.state == "to do"}
+    if to_do and state.busy:
+        print(
+            f"facegen: {', '.join(to_do)} must wait for tasks that are not done; resume again after them",
+            file=sys.stderr,
+        )
+        to_do = {}
+    if (what.shards or what.samples) and any("generate" in job.steps for job in jobs):
+        to_do["generate"] = last
+    steps = tuple(step for step in farm.STEPS if step in to_do)
     if not steps:
         say(f"facegen: nothing to submit; {state.missing} things are missing and all have tasks")
         _print({"job": None, "tasks": 0}, as_json=as_json)
@@ -156,8 +164,8 @@ def resume(
         shards=last.shards,
         resources=last.resources,
         chunk=chunk,
-        packed=last.packed,
-        model=last.model,
+        packed=to_do.get("pack", last).packed,
+        model=to_do.get("train", to_do.get("export", last)).model,
     )
     _hand_over(opened, job, dry_run=dry_run, wait=wait, as_json=as_json)
 
@@ -267,15 +275,15 @@ def _show_state(dataset: object, *, as_json: bool) -> int:
     return int(ExitCode.INVALID if state.quarantined else ExitCode.OK)
 
 
-def _newest(dataset: object) -> tuple:
+def _jobs(dataset: object) -> list:
     from facegen import farm
 
-    jobs = farm.list_jobs(dataset.folder)
+    jobs = farm.asked_jobs(dataset.folder)
     if not jobs:
         raise InputError(
             f"{dataset.folder.path}: was never submitted to a farm; begin with: facegen farm submit"
         )
-    return jobs[-1]
+    return jobs
 
 
 def _pair(text: str) -> tuple[str, str]:

@@ -3,7 +3,7 @@
 from facegen.farm.chunks import Chunk, cut_chunks
 from facegen.farm.engine import Activity, Engine
 from facegen.farm.engines import ENGINES
-from facegen.farm.job import STEPS, Job, Resources, Submission, list_jobs
+from facegen.farm.job import STEPS, Job, Resources, Submission, asked_jobs
 from facegen.farm.state import FarmState, StepState, farm_state
 from facegen.farm.submission import cancel, engine_logs, prepare, remaining, submit
 
@@ -18,11 +18,11 @@ __all__ = [
     "Resources",
     "StepState",
     "Submission",
+    "asked_jobs",
     "cancel",
     "cut_chunks",
     "engine_logs",
     "farm_state",
-    "list_jobs",
     "prepare",
     "remaining",
     "submit",

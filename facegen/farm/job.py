@@ -155,6 +155,12 @@ def list_jobs(folder: DatasetFolder) -> list[tuple[Job, Submission | None]]:
     return jobs
 
 
+def asked_jobs(folder: DatasetFolder) -> list[Job]:
+    """Jobs that were submitted, oldest first; where none was, those of dry runs, which may be started by hand."""
+    jobs = list_jobs(folder)
+    return [job for job, submission in jobs if submission is not None] or [job for job, _ in jobs]
+
+
 def _read(path: Path, kind: type):
     try:
         return TypeAdapter(kind).validate_json(path.read_bytes())

@@ -157,7 +157,7 @@ class Slurm:
         return Submission(ids=ids)
 
     def wait(self, job: Job, submission: Submission) -> None:
-        """Ask until Slurm has nothing of the job, or only what waits for ever."""
+        """Ask until Slurm says that it has nothing of the job; one that is held is waited for, until Ctrl-C."""
         while True:
             activity = self.activity(job, submission)
             if activity is not None and not activity.anything:

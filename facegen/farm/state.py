@@ -3,7 +3,7 @@
 from collections import Counter
 from dataclasses import dataclass
 
-from facegen.farm.job import Job, list_jobs
+from facegen.farm.job import Job, asked_jobs
 from facegen.farm.submission import activities
 from facegen.spec import sample_numbers
 from facegen.store import Dataset
@@ -63,7 +63,7 @@ class FarmState:
 
 def farm_state(dataset: Dataset) -> FarmState:
     """Look at the disk, and ask the engines."""
-    jobs = [job for job, _ in list_jobs(dataset.folder)]
+    jobs = asked_jobs(dataset.folder)
     requests = {(job.samples, job.shards) for job in jobs} or {(None, None)}
     wanted = {task for request in requests for task in wanted_tasks(dataset, *request)}
     done = done_tasks(dataset, wanted)

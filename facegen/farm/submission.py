@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from facegen.errors import FacegenError, InputError
 from facegen.farm.chunks import cut_chunks
 from facegen.farm.engine import Activity
 from facegen.farm.engines import ENGINES
@@ -112,15 +113,31 @@ def submit(job: Job) -> Submission:
 
 
 def cancel(folder: DatasetFolder) -> list[str]:
-    """Cancel all of a dataset's jobs that an engine has; returns their names."""
-    cancelled = []
+    """Cancel all of a dataset's jobs that an engine has; returns their names.
+
+    Raises
+    ------
+    InputError
+        If nothing was ever submitted from the folder, or an engine refuses; all other jobs are cancelled then.
+    """
+    if not (folder.path / "farm").is_dir():
+        raise InputError(
+            f"{folder.path}: was never submitted to a farm; name the folder of a dataset that was"
+        )
+    cancelled, refusals = [], []
     for job, submission in list_jobs(folder):
         if submission is None:
             continue
         activity = ENGINES[job.engine].activity(job, submission)
         if activity is None or activity.anything:
-            ENGINES[job.engine].cancel(job, submission)
-            cancelled.append(job.name)
+            try:
+                ENGINES[job.engine].cancel(job, submission)
+            except FacegenError as refusal:
+                refusals.append(str(refusal))
+            else:
+                cancelled.append(job.name)
+    if refusals:
+        raise InputError(f"{'; '.join(refusals)}; cancelled: {', '.join(cancelled) or 'nothing'}")
     return cancelled
 
 

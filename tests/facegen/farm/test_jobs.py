@@ -1,0 +1,114 @@
+"""Jobs one after the other, with an engine that says what the test tells it."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from facegen.cli import app
+from facegen.errors import InputError
+from facegen.farm import ENGINES, Activity, Job, Submission, asked_jobs
+from facegen.store import DatasetFolder, open_dataset
+from facegen.work import generate
+
+pytestmark = pytest.mark.usefixtures("anny")
+
+SPEC = """\
+version = 1
+kind = "still"
+seed = 3
+people = 3
+"""
+RENDERED = '[render]\nsamples = "0-19"\n'
+
+
+class Told:
+    """An engine with the activity of each job that it was told; it writes down what it cancels."""
+
+    def __init__(self) -> None:
+        self.doing: dict[str, Activity] = {}
+        self.cancelled: list[str] = []
+
+    def files(self, job: Job) -> dict[str, str]:
+        return {}
+
+    def instructions(self, job: Job) -> list[str]:
+        return []
+
+    def submit(self, job: Job) -> Submission:
+        return Submission(ids=dict.fromkeys(job.steps, "7"))
+
+    def activity(self, job: Job, submission: Submission) -> Activity:
+        return self.doing.get(job.name, Activity())
+
+    def cancel(self, job: Job, submission: Submission) -> None:
+        self.cancelled.append(job.name)
+
+
+@pytest.fixture
+def engine(monkeypatch) -> Told:
+    told = Told()
+    monkeypatch.setitem(ENGINES, "slurm", told)
+    return told
+
+
+def farm(*arguments: object) -> Result:
+    return CliRunner().invoke(app, ["farm", *map(str, arguments)])
+
+
+def submit(folder: Path, *options: str, spec: str = SPEC, engine: str = "slurm") -> Path:
+    (folder / "spec.toml").write_text(spec)
+    out = folder / "out"
+    done = farm("submit", folder / "spec.toml", "--out", out, "--engine", engine, *options)
+    assert done.exit_code == 0, done.output
+    return out
+
+
+def resume(out: Path, *options: str) -> tuple[str, ...]:
+    """Steps of the job that a resume made."""
+    done = farm("resume", out, "--json", *options)
+    assert done.exit_code == 0, done.output
+    return tuple(json.loads(done.stdout).get("steps", ()))
+
+
+def test_later_steps_of_an_older_job_are_not_lost(engine, tmp_path):
+    out = submit(tmp_path, "--steps", "generate,validate,pack", "--packed", str(tmp_path / "p"))
+    # the chunk has failed, and Slurm has not yet cancelled what needs it
+    engine.doing["job-001"] = Activity(steps={"validate": "PENDING", "pack": "PENDING"})
+    assert resume(out) == ("generate",)
+    engine.doing = {"job-002": Activity(chunks={0: "RUNNING"})}
+    assert resume(out) == (), "they would fail for want of what is being made"
+    generate(open_dataset(out), workers=1)
+    engine.doing = {}
+    assert resume(out) == ("validate", "pack")
+    assert asked_jobs(DatasetFolder(out))[-1].packed == str(tmp_path / "p")
+    for step in ("validate", "pack"):
+        (out / "farm" / "job-003" / f"{step}.done").touch()
+    assert resume(out) == ()
+
+
+def test_a_dry_run_does_not_narrow_what_is_resumed(engine, tmp_path):
+    out = submit(tmp_path, spec=SPEC + RENDERED)
+    submit(tmp_path, "--samples", "0-9", "--steps", "generate,train", "--dry-run", spec=SPEC + RENDERED)
+    assert resume(out) == ("generate",)
+    assert asked_jobs(DatasetFolder(out))[-1].samples == "0-19"
+
+
+def test_a_bundle_that_cannot_be_cancelled_keeps_no_other_job_from_it(engine, tmp_path):
+    submit(tmp_path)
+    submit(tmp_path, engine="openjd")
+    out = submit(tmp_path)
+    submit(tmp_path)  # has ended
+    engine.doing = dict.fromkeys(("job-001", "job-003"), Activity(chunks={0: "RUNNING"}))
+    refusal = farm("cancel", out).exception
+    assert isinstance(refusal, InputError)
+    assert "job-002 is an OpenJD bundle" in str(refusal)
+    assert str(refusal).endswith("cancelled: job-001, job-003")
+    assert engine.cancelled == ["job-001", "job-003"]
+
+
+def test_a_folder_that_was_never_submitted_has_nothing_to_cancel(tmp_path):
+    refusal = farm("cancel", tmp_path / "mistyped").exception
+    assert isinstance(refusal, InputError)
+    assert "mistyped: was never submitted to a farm" in str(refusal)
