@@ -24,9 +24,9 @@ def write_whole(path: Path, content: bytes | str) -> Path:
     Raises
     ------
     OSError
-        Where it cannot be written.
+        Where the file cannot be written, or ``path`` is a folder.
     """
-    if not path.name:  # "." and "/"
+    if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     data = content.encode() if isinstance(content, str) else content

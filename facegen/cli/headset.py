@@ -2,7 +2,6 @@
 
 import dataclasses
 import json
-import os
 from pathlib import Path
 from typing import Annotated
 
@@ -79,16 +78,11 @@ def preview(
     """
     from facegen.preview.headsets import draw_headset
     from facegen.rigs import load_rig
-    from facegen.store import output_errors
+    from facegen.store import whole_file
 
     figure = draw_headset(load_headset(name), load_rig(rig))
-    part = out.with_name(f".{out.name}.{os.getpid()}.png")
-    with output_errors(out):
-        try:
-            figure.savefig(part, metadata={"Software": None})
-            os.replace(part, out)
-        finally:
-            part.unlink(missing_ok=True)
+    with whole_file(out, suffix=".png") as part:
+        figure.savefig(part, metadata={"Software": None})
     typer.echo(out)
 
 

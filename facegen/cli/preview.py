@@ -1,7 +1,5 @@
 """``facegen preview``."""
 
-import os
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -89,6 +87,7 @@ def _play(performance: "Performance", out: Path, frames: str | None, height_px: 
     """Write a strip or a film."""
     from facegen.preview import ANIMATIONS, FILMS, clip_strip, pictures, write_film
     from facegen.spec import sample_numbers
+    from facegen.store import whole_file
 
     if out.suffix.lower() not in (STRIP, *FILMS, *ANIMATIONS):
         raise InputError(f"--out: {out} ends in none of {', '.join((STRIP, *FILMS, *ANIMATIONS))}")
@@ -97,7 +96,8 @@ def _play(performance: "Performance", out: Path, frames: str | None, height_px: 
         performance = performance.rows(sample_numbers(frames, total=total, where="--frames", what="frame"))
     if out.suffix.lower() == STRIP:
         figure = clip_strip(performance, height_px=height_px, landmarks=landmarks)
-        _write(out, figure.savefig)
+        with whole_file(out) as part:
+            figure.savefig(part)
         return
     with progress("frames", len(performance.time_s)) as update:
 
@@ -106,25 +106,31 @@ def _play(performance: "Performance", out: Path, frames: str | None, height_px: 
                 yield picture
                 update(done + 1)
 
-        _write(out, lambda part: write_film(part, counted(), fps=performance.fps))
+        with whole_file(out) as part:
+            write_film(part, counted(), fps=performance.fps)
 
 
 def _statistics(dataset: Path, out: Path) -> None:
     """Write the page of statistics."""
     from facegen.preview import dataset_statistics, statistics_page
-    from facegen.store import open_dataset
+    from facegen.store import open_dataset, whole_file
 
     opened = open_dataset(dataset)
     text = statistics_page(opened, dataset_statistics(opened))
-    _write(out, lambda part: part.write_text(text, encoding="utf-8"))
+    with whole_file(out) as part:
+        part.write_text(text, encoding="utf-8")
 
 
 def _sheet(dataset: Path, out: Path, samples: str | None, columns: int, landmarks: bool) -> None:
     """Write a contact sheet."""
-    from facegen.preview import contact_sheet
+    from facegen.preview import SHEETS, contact_sheet
     from facegen.spec import sample_numbers
-    from facegen.store import open_dataset
+    from facegen.store import open_dataset, whole_file
 
+    if out.suffix.lower() not in SHEETS:
+        raise InputError(
+            f"--out: {out} ends in none of {', '.join((*SHEETS, PAGE))}; for a film name a clip with --clip"
+        )
     opened = open_dataset(dataset)
     there = {int(number) for number in opened.keypoints()["sample"].to_numpy()}
     if samples is not None:
@@ -137,17 +143,5 @@ def _sheet(dataset: Path, out: Path, samples: str | None, columns: int, landmark
             f"{dataset}: sample {missing[0] if missing else 0} has not been made; run facegen generate first"
         )
     figure = contact_sheet(opened, numbers, columns=columns, landmarks=landmarks)
-    _write(out, lambda part: figure.savefig(part, facecolor=figure.get_facecolor()))
-
-
-def _write(out: Path, write: Callable[[Path], None]) -> None:
-    """Let a file appear under its name when it is complete."""
-    from facegen.store import output_errors
-
-    part = out.with_name(f".{out.name}.{os.getpid()}{out.suffix}")
-    with output_errors(out):
-        try:
-            write(part)
-            os.replace(part, out)
-        finally:
-            part.unlink(missing_ok=True)
+    with whole_file(out) as part:
+        figure.savefig(part, facecolor=figure.get_facecolor())

@@ -100,10 +100,10 @@ def landmarks(
     import numpy as np
 
     from facegen.rigs import neutral_landmarks
-    from facegen.store import output_errors
+    from facegen.store import whole_file
 
     rig = load_rig(name)
     points = neutral_landmarks(rig, np.zeros((1, rig.components)))[0]
-    with output_errors(out), open(out, "wb") as file:
+    with whole_file(out) as part, open(part, "wb") as file:
         np.save(file, points)
     typer.echo(str(out))

@@ -37,7 +37,7 @@ def read_weight_table(
     Raises
     ------
     FormatError
-        Where a blendshape's column is missing, there are no rows, or a cell is no number.
+        Where the file cannot be read, a blendshape's column is missing, there are no rows, or a cell is no number.
     """
     path = Path(path)
     try:
@@ -47,6 +47,8 @@ def read_weight_table(
         raise FormatError(
             f"{path}: there is no such file; a CSV with the 52 ARKit columns is needed"
         ) from None
+    except OSError as error:
+        raise FormatError(f"{path}: cannot be read ({error.strerror or error})") from error
     except (UnicodeDecodeError, csv.Error) as error:
         raise FormatError(f"{path} is not a CSV file: {error}") from error
     columns = {name.strip().lower(): column for column, name in enumerate(header)}

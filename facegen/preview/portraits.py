@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, Part
-from facegen.errors import OutputError
 from facegen.geometry import rotation_from_angles
 from facegen.raster import Nearest, faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
@@ -144,11 +143,16 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
 
     Raises
     ------
+    InputError
+        ``out`` is a folder.
     OutputError
         The file cannot be written.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg  # heavy, and only this function needs it
+    # heavy, and only this function needs them
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+
+    from facegen.store import whole_file
 
     people = people if rig.components else 1
     rng = np.random.Generator(np.random.PCG64(7))
@@ -173,7 +177,5 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
             axes.set_axis_off()
             if person == 0:
                 axes.set_title(view, y=0.95, fontsize=9)
-    try:
-        canvas.print_png(str(out), metadata={"Software": None})
-    except OSError as error:
-        raise OutputError(f"{out} cannot be written: {error.strerror or error}.") from error
+    with whole_file(out) as part:
+        canvas.print_png(str(part), metadata={"Software": None})

@@ -11,6 +11,8 @@ from matplotlib.figure import Figure
 from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, Visibility
 from facegen.store import Dataset, column_array, read_png
 
+SHEETS = (".png", ".jpg", ".jpeg", ".pdf", ".svg", ".webp")
+"""Suffixes of files that a sheet can be saved to."""
 BARS = 7
 """Weights shown of each sample, the largest ones."""
 _CLOSED = ("right_eye", "left_eye", "outer_lip", "inner_lip")

@@ -8,6 +8,7 @@ from facegen.store.folder import (
     output_errors,
     read_json,
     shard_samples,
+    whole_file,
     write_json,
 )
 from facegen.store.images import exr_bytes, png_bytes, read_exr, read_png
@@ -48,6 +49,7 @@ __all__ = [
     "shard_samples",
     "staging",
     "sweep",
+    "whole_file",
     "write_json",
     "write_shard",
 ]

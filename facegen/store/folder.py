@@ -78,6 +78,35 @@ def output_errors(path: Path) -> Iterator[None]:
         raise OutputError(f"{path}: cannot be written ({reason}); choose another folder") from error
 
 
+@contextlib.contextmanager
+def whole_file(path: Path, *, suffix: str | None = None) -> Iterator[Path]:
+    """Gives another name to write to; what stands there at the end appears under ``path``, whole or not at all.
+
+    Parameters
+    ----------
+    path
+        The file; an older one is replaced.
+    suffix
+        Of the name to write to, for writers that go by it; without, that of ``path``.
+
+    Raises
+    ------
+    InputError
+        If ``path`` is a folder.
+    OutputError
+        If the file cannot be written.
+    """
+    with output_errors(path):
+        if path.is_dir():
+            raise InputError(f"{path}: is a folder; name the file to write")
+        part = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix if suffix is None else suffix}")
+        try:
+            yield part
+            os.replace(part, path)
+        finally:
+            part.unlink(missing_ok=True)
+
+
 def sync(path: Path) -> None:
     """Flush a file or folder to the disk, so that a rename after it never shows an empty file."""
     handle = os.open(path, os.O_RDONLY)

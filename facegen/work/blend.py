@@ -1,12 +1,11 @@
 """One sample as a .blend file, for artists and for looking closer at what was rendered."""
 
-import os
 from pathlib import Path
 
 from facegen.conventions import BLOCK
 from facegen.errors import InputError
 from facegen.sampling import draw_samples
-from facegen.store import Dataset, output_errors
+from facegen.store import Dataset, whole_file
 from facegen.work.worker import draw_render_seed, label_sample
 
 
@@ -27,7 +26,9 @@ def save_blend(dataset: Dataset, number: int, path: Path, *, view: str | None = 
     Raises
     ------
     InputError
-        If the sample or the view does not exist.
+        If the sample or the view does not exist, or ``path`` is a folder.
+    OutputError
+        If the file cannot be written.
     """
     views = dataset.headset.camera_names
     view = views[0] if view is None else view
@@ -44,18 +45,13 @@ def save_blend(dataset: Dataset, number: int, path: Path, *, view: str | None = 
     spec, render = dataset.spec, dataset.spec.render
     made = label_sample(dataset, number, draw_samples(dataset.plan, dataset.rig, number // BLOCK))
     seed = draw_render_seed(spec.seed, view, number)
-    part = path.with_name(f".{path.name}.{os.getpid()}.blend")
-    with output_errors(path):
+    with whole_file(path, suffix=".blend") as part:
         path.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            open_renderer(subsurface=render.subsurface).save(
-                made.scene,
-                view,
-                part.absolute(),
-                samples=render.samples_per_pixel,
-                seed=seed,
-                denoise=render.denoise,
-            )
-            os.replace(part, path)
-        finally:
-            part.unlink(missing_ok=True)
+        open_renderer(subsurface=render.subsurface).save(
+            made.scene,
+            view,
+            part.absolute(),
+            samples=render.samples_per_pixel,
+            seed=seed,
+            denoise=render.denoise,
+        )

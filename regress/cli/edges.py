@@ -11,6 +11,7 @@ from regress.cli.talk import say
 from regress.errors import InputError, OutputError
 from regress.features import make_reference_shape
 from regress.features.reference_shape import TILT_DEG, reference_shape_json
+from regress.files import write_whole
 
 
 def edges(
@@ -26,7 +27,7 @@ def edges(
     """
     shape = make_reference_shape(_read(points), name=name, source=source, tilt_deg=tilt_deg)
     try:
-        out.write_text(reference_shape_json(shape), encoding="utf-8")
+        write_whole(out, reference_shape_json(shape))
     except OSError as error:
         raise OutputError(f"{out} cannot be written: {error.strerror or error}") from error
     say(f"{len(shape.edges)} edges of {shape.name}, SHA-256 {shape.sha256[:12]}, in {out}")

@@ -151,6 +151,20 @@ def test_a_file_of_numbers_on_standard_input_is_one_sentence(quick_model_folder:
     assert len(left.stderr.splitlines()) == 1
 
 
+def test_edges_keeps_the_old_file_where_a_new_one_finds_no_room(run, monkeypatch, tmp_path: Path):
+    shipped = json.loads((ROOT / "regress" / "data" / "reference_shape.json").read_text())
+    (tmp_path / "points.json").write_text(json.dumps(shipped["points"]))
+    (tmp_path / "shape.json").write_text("old")
+
+    def full(_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    code, _, err = run("edges", tmp_path / "points.json", "--out", tmp_path / "shape.json")
+    assert (code, "No space left" in err) == (74, True)
+    assert (tmp_path / "shape.json").read_text() == "old"
+
+
 def test_edges_makes_the_shipped_reference_shape_again(run, tmp_path: Path):
     shipped = json.loads((ROOT / "regress" / "data" / "reference_shape.json").read_text())
     (tmp_path / "points.json").write_text(json.dumps(shipped["points"]))

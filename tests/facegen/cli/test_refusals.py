@@ -7,6 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
+
+from facegen.cli import app
+from facegen.errors import InputError, OutputError
 
 ROOT = Path(__file__).resolve().parents[3]
 GOOD = 'version = 1\nkind = "still"\nseed = 1\npeople = 3\n'
@@ -77,6 +81,38 @@ def test_an_output_folder_that_cannot_be_written(tmp_path, anny):
     refused(
         facegen("rig", "landmarks", "anny", "--out", tmp_path / "file" / "x.npy"), 74, "cannot be written"
     )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["headset", "preview", "tracking3", "--out", "."], "is a folder"),
+        (["rig", "preview", "anny", "--out", "."], "is a folder"),
+        (["rig", "landmarks", "anny", "--out", "/"], "is a folder"),
+        (["blend", "datasets/tiny.toml", "--sample", "1", "--out", "."], "is a folder"),
+        (["preview", "datasets/out/tiny", "--out", "."], "ends in none of .png"),
+        (["preview", "datasets/out/tiny", "--out", "sheet"], "ends in none of .png"),
+        (["preview", "datasets/out/tiny", "--out", "film.mp4"], "--clip"),
+        (["preview", "--weights", "datasets", "--out", "film.mp4"], "cannot be read"),
+    ],
+)
+def test_names_that_no_file_can_have(monkeypatch, anny, arguments, words):
+    monkeypatch.chdir(ROOT)
+    refusal = CliRunner().invoke(app, arguments).exception
+    assert isinstance(refusal, InputError)
+    assert words in str(refusal)
+
+
+@pytest.mark.parametrize("command", ["preview", "landmarks"])
+def test_an_old_file_stays_where_a_new_one_finds_no_room(monkeypatch, anny, tmp_path, command):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    (tmp_path / "old.png").write_text("old")
+    monkeypatch.setattr(os, "replace", full)
+    refusal = CliRunner().invoke(app, ["rig", command, "anny", "--out", str(tmp_path / "old.png")]).exception
+    assert isinstance(refusal, OutputError)
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("old.png", "old")]
 
 
 def test_mean_landmarks_are_written(tmp_path, anny):

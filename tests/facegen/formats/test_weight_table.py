@@ -56,3 +56,5 @@ def test_what_is_no_table_is_refused(tmp_path, text, words):
         read_weight_table(tmp_path / "weights.csv")
     with pytest.raises(FormatError, match="there is no such file"):
         read_weight_table(tmp_path / "none.csv")
+    with pytest.raises(FormatError, match=r"cannot be read .*Is a directory"):
+        read_weight_table(tmp_path)
