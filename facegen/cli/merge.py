@@ -1,11 +1,14 @@
 """``facegen merge``."""
 
 import json
+from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from facegen.cli.progress import progress
 
 
 def merge(
@@ -22,7 +25,15 @@ def merge(
     """
     from facegen.store import merge as join
 
-    merged = join(datasets, out, copy=copy)
+    with ExitStack() as stack:
+        update = None
+
+        def show(done: int, total: int) -> None:
+            nonlocal update  # how many there are is known when the first one is there
+            update = update or stack.enter_context(progress("shards and rendered samples", total))
+            update(done)
+
+        merged = join(datasets, out, copy=copy, on_progress=show)
     if as_json:
         print(json.dumps({"out": str(out)} | asdict(merged)))
     else:

@@ -20,6 +20,7 @@ from facegen.store import (
     read_exr,
     read_json,
     staging,
+    sweep,
     write_json,
 )
 
@@ -81,6 +82,7 @@ def develop_dataset(
         )
     _begin(dataset, out, settings)
     folder, made = DatasetFolder(out), 0
+    sweep(folder)
     for done, number in enumerate(numbers):
         on_progress(done)
         if folder.render(number).exists():

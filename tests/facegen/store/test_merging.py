@@ -5,7 +5,9 @@ from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
+from typer.testing import CliRunner
 
+from facegen.cli import app
 from facegen.errors import InputError, InvalidData
 from facegen.spec import parse_spec
 from facegen.store import merge, open_dataset, resolve, write_shard
@@ -84,6 +86,14 @@ def test_what_is_no_run_of_the_spec_is_refused(tmp_path):
     with pytest.raises(InputError, match="nothing to merge"):
         merge([], tmp_path / "all")
     assert not (tmp_path / "all").exists()
+
+
+def test_the_command_shows_how_far_it_is(tmp_path):
+    one = keypoints(tmp_path / "one")
+    done = CliRunner().invoke(app, ["merge", str(one), "--out", str(tmp_path / "all")])
+    assert done.exit_code == 0, done.output
+    assert "shards and rendered samples: 1/1" in done.stderr
+    assert "1 shards and rendered samples taken over" in done.stdout
 
 
 def test_a_merge_that_was_killed_at_its_start_goes_on(tmp_path):

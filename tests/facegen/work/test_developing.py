@@ -1,6 +1,7 @@
 """Developing anew: the dataset's own pictures without options, others with them, always the same bytes."""
 
 import json
+import os
 
 import numpy as np
 import pytest
@@ -49,6 +50,15 @@ def test_exposure_and_seed_change_pictures_and_repeat(rendered, tmp_path):
         assert 0.1 < np.abs(levels["other"] - plain).mean()
         assert (levels["other"] == levels["again"]).all()
         assert 0.2 < (plain - levels["quiet"]).std() < 3.0
+
+
+def test_what_a_killed_run_left_is_swept(rendered, tmp_path):
+    left = tmp_path / "a" / "tmp" / "develop-0-another-machine"
+    left.mkdir(parents=True)
+    (left / "mouth.png").write_bytes(b"half")
+    os.utime(left, (0, 0))
+    develop_dataset(rendered, tmp_path / "a", numbers=[0])
+    assert not left.exists()
 
 
 def test_refusals(rendered, tmp_path):
