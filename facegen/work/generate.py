@@ -70,7 +70,8 @@ def generate(
     shards
         Make exactly these keypoint shards (``"0-9"``, ``""`` for none), and without ``ranges`` no pictures.
     workers
-        Processes; without, one per processor that this process may use.
+        Processes at most; without, one per processor that this process may use. Fewer tasks need fewer, which
+        share all processors and memory.
     grace_s
         Seconds that running tasks get to end after SIGINT or SIGTERM.
     limits
@@ -99,13 +100,14 @@ def generate(
         for task in work.missing:
             shutil.rmtree(dataset.folder.quarantine(task.name), ignore_errors=True)
     cpus = available_cpus()
-    workers = workers or cpus
+    workers = min(workers or cpus, len(work.missing))
+    share = int(MEMORY_SHARE * available_memory() / workers)
     supervisor = Supervisor(
         dataset=dataset,
-        workers=min(workers, len(work.missing)),
+        workers=workers,
         threads=max(1, cpus // workers),
         grace_s=grace_s,
-        limits=replace(limits, memory=limits.memory or int(MEMORY_SHARE * available_memory() / workers)),
+        limits=replace(limits, memory=share if limits.memory is None else limits.memory),
         on_progress=on_progress,
     )
     try:

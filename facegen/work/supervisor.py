@@ -40,7 +40,7 @@ class Limits:
     renew_after
         Tasks after which a process is renewed; a precaution, 300 renders left its size unchanged within 3 %.
     memory
-        Bytes above which a process is renewed after its task; 0 for no limit.
+        Bytes above which a process is renewed after its task; 0 for no limit, None for its share of what there is.
     failed_starts
         Starts that fail one after another before the run is given up.
     start_wait_s
@@ -52,7 +52,7 @@ class Limits:
     silence_s: float = 300.0
     phase_s: float = 3600.0
     renew_after: int = 1000
-    memory: int = 0
+    memory: int | None = None
     failed_starts: int = 5
     start_wait_s: float = 1.0
     failed_tasks: int = 10
@@ -234,7 +234,7 @@ class Supervisor:
             child.retire()
 
     def _is_worn(self, child: WorkerProcess) -> bool:
-        return child.ended >= self.limits.renew_after or 0 < self.limits.memory < child.memory()
+        return child.ended >= self.limits.renew_after or 0 < (self.limits.memory or 0) < child.memory()
 
     def _write_journal(self, task: Task, outcome: str, seconds: float, cpu_seconds: float, size: int) -> None:
         attempt = Attempt(

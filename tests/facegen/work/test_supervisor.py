@@ -10,7 +10,7 @@ from facegen.errors import OutputError, WorkersFailed
 from facegen.spec import parse_spec
 from facegen.store import resolve
 from facegen.work import Limits, attempt_logs, generate, quarantined_tasks, read_journals, wanted_tasks
-from facegen.work.supervisor import Supervisor
+from facegen.work.supervisor import Outcome, Supervisor
 from tests.facegen.work import faults
 
 SPEC = {"version": 1, "kind": "still", "seed": 5, "people": 60, "still": {"neutral": 1, "faces": 0}}
@@ -30,6 +30,33 @@ def make(tmp_path, monkeypatch):
         return dataset, generate(dataset, samples, shards="", workers=workers, limits=limits, grace_s=10)
 
     return run
+
+
+@pytest.mark.parametrize(
+    ("samples", "workers", "memory", "expected"),
+    [
+        ("0", None, None, (1, 16, int(0.8 * 64e9))),
+        ("0-2", None, None, (3, 5, int(0.8 * 64e9 / 3))),
+        ("0-31", None, None, (16, 1, int(0.8 * 4e9))),
+        ("0-31", 2, 0, (2, 8, 0)),
+    ],
+)
+def test_processes_share_all_processors_and_memory(tmp_path, monkeypatch, samples, workers, memory, expected):
+    module, told = sys.modules[generate.__module__], []
+
+    class Told:
+        def __init__(self, *, workers, threads, limits, **_):
+            told.append((workers, threads, limits.memory))
+
+        def run(self, tasks):
+            return Outcome(made=len(tasks), found=0, quarantined=())
+
+    monkeypatch.setattr(module, "available_cpus", lambda: 16)
+    monkeypatch.setattr(module, "available_memory", lambda: 64e9)
+    monkeypatch.setattr(module, "Supervisor", Told)
+    dataset = resolve(parse_spec(SPEC, where="test"), tmp_path / "out")
+    generate(dataset, samples, shards="", workers=workers, limits=Limits(memory=memory))
+    assert told == [expected]
 
 
 def outcomes(dataset) -> list[str]:
