@@ -140,10 +140,7 @@ def resume(
     by_name = {job.name: job for job in jobs}
     to_do = {step.step: by_name[step.job] for step in state.steps if step.state == "to do"}
     if to_do and state.busy:
-        print(
-            f"facegen: {', '.join(to_do)} must wait for tasks that are not done; resume again after them",
-            file=sys.stderr,
-        )
+        say(f"facegen: {', '.join(to_do)} must wait for tasks that are not done; resume again after them")
         to_do = {}
     if (what.shards or what.samples) and any("generate" in job.steps for job in jobs):
         to_do["generate"] = last
