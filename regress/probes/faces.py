@@ -151,7 +151,7 @@ def read_faces(folder: Path) -> ProbeFaces:
 def _table(shard: Path) -> pa.Table:
     columns = [*_WIDTHS, "person", "neutral", "split"]
     try:
-        file = pq.ParquetFile(shard)
+        file = pq.ParquetFile(shard, page_checksum_verification=True)
         missing = [name for name in columns if name not in file.schema_arrow.names]
         if missing:
             raise InputError(

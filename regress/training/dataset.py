@@ -153,15 +153,17 @@ def _description(path: Path) -> dict[str, Any]:
 def _table(shard: Path, content: bytes, points: str) -> pa.Table:
     columns = ["person", "neutral", "split", "weights", points]
     try:
-        file = pq.ParquetFile(pa.BufferReader(content))
+        file = pq.ParquetFile(pa.BufferReader(content), page_checksum_verification=True)
         missing = [name for name in columns if name not in file.schema_arrow.names]
         if missing:
             raise InputError(
                 f"{shard} lacks the column {missing[0]!r}; it holds {', '.join(file.schema_arrow.names)}"
             )
         table = file.read(columns=columns)
-    except pa.ArrowException as error:
-        raise InputError(f"{shard} is not a readable Parquet file: {error}") from error
+    except (pa.ArrowException, OSError) as error:
+        raise InputError(
+            f"{shard} cannot be read as Parquet ({error}); run facegen validate --repair, then facegen generate"
+        ) from error
     for name in ("weights", points):
         width = _WIDTHS[name]
         kind = table.schema.field(name).type

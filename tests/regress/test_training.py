@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX
@@ -60,11 +61,28 @@ def test_what_is_no_dataset_is_refused(dataset: KeypointDataset, tmp_path: Path)
         read_dataset(tmp_path / "faceless")
     write_dataset(dataset, tmp_path / "broken")
     (tmp_path / "broken" / "keypoints" / "shard-00001.parquet").write_bytes(b"PAR1")
-    with pytest.raises(InputError, match="not a readable Parquet file"):
+    with pytest.raises(InputError, match="run facegen validate --repair"):
         read_dataset(tmp_path / "broken")
     (tmp_path / "broken" / "dataset.json").write_text("[]")
     with pytest.raises(InputError, match="a JSON object is needed"):
         read_dataset(tmp_path / "broken")
+
+
+def test_numbers_that_changed_on_the_disk_are_refused(dataset: KeypointDataset, tmp_path: Path):
+    write_dataset(dataset, tmp_path / "set")
+    shard = tmp_path / "set" / "keypoints" / "shard-00000.parquet"
+    pq.write_table(
+        pq.read_table(shard), shard, compression="none", use_dictionary=False, write_page_checksum=True
+    )
+    content = bytearray(shard.read_bytes())
+    place = content.find(dataset.weights[0].astype(np.float32).tobytes()[:16])
+    assert place > 0
+    content[place] ^= 1
+    shard.write_bytes(content)
+    with pytest.raises(
+        InputError, match=r"shard-00000\.parquet cannot be read as Parquet .*validate --repair"
+    ):
+        read_dataset(tmp_path / "set")
 
 
 def test_training_repeats_to_the_bit_and_follows_its_seed(quick_model: Model, dataset: KeypointDataset):
