@@ -6,13 +6,16 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from facegen.geometry import Camera, look_at, transform, unproject
+from facegen.geometry import Camera, look_at, project, transform, unproject
 from facegen.geometry.cameras import DISTORTION_TERMS
+from facegen.headsets.lens_shader import rendered_rays
 from facegen.headsets.quantities import MM, Name, Pair, Positive, Share, Vector, record
 
 SPARE = 0.005
 """A picture ends by this share before its distortion turns back. There the renderer's iteration (lens.osl) converges
 slowly: with a share of 0.002 it is 0.08 px off, with this one less than 0.01 px."""
+RENDERED_OFF_PX = 0.01
+"""Rendered and labelled rays agree within this."""
 
 
 @record()
@@ -82,17 +85,41 @@ class HeadsetCamera:
             raise ValueError(
                 "distortion folds within the picture: some of its pixels see no ray; make it weaker"
             )
+        if (self._border_rays()[:, 2] <= 0.0).any():
+            raise ValueError(
+                "the picture reaches 90 degrees and more from the optical axis, where depths have no meaning; make "
+                "fx and fy larger or the picture smaller"
+            )
+        off_px = self._rendered_off_px()
+        if not off_px <= RENDERED_OFF_PX:
+            raise ValueError(
+                f"distortion is too strong to be rendered: rays would be {off_px:.2g} px off, and "
+                f"{RENDERED_OFF_PX:g} are allowed; make it weaker"
+            )
         return self
 
     def _sees_everywhere(self) -> bool:
         """Whether every pixel has a ray; those of the border tell, because no two rays share a pixel."""
+        return bool(np.isfinite(self._border_rays(SPARE)).all())
+
+    def _border_rays(self, spare: float = 0.0) -> np.ndarray:
+        """(204, 3) rays through the border of the picture, or of one that is larger by a share."""
         along = np.linspace(-1.0, 1.0, 51)
         corners = np.stack([along, np.ones_like(along)], axis=-1)
         border = np.concatenate([corners, -corners, corners[:, ::-1], -corners[:, ::-1]])
         half = np.array([self.width, self.height]) / 2.0
         pixels = half - 0.5 + border * half
         centre = np.array([self.cx, self.cy])
-        return bool(np.isfinite(unproject(self.camera, centre + (1.0 + SPARE) * (pixels - centre))).all())
+        return unproject(self.camera, centre + (1.0 + spare) * (pixels - centre))
+
+    def _rendered_off_px(self) -> float:
+        """How far rendered rays are from their pixels, at the most: the shader's iteration does not always converge."""
+        x, y = (np.linspace(-0.5, side - 0.5, 33) for side in (self.width, self.height))
+        pixels = np.stack(np.meshgrid(x, y), axis=-1)
+        with np.errstate(all="ignore"):
+            found = project(self.camera, rendered_rays(self.camera, pixels))
+        off_px = np.linalg.norm(found - pixels, axis=-1).max()
+        return float(off_px) if np.isfinite(off_px) else np.inf
 
     @property
     def camera(self) -> Camera:

@@ -3,10 +3,14 @@
 from dataclasses import replace
 
 import numpy as np
+from pydantic import ValidationError
 
 from facegen.geometry import look_at, rotation_from_angles
 from facegen.headsets.cameras import HeadsetCamera
 from facegen.headsets.headset import Headset, Led
+
+_SHARES = 0.5 ** np.arange(8)
+"""Of the drawn deviations, until a unit can be built."""
 
 
 def draw_unit(headset: Headset, rng: np.random.Generator, *, scale: float = 1.0) -> Headset:
@@ -14,7 +18,9 @@ def draw_unit(headset: Headset, rng: np.random.Generator, *, scale: float = 1.0)
 
     Cameras are shifted by ``mount_mm``, turned by ``mount_deg`` about their own centres, and have another focal
     length; LEDs are shifted by ``led_mm`` and shine more or less. Beam directions stay. Everything is drawn whatever
-    the tolerances are, so setting one to 0 leaves the others' draws unchanged.
+    the tolerances are, so setting one to 0 leaves the others' draws unchanged. A unit that nobody could build, with a
+    camera inside the housing or a picture that its lens does not fill, is halfway nearer to the drawing, as often as it
+    takes.
 
     Parameters
     ----------
@@ -25,15 +31,29 @@ def draw_unit(headset: Headset, rng: np.random.Generator, *, scale: float = 1.0)
     scale
         Factor on all standard deviations.
     """
-    sd = headset.tolerances
-    sensor = headset.sensor
-    exposure, black = scale * rng.standard_normal(2) * (sd.exposure_percent / 100.0, sd.black_levels)
+    drawn = (
+        rng.standard_normal(2),
+        rng.standard_normal((len(headset.cameras), 7)),
+        rng.standard_normal((len(headset.leds), 4)),
+    )
+    for share in _SHARES:
+        try:
+            return _unit(headset, *(scale * share * numbers for numbers in drawn))
+        except ValidationError:  # what a headset's file may not say either
+            continue
+    return headset
+
+
+def _unit(headset: Headset, drawn: np.ndarray, cameras: np.ndarray, leds: np.ndarray) -> Headset:
+    """``drawn``: standard normal exposure and black level; a row of draws for each camera and LED."""
+    sd, sensor = headset.tolerances, headset.sensor
+    exposure, black = drawn * (sd.exposure_percent / 100.0, sd.black_levels)
     return replace(
         headset,
         cameras=tuple(
-            _mounted(camera, headset, scale * rng.standard_normal(7)) for camera in headset.cameras
+            _mounted(camera, headset, row) for camera, row in zip(headset.cameras, cameras, strict=True)
         ),
-        leds=tuple(_soldered(led, headset, scale * rng.standard_normal(4)) for led in headset.leds),
+        leds=tuple(_soldered(led, headset, row) for led, row in zip(headset.leds, leds, strict=True)),
         sensor=replace(
             sensor,
             exposure=sensor.exposure * float(np.exp(exposure)),

@@ -8,13 +8,9 @@ on them. Lids (`facegen.rigs.lids`) and eye meshes (`facegen.scene`) rest on the
 References
 ----------
 .. [1] F. Rüfer et al., "White-to-white corneal diameter", Cornea 24(3), 2005: 11.71 +- 0.42 mm across.
-.. [2] Gullstrand-Le Grand schematic eye, in D. Atchison and G. Smith, "Optics of the Human Eye", 2000:
-anterior cornea
-   7.8 mm, cornea 0.55 mm thick, anterior chamber 3.05 mm deep, refractive index 1.376 (cornea), 1.336
-   (aqueous).
-.. [3] A. Watson and J. Yellott, "A unified formula for light-adapted pupil size", J. Vision 12(10), 2012: 2
-to 8 mm. .. [4] E. Guestrin and M. Eizenman, "General theory of remote gaze estimation", IEEE TBME 53(6),
-2006: the visual axis
+.. [2] Gullstrand-Le Grand schematic eye, in D. Atchison and G. Smith, "Optics of the Human Eye", 2000: anterior cornea
+   7.8 mm, cornea 0.55 mm thick, anterior chamber 3.05 mm deep, refractive index 1.376 (cornea), 1.336 (aqueous).
+.. [3] E. Guestrin and M. Eizenman, "General theory of remote gaze estimation", IEEE TBME 53(6), 2006: the visual axis
    lies about 5 degrees nasal of and 1.5 degrees above the optical axis.
 """
 
@@ -28,13 +24,11 @@ CORNEA_RADIUS_M = 7.8e-3
 """Radius of curvature of the cornea's front [2]_."""
 IRIS_DEPTH_M = 3.6e-3
 """Iris plane behind the cornea's apex: corneal thickness and anterior chamber [2]_."""
-PUPIL_RADIUS_RANGE_M = (1.0e-3, 4.0e-3)
-"""Smallest and largest pupil radius, bright to dark [3]_."""
 CORNEA_INDEX = 1.336
 """Refractive index between air and iris; the aqueous humour's, as the thin cornea barely bends [2]_."""
 KAPPA_NASAL_RAD = np.radians(5.0)
 KAPPA_UP_RAD = np.radians(1.5)
-"""Visual axis against the optical axis, mean of people [4]_."""
+"""Visual axis against the optical axis, mean of people [3]_."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -16,7 +16,7 @@ from facegen.rigs.rig import Rig
 
 EYE_DISTANCE_M = (0.045, 0.085)
 """Eyes lie so far apart on heads in metres: people's 52 to 78 mm, and a little more either way for avatars."""
-EYE_RADIUS_M = (0.008, 0.030)
+EYE_RADIUS_M = (0.0105, 0.030)
 """Radii of eyeballs: people's 12 mm, avatars' up to twice that; a human cornea has to fit."""
 LIP_DEPTH_M = 0.012
 """The mesh that lies further behind the inner lip's landmarks lines the mouth, it is no lip."""
@@ -117,7 +117,7 @@ def _check_eyes(center: np.ndarray, radius: np.ndarray) -> None:
     if not (EYE_RADIUS_M[0] < radius.min() and radius.max() < EYE_RADIUS_M[1]):
         raise InputError(
             f"the eyeballs' radii are {1e3 * radius[0]:.3g} and {1e3 * radius[1]:.3g} mm, "
-            f"{1e3 * EYE_RADIUS_M[0]:.0f} to {1e3 * EYE_RADIUS_M[1]:.0f} are allowed"
+            f"{1e3 * EYE_RADIUS_M[0]:g} to {1e3 * EYE_RADIUS_M[1]:.0f} are allowed"
         )
 
 

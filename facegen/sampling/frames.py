@@ -25,7 +25,7 @@ COMPONENT_NAMES: tuple[str, ...] = (
 """What ``component`` labels count: neutral faces, frames of a recording, the mixture of stills, kinds of clips."""
 
 FIT_AXES = 6
-"""Degrees of freedom of a headset on a head: translation x, y, z and rotation about x, y, z."""
+"""Degrees of freedom of a headset on a head: translation x, y, z and yaw, pitch, roll."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

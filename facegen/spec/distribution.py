@@ -1,6 +1,7 @@
 """Numbers that vary, as data: ``12``, ``{uniform = [-20, 20]}`` or ``{normal = [0, 6], within = [-20, 20]}``."""
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -10,6 +11,8 @@ from scipy.special import ndtr, ndtri
 
 DEFAULT_SDS = 3.0
 """A normal distribution without ``within`` is cut at this many standard deviations."""
+FARTHEST_SDS = 6.0
+"""Shares of a normal beyond 8 are not told from none in double precision, and every draw would be a bound."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,9 +43,9 @@ def _pair(value: Any, what: str) -> tuple[float, float]:
     if (
         not isinstance(value, list | tuple)
         or len(value) != 2
-        or any(isinstance(x, bool) or not isinstance(x, int | float) for x in value)
+        or any(isinstance(x, bool) or not isinstance(x, int | float) or not isfinite(x) for x in value)
     ):
-        raise PydanticCustomError("distribution", "{what} must be two numbers", {"what": what})
+        raise PydanticCustomError("distribution", "{what} must be two finite numbers", {"what": what})
     return float(value[0]), float(value[1])
 
 
@@ -53,6 +56,12 @@ def _normal(value: dict[str, Any]) -> Distribution:
     low, high = mean - DEFAULT_SDS * sd, mean + DEFAULT_SDS * sd
     if "within" in value:
         low, high = _pair(value["within"], "within = [low, high]")
+        if max(low - mean, mean - high) > FARTHEST_SDS * sd:
+            raise PydanticCustomError(
+                "distribution",
+                "within lies more than {sds} standard deviations from the mean, where next to nothing is drawn",
+                {"sds": f"{FARTHEST_SDS:g}"},
+            )
     return Distribution(kind="normal", low=low, high=high, mean=mean, sd=sd)
 
 

@@ -138,7 +138,7 @@ class Expression:
     subtle: Share = 0.3
     """Share of faces that are scaled down, log-uniformly to between 2 and 100 %."""
     resting: Share = 0.2
-    """Largest weight that each shape has at rest; not in single, sparse, dense, extreme and divergent faces."""
+    """Largest weight that each shape has at rest, in rest, emotion, speech, movement and one_sided faces."""
     mixture: Mixture = Mixture(
         rest=0.04,
         single=0.10,

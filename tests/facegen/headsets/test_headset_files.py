@@ -1,6 +1,7 @@
 """Headset files: what they must hold, what is refused and how, and where cameras and LEDs end up."""
 
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from facegen.errors import FormatError, InputError, MissingAsset
 from facegen.geometry import apply_transform, invert_transform, project, rotation_from_angles
 from facegen.headsets import head_from_headset, headset_path, list_headsets, load_headset, parse_headset
+from facegen.headsets.cameras import Distortion
 
 SMALL = """
 name = "small"
@@ -93,6 +95,20 @@ def test_refusals_name_the_key_and_what_is_allowed(was, becomes, says):
     assert was in SMALL
     with pytest.raises(InputError, match=says):
         parse(SMALL.replace(was, becomes, 1))
+
+
+def test_pictures_that_cannot_be_rendered_as_labelled_are_refused():
+    square = {"width": 256, "height": 256, "cx": 127.5, "cy": 127.5}
+    camera = replace(load_headset("tracking3").camera("mouth"), **square, distortion=Distortion())
+    with pytest.raises(ValueError, match="90 degrees and more from the optical axis"):
+        replace(camera, model="fisheye", fx=70.0, fy=70.0)
+    replace(camera, model="fisheye", fx=130.0, fy=130.0)
+    # an iteration of fixed points swings for ever there; Newton's, which labels have, does not
+    strong = Distortion(k1=-0.3, k2=0.1, k3=0.1)
+    with pytest.raises(
+        ValueError, match=r"too strong to be rendered: rays would be .* px off, and 0\.01 are allowed"
+    ):
+        replace(camera, model="pinhole", fx=165.0, fy=165.0, distortion=strong)
 
 
 def test_missing_and_damaged_files(tmp_path):

@@ -51,3 +51,23 @@ def test_one_tolerance_leaves_the_others_draws():
     a, b = (draw_unit(headset, np.random.default_rng(3)) for headset in (TRACKING3, loose))
     assert a.leds == b.leds
     assert [c.fx for c in a.cameras] == [c.fx for c in b.cameras]
+
+
+def test_a_unit_that_nobody_could_build_is_nearer_to_the_drawing():
+    training9 = load_headset("training9")
+    shares = []
+    for seed in range(6):
+        unit, random = (
+            draw_unit(training9, np.random.default_rng(seed), scale=10.0),
+            np.random.default_rng(seed),
+        )
+        random.standard_normal(2)
+        drawn_mm = (
+            10.0 * training9.tolerances.mount_mm * random.standard_normal((len(unit.cameras), 7))[:, :3]
+        )
+        places_mm = [[camera.position_mm for camera in one.cameras] for one in (unit, training9)]
+        share = np.subtract(*places_mm) / drawn_mm
+        assert np.allclose(share, share[0, 0])
+        shares.append(share[0, 0])
+    assert np.allclose(np.log2(shares), np.round(np.log2(shares)), atol=1e-6)
+    assert min(shares) < 0.6

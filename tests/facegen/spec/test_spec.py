@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
+from pydantic_core import PydanticCustomError
 
 from facegen.errors import InputError
 from facegen.spec import (
@@ -205,6 +206,24 @@ def test_draws_stay_within_their_bounds_and_data_survives(data, seed):
     assert values.shape == (50,)
     assert (values >= distribution.low).all()
     assert (values <= distribution.high).all()
+
+
+@pytest.mark.parametrize(
+    ("value", "says"),
+    [
+        ({"normal": [0, float("nan")], "within": [-1, 1]}, "two finite numbers"),
+        ({"normal": [0, float("inf")], "within": [-1, 1]}, "two finite numbers"),
+        ({"uniform": [float("nan"), 1]}, "two finite numbers"),
+        ({"normal": [0, 1], "within": [9, 10]}, "within lies more than 6 standard deviations from the mean"),
+        (
+            {"normal": [20, 1], "within": [-10, -5]},
+            "within lies more than 6 standard deviations from the mean",
+        ),
+    ],
+)
+def test_distributions_that_draw_nothing_sensible_are_refused(value, says):
+    with pytest.raises(PydanticCustomError, match=says):
+        parse(value)
 
 
 def test_truncated_normal_has_the_moments_of_its_formula():
