@@ -149,16 +149,16 @@ def _check_view(record: dict, name: str, grey: np.ndarray, layers: Layers | None
         points = np.array(view["points_camera"], np.float64).reshape(LANDMARK_COUNT, 3)
         labelled = np.array(view["points_2d"], np.float64).reshape(LANDMARK_COUNT, 2)
         visible = np.array(view["visibility"]).reshape(LANDMARK_COUNT) == Visibility.VISIBLE
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        yield SIDECAR, f"views.{name} cannot be used ({error!r})", "unreadable"
+        with np.errstate(invalid="ignore"):
+            error = np.linalg.norm(project(camera, points) - labelled, axis=-1)
+    except (KeyError, TypeError, ValueError, AttributeError) as unusable:
+        yield SIDECAR, f"views.{name} cannot be used ({unusable!r})", "unreadable"
         return
     shapes = [grey.shape, *([layers.depth.shape] if layers else ())]
     if any(shape != (camera.height, camera.width) for shape in shapes):
         said = " and ".join(map(str, shapes))
         yield name, f"pictures are {said}, the camera says {camera.height, camera.width}", "pixels"
         return
-    with np.errstate(invalid="ignore"):
-        error = np.linalg.norm(project(camera, points) - labelled, axis=-1)
     allowed = REPROJECTION_PX + FAR_SHARE * np.linalg.norm(labelled, axis=-1)
     for landmark in np.flatnonzero(error > allowed):
         distance = f"{error[landmark]:.3f} px"

@@ -190,6 +190,16 @@ def test_junk_in_a_sidecar_never_ends_the_check(copy, rendered, text):
     assert only(found(copy), SAMPLE)
 
 
+@pytest.mark.parametrize(
+    "camera", [{"model": "pinhloe"}, {"fx": None}, {"fx": "1"}, {"distortion": [0.0] * 6}], ids=str
+)
+def test_junk_in_a_views_camera_never_ends_the_check(copy, camera):
+    edit(copy, lambda record: record["views"]["mouth"]["camera"].update(camera))
+    findings = found(copy)
+    assert only(findings, SAMPLE) == {"label", "unreadable"}
+    assert [finding.what for finding in findings if finding.kind == "unreadable"][0].startswith("views.mouth ")
+
+
 def test_repair_and_generate_restore_identical_bytes(copy, rendered):
     flip(copy / SHARD, at=0.5)
     path = copy / SAMPLE / "left_eye.png"
