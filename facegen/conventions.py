@@ -55,6 +55,10 @@ def mirrored_name(blendshape: str) -> str:
 MIRRORED_BLENDSHAPES: tuple[int, ...] = tuple(BLENDSHAPE_INDEX[mirrored_name(name)] for name in BLENDSHAPES)
 """``weights[..., MIRRORED_BLENDSHAPES]`` are the weights of the mirrored face."""
 
+RECORDED_WEIGHTS = (-0.1, 1.6)
+"""Least and greatest weight of a recording that is played: it is kept as it is, and devices were seen to give -0.02 to
+1.4."""
+
 LANDMARK_COUNT = 68
 
 LANDMARK_GROUPS: dict[str, range] = {

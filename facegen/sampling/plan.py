@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.conventions import BLOCK
+from facegen.conventions import BLENDSHAPES, BLOCK, RECORDED_WEIGHTS
 from facegen.errors import InputError
 from facegen.formats import read_live_link
 from facegen.sampling.motion import Script, write_script
-from facegen.spec import Spec
+from facegen.spec import Playback, Spec, format_ranges
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -62,7 +62,7 @@ def plan_dataset(spec: Spec) -> Plan:
     Raises
     ------
     InputError
-        If the recording cannot be read, or has not the frames asked for.
+        If the recording cannot be read, has not the frames asked for, or shows no face or impossible weights there.
     """
     if spec.kind == "still":
         return Plan(spec=spec, frames=spec.still.sessions * (spec.still.neutral + spec.still.faces))
@@ -78,7 +78,37 @@ def plan_dataset(spec: Spec) -> Plan:
             f"frames 0-{len(weights) - 1}"
         )
     recording = weights[playback.first_frame : last]
+    _check_recording(recording, playback)
     return Plan(spec=spec, frames=len(recording), recording=recording)
+
+
+def _check_recording(weights: np.ndarray, playback: Playback) -> None:
+    """Refuse frames (n, 52) that no face can play."""
+    empty = np.isnan(weights).any(axis=1)
+    if empty.any():
+        raise InputError(
+            f"{playback.recording}: {_frames(empty, playback)} without a face (empty cells); fill them in, or choose "
+            "frames between them with playback.first_frame and playback.frames"
+        )
+    low, high = RECORDED_WEIGHTS
+    outside = (weights < low) | (weights > high)
+    if outside.any():
+        frame, shape = np.argwhere(outside)[0]
+        raise InputError(
+            f"{playback.recording}: {_frames(outside.any(axis=1), playback)} with weights outside {low:g} to {high:g} "
+            f"(the first is {BLENDSHAPES[shape]} = {weights[frame, shape]:g}); 1 is a whole movement: scale them, or "
+            "choose other frames with playback.first_frame and playback.frames"
+        )
+
+
+def _frames(wrong: np.ndarray, playback: Playback) -> str:
+    """How many frames (n,) of those played are wrong, and which; numbered as in the recording."""
+    numbers = playback.first_frame + np.flatnonzero(wrong)
+    ranges = format_ranges(numbers.tolist()).split(",")
+    more = ",..." if len(ranges) > 5 else ""
+    return (
+        f"has {len(numbers)} frame{'s' * (len(numbers) > 1)} ({','.join(ranges[:5])}{more}; frame 0 is row 2)"
+    )
 
 
 def block_places(plan: Plan, block: int) -> Places:

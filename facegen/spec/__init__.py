@@ -4,7 +4,7 @@ from facegen.spec.distribution import Distribution, draw
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
 from facegen.spec.reference import spec_reference
 from facegen.spec.sample_ranges import format_ranges, sample_numbers
-from facegen.spec.spec import Expression, Gaze, Landmarks, Looks, Spec
+from facegen.spec.spec import Expression, Gaze, Landmarks, Looks, Playback, Spec
 
 __all__ = [
     "LABEL_VERSION",
@@ -13,6 +13,7 @@ __all__ = [
     "Gaze",
     "Landmarks",
     "Looks",
+    "Playback",
     "Spec",
     "draw",
     "format_ranges",

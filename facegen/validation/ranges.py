@@ -4,10 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from facegen.conventions import Visibility
+from facegen.conventions import RECORDED_WEIGHTS, Visibility
 
-RECORDED_WEIGHTS = (-0.1, 1.6)
-"""Recordings are kept as they are, and devices were seen to give -0.02 to 1.4."""
 UNIT = 1e-5
 """Lengths of unit vectors and products of rotations may be off by float32's rounding, about 1e-7 each."""
 
@@ -31,7 +29,9 @@ def impossible(
         Weights come from a recording.
     """
     low, high = RECORDED_WEIGHTS if recorded else (0.0, 1.0)
-    inside = (weights >= low) & (weights <= high)
+    # labels are float32, whose 1.6 is more than 1.6
+    stored = weights.astype(np.float32)
+    inside = (stored >= np.float32(low)) & (stored <= np.float32(high))
     yield from _rows("weights", ~inside, f"a weight lies outside {low:g} to {high:g}")
     known = np.isin(visibility, [int(value) for value in Visibility])
     yield from _rows("visibility", ~known, "a visibility is none of 0, 1, 2")

@@ -3,8 +3,10 @@
 from dataclasses import fields
 
 import numpy as np
+import pytest
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLOCK
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLOCK, RECORDED_WEIGHTS
+from facegen.errors import InputError
 from facegen.formats import live_link_csv
 from facegen.randomness import stream
 from facegen.rigs import eye_centers
@@ -12,6 +14,7 @@ from facegen.sampling import COMPONENT_NAMES, draw_samples, plan_dataset
 from facegen.sampling.gaze import axes_from_target, axes_from_weights, weights_from_axes
 from facegen.sampling.people import split_of
 from facegen.spec import parse_spec
+from facegen.validation.ranges import impossible
 
 STILL = {"version": 1, "kind": "still", "seed": 7, "people": 450, "still": {"neutral": 1, "faces": 6}}
 
@@ -82,6 +85,36 @@ def test_a_person_plays_a_recording_in_one_pose_before_one_camera(anny, tmp_path
         of_people = [np.unique(values[person == number], axis=0) for number in range(3)]
         assert [len(rows) for rows in of_people] == [1, 1, 1]
         assert name == "intrinsics" or len(np.unique(np.concatenate(of_people), axis=0)) == 3
+
+
+def test_recordings_that_nobody_can_play_are_refused_and_played_around(tmp_path):
+    recorded = np.full((20, len(BLENDSHAPES)), 0.5)
+    recorded[[3, 4, 11]] = np.nan
+    recorded[7, BLENDSHAPE_INDEX["jawOpen"]], recorded[9, 0] = 1.61, -0.11
+    recorded[12, 0], recorded[13, 0] = RECORDED_WEIGHTS
+    (tmp_path / "take.csv").write_text(live_link_csv(recorded, np.arange(20) / 30))
+
+    def plan(first_frame: int, frames: int):
+        playback = {"recording": str(tmp_path / "take.csv"), "fps": 30}
+        playback |= {"first_frame": first_frame, "frames": frames}
+        return plan_dataset(spec(kind="playback", playback=playback))
+
+    with pytest.raises(
+        InputError, match=r"take\.csv: has 3 frames \(3-4,11; frame 0 is row 2\) without a face"
+    ):
+        plan(2, 18)
+    with pytest.raises(InputError, match=r"2 frames \(7,9; .*outside -0.1 to 1.6 .*jawOpen = 1.61\)"):
+        plan(5, 6)
+    played = plan(12, 8)
+    assert played.frames == 8
+    nothing = impossible(
+        weights=played.recording.astype(np.float32).astype(np.float64),
+        visibility=np.zeros(8),
+        gaze=np.tile([0.0, 0.0, 1.0], (8, 2, 1)),
+        transforms=np.tile(np.eye(4), (8, 1, 1)),
+        recorded=True,
+    )
+    assert not list(nothing), "what is played is valid"
 
 
 def test_neutral_faces_are_neutral_and_look_ahead(anny):

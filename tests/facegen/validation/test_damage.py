@@ -197,7 +197,8 @@ def test_junk_in_a_views_camera_never_ends_the_check(copy, camera):
     edit(copy, lambda record: record["views"]["mouth"]["camera"].update(camera))
     findings = found(copy)
     assert only(findings, SAMPLE) == {"label", "unreadable"}
-    assert [finding.what for finding in findings if finding.kind == "unreadable"][0].startswith("views.mouth ")
+    (unusable,) = [finding.what for finding in findings if finding.kind == "unreadable"]
+    assert unusable.startswith("views.mouth cannot be used")
 
 
 def test_repair_and_generate_restore_identical_bytes(copy, rendered):
