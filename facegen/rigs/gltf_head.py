@@ -1,6 +1,7 @@
 """Builds a rig without identities from a user's glTF head with ARKit morph targets and a file that marks it up."""
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, LANDMARK_GROUPS, Pa
 from facegen.errors import InputError
 from facegen.formats.gltf import read_gltf
 from facegen.rigs.gltf_mesh import HeadMesh, contents, eyeballs, join_parts
+from facegen.rigs.lids import COLUMN_SPACING_M, LEAST_COLUMNS, columns
 from facegen.rigs.marking import lid_neighbourhood, lip_faces, paint_brows, shortest_path
 from facegen.rigs.markup import HeadMarkup, Margins, read_markup
 from facegen.rigs.rig import Rig
@@ -198,6 +200,7 @@ def _margins(
             given: Margins = getattr(markup.lids, side)
             upper.append(_rows(given.upper, mesh, _used(skin), f"lids.{side}.upper"))
             lower.append(_rows(given.lower, mesh, _used(skin), f"lids.{side}.lower"))
+            _check_margins(vertices, side, upper[-1], lower[-1])
             continue
         try:
             upper.append(shortest_path(skin, vertices, point[list(above)]))
@@ -206,7 +209,28 @@ def _margins(
             raise InputError(
                 f"the landmarks of the {side} eye lie on pieces of the mesh that do not hang together; give lids"
             ) from None
+        _check_margins(vertices, side, upper[-1], lower[-1])
     return tuple(
         np.array([[*ring, *[ring[-1]] * (max(map(len, rings)) - len(ring))] for ring in rings])
         for rings in (upper, lower)
     )
+
+
+def _check_margins(vertices: np.ndarray, side: str, upper: Sequence[int], lower: Sequence[int]) -> None:
+    """Refuse margins of one eye that its lids cannot close along; ``vertices`` (V, 3) are in metres."""
+    x = vertices[:, 0] if side == "left" else -vertices[:, 0]
+    for name, margin in (("upper", upper), ("lower", lower)):
+        first, last = x[margin[0]], x[margin[-1]]
+        if not first < last:
+            raise InputError(
+                f"the {name} lid margin of the {side} eye goes from {1e3 * first:.1f} to {1e3 * last:.1f} mm beside "
+                f"the middle of the face, but from the inner to the outer corner is outwards; turn lids.{side}.{name} "
+                "round, or see whether left (the subject's) and right are swapped"
+            )
+    found = len(columns(upper, x))
+    if found < LEAST_COLUMNS:
+        raise InputError(
+            f"the upper lid margin of the {side} eye has only {found} vertices away from its corners that lie "
+            f"{1e3 * COLUMN_SPACING_M:g} mm apart, at least {LEAST_COLUMNS} are needed; give more of them in "
+            f"lids.{side}.upper, or a finer mesh"
+        )

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 CANTHUS_SHARE, COLUMN_SPACING_M = 0.10, 1.0e-3
 """Least distance along x of a column from the canthi, as a share of the eye's width, and from the next."""
+LEAST_COLUMNS = 2
+"""Between neighbouring ones everything else of a lid is interpolated."""
 CONTACT_LANDMARKS = ((43, 47), (44, 46), (37, 41), (38, 40))
 """Upper and lower lid landmarks that face each other."""
 LIP_LANDMARKS = ((61, 67), (62, 66), (63, 65))
@@ -81,6 +83,32 @@ def clamp_contact(landmarks: np.ndarray) -> None:
         landmarks[:, lower, 1] -= crossed
 
 
+def columns(margin: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Vertices of the upper margin, away from the canthi and from each other, where its gap is controlled.
+
+    Near the canthi the margins crowd and turn back: goals there would make the skin beside them jump.
+
+    Parameters
+    ----------
+    margin
+        (U,) vertices from the inner to the outer canthus; the last may be repeated.
+    x
+        (V,) distances of the vertices from the middle of the face, metres, positive on the eye's side.
+
+    Returns
+    -------
+    numpy.ndarray
+        Those of ``margin`` that are columns; closing needs `LEAST_COLUMNS`.
+    """
+    chosen: list[int] = []
+    reach = CANTHUS_SHARE * (x[margin[-1]] - x[margin[0]])
+    for vertex in margin:
+        from_canthi = min(x[vertex] - x[margin[0]], x[margin[-1]] - x[vertex])
+        if from_canthi > reach and (not chosen or x[vertex] - x[chosen[-1]] > COLUMN_SPACING_M):
+            chosen.append(int(vertex))
+    return np.array(chosen)
+
+
 @lru_cache(maxsize=8)
 def _lids(rig: Rig, cage_only: bool) -> tuple["Lids", "Lids"]:
     return _prepared(rig, 0, "Left", 1.0, cage_only), _prepared(rig, 1, "Right", -1.0, cage_only)
@@ -96,7 +124,7 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> "
     position = {int(vertex): i for i, vertex in enumerate(vertices)}
     lower = np.array([position[int(vertex)] for vertex in rig.lower_lid[side]])
     x = flip * rig.vertices[vertices, 0]
-    upper = _columns(np.array([position[int(vertex)] for vertex in rig.upper_lid[side]]), x)
+    upper = columns(np.array([position[int(vertex)] for vertex in rig.upper_lid[side]]), x)
     after = np.clip(np.searchsorted(x[upper], x), 1, len(upper) - 1)
     share = np.clip((x - x[upper][after - 1]) / (x[upper][after] - x[upper][after - 1]), 0.0, 1.0)
     shapes = {kind: BLENDSHAPE_INDEX[f"eye{kind}{name}"] for kind in ("Blink", "LookDown", "Squint")}
@@ -139,17 +167,3 @@ def _first_linings(rig: Rig, vertices: np.ndarray, skin: np.ndarray) -> np.ndarr
     cavity = rig.faces[rig.part == Part.EYE_CAVITY]
     beside = cavity[np.isin(cavity, vertices[skin]).any(axis=1)]
     return np.flatnonzero(~skin & np.isin(vertices, beside))
-
-
-def _columns(margin: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Vertices of the upper margin, away from the canthi and from each other, where its gap is controlled.
-
-    Near the canthi the margins crowd and turn back: goals there would make the skin beside them jump.
-    """
-    chosen: list[int] = []
-    reach = CANTHUS_SHARE * (x[margin[-1]] - x[margin[0]])
-    for vertex in margin:
-        from_canthi = min(x[vertex] - x[margin[0]], x[margin[-1]] - x[vertex])
-        if from_canthi > reach and (not chosen or x[vertex] - x[chosen[-1]] > COLUMN_SPACING_M):
-            chosen.append(int(vertex))
-    return np.array(chosen)

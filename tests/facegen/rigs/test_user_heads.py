@@ -151,6 +151,30 @@ def test_wrong_marks_are_refused(files, tmp_path: Path, values: dict, said: str)
     assert not list(tmp_path.glob("*.npz"))
 
 
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (
+            lambda lids: lids["left"]["upper"].reverse(),
+            r"upper lid margin of the left eye goes from 44\.9 to 18\.2 mm .*turn lids\.left\.upper round",
+        ),
+        (lambda lids: lids["right"]["lower"].reverse(), r"turn lids\.right\.lower round"),
+        (lambda lids: lids.update(left=lids["right"], right=lids["left"]), "left .* and right are swapped"),
+        (
+            lambda lids: lids["left"].update(upper=[lids["left"]["upper"][i] for i in (0, 0, 7, -1)]),
+            "upper lid margin of the left eye has only 1 vert.* at least 2",
+        ),
+    ],
+    ids=["upper", "lower", "sides", "columns"],
+)
+def test_lid_margins_that_cannot_close_are_refused(files, tmp_path: Path, change, said: str) -> None:
+    lids = json.loads(files[1].read_text())["lids"]
+    change(lids)
+    with pytest.raises(InputError, match=said):
+        add_rig(*changed(files, tmp_path, lids=lids), folder=tmp_path)
+    assert not list(tmp_path.glob("*.npz"))
+
+
 def test_wrong_files_and_names_are_refused(anny: Rig, files, tmp_path: Path) -> None:
     other = tmp_path / "other.glb"
     with pytest.raises(InputError, match=r"material 'Skin' with 52 ARKit shapes; .*--landmarks"):
