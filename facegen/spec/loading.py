@@ -33,6 +33,9 @@ _LATE_KEYS: dict[str, Any] = {
 }
 """Keys that are younger than some datasets, and values that change nothing: with these they stay out of the hash."""
 
+_SPLIT_SESSIONS = 100_000_000
+"""Most sessions of all people that are split one by one: as many as there may be people."""
+
 _ADAPTER = TypeAdapter(Spec)
 
 
@@ -99,6 +102,13 @@ def parse_spec(table: dict[str, Any], *, where: str) -> Spec:
         raise InputError(
             f"{where}: still.neutral and still.faces are both 0; at least one face a person is needed"
         )
+    if spec.split == "session" and spec.kind != "playback":
+        sessions = getattr(spec, spec.kind).sessions
+        if spec.people * sessions > _SPLIT_SESSIONS:
+            raise InputError(
+                f"{where}: people = {spec.people} with {spec.kind}.sessions = {sessions} are {spec.people * sessions} "
+                f'sessions; split = "session" takes up to {_SPLIT_SESSIONS}, so make fewer or split = "person"'
+            )
     parse_ranges(spec.render.samples, where=f"{where}: render.samples")
     return spec
 

@@ -26,9 +26,9 @@ class Still:
 
     sessions: Annotated[int, Field(ge=1, le=1000)] = 1
     """Sessions of each person: the headset is put on anew, its unit and the room are others."""
-    neutral: Annotated[int, Field(ge=0)] = 1
+    neutral: Annotated[int, Field(ge=0, le=10_000_000)] = 1
     """Neutral faces of each session; they come first."""
-    faces: Annotated[int, Field(ge=0)] = 9
+    faces: Annotated[int, Field(ge=0, le=10_000_000)] = 9
     """Faces with an expression in each session, after the neutral ones."""
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 import tomli_w
-from pydantic import TypeAdapter
+from pydantic import TypeAdapter, ValidationError
 
 from facegen import __version__
 from facegen.conventions import BLENDSHAPES, SHARD_ROWS
@@ -102,7 +102,7 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
     Raises
     ------
     InputError
-        If the rig, the headset or the recording is missing or damaged.
+        If the rig, the headset or the recording is missing or damaged, or the pictures get too large.
     """
     plan, rig = plan_dataset(spec), load_rig(spec.rig)
     headset = load_headset(spec.render.headset)
@@ -116,7 +116,7 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
         folder=DatasetFolder(Path(out)),
         plan=plan,
         rig=rig,
-        headset=headset.scaled(spec.render.size_px),
+        headset=_scaled(headset, spec.render.size_px),
         hash=spec_hash(spec, asset_sha256=assets),
     )
 
@@ -202,6 +202,22 @@ def _description(dataset: Dataset) -> dict:
         "blendshapes": list(BLENDSHAPES),
         "versions": {"facegen": __version__} | {name: importlib.metadata.version(name) for name in _PACKAGES},
     }
+
+
+def _scaled(headset: Headset, size_px: int) -> Headset:
+    for camera in headset.cameras:
+        try:
+            camera.scaled(size_px)
+        except ValidationError as error:
+            wrong = error.errors()[0]
+            why = ": ".join([*map(str, wrong["loc"]), wrong["msg"].replace("Input should", "must")])
+            height = f"{camera.height * size_px / camera.width:.0f}"
+            raise InputError(
+                f"render.size_px = {size_px}: camera {camera.name!r} of headset {headset.name!r} has "
+                f"{camera.width} x {camera.height} px and would have {size_px} x {height}, which is not allowed "
+                f"({why}); choose another size"
+            ) from None
+    return headset.scaled(size_px)
 
 
 def _content_sha256(content: object) -> str:

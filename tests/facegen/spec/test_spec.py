@@ -74,6 +74,16 @@ def test_shipped_specs_load_and_survive_a_round_trip(path):
         ({"people": True}, ["people = true"]),
         ({"still": 3}, ["still = 3", "table"]),
         ({"still": {"neutral": 0, "faces": 0}}, ["still.neutral", "at least one"]),
+        ({"still": {"faces": 10**30}}, ["still.faces = 1000", "less than or equal to 10000000"]),
+        ({"still": {"neutral": 10**30}}, ["still.neutral = 1000", "less than or equal to 10000000"]),
+        (
+            {"people": 10**8, "split": "session", "still": {"sessions": 1000}},
+            ["people = 100000000 with still.sessions = 1000", "up to 100000000", 'split = "person"'],
+        ),
+        (
+            {"kind": "sequence", "people": 10**8, "split": "session", "sequence": {"sessions": 2}},
+            ["people = 100000000 with sequence.sessions = 2", "up to 100000000"],
+        ),
         ({"split_shares": [0.5, 0.5, 0.5]}, ["split_shares", "add up to 1"]),
         ({"render": {"samples": "0-x"}}, ["render.samples", "'0-x'"]),
         ({"kind": "playback"}, ["[playback]", "recording"]),

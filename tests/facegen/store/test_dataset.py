@@ -53,6 +53,18 @@ def test_a_headset_that_is_not_there_is_named(folder):
         load_spec(folder / "spec.toml")
 
 
+def test_pictures_that_get_too_high_are_refused_by_the_key_that_makes_them_so(folder):
+    own, replaced = re.subn(r"(?m)^(width|height) = .*", r"\1 = 100", (folder / "mine.toml").read_text())
+    assert replaced == 6
+    (folder / "mine.toml").write_text(own.replace("height = 100", "height = 400", 1))
+    with (folder / "spec.toml").open("a") as file:
+        file.write("size_px = 4096\n")
+    with pytest.raises(
+        InputError, match=r"render\.size_px = 4096: camera '.*' has 100 x 400 px .* 4096 x 16384"
+    ):
+        resolve(load_spec(folder / "spec.toml"), folder / "out")
+
+
 def test_a_damaged_description_is_refused(folder):
     dataset = resolve(load_spec(folder / "spec.toml"), folder / "out")
     begin(dataset)
