@@ -16,7 +16,7 @@ from facegen.scene.beards import LENGTH_M
 from facegen.store import Dataset, read_exr, read_png, sample_record
 from facegen.validation.agreement import disagreements
 from facegen.validation.finding import Finding, Kind
-from facegen.validation.keypoints import REPROJECTION_PX
+from facegen.validation.keypoints import FAR_SHARE, REPROJECTION_PX
 from facegen.validation.ranges import impossible
 
 DEPTH_M = 1e-3
@@ -25,10 +25,6 @@ DEPTH_M = 1e-3
 STRANDS_M = {Part.LASHES: 12e-3, Part.HAIR: max(high for _, high in LENGTH_M.values()) + 2e-3}
 """Strands hide no landmark (docs/conventions.md), and stand no further than this before their skin: a lash's length,
 and the longest beard's."""
-
-FAR_SHARE = 2e-6
-"""Share of its pixels by which a landmark may be off besides: nearly beside a pinhole camera they go into the millions,
-and distortion raises the 6e-8 by which 32-bit numbers round to the fifth power of the distance."""
 
 SIDECAR = "sample.json"
 
