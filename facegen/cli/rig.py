@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from facegen.cli.talk import say
+from facegen.conventions import Part
 from facegen.preview.portraits import draw_portraits
 from facegen.rigs.building import add_rig, build_rig
 from facegen.rigs.files import load_rig, read_record
@@ -51,6 +52,10 @@ def add(
     if added.rig.missing:
         missing = added.rig.missing
         say(f"{len(missing)} of 52 blendshapes are missing and stay zero: {', '.join(missing)}.")
+    if (added.rig.part == Part.LASHES).any():
+        say(
+            "The head's lashes are not rendered: strands grow along strips of quads, and glTF has triangles alone."
+        )
     typer.echo(f"{path} added")
 
 

@@ -7,7 +7,9 @@ import numpy as np
 import pyarrow.parquet as pq
 import pygltflib
 import pytest
+from typer.testing import CliRunner
 
+from facegen.cli import app
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.errors import InputError
 from facegen.formats.gltf import read_gltf
@@ -17,6 +19,7 @@ from facegen.rigs.building import add_rig
 from facegen.rigs.gltf_mesh import blendshape_sources
 from facegen.sampling import draw_samples
 from facegen.sampling.plan import plan_dataset
+from facegen.scene.lashes import lash_strips
 from facegen.spec import parse_spec
 from facegen.store import column_array, keypoint_schema, keypoint_table, write_shard
 from tests.facegen.rigs.glb_head import write_head
@@ -123,6 +126,21 @@ def test_eyes_may_be_given_as_balls(anny: Rig, files, tmp_path: Path) -> None:
     _, added = add_rig(*changed(files, tmp_path, eyes=eyes, head="face"), folder=tmp_path)
     np.testing.assert_allclose(added.rig.eye_radius, 0.0165)
     np.testing.assert_allclose(added.rig.eye_center.mean(axis=0), 0.0, atol=1e-9)
+
+
+def test_what_a_head_loses_is_said(anny: Rig, files, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setenv("FACEGEN_RIGS", str(tmp_path))
+    parts = json.loads(files[1].read_text())["parts"]
+    without = {kind: names for kind, names in parts.items() if kind != "lashes"}
+    for name, given in (("all", parts), ("bare", without)):
+        marked = changed(files, tmp_path, parts=given)
+        result = CliRunner().invoke(
+            app, ["rig", "add", str(marked[0]), "--landmarks", str(marked[1]), "--name", name]
+        )
+        assert result.exit_code == 0, result.exception
+        assert "Left out of the head: Hat." in result.stderr
+        assert ("lashes are not rendered" in result.stderr) == (name == "all")
+        assert not lash_strips(load_rig(name)), "what is said is true"
 
 
 @pytest.mark.parametrize(
