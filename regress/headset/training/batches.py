@@ -95,19 +95,18 @@ class Frames:
         for start in range(0, len(order) - size + 1, size):
             yield self._draw_batch(random, order[start : start + size])
 
-    def plain_batch(self, rows: np.ndarray, *, calibrated: bool = False) -> Batch:
-        """Rows as they are: nothing displaced, every camera present, neutral pictures of the own seat if asked."""
+    def plain_batch(self, rows: np.ndarray) -> Batch:
+        """Rows as they are: nothing displaced, every camera present, no neutral pictures."""
         count, cameras = len(rows), len(self._pictures)
         still = _Affine(np.zeros((count, cameras, 2)), np.ones((count, cameras)), np.zeros((count, cameras)))
-        known = (self._own_seat[rows] >= 0) & calibrated
-        straight = np.zeros(count, bool)
+        straight, none = np.zeros(count, bool), np.zeros(count, np.float32)
         warps = self._warps(still, straight)
         return Batch(
             pictures=self._warped(rows, warps, straight),
-            neutral=self._warped(np.where(known, self._own_seat[rows], -1), warps, straight),
+            neutral=self._warped(np.full(count, -1), warps, straight),
             present=np.ones((count, cameras), np.float32),
-            calibrated=known.astype(np.float32),
-            same_seat=known.astype(np.float32),
+            calibrated=none,
+            same_seat=none,
             places=self._places(rows, warps, straight),
             outputs=self.outputs[rows],
         )

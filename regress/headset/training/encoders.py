@@ -16,10 +16,9 @@ _CHANNELS = (16, 32, 48, 64)
 class Encoder(nn.Module):
     """Four convolutions that halve the picture; a tracer of points beside them; a code of looks and one of places.
 
-    Its input is the picture and, where a neutral picture is known, the difference from it. Without one the
-    difference is zero, which is also what a neutral face gives: a switch says which is meant. Points are traced in the
-    neutral picture as well, for a lid that hangs half shut is a blink in one face and rest in another. All this sees
-    the picture reduced; irises are then looked at again in all its pixels.
+    A neutral picture goes through the same convolutions and the same tracer, and the code reads what differs: a lid
+    that hangs half shut is a blink in one face and rest in another. So a frame is seen in the same way with a neutral
+    picture and without. All this sees the picture reduced; irises are then looked at again in all its pixels.
 
     Parameters
     ----------
@@ -34,7 +33,7 @@ class Encoder(nn.Module):
         input_size, code, points = recipe.input_size, recipe.code, len(traced)
         reduction = linear_matrix(recipe.square_size, input_size)
         self.register_buffer("reduction", torch.from_numpy(reduction.astype("float32")))
-        layers, channels, sides = [], 2, []
+        layers, channels, sides = [], 1, []
         for step, wider in enumerate(_CHANNELS):
             kernel = 5 if step == 0 else 3
             layers.append(
@@ -46,11 +45,10 @@ class Encoder(nn.Module):
             channels, input_size = wider, (input_size + 1) // 2
             sides.append(input_size)
         self.convolutions = nn.ModuleList(layers)
-        self.switch = nn.Parameter(torch.zeros(_CHANNELS[0]))
         irises = iris_columns(traced) if recipe.second_look else ()
         # places, those of irises again, how far from the neutral picture's, and whether there is one
         told = 4 * points + sum(2 * len(columns) for columns in irises) + 1
-        self.looks = nn.Sequential(nn.Linear(channels * sides[-1] ** 2 + told, code), nn.ReLU())
+        self.looks = nn.Sequential(nn.Linear(2 * channels * sides[-1] ** 2 + told, code), nn.ReLU())
         self.tracer = None
         if points:
             self.tracer = Tracer(_CHANNELS[1:], tuple(sides[1:]), points)
@@ -58,13 +56,13 @@ class Encoder(nn.Module):
             self.foveas = nn.ModuleList([Fovea() for _ in self.irises])
             self.shape = nn.Sequential(nn.Linear(told, code), nn.ReLU(), nn.Linear(code, code), nn.ReLU())
         self.width = 2 * code if points else code
-        self.register_buffer("scale", torch.tensor([0.0, 1.0, 1.0]))
+        self.register_buffer("scale", torch.tensor([0.0, 1.0]))
         # on a CPU this order of memory trains a third faster than channels first
         self.to(memory_format=torch.channels_last)
 
-    def set_scale(self, mean: float, std: float, difference_std: float) -> None:
-        """Mean and standard deviation of the pictures and of differences from neutral ones, grey levels."""
-        self.scale.copy_(torch.tensor([mean, std, difference_std]))
+    def set_scale(self, mean: float, std: float) -> None:
+        """Mean and standard deviation of the pictures, grey levels."""
+        self.scale.copy_(torch.tensor([mean, std]))
 
     def set_usual(self, places: torch.Tensor) -> None:
         """Take usual places from those (n, P, 2) of training pictures, shares of the side; NaN where not shown."""
@@ -100,21 +98,20 @@ class Encoder(nn.Module):
         # without a neutral picture the frame stands in for it: batch statistics see no black ones
         before = torch.where(known[..., None] > 0, neutral, pictures)
         small, small_before = (self.reduction @ seen @ self.reduction.T for seen in (pictures, before))
-        features = self._features(small, small - small_before, calibrated)
+        features, features_before = self._features(small), self._features(small_before)
         flat = features[-1].flatten(1)
+        changed = (flat - features_before[-1].flatten(1)) * known
         if self.tracer is None:
-            return self.looks(torch.cat([flat, known], dim=1)), flat.new_zeros(len(flat), 0, 2)
+            return self.looks(torch.cat([flat, changed, known], dim=1)), flat.new_zeros(len(flat), 0, 2)
         places = self.tracer(features[1:])
-        rest = self.tracer(
-            self._features(small_before, torch.zeros_like(small), torch.zeros_like(calibrated))[1:]
-        )
+        rest = self.tracer(features_before[1:])
         moved = (places - rest.detach()).flatten(1) * known  # learns to trace from the frame itself
         again = [
             self._look_again(fovea, pictures, places[:, columns], columns)
             for fovea, columns in zip(self.foveas, self.irises, strict=True)
         ]
         told = torch.cat([places.flatten(1), *(found.flatten(1) for found in again), moved, known], dim=1)
-        code = torch.cat([self.looks(torch.cat([flat, told], dim=1)), self.shape(told)], dim=1)
+        code = torch.cat([self.looks(torch.cat([flat, changed, told], dim=1)), self.shape(told)], dim=1)
         return code, torch.cat([places, *again], dim=1)
 
     def _look_again(
@@ -123,18 +120,12 @@ class Encoder(nn.Module):
         usual, spread = self.tracer.usual[list(columns)], self.tracer.spread
         return (fovea(pictures, places * spread + usual) - usual) / spread
 
-    def _features(
-        self, pictures: torch.Tensor, difference: torch.Tensor, calibrated: torch.Tensor
-    ) -> list[torch.Tensor]:
+    def _features(self, pictures: torch.Tensor) -> list[torch.Tensor]:
         """Features after each convolution, finest first."""
-        mean, std, difference_std = self.scale.unbind()
-        found = torch.stack([(pictures - mean) / std, difference / difference_std], dim=1)
-        found = found.contiguous(memory_format=torch.channels_last)
+        mean, std = self.scale.unbind()
+        found = ((pictures - mean) / std)[:, None]
         features = []
         for layer in self.convolutions:
-            found = layer(found)
-            if not features:
-                found = found + calibrated[:, None, None, None] * self.switch[:, None, None]
-            found = torch.relu(found)
+            found = torch.relu(layer(found))
             features.append(found)
         return features

@@ -184,20 +184,15 @@ class Training:
     def _set_scales(self) -> None:
         """Give encoders the spread of training pictures, and a holistic network the mean ones."""
         rows = self.rows[:: max(1, len(self.rows) // _SCALE_ROWS)]
-        batch = self._frames.plain_batch(rows, calibrated=True)
-        pictures, neutral = batch.pictures.astype(np.float32), batch.neutral.astype(np.float32)
-        known = batch.calibrated > 0
+        batch = self._frames.plain_batch(rows)
+        pictures = batch.pictures.astype(np.float32)
         for column, camera in enumerate(self.network.cameras):
             if self.network.owners[camera] is not None:
                 continue
-            differences = (pictures - neutral)[known, column]
             encoder = self.network.encoder(camera)
             encoder.set_usual(torch.from_numpy(batch.places[column]))
-            encoder.set_scale(
-                float(pictures[:, column].mean()),
-                max(float(pictures[:, column].std()), 1.0),
-                max(float(differences.std()), 1.0) if known.any() else 1.0,
-            )
+            seen = pictures[:, column]
+            encoder.set_scale(float(seen.mean()), max(float(seen.std()), 1.0))
         if isinstance(self.network, HolisticNetwork):
             self.network.mean_pictures.copy_(torch.from_numpy(pictures.mean(axis=0)))
 

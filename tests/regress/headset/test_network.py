@@ -41,8 +41,7 @@ def network(architecture: str, seed: int = 0, **settings):
     points = POINTS if recipe.points_loss else dict.fromkeys(POINTS, ())
     made = NETWORKS[architecture](tuple(camera.name for camera in CAMERAS), recipe, points)
     for encoder in made.encoders.values():
-        encoder.set_scale(100.0, 60.0, 40.0)
-        encoder.switch.data.normal_()
+        encoder.set_scale(100.0, 60.0)
     seen = torch.rand(2, 3, 32, SQUARE, SQUARE) * 255
     made.train()(seen[0], seen[1], torch.ones(32, 3), torch.arange(32).float() % 2)
     return made.eval()
