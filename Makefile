@@ -79,8 +79,8 @@ $(READY): pyproject.toml constraints.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
 	@touch $@
 
-# PyTorch trains headset networks; all else does without. PIP_EXTRA_INDEX_URL=https://download.pytorch.org/whl/cpu spares
-# Linux users 2 GB of libraries for GPUs.
+# PyTorch trains headset networks; all else does without. On Linux it brings 2 GB of libraries for GPUs, unless pip
+# is told of the index of builds for processors alone, which PyTorch's own page names.
 $(LEARNER): $(READY)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev,headset]'
 	@touch $@

@@ -1,6 +1,6 @@
 """How a trained model does on real recordings, and on heads that it was not trained on.
 
-    python benchmarks/real_recordings.py models/default datasets/out/default --real ../shared/real --json figures.json
+    python benchmarks/real_recordings.py models/default datasets/out/default --real RECORDINGS --json figures.json
 
 a. replay: two takes of an iPhone's 52 weights (Live Link Face), played by people of the ICT rig, projected to 68 points
    and disturbed as detectors disturb them. The truth is the take itself; only shapes that move in it count.
@@ -10,7 +10,7 @@ c. still: faces of the ICT rig, drawn as the model's dataset was drawn.
 Every prediction compares with a neutral frame. Always saying zero, and two ridge regressions on the same features, told
 the same neutral frame, are the floors: one is trained on the dataset's rows, the other on the very rows that the
 networks saw, displaced as detectors displace points. Parts a and c need the ICT rig
-(`facegen rig build ict --path FaceXModel`).
+(`facegen rig build ict --path CLONE`).
 """
 
 import argparse

@@ -26,6 +26,9 @@ from regress.headset.training.photometry import draw_photometry
 from regress.headset.training.targets import Targets, target_scale
 from regress.headset.training.traced import mirrored_points
 
+_STATE_VERSION = 2
+"""Raised when a checkpoint of before no longer fits the networks."""
+
 Progress = Callable[[int, int, dict[str, float]], None]
 """Called with epochs done, epochs in all and the epoch's figures."""
 
@@ -222,7 +225,7 @@ class Training:
             raise InputError(f"{path} is not a checkpoint of a training: {error}; remove it") from error
         if key != self._key:
             raise InputError(
-                f"{path} is the checkpoint of a training with other settings or data; "
+                f"{path} is the checkpoint of a training with other settings, data or networks; "
                 "remove it, or repeat that training's command"
             )
         self.history, self._earlier_s = state["history"], state["cpu_s"]
@@ -248,7 +251,11 @@ def _scaled_gram(arrays: HeadsetArrays, targets: Targets, rows: np.ndarray) -> t
 
 def _key(arrays: HeadsetArrays, recipe: HeadsetRecipe, rows: np.ndarray) -> str:
     """Of everything that a state must share with a training to go on with it."""
-    said: dict[str, Any] = {"recipe": recipe.settings(), "arrays": arrays.description}
+    said: dict[str, Any] = {
+        "version": _STATE_VERSION,
+        "recipe": recipe.settings(),
+        "arrays": arrays.description,
+    }
     labels = [arrays.weights, arrays.gaze, np.asarray(rows)]
     text = json.dumps(said, sort_keys=True).encode() + b"".join(array.tobytes() for array in labels)
     return hashlib.sha256(text).hexdigest()

@@ -104,6 +104,19 @@ def test_what_moved_since_the_neutral_picture_counts():
     assert torch.equal(one, other)
 
 
+def test_what_looks_otherwise_than_in_the_neutral_picture_counts_without_points_too():
+    torch.manual_seed(0)
+    encoder = Encoder(HeadsetRecipe(input_size=16, code=12), ()).eval()
+    encoder.set_scale(100.0, 60.0)
+    seen, *neutral = torch.rand(3, 5, 24, 24) * 255
+    (one, _), (other, _) = (encoder(seen, rest, torch.ones(5)) for rest in neutral)
+    assert (one - other).abs().max() > 1e-3
+    # a frame that is its own neutral picture differs from one without by the switch alone
+    layer = encoder.looks[0]
+    layer.weight.data[:, -1] = 0
+    torch.testing.assert_close(encoder(seen, seen, torch.ones(5))[0], encoder(seen, seen, torch.zeros(5))[0])
+
+
 def test_a_cameras_own_part_counts_in_millimetres_too():
     recipe = HeadsetRecipe(input_size=16, calibration=False, points_loss=0.0)
     network = ModularNetwork(("left_eye", "mouth"), recipe, {"left_eye": (), "mouth": ()})
