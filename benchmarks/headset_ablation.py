@@ -27,6 +27,8 @@ VARIANTS: dict[str, dict[str, object]] = {
     "holistic": HOLISTIC,
     "no camera ever absent": {"camera_dropout": 0},
     "holistic, no camera ever absent": {**HOLISTIC, "camera_dropout": 0},
+    "cameras absent twice as often": {"camera_dropout": 0.4},
+    "holistic, cameras absent twice as often": {**HOLISTIC, "camera_dropout": 0.4},
     "no part loss": {"part_loss": 0, "part_loss_elsewhere": 0},
     "no skips between cameras": {"skip": 0},
     "skips twice as wide": {"skip": 48},

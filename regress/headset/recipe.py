@@ -88,7 +88,7 @@ class HeadsetRecipe:
     points_loss: float = 10.0
     second_look: bool = True
     gaze_loss: float = 3.0
-    camera_dropout: float = 0.15
+    camera_dropout: float = 0.2
     calibration: bool = True
     calibration_dropout: float = 0.4
     other_seat: float = 0.15

@@ -29,7 +29,7 @@ def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_training_by_command_keeps_every_setting(run, arrays_folder: Path, tmp_path: Path):
     pytest.importorskip("torch")
     words = (
-        "--architecture holistic --seed 3 --epochs 2 --modulation 0.1 --camera-dropout 0.2 --randomise 0.5"
+        "--architecture holistic --seed 3 --epochs 2 --modulation 0.1 --camera-dropout 0.3 --randomise 0.5"
     )
     settings = ["--set", "input_size=16", "--set", "code=8", "--set", "hidden=8", "--set", "mirror=false"]
     out = tmp_path / "model"
@@ -41,7 +41,7 @@ def test_training_by_command_keeps_every_setting(run, arrays_folder: Path, tmp_p
     assert "uncalibrated: " in said
     assert "same seat" not in said
     recipe = load_headset_predictor(out).model.training["recipe"]
-    wanted = {"architecture": "holistic", "seed": 3, "epochs": 2, "modulation": 0.1, "camera_dropout": 0.2}
+    wanted = {"architecture": "holistic", "seed": 3, "epochs": 2, "modulation": 0.1, "camera_dropout": 0.3}
     wanted |= {"randomise": 0.5, "input_size": 16, "code": 8, "mirror": False, "calibration": False}
     assert {name: recipe[name] for name in wanted} == wanted
 
