@@ -20,13 +20,13 @@ from regress.headset.outputs import WEIGHTS
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.batches import Batch, Frames
 from regress.headset.training.losses import total_loss
-from regress.headset.training.networks import NETWORKS, Answer, HeadsetNetwork, HolisticNetwork
+from regress.headset.training.networks import NETWORKS, Answer, HeadsetNetwork
 from regress.headset.training.optimizer import optimizers_of
 from regress.headset.training.photometry import draw_photometry
 from regress.headset.training.targets import Targets, target_scale
 from regress.headset.training.traced import mirrored_points
 
-_STATE_VERSION = 2
+_STATE_VERSION = 3
 """Raised when a checkpoint of before no longer fits the networks."""
 
 Progress = Callable[[int, int, dict[str, float]], None]
@@ -185,7 +185,7 @@ class Training:
                 yield answer_to(self.network, batch), self._wanted(batch)
 
     def _set_scales(self) -> None:
-        """Give encoders the spread of training pictures, and a holistic network the mean ones."""
+        """Give encoders the spread of training pictures, and their points' usual places."""
         rows = self.rows[:: max(1, len(self.rows) // _SCALE_ROWS)]
         batch = self._frames.plain_batch(rows)
         pictures = batch.pictures.astype(np.float32)
@@ -196,8 +196,6 @@ class Training:
             encoder.set_usual(torch.from_numpy(batch.places[column]))
             seen = pictures[:, column]
             encoder.set_scale(float(seen.mean()), max(float(seen.std()), 1.0))
-        if isinstance(self.network, HolisticNetwork):
-            self.network.mean_pictures.copy_(torch.from_numpy(pictures.mean(axis=0)))
 
     def _save(self, path: Path) -> None:
         state = {

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import torch
 from torch import nn
@@ -14,6 +15,8 @@ from regress.headset.training.encoders import Encoder
 from regress.headset.training.targets import part_mask
 
 _COUNT = len(OUTPUTS)
+_MIRRORED = " mirrored"
+"""Behind a camera's name: what it tells cameras that are seen mirrored."""
 _LOG_VARIANCE = (-6.0, 3.0)
 """Of z-scores: a standard deviation of .05 to 4.5 times the training one."""
 
@@ -113,10 +116,11 @@ class ModularNetwork(HeadsetNetwork):
         super().__init__(cameras, recipe, points)
         heard = recipe.skip * (len(cameras) - 1)
         self.heads = nn.ModuleDict({name: _Head(own.width + heard) for name, own in self.encoders.items()})
+        self.others = [_others(camera, self.owners) for camera in cameras]
+        keys = dict.fromkeys(key for _, key in chain.from_iterable(self.others) if recipe.skip)
         self.tells = nn.ModuleDict(
-            {name: nn.Linear(own.width, recipe.skip) for name, own in self.encoders.items() if recipe.skip}
+            {key: nn.Linear(self.encoders[key.removesuffix(_MIRRORED)].width, recipe.skip) for key in keys}
         )
-        self.others = [_others(camera, cameras) for camera in cameras]
         part = torch.stack([torch.from_numpy(part_mask(camera)) for camera in cameras])
         self.register_buffer("part", part)
         self.register_buffer("modulation", torch.where(part, 1.0, max(recipe.modulation, LEAST_MODULATION)))
@@ -149,29 +153,27 @@ class ModularNetwork(HeadsetNetwork):
 
     def _with_heard(self, codes: list[torch.Tensor], present: torch.Tensor) -> list[torch.Tensor]:
         """Each camera's code, and behind it what the others tell (the second paper's skips); absent ones tell 0."""
-        told = [
-            present[:, column, None] * torch.relu(self.tells[self.owners[camera] or camera](codes[column]))
-            for column, camera in enumerate(self.cameras)
-        ]
+        told = {
+            (column, key): present[:, column, None] * torch.relu(self.tells[key](codes[column]))
+            for column, key in chain.from_iterable(self.others)
+        }
         return [
-            torch.cat([code, *(told[other] for other in others)], dim=1)
+            torch.cat([code, *(told[said] for said in others)], dim=1)
             for code, others in zip(codes, self.others, strict=True)
         ]
 
 
 class HolisticNetwork(HeadsetNetwork):
-    """All part codes together go through one hidden layer; a missing camera shows its mean training picture."""
+    """All part codes together go through one hidden layer; a learned code stands in for a missing camera's."""
 
     def __init__(
         self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, Sequence[int]]
     ) -> None:
         super().__init__(cameras, recipe, points)
-        width = sum(self.encoder(camera).width for camera in cameras)
-        self.hidden = nn.Sequential(nn.Linear(width, recipe.hidden), nn.ReLU())
+        widths = [self.encoder(camera).width for camera in cameras]
+        self.absent = nn.ParameterList([nn.Parameter(torch.zeros(width)) for width in widths])
+        self.hidden = nn.Sequential(nn.Linear(sum(widths), recipe.hidden), nn.ReLU())
         self.head = _Head(recipe.hidden)
-        self.register_buffer(
-            "mean_pictures", torch.zeros(len(cameras), recipe.square_size, recipe.square_size)
-        )
 
     def forward(
         self,
@@ -181,26 +183,36 @@ class HolisticNetwork(HeadsetNetwork):
         calibrated: torch.Tensor,
     ) -> Answer:
         """Answer to pictures and neutral ones (n, size, size) by camera, ``present`` (n, cameras)."""
-        # no difference where no camera is
-        seen, compared = (
-            [
-                torch.lerp(mean, one, here[:, None, None])
-                for mean, one, here in zip(self.mean_pictures, given, present.unbind(1), strict=True)
-            ]
-            for given in (pictures, neutral)
-        )
-        codes, places = self.codes(seen, compared, calibrated)
-        mean, log_variance, logit = self.head(self.hidden(torch.cat(codes, dim=1)))
+        codes, places = self.codes(pictures, neutral, calibrated)
+        heard = [
+            torch.lerp(absent, code, here[:, None])
+            for absent, code, here in zip(self.absent, codes, present.unbind(1), strict=True)
+        ]
+        mean, log_variance, logit = self.head(self.hidden(torch.cat(heard, dim=1)))
         shares = (torch.ones_like(present) / len(self.cameras))[..., None].expand(-1, -1, _COUNT)
         blended = Blended(mean, torch.exp(log_variance), shares)
         return Answer(blended, mean[:, None], log_variance[:, None], logit, places)
 
 
-def _others(camera: str, cameras: tuple[str, ...]) -> list[int]:
-    """Columns of the other cameras, a camera's partner first: two that share a head hear theirs in one place."""
-    partner = mirror_partner(camera)
-    others = sorted((other for other in cameras if other != camera), key=lambda other: other != partner)
-    return [cameras.index(other) for other in others]
+def _others(camera: str, owners: Mapping[str, str | None]) -> list[tuple[int, str]]:
+    """Columns of the other cameras with the keys of what they tell, a camera's partner first.
+
+    A camera that is seen mirrored hears the mirror image of what its owner hears, in the same order: a camera on the
+    other side instead of one on this, and of a camera without a partner, whose code knows left from right, what that
+    tells of the mirrored face.
+    """
+    cameras = tuple(owners)
+    swapped = {one: mirror_partner(one) if mirror_partner(one) in cameras else one for one in cameras}
+    owner = owners[camera]
+    order = sorted(cameras, key=lambda other: other != swapped[owner or camera])
+    found = []
+    for other in order:
+        if other == (owner or camera):
+            continue
+        heard = other if owner is None else swapped[other]
+        mirrored = owner is not None and heard == other
+        found.append((cameras.index(heard), (owners[heard] or heard) + (_MIRRORED if mirrored else "")))
+    return found
 
 
 NETWORKS: dict[str, type[HeadsetNetwork]] = {"modular": ModularNetwork, "holistic": HolisticNetwork}

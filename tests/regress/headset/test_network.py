@@ -1,5 +1,6 @@
 """Networks and their graph: mirrored faces, missing cameras, neutral pictures, resampling, equality with PyTorch."""
 
+from copy import deepcopy
 from dataclasses import replace
 
 import cv2
@@ -14,7 +15,7 @@ from hypothesis import strategies as st  # noqa: E402
 from facegen.conventions import MIRRORED_BLENDSHAPES, VIEW_POINTS  # noqa: E402
 from regress.errors import ModelError  # noqa: E402
 from regress.headset import CameraInput, HeadsetGraph  # noqa: E402
-from regress.headset.outputs import OUTPUTS  # noqa: E402
+from regress.headset.outputs import MIRROR, MIRROR_SIGN, OUTPUTS  # noqa: E402
 from regress.headset.recipe import HeadsetRecipe  # noqa: E402
 from regress.headset.training import export  # noqa: E402
 from regress.headset.training.export import export_graph  # noqa: E402
@@ -104,6 +105,36 @@ def test_an_eyes_answer_depends_on_the_mouth_only_with_skips():
             for one in (seen, other)
         )
         assert torch.equal(eyes, same_eyes) is (skip == 0)
+
+
+def test_a_mirrored_frame_gives_the_mirrored_answer_also_where_cameras_hear_each_other():
+    cameras = ("left_brow", "left_eye", "mouth", "right_brow", "right_eye")
+    recipe = HeadsetRecipe(input_size=SIZE, code=12, skip=5)
+    torch.manual_seed(0)
+    made = NETWORKS["modular"](cameras, recipe, {"left_brow": (), **POINTS}).eval()
+    seen, present = torch.rand(5, 2, SQUARE, SQUARE) * 255, torch.tensor([[1.0, 1, 0, 1, 1]]).expand(2, 5)
+    # pictures of the right side are kept mirrored, so that sides change places
+    said, mirrored = (
+        made(one, torch.zeros_like(one), present, torch.zeros(2)).blended.mean
+        for one in (seen, seen[[3, 4, 2, 0, 1]])
+    )
+    torch.testing.assert_close(mirrored, said[:, MIRROR.copy()] * torch.from_numpy(MIRROR_SIGN.copy()))
+
+
+def test_the_mouth_tells_an_eye_that_is_seen_mirrored_of_a_mirrored_mouth():
+    made, seen = network("modular", skip=5), torch.rand(3, 2, SQUARE, SQUARE) * 255
+    other = seen.clone()
+    other[2] = torch.rand(2, SQUARE, SQUARE) * 255
+    for told, deaf in (("mouth", 0), ("mouth mirrored", 1)):
+        quiet = deepcopy(made)
+        for parameter in quiet.tells[told].parameters():
+            parameter.data.zero_()
+        means, others = (
+            quiet(one, torch.zeros_like(one), torch.ones(2, 3), torch.zeros(2)).means for one in (seen, other)
+        )
+        assert [torch.equal(means[:, eye], others[:, eye]) for eye in (0, 1)] == [
+            eye == deaf for eye in (0, 1)
+        ]
 
 
 def test_a_missing_cameras_pictures_do_not_matter(graph: HeadsetGraph):
