@@ -210,7 +210,19 @@ def print_data(groups: dict[str, list[Path]], found: dict[str, dict[Path, Figure
         [spread([one["geometry_mm"]]), spread([one["r2"]]), spread([one["gaze_deg"]]), ""] for one in floors
     ]
     rows.append(["floor: rest", *(cell for of in cells for cell in of)])
+    first = next(iter(groups.values()))[0]
+    cells = [
+        [people_error(by[first], "uncalibrated"), "", "", people_error(by[first], "same_seat")]
+        for by in found.values()
+    ]
+    rows.append(["standard error of mm over people", *(cell for of in cells for cell in of)])
     print_table("Other pictures", head, rows)
+
+
+def people_error(figures: Figures, condition: str) -> str:
+    """How far a set of other people would move the mean error of one network, and how many people say so."""
+    errors = [person[condition] for person in figures["people_mm"].values() if condition in person]
+    return f"{np.std(errors, ddof=1) / np.sqrt(len(errors)):.3f} ({len(errors)} people)" if errors else ""
 
 
 def print_shapes(key: str, figures: list[Figures]) -> None:
