@@ -59,7 +59,12 @@ def train_headset(
     cameras = tuple(replace(camera, mirrored_of=owners[camera.name]) for camera in arrays.cameras)
     scale = training.deviation_scale()
     graph, difference = export_graph(
-        network, cameras, training.targets, square_size=recipe.square_size, deviation_scale=scale
+        network,
+        cameras,
+        training.targets,
+        square_size=recipe.square_size,
+        deviation_scale=scale,
+        calibration=recipe.calibration,
     )
     points = training.points()
     description = arrays.description

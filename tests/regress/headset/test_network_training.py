@@ -163,6 +163,10 @@ def test_settings_train(arrays: HeadsetArrays, tmp_path: Path, settings: dict):
     assert np.isfinite(model.training["history"][0]["loss"])
     assert ("same_seat" in model.scores["conditions"]) == settings.get("calibration", True)
     assert model.training["recipe"] == replace(QUICK, epochs=1, **settings).settings()
+    graph = HeadsetGraph(tmp_path / "model" / "network.onnx", model.cameras)
+    pictures, neutral = ({n: seen[at] for n, seen in arrays.pictures.items()} for at in ([1, 2], [0, 5]))
+    alone, both = graph.run(pictures), graph.run(pictures, neutral=neutral)
+    assert np.array_equal(alone.weights, both.weights) is not settings.get("calibration", True)
 
 
 def test_batches_pair_frames_with_neutral_pictures_of_the_same_person(arrays: HeadsetArrays):
