@@ -153,6 +153,33 @@ def test_files_without_numbers_of_their_own_are_counted(tmp_path: Path):
     assert (found.numbers.tolist(), found.numbered) == ([0, 1, 2], False)
 
 
+@pytest.mark.parametrize(
+    ("names", "numbers"),
+    [
+        (["frame_0003", "frame_0011"], [3, 11]),
+        (["0003", "0011"], [3, 11]),
+        (["left-eye.0003", "left-eye.0011"], [3, 11]),
+        (["take2_3", "take2_11"], [3, 11]),
+        (["12.3.left", "12.11.left"], [3, 11]),
+        # clock times: what follows the point says nothing without what stands before it
+        (["1700000000.900012", "1700000001.100021", "1700000002.000003"], None),
+        (["9.5", "10.25", "10.5"], None),
+        (["1700000000_900012", "1700000001_100021"], None),
+        (["take2_9", "take10_1"], None),
+    ],
+)
+def test_frames_are_in_the_order_that_their_names_say(
+    tmp_path: Path, names: list[str], numbers: list[int] | None
+):
+    stack = pictures(np.linspace(60, 120, len(names)))
+    for name, picture in zip(names, stack, strict=True):
+        assert cv2.imwrite(str(tmp_path / f"{name}.png"), picture)
+    found = read_recording(tmp_path, "left_eye", width=WIDTH, height=HEIGHT)
+    assert np.array_equal(found.pictures, stack)
+    assert found.numbered is (numbers is not None)
+    assert found.numbers.tolist() == (numbers or list(range(len(names))))
+
+
 def test_films_are_read_with_their_rate(tmp_path: Path):
     film = tmp_path / "eye.avi"
     writer = cv2.VideoWriter(str(film), cv2.VideoWriter_fourcc(*"MJPG"), 25, (WIDTH * 8, HEIGHT * 8))
