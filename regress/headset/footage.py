@@ -77,9 +77,8 @@ def line_up(
 ) -> Footage:
     """Match the cameras' frames, find what is wrong in them, and leave out what is.
 
-    Folders whose files are all numbered are matched by number, and a number that is lacking is a missing picture.
-    Otherwise, or with ``from_start``, cameras are matched from their first frames on to the end of the
-    shortest.
+    Cameras are matched by number, films from 0, and a number that is lacking is a missing picture. Where no camera has
+    numbers of its own, or with ``from_start``, they are matched from their first frames on to the end of the shortest.
 
     Parameters
     ----------
@@ -105,9 +104,10 @@ def line_up(
     if fps is None:
         _check_rates(recordings)
     notes = [note for recording in recordings.values() for note in _scaling_note(recording, sizes)]
-    by_number = all(recording.numbered for recording in recordings.values()) and not from_start
+    by_number = any(recording.numbered for recording in recordings.values()) and not from_start
     if by_number:
         numbers = _numbers(recordings, still=still)
+        notes += _counting_note(recordings)
     else:
         numbers, told = _from_start(recordings)
         notes += told
@@ -191,6 +191,18 @@ def _numbers(recordings: Mapping[str, Recording], *, still: bool) -> np.ndarray:
     if ((known - known[0]) % step).any() or frames > _LONGEST_GRID * len(known):
         return known
     return np.arange(known[0], known[-1] + 1, step)
+
+
+def _counting_note(recordings: Mapping[str, Recording]) -> list[str]:
+    """Whether films and others that are counted from 0 stand beside numbers that begin elsewhere."""
+    counted = [name for name, recording in recordings.items() if not recording.numbered]
+    first = min(int(recording.numbers[0]) for recording in recordings.values() if recording.numbered)
+    if not counted or first == 0:
+        return []
+    return [
+        f"{', '.join(counted)}: counted from 0, while the other cameras' numbers begin at {first}; --from-start matches "
+        f"first frames"
+    ]
 
 
 def _from_start(recordings: Mapping[str, Recording]) -> tuple[np.ndarray, list[str]]:

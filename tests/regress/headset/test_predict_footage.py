@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from regress.errors import InputError
 from regress.headset.faults import FROZEN_FRAMES, Fault, frozen_frames, picture_fault, told_faults
-from regress.headset.footage import line_up
+from regress.headset.footage import Footage, line_up
 from regress.headset.recordings import Recording, read_recording, read_rendered
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 
@@ -66,6 +66,32 @@ def test_films_of_other_rates_are_not_matched_by_number():
     ):
         line_up(films(60, 30), SIZES)
     assert line_up(films(60, 30), SIZES, fps=10).time_s == pytest.approx(np.arange(5) / 10)
+
+
+def test_a_film_is_matched_with_the_numbers_of_a_folder():
+    eye, mouth = pictures([100] * 10), pictures([120] * 10, seed=1)
+    film = recording("left_eye", eye, numbered=False, fps=30)
+
+    def beside(numbers: list[int], **settings: bool) -> Footage:
+        folder = recording("mouth", mouth[[number % 10 for number in numbers]], numbers=numbers)
+        return line_up({"left_eye": film, "mouth": folder}, SIZES, **settings)
+
+    lacking = [number for number in range(10) if number != 4]
+    footage = beside(lacking)
+    assert footage.numbers.tolist() == list(range(10))
+    assert footage.time_s == pytest.approx(np.arange(10) / 30)
+    assert np.array_equal(footage.pictures["left_eye"], eye)
+    assert np.array_equal(footage.pictures["mouth"][lacking], mouth[lacking])
+    assert footage.faults["mouth"][4] is Fault.MISSING
+    assert not any("--from-start" in note for note in footage.notes)
+    footage = beside(list(range(3, 13)))
+    assert footage.numbers.tolist() == list(range(13))
+    assert footage.present[:, [0, 2]].all(axis=1).tolist() == [False] * 3 + [True] * 7 + [False] * 3
+    told = "left_eye: counted from 0, while the other cameras' numbers begin at 3; --from-start matches first frames"
+    assert told in footage.notes
+    assert beside(list(range(3, 13)), from_start=True).present[:, [0, 2]].all()
+    with pytest.raises(InputError, match=r"in common \(left_eye 0-9, mouth 100-109\); --from-start"):
+        beside(list(range(100, 110)))
 
 
 def test_clock_times_for_numbers_are_no_grid():
