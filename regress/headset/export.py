@@ -22,7 +22,9 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
     calibrated = "1 where neutral pictures are given, otherwise 0"
     same_seat = "probability that picture and neutral picture are of one seat of the headset"
     if model.calibration == "none":
-        neutral = calibrated = "give 0: the network was trained without neutral pictures and does not look at them"
+        neutral = calibrated = (
+            "give 0: the network was trained without neutral pictures and does not look at them"
+        )
         same_seat = "means nothing: the network was trained without neutral pictures"
     inputs: dict[str, Any] = {}
     for kind, meaning in (("pictures", "grey pictures, row by row from the top"), ("neutral", neutral)):

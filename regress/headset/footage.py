@@ -37,7 +37,7 @@ class Footage:
     notes
         What a person should be told, a sentence each.
     scaled_from
-        Width and height of the recorded pictures, of cameras whose pictures were scaled.
+        (n, 2) width and height of each recorded picture, of cameras of which any was scaled.
     """
 
     cameras: tuple[str, ...]
@@ -47,7 +47,7 @@ class Footage:
     time_s: np.ndarray | None
     source: str
     notes: tuple[str, ...]
-    scaled_from: dict[str, tuple[int, int]] = field(default_factory=dict)
+    scaled_from: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def present(self) -> np.ndarray:
@@ -115,7 +115,7 @@ def line_up(
         name: (np.searchsorted(numbers, recording.numbers) if by_number else np.arange(len(numbers)))
         for name, recording in recordings.items()
     }
-    pictures, faults = {}, {}
+    pictures, faults, scaled_from = {}, {}, {}
     for name, (width, height) in sizes.items():
         pictures[name] = np.zeros((len(numbers), height, width), dtype=np.uint8)
         found = np.full(len(numbers), Fault.MISSING, dtype=object)
@@ -123,6 +123,9 @@ def line_up(
             recording, count = recordings[name], len(rows[name])
             pictures[name][rows[name]] = recording.pictures[:count]
             found[rows[name]] = recording.faults[:count]
+            if recording.scaled_from is not None:
+                scaled_from[name] = np.tile((width, height), (len(numbers), 1))
+                scaled_from[name][rows[name]] = recording.scaled_from[:count]
         faults[name] = found
     if not still:
         present = {name: np.array([fault is None for fault in faults[name]]) for name in recordings}
@@ -147,7 +150,7 @@ def line_up(
         time_s=_times(recordings, len(numbers), fps),
         source=source,
         notes=tuple(notes),
-        scaled_from={name: one.scaled_from for name, one in recordings.items() if one.scaled_from},
+        scaled_from=scaled_from,
     )
 
 
@@ -163,12 +166,15 @@ def _check_rates(recordings: Mapping[str, Recording]) -> None:
 
 
 def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) -> list[str]:
-    wanted = "{} x {}".format(*sizes[recording.camera])
     if recording.scaled_from is None:
         return []
-    return [
-        f"{recording.camera}: pictures of {'{} x {}'.format(*recording.scaled_from)} are scaled to {wanted}"
-    ]
+    wanted, *found = (
+        f"{width} x {height}"
+        for width, height in dict.fromkeys(
+            [sizes[recording.camera], *map(tuple, recording.scaled_from.tolist())]
+        )
+    )
+    return [f"{recording.camera}: pictures of {', '.join(found)} are scaled to {wanted}"]
 
 
 def _numbers(recordings: Mapping[str, Recording], *, still: bool) -> np.ndarray:
@@ -200,8 +206,8 @@ def _counting_note(recordings: Mapping[str, Recording]) -> list[str]:
     if not counted or first == 0:
         return []
     return [
-        f"{', '.join(counted)}: counted from 0, while the other cameras' numbers begin at {first}; --from-start matches "
-        f"first frames"
+        f"{', '.join(counted)}: counted from 0, while the other cameras' numbers begin at {first}; --from-start "
+        f"matches first frames"
     ]
 
 

@@ -42,8 +42,8 @@ class Recording:
         Of each frame.
     fps
         Frames a second, where a film tells.
-    scaled_from
-        Width and height of the pictures that were scaled; None where none was.
+    scaled_from : (n, 2) int64 or None
+        Width and height of each picture before it was scaled; None where none was.
     """
 
     camera: str
@@ -53,7 +53,7 @@ class Recording:
     pictures: np.ndarray
     faults: tuple[Fault | None, ...]
     fps: float | None = None
-    scaled_from: tuple[int, int] | None = None
+    scaled_from: np.ndarray | None = None
 
 
 def read_recording(path: Path, camera: str, *, width: int, height: int) -> Recording:
@@ -186,6 +186,8 @@ def _recording(
     camera: str, source: Path, numbers: list[int], fitted: list[FittedPicture], *, fps: float | None = None
 ) -> Recording:
     """Fitted pictures as a recording; without numbers they are counted."""
+    height, width = fitted[0].picture.shape
+    scaled = any(one.scaled_from for one in fitted)
     return Recording(
         camera=camera,
         source=str(source),
@@ -194,5 +196,5 @@ def _recording(
         pictures=np.array([one.picture for one in fitted]),
         faults=tuple(one.fault for one in fitted),
         fps=fps,
-        scaled_from=next((one.scaled_from for one in fitted if one.scaled_from), None),
+        scaled_from=np.array([one.scaled_from or (width, height) for one in fitted]) if scaled else None,
     )

@@ -166,11 +166,26 @@ def test_folders_are_read_by_number_scaled_and_with_their_faults(tmp_path: Path)
     assert found.numbers.tolist() == list(range(11))
     faults = {number: fault for number, fault in enumerate(found.faults) if fault}
     assert faults == {5: Fault.UNREADABLE, 6: Fault.UNREADABLE, 7: Fault.SHAPE, 8: Fault.BLACK}
-    assert found.scaled_from == (WIDTH * 3, HEIGHT * 3)
+    large = [[WIDTH * 3, HEIGHT * 3]]
+    assert found.scaled_from.tolist() == 5 * large + 4 * [[WIDTH, HEIGHT]] + 2 * large
     assert found.pictures.shape == (11, HEIGHT, WIDTH)
     footage = line_up({"left_eye": found}, SIZES)
     assert "left_eye: pictures of 48 x 36 are scaled to 16 x 12" in footage.notes
     assert "left_eye: 1 of 11 frames have a picture of another shape: 7" in footage.notes
+
+
+def test_each_picture_of_a_folder_of_several_sizes_keeps_its_own(tmp_path: Path):
+    for number, (picture, times) in enumerate(zip(pictures([90] * 4), (1, 2, 1, 3), strict=True)):
+        large = cv2.resize(picture, (WIDTH * times, HEIGHT * times))
+        assert cv2.imwrite(str(tmp_path / f"{number + (number > 1)}.png"), large)
+    found = read_recording(tmp_path, "left_eye", width=WIDTH, height=HEIGHT)
+    footage = line_up({"left_eye": found, "mouth": recording("mouth", pictures([99] * 5))}, SIZES)
+    # frame 2 has no picture
+    expected = np.outer([1, 2, 1, 1, 3], (WIDTH, HEIGHT))
+    assert {name: one.tolist() for name, one in footage.scaled_from.items()} == {
+        "left_eye": expected.tolist()
+    }
+    assert "left_eye: pictures of 32 x 24, 48 x 36 are scaled to 16 x 12" in footage.notes
 
 
 def test_files_without_numbers_of_their_own_are_counted(tmp_path: Path):
