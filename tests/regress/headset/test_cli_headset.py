@@ -164,5 +164,9 @@ def test_the_example_says_what_the_network_says(run, model: Path, tmp_path: Path
         {name: one[:1] for name, one in stacks.items()},
         neutral={name: one[1] for name, one in stacks.items()} if calibrated else None,
     )
+    (tmp_path / ("neutral" if calibrated else "frame") / "mouth.png").unlink()
+    refused = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    assert (refused.returncode, "Traceback" in refused.stderr) == (1, False)
+    assert "has no picture mouth.png" in refused.stderr
     printed = dict(line.split()[:2] for line in done.stdout.splitlines()[: len(BLENDSHAPES)])
     assert [float(printed[name]) for name in BLENDSHAPES] == pytest.approx(said.weights[0].tolist(), abs=6e-4)
