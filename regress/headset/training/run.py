@@ -79,6 +79,7 @@ def train_headset(
         outputs=(*GRAPH_OUTPUTS, *map(points_output, points)),
         training={
             "recipe": recipe.settings(),
+            "data_seed": description.get("seed"),
             "rows": len(training.rows),
             "people": len(set(arrays.person[training.rows].tolist())),
             "parameters": sum(parameter.numel() for parameter in network.parameters()),

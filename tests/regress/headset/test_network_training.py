@@ -106,6 +106,8 @@ def test_the_folder_says_all_there_is_to_say(trained: tuple[HeadsetModel, Path],
     assert model.training["recipe"]["architecture"] == model.architecture == folder.name
     assert len(model.training["history"]) == QUICK.epochs
     assert model.training["rows"] == len(arrays.rows("train"))
+    assert model.training["data_seed"] == arrays.description["seed"]
+    assert model.scores["unseen"]
     assert model.training["onnx_difference"] < 1e-4
     assert [camera.mirrored_of for camera in model.cameras] == [None, "left_eye", None]
     again = evaluate(HeadsetGraph(folder / "network.onnx", model.cameras), model, arrays)
