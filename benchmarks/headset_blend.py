@@ -8,7 +8,6 @@ the result stands in docs/headset-network-figures.md.
 """
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +15,9 @@ import onnx
 from onnx import numpy_helper
 
 from regress.headset import HeadsetGraph, read_headset_model
+from regress.headset.accuracy import summary
 from regress.headset.arrays import read_arrays
-from regress.headset.evaluation import evaluate
+from regress.headset.evaluation import HELD_OUT, conditions, estimate
 
 FACTORS = (1e-4, 0.03, 0.1, 0.3, 1.0)
 
@@ -26,6 +26,19 @@ def main() -> None:
     """Print the sweep of the model in the first argument on the arrays in the second."""
     folder, arrays = Path(sys.argv[1]), read_arrays(sys.argv[2])
     model = read_headset_model(folder)
+    rows = np.flatnonzero((arrays.split == "test") & ~arrays.neutral)
+    held_out = arrays.component[rows] == HELD_OUT
+    ways, true, gaze = (
+        conditions(model, arrays, rows),
+        arrays.weights[rows],
+        arrays.gaze[rows].reshape(-1, 2, 2),
+    )
+    columns = (
+        ("uncalibrated", ~held_out),
+        ("same_seat", ~held_out),
+        ("without_left_eye", ~held_out),
+        ("uncalibrated", held_out),
+    )
     graph = onnx.load(str(folder / "network.onnx"))
     place = modulation_of(graph, len(model.cameras), model.modulation)
     trained = numpy_helper.to_array(place)
@@ -40,17 +53,14 @@ def main() -> None:
         for factor in FACTORS:
             changed = np.where(trained == 1, 1, factor).astype(np.float32)
             place.CopyFrom(numpy_helper.from_array(changed, place.name))
-            one = replace(model, modulation=factor)
-            found = evaluate(HeadsetGraph(graph.SerializeToString(), model.cameras), one, arrays)
-            alone, held_out = found["conditions"]["uncalibrated"], found["held_out"]["uncalibrated"]
+            run = HeadsetGraph(graph.SerializeToString(), model.cameras)
+            said = {name: estimate(run, model, arrays, rows, ways[name]) for name, _ in columns[:3]}
             shown = [
-                alone,
-                found["conditions"]["same_seat"],
-                found["conditions"]["without_left_eye"],
-                held_out,
+                summary(arrays.face, said[name].weights[of], said[name].gaze[of], true[of], gaze[of])
+                for name, of in columns
             ]
-            errors = " | ".join(f"{one['geometry_mm']:.3f}" for one in shown)
-            print(f"| {variances} | {factor} | {errors} | {alone['r2']:.3f} | {alone['gaze_deg']:.2f} |")
+            errors = " | ".join(f"{one.geometry_mm:.3f}" for one in shown)
+            print(f"| {variances} | {factor} | {errors} | {shown[0].r2:.3f} | {shown[0].gaze_deg:.2f} |")
 
 
 def modulation_of(graph: onnx.ModelProto, cameras: int, modulation: float) -> onnx.TensorProto:

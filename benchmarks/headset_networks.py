@@ -159,7 +159,8 @@ def find_rivals(
                 continue
             # settings that only one of the two kinds has
             for name in ("modulation", "part_loss", "part_loss_elsewhere", "skip", "hidden"):
-                mine.pop(name, None), theirs.pop(name, None)
+                mine.pop(name, None)
+                theirs.pop(name, None)
             if mine == theirs and one.model.training["rows"] == other.model.training["rows"]:
                 rivals[label(one, plain)].append(compare(one, other, arrays))
     return rivals

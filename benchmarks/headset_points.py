@@ -33,10 +33,10 @@ def main() -> None:
         errors = [table[camera, part] for table in tables]
         shown = 100 * np.isfinite(errors[0]).mean()
         figures = [[np.nanmean(one), np.nanmedian(one), np.nanpercentile(one, 95)] for one in errors]
-        cells = [
-            f"{mean:.2f} ± {spread:.2f}"
-            for mean, spread in zip(np.mean(figures, 0), np.std(figures, 0), strict=True)
-        ]
+        cells = [f"{mean:.2f}" for mean in np.mean(figures, 0)]
+        if len(figures) > 1:
+            spreads = np.std(figures, 0, ddof=1)
+            cells = [f"{mean} ± {spread:.2f}" for mean, spread in zip(cells, spreads, strict=True)]
         print(f"| {camera} | {part} | {shown:.0f} | {' | '.join(cells)} |")
     for camera, side in (("left_eye", "left"), ("right_eye", "right")):
         if camera in arrays.points:

@@ -23,6 +23,9 @@ public sealed class HeadsetWeights : IDisposable
     // The result has the order of "shapes" in headset.json.
     public float[] Predict(IReadOnlyDictionary<string, byte[]> pictures, IReadOnlyDictionary<string, byte[]> neutral = null)
     {
+        foreach (var name in pictures.Keys)
+            if (!cameras.Contains(name) || (neutral != null && !neutral.ContainsKey(name)))
+                throw new ArgumentException(name + " is no camera of the headset, or has no neutral picture");
         var present = cameras.Select(camera => pictures.ContainsKey(camera) ? 1f : 0f).ToArray();
         var calibrated = new[] { neutral == null ? 0f : 1f };
         var inputs = new List<NamedOnnxValue>

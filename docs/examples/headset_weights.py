@@ -24,6 +24,10 @@ feed = {
 for camera in headset["cameras"]:
     for kind, folder in (("pictures", sys.argv[2]), ("neutral", sys.argv[-1])):
         picture = cv2.imread(str(Path(folder, f"{camera['name']}.png")), cv2.IMREAD_GRAYSCALE)
+        if picture is None:
+            sys.exit(
+                f"{folder} has no picture {camera['name']}.png; a camera without one is given 0 in present"
+            )
         feed[f"{kind}_{camera['name']}"] = picture[None]
 weights, deviation, gaze, same_seat = session.run(["weights", "deviation", "gaze", "same_seat"], feed)
 for name, weight, spread in zip(headset["shapes"], weights[0], deviation[0], strict=True):

@@ -75,7 +75,8 @@ def evaluate(
     Returns
     -------
     dict
-        ``people`` and how many of them the arrays' training split has too, ``people_in_training``;
+        ``people`` and how many of them the arrays' training split has too, ``people_in_training``; ``unseen``, whether
+        it is known that the network was trained on none of them;
         ``conditions`` and ``held_out``: summaries by condition; ``floors``: of the training mean and of the
         resting face; ``shapes``: R2, MAE and RMSE by shape and calibration; ``cameras``: R2 of each shape from
         one camera alone; ``components`` and ``people_mm``: geometry error in mm by condition; ``deviation``: how
@@ -90,7 +91,9 @@ def evaluate(
     rows = np.flatnonzero((arrays.split == split) & ~arrays.neutral)
     if not len(rows):
         raise InputError(f"the arrays have no {split} row with an expression; choose another split")
-    people, held_out = np.unique(arrays.person[rows]), arrays.component[rows] == HELD_OUT
+    people = np.unique(arrays.person[rows])
+    known = int(np.isin(people, arrays.person[arrays.split == "train"]).sum())
+    held_out = arrays.component[rows] == HELD_OUT
     true, true_gaze = arrays.weights[rows], arrays.gaze[rows].reshape(-1, 2, 2)
     found = {
         name: estimate(graph, model, arrays, rows, condition)
@@ -113,7 +116,8 @@ def evaluate(
         "split": split,
         "rows": len(rows),
         "people": len(people),
-        "people_in_training": int(np.isin(people, arrays.person[arrays.split == "train"]).sum()),
+        "people_in_training": known,
+        "unseen": _unseen(model, arrays, known),
         "dataset_hash": arrays.description.get("dataset_hash", ""),
         "conditions": figures(ordinary),
         "held_out": figures(held_out),
@@ -159,6 +163,17 @@ def _check_cameras(model: HeadsetModel, arrays: HeadsetArrays) -> None:
             raise InputError(
                 f"the model needs camera {name} of {width}x{height} pixels; the arrays have {has}"
             )
+
+
+def _unseen(model: HeadsetModel, arrays: HeadsetArrays, known: int) -> bool:
+    """Whether a model cannot know people of whom the arrays' own training split has so many.
+
+    Datasets of one seed share people, however many each has; without a record of the seed nothing is known.
+    """
+    if model.dataset_hash and model.dataset_hash == arrays.description.get("dataset_hash"):
+        return not known
+    seeds = model.training.get("data_seed"), arrays.description.get("seed")
+    return None not in seeds and seeds[0] != seeds[1]
 
 
 def _floors(model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray) -> dict[str, Any]:

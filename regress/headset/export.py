@@ -18,14 +18,16 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
     cameras = [
         {"name": camera.name, "width": camera.width, "height": camera.height} for camera in model.cameras
     ]
+    neutral = "the person's neutral pictures from the same seat of the headset; 0 where there are none"
+    calibrated = "1 where neutral pictures are given, otherwise 0"
+    same_seat = "probability that picture and neutral picture are of one seat of the headset"
+    if model.calibration == "none":
+        neutral = calibrated = (
+            "give 0: the network was trained without neutral pictures and does not look at them"
+        )
+        same_seat = "means nothing: the network was trained without neutral pictures"
     inputs: dict[str, Any] = {}
-    for kind, meaning in (
-        ("pictures", "grey pictures, row by row from the top"),
-        (
-            "neutral",
-            "the person's neutral pictures from the same seat of the headset; 0 where there are none",
-        ),
-    ):
+    for kind, meaning in (("pictures", "grey pictures, row by row from the top"), ("neutral", neutral)):
         for camera in model.cameras:
             inputs[f"{kind}_{camera.name}"] = {
                 "type": "uint8",
@@ -40,7 +42,7 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
     inputs["calibrated"] = {
         "type": "float32",
         "shape": ["n"],
-        "meaning": "1 where neutral pictures are given, otherwise 0",
+        "meaning": calibrated,
     }
     shapes = len(model.weights)
     meanings = {
@@ -51,7 +53,7 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
             "yaw and pitch in radians, left eye first; yaw to the subject's left, pitch upwards",
         ),
         "shares": (["n", len(cameras), shapes], "how much each camera had to say"),
-        "same_seat": (["n"], "probability that picture and neutral picture are of one seat of the headset"),
+        "same_seat": (["n"], same_seat),
     }
     for camera in model.cameras:
         meanings[points_output(camera.name)] = (

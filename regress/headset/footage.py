@@ -37,7 +37,7 @@ class Footage:
     notes
         What a person should be told, a sentence each.
     scaled_from
-        Width and height of the recorded pictures, of cameras whose pictures were scaled.
+        (n, 2) width and height of each recorded picture, of cameras of which any was scaled.
     """
 
     cameras: tuple[str, ...]
@@ -47,7 +47,7 @@ class Footage:
     time_s: np.ndarray | None
     source: str
     notes: tuple[str, ...]
-    scaled_from: dict[str, tuple[int, int]] = field(default_factory=dict)
+    scaled_from: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def present(self) -> np.ndarray:
@@ -77,9 +77,8 @@ def line_up(
 ) -> Footage:
     """Match the cameras' frames, find what is wrong in them, and leave out what is.
 
-    Folders whose files are all numbered are matched by number, and a number that is lacking is a missing picture.
-    Otherwise, or with ``from_start``, cameras are matched from their first frames on to the end of the
-    shortest.
+    Cameras are matched by number, films from 0, and a number that is lacking is a missing picture. Where no camera has
+    numbers of its own, or with ``from_start``, they are matched from their first frames on to the end of the shortest.
 
     Parameters
     ----------
@@ -105,9 +104,10 @@ def line_up(
     if fps is None:
         _check_rates(recordings)
     notes = [note for recording in recordings.values() for note in _scaling_note(recording, sizes)]
-    by_number = all(recording.numbered for recording in recordings.values()) and not from_start
+    by_number = any(recording.numbered for recording in recordings.values()) and not from_start
     if by_number:
         numbers = _numbers(recordings, still=still)
+        notes += _counting_note(recordings)
     else:
         numbers, told = _from_start(recordings)
         notes += told
@@ -115,7 +115,7 @@ def line_up(
         name: (np.searchsorted(numbers, recording.numbers) if by_number else np.arange(len(numbers)))
         for name, recording in recordings.items()
     }
-    pictures, faults = {}, {}
+    pictures, faults, scaled_from = {}, {}, {}
     for name, (width, height) in sizes.items():
         pictures[name] = np.zeros((len(numbers), height, width), dtype=np.uint8)
         found = np.full(len(numbers), Fault.MISSING, dtype=object)
@@ -123,6 +123,9 @@ def line_up(
             recording, count = recordings[name], len(rows[name])
             pictures[name][rows[name]] = recording.pictures[:count]
             found[rows[name]] = recording.faults[:count]
+            if recording.scaled_from is not None:
+                scaled_from[name] = np.tile((width, height), (len(numbers), 1))
+                scaled_from[name][rows[name]] = recording.scaled_from[:count]
         faults[name] = found
     if not still:
         present = {name: np.array([fault is None for fault in faults[name]]) for name in recordings}
@@ -147,7 +150,7 @@ def line_up(
         time_s=_times(recordings, len(numbers), fps),
         source=source,
         notes=tuple(notes),
-        scaled_from={name: one.scaled_from for name, one in recordings.items() if one.scaled_from},
+        scaled_from=scaled_from,
     )
 
 
@@ -163,12 +166,15 @@ def _check_rates(recordings: Mapping[str, Recording]) -> None:
 
 
 def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) -> list[str]:
-    wanted = "{} x {}".format(*sizes[recording.camera])
     if recording.scaled_from is None:
         return []
-    return [
-        f"{recording.camera}: pictures of {'{} x {}'.format(*recording.scaled_from)} are scaled to {wanted}"
-    ]
+    wanted, *found = (
+        f"{width} x {height}"
+        for width, height in dict.fromkeys(
+            [sizes[recording.camera], *map(tuple, recording.scaled_from.tolist())]
+        )
+    )
+    return [f"{recording.camera}: pictures of {', '.join(found)} are scaled to {wanted}"]
 
 
 def _numbers(recordings: Mapping[str, Recording], *, still: bool) -> np.ndarray:
@@ -191,6 +197,18 @@ def _numbers(recordings: Mapping[str, Recording], *, still: bool) -> np.ndarray:
     if ((known - known[0]) % step).any() or frames > _LONGEST_GRID * len(known):
         return known
     return np.arange(known[0], known[-1] + 1, step)
+
+
+def _counting_note(recordings: Mapping[str, Recording]) -> list[str]:
+    """Whether films and others that are counted from 0 stand beside numbers that begin elsewhere."""
+    counted = [name for name, recording in recordings.items() if not recording.numbered]
+    first = min(int(recording.numbers[0]) for recording in recordings.values() if recording.numbered)
+    if not counted or first == 0:
+        return []
+    return [
+        f"{', '.join(counted)}: counted from 0, while the other cameras' numbers begin at {first}; --from-start "
+        f"matches first frames"
+    ]
 
 
 def _from_start(recordings: Mapping[str, Recording]) -> tuple[np.ndarray, list[str]]:

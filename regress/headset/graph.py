@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import onnxruntime
 
-from regress.errors import ModelError
+from regress.errors import InputError, ModelError
 from regress.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
 
 _BLOCK_ROWS = 64
@@ -91,6 +91,12 @@ class HeadsetGraph:
             0 where a camera is not to be listened to.
         calibrated : (n,) float or None
             1 where the neutral pictures count; all, where they are given.
+
+        Raises
+        ------
+        InputError
+            Where pictures are of a camera that the model does not have, or a camera that is present in a calibrated
+            frame has no neutral pictures.
         """
         found = self._outputs(GRAPH_OUTPUTS, pictures, neutral, present, calibrated)
         return Estimates(**dict(zip(GRAPH_OUTPUTS, found, strict=True)))
@@ -115,21 +121,32 @@ class HeadsetGraph:
     ) -> list[np.ndarray]:
         if not names:
             return []
+        cameras = [camera.name for camera in self._cameras]
+        unknown = [name for name in (*pictures, *(neutral or {})) if name not in cameras]
+        if unknown:
+            raise InputError(
+                f"pictures are given of {', '.join(dict.fromkeys(unknown))}; the model has {', '.join(cameras)}"
+            )
         rows = len(next(iter(pictures.values())))
-        here = np.ones((rows, len(self._cameras)), np.float32)
+        here = np.tile(np.array([name in pictures for name in cameras], np.float32), (rows, 1))
         if present is not None:
             here *= np.asarray(present, np.float32)
         known = np.full(rows, float(neutral is not None), np.float32)
         if calibrated is not None:
             known *= np.asarray(calibrated, np.float32)
+        compared = zip(cameras, (here * known[:, None]).any(axis=0), strict=True)
+        lost = [name for name, there in compared if there and name not in neutral]
+        if lost:
+            raise InputError(
+                f"no neutral pictures are given of {', '.join(lost)}; a calibrated frame needs them of every camera "
+                f"that is present"
+            )
         blocks = []
         for start in range(0, max(rows, 1), _BLOCK_ROWS):
             block = slice(start, start + _BLOCK_ROWS)
-            feed = {"present": here[block].copy(), "calibrated": known[block]}
-            for column, camera in enumerate(self._cameras):
+            feed = {"present": here[block], "calibrated": known[block]}
+            for camera in self._cameras:
                 blank = np.zeros((len(known[block]), camera.height, camera.width), np.uint8)
-                if camera.name not in pictures:
-                    feed["present"][:, column] = 0
                 feed[f"pictures_{camera.name}"] = _rows(pictures, camera.name, block, blank)
                 feed[f"neutral_{camera.name}"] = _rows(neutral or {}, camera.name, block, blank)
             blocks.append(self._session.run(names, feed))

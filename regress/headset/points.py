@@ -36,7 +36,8 @@ def traced_points(predictor: HeadsetPredictor, footage: Footage) -> dict[str, np
         if name in footage.scaled_from:
             height, width = footage.pictures[name].shape[1:]
             # 0 is the middle of the first pixel, before scaling and after
-            found[name] = (found[name] + 0.5) * np.divide(footage.scaled_from[name], (width, height)) - 0.5
+            scale = footage.scaled_from[name][:, None] / (width, height)
+            found[name] = (found[name] + 0.5) * scale - 0.5
         found[name][~footage.present[:, column]] = np.nan
     return found
 

@@ -46,13 +46,18 @@ class HeadsetPredictor:
         Parameters
         ----------
         pictures
-            (n, h, w) uint8 by camera; one that is left out is not present.
+            (n, h, w) uint8 by camera of the model; one that is left out is not present.
         present : (n, cameras) bool, optional
             Which pictures count.
         neutral
-            (h, w) or (n, h, w) uint8 by camera; without them no frame is calibrated.
+            (h, w) or (n, h, w) uint8 of every camera that is present; without them no frame is calibrated.
         calibrated : (n,) bool, optional
             Which frames are compared with the neutral pictures; all by default.
+
+        Raises
+        ------
+        InputError
+            Where a camera is not the model's, or is present in a calibrated frame and has no neutral picture.
         """
         count = len(next(iter(pictures.values())))
         repeated = neutral and {

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from decimal import Decimal
 from pathlib import Path
 
 import cv2
@@ -17,8 +18,10 @@ FILMS = (".mp4", ".avi", ".mkv", ".mov", ".webm", ".m4v")
 ASPECT = 0.02
 """Relative difference of aspect ratios up to which a picture is only scaled: 400 x 400 for 96 x 96, not 640 x 400."""
 
-_NUMBER = re.compile(r"(\d+)\D*$")
-"""The last number of a file's name, before its ending."""
+_NUMBER = re.compile(r"(.*?)(\d+)\D*", re.DOTALL)
+"""What stands before the last number of a file's name, and that number, before its ending."""
+
+_DECIMAL = re.compile(r"\d+\.\d+")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -39,8 +42,8 @@ class Recording:
         Of each frame.
     fps
         Frames a second, where a film tells.
-    scaled_from
-        Width and height of the pictures that were scaled; None where none was.
+    scaled_from : (n, 2) int64 or None
+        Width and height of each picture before it was scaled; None where none was.
     """
 
     camera: str
@@ -50,7 +53,7 @@ class Recording:
     pictures: np.ndarray
     faults: tuple[Fault | None, ...]
     fps: float | None = None
-    scaled_from: tuple[int, int] | None = None
+    scaled_from: np.ndarray | None = None
 
 
 def read_recording(path: Path, camera: str, *, width: int, height: int) -> Recording:
@@ -64,17 +67,12 @@ def read_recording(path: Path, camera: str, *, width: int, height: int) -> Recor
         Where the path is missing, is no folder or film, or holds no pictures.
     """
     if path.is_dir():
-        files = [file for file in sorted(path.iterdir()) if file.suffix.lower() in PICTURES]
+        files = [file for file in path.iterdir() if file.suffix.lower() in PICTURES]
         if not files:
             raise InputError(f"{path} has no pictures of {camera}; {', '.join(PICTURES)} can be read")
-        found = [_NUMBER.search(file.stem) for file in files]
-        numbers = [int(match.group(1)) for match in found if match]
-        if len(set(numbers)) == len(files):
-            numbers, files = zip(*sorted(zip(numbers, files, strict=True)), strict=True)
-        else:
-            numbers = ()
+        numbers, files = _in_order(files)
         fitted = [read_picture(file, width=width, height=height) for file in files]
-        return _recording(camera, path, list(numbers), fitted)
+        return _recording(camera, path, numbers, fitted)
     if not path.exists():
         raise InputError(
             f"{path} does not exist; a folder of {camera}'s pictures or a film of them is needed"
@@ -154,6 +152,28 @@ def fit_picture(grey: np.ndarray | None, *, width: int, height: int) -> FittedPi
     )
 
 
+def _in_order(files: list[Path]) -> tuple[list[int], list[Path]]:
+    """Files by their numbers, or by name and without numbers where that of a name says only a part of the order.
+
+    It does where other digits or words before it differ, as the seconds of 1700000000.200021 do.
+    """
+    found = [_NUMBER.fullmatch(file.stem) for file in files]
+    if all(found) and len({match[1] for match in found}) == 1:
+        numbers = [int(match[2]) for match in found]
+        if len(set(numbers)) == len(files):
+            pairs = sorted(zip(numbers, files, strict=True))
+            return [number for number, _ in pairs], [file for _, file in pairs]
+    files = sorted(files)
+    if all(_DECIMAL.fullmatch(file.stem) for file in files):
+        return [], sorted(files, key=lambda file: Decimal(file.stem))
+    return [], sorted(files, key=lambda file: _natural(file.stem))
+
+
+def _natural(name: str) -> list[str | int]:
+    """Key that sorts 2 before 10."""
+    return [int(part) if part.isdecimal() else part for part in re.split(r"(\d+)", name)]
+
+
 def _film_frames(film: cv2.VideoCapture) -> Iterator[np.ndarray]:
     while True:
         there, frame = film.read()
@@ -166,6 +186,8 @@ def _recording(
     camera: str, source: Path, numbers: list[int], fitted: list[FittedPicture], *, fps: float | None = None
 ) -> Recording:
     """Fitted pictures as a recording; without numbers they are counted."""
+    height, width = fitted[0].picture.shape
+    scaled = any(one.scaled_from for one in fitted)
     return Recording(
         camera=camera,
         source=str(source),
@@ -174,5 +196,5 @@ def _recording(
         pictures=np.array([one.picture for one in fitted]),
         faults=tuple(one.fault for one in fitted),
         fps=fps,
-        scaled_from=next((one.scaled_from for one in fitted if one.scaled_from), None),
+        scaled_from=np.array([one.scaled_from or (width, height) for one in fitted]) if scaled else None,
     )

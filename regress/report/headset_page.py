@@ -181,14 +181,18 @@ def _lead(model: HeadsetModel, first: Judged) -> str:
 
 
 def _whose(figures: dict[str, Any]) -> str:
-    """The people of an evaluation, and whether the network knows them; older figures do not count those it does."""
+    """The people of an evaluation, and whether the network knows them; older figures do not say."""
     people = f"{figures['people']:,} people"
     if figures["split"] == "train":
         return f"{people} of the training split, whom it may have learned from"
     known = figures.get("people_in_training", 0)
     if known:
         return f"{people}, of whom {known:,} are in the training split too"
-    return f"{people} that it has never seen"
+    return (
+        f"{people} that it has never seen"
+        if figures.get("unseen")
+        else f"{people} of the {figures['split']} split"
+    )
 
 
 def _headlines(figures: dict[str, Any], timings: Sequence[tuple[str, float]]) -> list[Headline]:

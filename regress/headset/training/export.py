@@ -32,9 +32,10 @@ class Deployed(nn.Module):
         targets: Targets,
         square_size: int,
         deviation_scale: np.ndarray,
+        calibration: bool,
     ) -> None:
         super().__init__()
-        self.network = network
+        self.network, self.calibration = network, calibration
         self.register_buffer("deviation_std", torch.from_numpy(targets.std * deviation_scale))
         self.register_buffer("mean", torch.from_numpy(targets.mean))
         self.register_buffer("std", torch.from_numpy(targets.std))
@@ -47,6 +48,8 @@ class Deployed(nn.Module):
     def forward(self, *inputs: torch.Tensor) -> tuple[torch.Tensor, ...]:
         """Outputs of each camera's pictures and neutral ones, ``present``, ``calibrated``; see ``GRAPH_OUTPUTS``."""
         *seen, present, calibrated = inputs
+        if not self.calibration:  # a product, so that the graph keeps the input
+            calibrated = 0 * calibrated
         answer = self.network(self._squares(seen[0::2]), self._squares(seen[1::2]), present, calibrated)
         said = answer.blended.mean * self.std + self.mean
         deviation = torch.sqrt(answer.blended.variance) * self.deviation_std
@@ -85,6 +88,7 @@ def export_graph(
     *,
     square_size: int,
     deviation_scale: np.ndarray,
+    calibration: bool = True,
 ) -> tuple[bytes, float]:
     """The graph's bytes, and its largest difference from PyTorch on random frames.
 
@@ -96,13 +100,15 @@ def export_graph(
         What it was trained with.
     deviation_scale : (56,) float32
         Factor on each output's predicted deviation.
+    calibration
+        Whether it was trained with neutral pictures; otherwise the graph takes ``calibrated`` for 0 whatever is given.
 
     Raises
     ------
     ModelError
         Where the difference is above ``TOLERANCE``.
     """
-    deployed = Deployed(network, cameras, targets, square_size, deviation_scale).eval()
+    deployed = Deployed(network, cameras, targets, square_size, deviation_scale, calibration).eval()
     names = [f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")]
     names += ["present", "calibrated"]
     outputs = [

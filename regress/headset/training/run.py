@@ -59,7 +59,12 @@ def train_headset(
     cameras = tuple(replace(camera, mirrored_of=owners[camera.name]) for camera in arrays.cameras)
     scale = training.deviation_scale()
     graph, difference = export_graph(
-        network, cameras, training.targets, square_size=recipe.square_size, deviation_scale=scale
+        network,
+        cameras,
+        training.targets,
+        square_size=recipe.square_size,
+        deviation_scale=scale,
+        calibration=recipe.calibration,
     )
     points = training.points()
     description = arrays.description
@@ -74,6 +79,7 @@ def train_headset(
         outputs=(*GRAPH_OUTPUTS, *map(points_output, points)),
         training={
             "recipe": recipe.settings(),
+            "data_seed": description.get("seed"),
             "rows": len(training.rows),
             "people": len(set(arrays.person[training.rows].tolist())),
             "parameters": sum(parameter.numel() for parameter in network.parameters()),

@@ -127,6 +127,16 @@ def test_an_export_runs_by_what_its_description_says(run, model: Path, tmp_path:
     assert [camera["name"] for camera in description["cameras"]] == list(NAMES)
 
 
+@pytest.mark.parametrize("calibration", ["optional", "none"])
+def test_an_export_tells_programs_whether_neutral_pictures_count(run, tmp_path: Path, calibration: str):
+    written = write_tiny_model(tmp_path / "tiny", calibration=calibration)
+    assert run("headset", "export", written, "--out", tmp_path)[0] == 0
+    description = json.loads((tmp_path / "headset.json").read_text())
+    said = [description["inputs"][name]["meaning"] for name in ("neutral_mouth", "calibrated")]
+    said.append(description["outputs"]["same_seat"]["meaning"])
+    assert ["without neutral pictures" in one for one in said] == [calibration == "none"] * 3
+
+
 def test_bench_times_a_headset_model(run, model: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(timing, "HEADSET_BATCH_FRAMES", 8)
     code, out, _ = run("bench", model, "--json")
@@ -154,5 +164,9 @@ def test_the_example_says_what_the_network_says(run, model: Path, tmp_path: Path
         {name: one[:1] for name, one in stacks.items()},
         neutral={name: one[1] for name, one in stacks.items()} if calibrated else None,
     )
+    (tmp_path / ("neutral" if calibrated else "frame") / "mouth.png").unlink()
+    refused = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    assert (refused.returncode, "Traceback" in refused.stderr) == (1, False)
+    assert "has no picture mouth.png" in refused.stderr
     printed = dict(line.split()[:2] for line in done.stdout.splitlines()[: len(BLENDSHAPES)])
     assert [float(printed[name]) for name in BLENDSHAPES] == pytest.approx(said.weights[0].tolist(), abs=6e-4)

@@ -109,12 +109,25 @@ def test_people_are_called_unseen_in_no_split_that_training_knows(
     words = ("headset", "report", models[0], "--data", arrays_folder, "--no-time", "--out", out)
     for split, whose in {
         "train": "people of the training split, whom it may have learned from.",
-        "test": "people that it has never seen.",
+        "test": "people of the test split.",  # the model does not say which data it is of
     }.items():
         assert run(*words, "--split", split)[0] == 0
         page = out.read_text()
         assert f"{len(set(arrays.person[arrays.split == split]))} {whose}" in page
-        assert ("never seen" in page) == (split == "test")
+        assert "never seen" not in page
+    hashed = arrays.description["dataset_hash"]
+    for seed, dataset_hash, unseen in (
+        (arrays.description["seed"], "of more people", False),
+        (arrays.description["seed"], hashed, True),
+        (99, "of more people", True),
+        (None, "of more people", False),
+    ):
+        place = tmp_path / f"{seed}-{dataset_hash}"
+        training = {"people": 20, "rows": 100, "data_seed": seed}
+        write_tiny_model(place, width=SIDE, height=SIDE, dataset_hash=dataset_hash, training=training)
+        assert run("headset", "report", place, *words[3:])[0] == 0
+        whose = "people that it has never seen." if unseen else "people of the test split."
+        assert f"{len(set(arrays.person[arrays.split == 'test']))} {whose}" in out.read_text()
     predictor = load_headset_predictor(models[0])
     known = np.where(np.arange(len(arrays.split)) % 3 == 0, "train", arrays.split)
     figures = evaluate(predictor.graph, predictor.model, replace(arrays, split=known))

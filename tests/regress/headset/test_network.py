@@ -74,9 +74,9 @@ def graph(request: pytest.FixtureRequest) -> HeadsetGraph:
     return HeadsetGraph(graph, CAMERAS)
 
 
-def exported(made) -> tuple[bytes, float]:
+def exported(made, **settings) -> tuple[bytes, float]:
     scale = np.ones(len(OUTPUTS), np.float32)
-    return export_graph(made, CAMERAS, targets(), square_size=SQUARE, deviation_scale=scale)
+    return export_graph(made, CAMERAS, targets(), square_size=SQUARE, deviation_scale=scale, **settings)
 
 
 def frames(count: int, seed: int = 1) -> dict[str, np.ndarray]:
@@ -151,6 +151,14 @@ def test_neutral_pictures_matter_only_to_calibrated_frames(graph: HeadsetGraph):
     alone, both = graph.run(pictures), graph.run(pictures, neutral=neutral, calibrated=np.array([0, 1, 0, 1]))
     np.testing.assert_allclose(both.weights[::2], alone.weights[::2], atol=1e-6)
     assert (np.abs(both.weights[1::2] - alone.weights[1::2]).max(axis=1) > 1e-3).all()
+
+
+@pytest.mark.parametrize("architecture", ["modular", "holistic"])
+def test_a_network_trained_without_neutral_pictures_does_not_look_at_them(architecture: str):
+    graph = HeadsetGraph(exported(network(architecture), calibration=False)[0], CAMERAS)
+    alone, both = graph.run(frames(4)), graph.run(frames(4), neutral=frames(4, seed=3))
+    for name, said in vars(alone).items():
+        np.testing.assert_array_equal(getattr(both, name), said)
 
 
 def test_frames_do_not_see_each_other(graph: HeadsetGraph):

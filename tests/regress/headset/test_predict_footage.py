@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from regress.errors import InputError
 from regress.headset.faults import FROZEN_FRAMES, Fault, frozen_frames, picture_fault, told_faults
-from regress.headset.footage import line_up
+from regress.headset.footage import Footage, line_up
 from regress.headset.recordings import Recording, read_recording, read_rendered
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 
@@ -66,6 +66,32 @@ def test_films_of_other_rates_are_not_matched_by_number():
     ):
         line_up(films(60, 30), SIZES)
     assert line_up(films(60, 30), SIZES, fps=10).time_s == pytest.approx(np.arange(5) / 10)
+
+
+def test_a_film_is_matched_with_the_numbers_of_a_folder():
+    eye, mouth = pictures([100] * 10), pictures([120] * 10, seed=1)
+    film = recording("left_eye", eye, numbered=False, fps=30)
+
+    def beside(numbers: list[int], **settings: bool) -> Footage:
+        folder = recording("mouth", mouth[[number % 10 for number in numbers]], numbers=numbers)
+        return line_up({"left_eye": film, "mouth": folder}, SIZES, **settings)
+
+    lacking = [number for number in range(10) if number != 4]
+    footage = beside(lacking)
+    assert footage.numbers.tolist() == list(range(10))
+    assert footage.time_s == pytest.approx(np.arange(10) / 30)
+    assert np.array_equal(footage.pictures["left_eye"], eye)
+    assert np.array_equal(footage.pictures["mouth"][lacking], mouth[lacking])
+    assert footage.faults["mouth"][4] is Fault.MISSING
+    assert not any("--from-start" in note for note in footage.notes)
+    footage = beside(list(range(3, 13)))
+    assert footage.numbers.tolist() == list(range(13))
+    assert footage.present[:, [0, 2]].all(axis=1).tolist() == [False] * 3 + [True] * 7 + [False] * 3
+    told = "left_eye: counted from 0, while the other cameras' numbers begin at 3; --from-start matches first frames"
+    assert told in footage.notes
+    assert beside(list(range(3, 13)), from_start=True).present[:, [0, 2]].all()
+    with pytest.raises(InputError, match=r"in common \(left_eye 0-9, mouth 100-109\); --from-start"):
+        beside(list(range(100, 110)))
 
 
 def test_clock_times_for_numbers_are_no_grid():
@@ -140,17 +166,59 @@ def test_folders_are_read_by_number_scaled_and_with_their_faults(tmp_path: Path)
     assert found.numbers.tolist() == list(range(11))
     faults = {number: fault for number, fault in enumerate(found.faults) if fault}
     assert faults == {5: Fault.UNREADABLE, 6: Fault.UNREADABLE, 7: Fault.SHAPE, 8: Fault.BLACK}
-    assert found.scaled_from == (WIDTH * 3, HEIGHT * 3)
+    large = [[WIDTH * 3, HEIGHT * 3]]
+    assert found.scaled_from.tolist() == 5 * large + 4 * [[WIDTH, HEIGHT]] + 2 * large
     assert found.pictures.shape == (11, HEIGHT, WIDTH)
     footage = line_up({"left_eye": found}, SIZES)
     assert "left_eye: pictures of 48 x 36 are scaled to 16 x 12" in footage.notes
     assert "left_eye: 1 of 11 frames have a picture of another shape: 7" in footage.notes
 
 
+def test_each_picture_of_a_folder_of_several_sizes_keeps_its_own(tmp_path: Path):
+    for number, (picture, times) in enumerate(zip(pictures([90] * 4), (1, 2, 1, 3), strict=True)):
+        large = cv2.resize(picture, (WIDTH * times, HEIGHT * times))
+        assert cv2.imwrite(str(tmp_path / f"{number + (number > 1)}.png"), large)
+    found = read_recording(tmp_path, "left_eye", width=WIDTH, height=HEIGHT)
+    footage = line_up({"left_eye": found, "mouth": recording("mouth", pictures([99] * 5))}, SIZES)
+    # frame 2 has no picture
+    expected = np.outer([1, 2, 1, 1, 3], (WIDTH, HEIGHT))
+    assert {name: one.tolist() for name, one in footage.scaled_from.items()} == {
+        "left_eye": expected.tolist()
+    }
+    assert "left_eye: pictures of 32 x 24, 48 x 36 are scaled to 16 x 12" in footage.notes
+
+
 def test_files_without_numbers_of_their_own_are_counted(tmp_path: Path):
     folder = write_pictures(tmp_path / "eye", pictures([90] * 3), name="take1_{:c}.png", first=ord("a"))
     found = read_recording(folder, "left_eye", width=WIDTH, height=HEIGHT)
     assert (found.numbers.tolist(), found.numbered) == ([0, 1, 2], False)
+
+
+@pytest.mark.parametrize(
+    ("names", "numbers"),
+    [
+        (["frame_0003", "frame_0011"], [3, 11]),
+        (["0003", "0011"], [3, 11]),
+        (["left-eye.0003", "left-eye.0011"], [3, 11]),
+        (["take2_3", "take2_11"], [3, 11]),
+        (["12.3.left", "12.11.left"], [3, 11]),
+        # clock times: what follows the point says nothing without what stands before it
+        (["1700000000.900012", "1700000001.100021", "1700000002.000003"], None),
+        (["9.5", "10.25", "10.5"], None),
+        (["1700000000_900012", "1700000001_100021"], None),
+        (["take2_9", "take10_1"], None),
+    ],
+)
+def test_frames_are_in_the_order_that_their_names_say(
+    tmp_path: Path, names: list[str], numbers: list[int] | None
+):
+    stack = pictures(np.linspace(60, 120, len(names)))
+    for name, picture in zip(names, stack, strict=True):
+        assert cv2.imwrite(str(tmp_path / f"{name}.png"), picture)
+    found = read_recording(tmp_path, "left_eye", width=WIDTH, height=HEIGHT)
+    assert np.array_equal(found.pictures, stack)
+    assert found.numbered is (numbers is not None)
+    assert found.numbers.tolist() == (numbers or list(range(len(names))))
 
 
 def test_films_are_read_with_their_rate(tmp_path: Path):

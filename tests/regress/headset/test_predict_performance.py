@@ -102,6 +102,24 @@ def test_calibration_is_the_difference_from_the_neutral_frame(predictor: Headset
     assert made.reseated == ()
 
 
+def test_pictures_of_unknown_cameras_and_lacking_neutral_ones_are_refused(predictor: HeadsetPredictor):
+    seen = {name: pictures([60, 90]) for name in NAMES}
+    eyes = {name: seen[name][0] for name in NAMES[:2]}
+    for stacks in ({"left": seen["mouth"]}, {**seen, "left": seen["mouth"]}):
+        with pytest.raises(InputError, match="given of left; the model has left_eye, right_eye, mouth"):
+            predictor.predict(stacks)
+    with pytest.raises(InputError, match="given of jaw; the model has"):
+        predictor.predict(seen, neutral={name: seen[name][0] for name in NAMES} | {"jaw": seen["mouth"][0]})
+    with pytest.raises(InputError, match="no neutral pictures are given of mouth; a calibrated frame needs"):
+        predictor.predict(seen, neutral=eyes)
+    # a camera that is not there, or not in the calibrated frame, needs none
+    alone = predictor.predict({name: seen[name] for name in NAMES[:2]}, neutral=eyes)
+    absent = predictor.predict(seen, neutral=eyes, present=np.tile([1, 1, 0], (2, 1)))
+    assert np.array_equal(alone.weights, absent.weights)
+    half = predictor.predict(seen, neutral=eyes, present=[[1, 1, 1], [1, 1, 0]], calibrated=[0, 1])
+    assert np.array_equal(half.weights[1], alone.weights[1])
+
+
 def test_a_reseated_headset_is_seen_and_goes_on_uncalibrated(predictor: HeadsetPredictor):
     fps, change = 20, 30
     means = [60.0] * change + [160.0] * 40
