@@ -90,13 +90,13 @@ def train(arrays: Path, recipe: HeadsetRecipe, place: Path) -> None:
 
 def print_table(places: dict[str, Path], arrays: HeadsetArrays) -> None:
     """Every variant on the main test people."""
-    head = ["network", *(title for title, *_ in FIGURES), "held-out combinations mm", "calibrated"]
+    head = ["network", *(title for title, *_ in FIGURES), "rare combinations mm", "calibrated"]
     print(f"\n| {' | '.join(head)} |\n|{'---|' * len(head)}")
     for name, place in places.items():
         found = figures(place, arrays)
         cells = [cell(found["conditions"], *column) for _, *column in FIGURES]
         cells += [
-            cell(found["held_out"], condition, "geometry_mm", 3)
+            cell(found["combined"], condition, "geometry_mm", 3)
             for condition in ("uncalibrated", "same_seat")
         ]
         print(f"| {name} | {' | '.join(cells)} |", flush=True)

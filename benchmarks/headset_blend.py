@@ -17,7 +17,7 @@ from onnx import numpy_helper
 from regress.headset import HeadsetGraph, read_headset_model
 from regress.headset.accuracy import summary
 from regress.headset.arrays import read_arrays
-from regress.headset.evaluation import HELD_OUT, conditions, estimate
+from regress.headset.evaluation import COMBINED, conditions, estimate
 
 FACTORS = (1e-4, 0.03, 0.1, 0.3, 1.0)
 
@@ -27,23 +27,23 @@ def main() -> None:
     folder, arrays = Path(sys.argv[1]), read_arrays(sys.argv[2])
     model = read_headset_model(folder)
     rows = np.flatnonzero((arrays.split == "test") & ~arrays.neutral)
-    held_out = arrays.component[rows] == HELD_OUT
+    combined = arrays.component[rows] == COMBINED
     ways, true, gaze = (
         conditions(model, arrays, rows),
         arrays.weights[rows],
         arrays.gaze[rows].reshape(-1, 2, 2),
     )
     columns = (
-        ("uncalibrated", ~held_out),
-        ("same_seat", ~held_out),
-        ("without_left_eye", ~held_out),
-        ("uncalibrated", held_out),
+        ("uncalibrated", ~combined),
+        ("same_seat", ~combined),
+        ("without_left_eye", ~combined),
+        ("uncalibrated", combined),
     )
     graph = onnx.load(str(folder / "network.onnx"))
     place = modulation_of(graph, len(model.cameras), model.modulation)
     trained = numpy_helper.to_array(place)
     print(
-        "| variances | modulation | ordinary mm | calibrated mm | left eye lost mm | held-out combinations mm "
+        "| variances | modulation | ordinary mm | calibrated mm | left eye lost mm | rare combinations mm "
         "| mean R² | gaze ° |"
     )
     print("|---|---|---|---|---|---|---|---|")

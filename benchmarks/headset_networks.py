@@ -132,7 +132,7 @@ def print_main(groups: dict[str, list[Path]], found: dict[Path, Figures], title:
 
 
 def print_losses(groups: dict[str, list[Path]], found: dict[Path, Figures]) -> None:
-    """Geometry error with a camera lost, and on combinations held out."""
+    """Geometry error with a camera lost, and on rare combinations."""
     lost = [name for name in next(iter(found.values()))["conditions"] if name.startswith("without_")]
     rows = []
     for key, paths in groups.items():
@@ -141,9 +141,9 @@ def print_losses(groups: dict[str, list[Path]], found: dict[Path, Figures]) -> N
         for name in lost:
             values = [found[path]["conditions"][name]["geometry_mm"] for path in paths]
             cells.append(f"{spread(values)} ({np.mean(values) / np.mean(plain) - 1:+.0%})")
-        held = [found[path]["held_out"].get("uncalibrated", {}).get("geometry_mm") for path in paths]
+        held = [found[path]["combined"].get("uncalibrated", {}).get("geometry_mm") for path in paths]
         rows.append([*cells, spread(held)])
-    head = ["network", "all cameras", *(name.replace("_", " ") for name in lost), "held-out combinations"]
+    head = ["network", "all cameras", *(name.replace("_", " ") for name in lost), "rare combinations"]
     print_table("Lost cameras and combinations, geometry error in mm", head, rows)
 
 
@@ -176,7 +176,7 @@ def print_rivals(rivals: dict[str, list[Figures]], title: str) -> None:
             ("conditions", "without_left_eye", "left eye lost"),
             ("components", "dense", "dense"),
             ("components", "one_sided", "one-sided, winks"),
-            ("held_out", "uncalibrated", "held-out combinations"),
+            ("combined", "uncalibrated", "rare combinations"),
         ):
             entries = [pair[part][condition] for pair in pairs if condition in pair[part]]
             if not entries:

@@ -14,7 +14,7 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_GROUPS, VIEW_POINTS
 from regress.headset.arrays import HeadsetArrays, read_arrays
-from regress.headset.evaluation import HELD_OUT
+from regress.headset.evaluation import COMBINED
 from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
 
 NEAR_DEG = 12.0
@@ -64,7 +64,7 @@ def pupil_motion(arrays: HeadsetArrays, camera: str, side: str) -> np.ndarray:
 
 def errors_by_part(predictor: HeadsetPredictor, arrays: HeadsetArrays) -> dict[tuple[str, str], np.ndarray]:
     """Pixels by encoder's camera and part; NaN where a picture does not show the point."""
-    rows = np.flatnonzero((arrays.split == "test") & ~arrays.neutral & (arrays.component != HELD_OUT))
+    rows = np.flatnonzero((arrays.split == "test") & ~arrays.neutral & (arrays.component != COMBINED))
     found = predictor.graph.trace(
         {name: arrays.pictures[name][rows] for name in predictor.model.camera_names}
     )

@@ -32,7 +32,7 @@ def evaluate(
     if as_json:
         typer.echo(json.dumps(found, allow_nan=False))
         return
-    tables = {"ordinary frames": found["conditions"], "combinations held out": found["held_out"]}
+    tables = {"ordinary frames": found["conditions"], "rare combinations": found["combined"]}
     for title, conditions in tables.items():
         if conditions:
             typer.echo(f"{title:<24} " + " ".join(f"{name:>11}" for name in _COLUMNS))

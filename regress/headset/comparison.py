@@ -7,7 +7,7 @@ import numpy as np
 from regress.errors import InputError
 from regress.headset.accuracy import share_better
 from regress.headset.arrays import HeadsetArrays
-from regress.headset.evaluation import HELD_OUT, conditions, estimate
+from regress.headset.evaluation import COMBINED, conditions, estimate
 from regress.headset.predictor import HeadsetPredictor
 
 
@@ -19,7 +19,7 @@ def compare(
     Returns
     -------
     dict
-        ``conditions``, of ordinary frames, and ``held_out``: under each condition that both can be given;
+        ``conditions``, of ordinary frames, and ``combined``: under each condition that both can be given;
         ``components``: without calibration, by component. Each entry has ``rows``, ``geometry_mm`` and ``rival_mm``,
         ``better``, the share of frames in which the first is nearer (ties count half), and ``people``, the share of
         people for whom it is.
@@ -44,7 +44,7 @@ def compare(
         for name, how in both.items()
     }
     component, person = arrays.component[rows], arrays.person[rows]
-    held_out = component == HELD_OUT
+    combined = component == COMBINED
 
     def entries(chosen: np.ndarray) -> dict[str, Any]:
         if not chosen.any():
@@ -55,8 +55,8 @@ def compare(
 
     own, other = errors["uncalibrated"]
     return {
-        "conditions": entries(~held_out),
-        "held_out": entries(held_out),
+        "conditions": entries(~combined),
+        "combined": entries(combined),
         "components": {
             str(name): _entry(own[component == name], other[component == name], person[component == name])
             for name in np.unique(component)

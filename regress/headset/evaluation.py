@@ -13,7 +13,7 @@ from regress.headset.graph import Estimates, HeadsetGraph
 from regress.headset.model import HeadsetModel
 
 CALIBRATIONS = ("none", "same_seat", "other_seat")
-HELD_OUT = "combined"
+COMBINED = "combined"
 """Component of frames in which the jaw opens while the lids close: reported apart from ordinary frames."""
 
 
@@ -70,14 +70,14 @@ def evaluate(
 ) -> dict[str, Any]:
     """All figures of a network on a split, as JSON data, unrounded.
 
-    Frames count that are not neutral themselves; those of the component ``HELD_OUT`` count apart.
+    Frames count that are not neutral themselves; those of the component ``COMBINED`` count apart.
 
     Returns
     -------
     dict
         ``people`` and how many of them the arrays' training split has too, ``people_in_training``; ``unseen``, whether
         it is known that the network was trained on none of them;
-        ``conditions`` and ``held_out``: summaries by condition; ``floors``: of the training mean and of the
+        ``conditions`` and ``combined``: summaries by condition; ``floors``: of the training mean and of the
         resting face; ``shapes``: R2, MAE and RMSE by shape and calibration; ``cameras``: R2 of each shape from
         one camera alone; ``components`` and ``people_mm``: geometry error in mm by condition; ``deviation``: how
         honest the predicted standard deviations are; ``seat``: how often the network names the seat rightly.
@@ -93,7 +93,7 @@ def evaluate(
         raise InputError(f"the arrays have no {split} row with an expression; choose another split")
     people = np.unique(arrays.person[rows])
     known = int(np.isin(people, arrays.person[arrays.split == "train"]).sum())
-    held_out = arrays.component[rows] == HELD_OUT
+    combined = arrays.component[rows] == COMBINED
     true, true_gaze = arrays.weights[rows], arrays.gaze[rows].reshape(-1, 2, 2)
     found = {
         name: estimate(graph, model, arrays, rows, condition)
@@ -110,7 +110,7 @@ def evaluate(
             for name, said in found.items()
         }
 
-    ordinary = ~held_out if (~held_out).any() else held_out
+    ordinary = ~combined if (~combined).any() else combined
     errors = {name: arrays.face.error_mm(said.weights, true) for name, said in found.items()}
     return {
         "split": split,
@@ -120,7 +120,7 @@ def evaluate(
         "unseen": _unseen(model, arrays, known),
         "dataset_hash": arrays.description.get("dataset_hash", ""),
         "conditions": figures(ordinary),
-        "held_out": figures(held_out),
+        "combined": figures(combined),
         "floors": _floors(model, arrays, rows[ordinary]),
         "shapes": _shapes(found, true, ordinary),
         "cameras": {
@@ -130,9 +130,11 @@ def evaluate(
         },
         "components": _grouped(arrays.component[rows], errors),
         "people_mm": _grouped(arrays.person[rows][ordinary], {k: v[ordinary] for k, v in errors.items()}),
-        "deviation": _honesty(found["uncalibrated"], true),
+        "deviation": _honesty(found["uncalibrated"], true, ordinary),
         "seat": {
-            name: float(np.mean(found[name].same_seat >= 0.5)) for name in CALIBRATIONS[1:] if name in found
+            name: float(np.mean(found[name].same_seat[ordinary] >= 0.5))
+            for name in CALIBRATIONS[1:]
+            if name in found
         },
     }
 
@@ -224,9 +226,9 @@ def _grouped(keys: np.ndarray, errors: dict[str, np.ndarray]) -> dict[str, Any]:
     }
 
 
-def _honesty(said: Estimates, true: np.ndarray) -> dict[str, float | None]:
+def _honesty(said: Estimates, true: np.ndarray, chosen: np.ndarray) -> dict[str, float | None]:
     """Mean squared error over predicted variance (1 is honest), and how error and deviation correlate."""
-    error, deviation = (said.weights - true)[:, SCORED], said.deviation[:, SCORED]
+    error, deviation = (said.weights - true)[chosen][:, SCORED], said.deviation[chosen][:, SCORED]
     alike = np.corrcoef(np.abs(error).ravel(), deviation.ravel())[0, 1] if np.ptp(deviation) > 0 else np.nan
     return {
         "squared_error_over_variance": float(np.mean(error**2) / np.mean(deviation**2)),

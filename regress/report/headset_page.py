@@ -62,7 +62,7 @@ class Section:
     title: str
     lead: str
     conditions: Table
-    held_out: Table | None
+    combined: Table | None
     shapes: Table
     components: Table
     people: Table
@@ -144,7 +144,7 @@ def _section(judged: Judged, name: str) -> Section:
                 (what, rivals_table(compared[key], names=(name, title)))
                 for what, key in (
                     ("Ordinary frames", "conditions"),
-                    ("An open jaw and closing lids", "held_out"),
+                    ("An open jaw and closing lids", "combined"),
                     ("By component, no neutral picture", "components"),
                 )
                 if compared[key]
@@ -156,7 +156,7 @@ def _section(judged: Judged, name: str) -> Section:
         title=judged.title,
         lead=f"{figures['rows']:,} frames of {figures['people']:,} people ({figures['split']} split).",
         conditions=conditions_table(figures["conditions"], figures["floors"]),
-        held_out=conditions_table(figures["held_out"], {}) if figures["held_out"] else None,
+        combined=conditions_table(figures["combined"], {}) if figures["combined"] else None,
         shapes=shapes_table(figures),
         components=components_table(figures),
         people=people_table(figures),

@@ -95,7 +95,7 @@ def test_evaluation_prints_and_gives_all_figures(
         *BLENDSHAPES,
     ):
         assert name in lines
-    assert "combinations held out" in lines
+    assert "rare combinations" in lines
 
 
 def test_arrays_of_other_cameras_are_refused(run, arrays_folder: Path, tmp_path: Path):

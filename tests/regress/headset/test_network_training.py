@@ -95,7 +95,7 @@ def test_it_learns_what_unseen_people_do(trained: tuple[HeadsetModel, Path]):
         camera: np.mean([shapes[name] for name in lower]) for camera, shapes in scores["cameras"].items()
     }
     assert alone["mouth"] > alone["left_eye"] + 0.05
-    assert set(scores["held_out"]) == set(found)
+    assert set(scores["combined"]) == set(found)
 
 
 def test_the_folder_says_all_there_is_to_say(trained: tuple[HeadsetModel, Path], arrays: HeadsetArrays):
