@@ -140,7 +140,7 @@ def print_losses(groups: dict[str, list[Path]], found: dict[Path, Figures]) -> N
         cells = [key, spread(plain)]
         for name in lost:
             values = [found[path]["conditions"][name]["geometry_mm"] for path in paths]
-            cells.append(f"{spread(values)} ({np.mean(values) / np.mean(plain) - 1:+.0%})")
+            cells.append(f"{spread(values)} ({np.mean(values) / np.mean(plain) - 1:+.1%})")
         held = [found[path]["combined"].get("uncalibrated", {}).get("geometry_mm") for path in paths]
         rows.append([*cells, spread(held)])
     head = ["network", "all cameras", *(name.replace("_", " ") for name in lost), "rare combinations"]
