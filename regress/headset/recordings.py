@@ -22,6 +22,8 @@ _NUMBER = re.compile(r"(.*?)(\d+)\D*", re.DOTALL)
 """What stands before the last number of a file's name, and that number, before its ending."""
 
 _DECIMAL = re.compile(r"\d+\.\d+")
+_CLOCK = re.compile(r"\d{9,}\.\d+")
+"""Seconds since 1970 with a fraction."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -155,15 +157,16 @@ def fit_picture(grey: np.ndarray | None, *, width: int, height: int) -> FittedPi
 def _in_order(files: list[Path]) -> tuple[list[int], list[Path]]:
     """Files by their numbers, or by name and without numbers where that of a name says only a part of the order.
 
-    It does where other digits or words before it differ, as the seconds of 1700000000.200021 do.
+    It does where other digits or words before it differ, and in times of the clock, as 1700000000.25.
     """
+    files = sorted(files)
     found = [_NUMBER.fullmatch(file.stem) for file in files]
-    if all(found) and len({match[1] for match in found}) == 1:
+    clock = all(_CLOCK.fullmatch(file.stem) for file in files)
+    if not clock and all(found) and len({match[1] for match in found}) == 1:
         numbers = [int(match[2]) for match in found]
         if len(set(numbers)) == len(files):
             pairs = sorted(zip(numbers, files, strict=True))
             return [number for number, _ in pairs], [file for _, file in pairs]
-    files = sorted(files)
     if all(_DECIMAL.fullmatch(file.stem) for file in files):
         return [], sorted(files, key=lambda file: Decimal(file.stem))
     return [], sorted(files, key=lambda file: _natural(file.stem))

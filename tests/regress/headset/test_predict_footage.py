@@ -204,6 +204,7 @@ def test_files_without_numbers_of_their_own_are_counted(tmp_path: Path):
         (["12.3.left", "12.11.left"], [3, 11]),
         # clock times: what follows the point says nothing without what stands before it
         (["1700000000.900012", "1700000001.100021", "1700000002.000003"], None),
+        (["1700000000.200021", "1700000000.25", "1700000000.9"], None),
         (["9.5", "10.25", "10.5"], None),
         (["1700000000_900012", "1700000001_100021"], None),
         (["take2_9", "take10_1"], None),
