@@ -30,7 +30,6 @@ VARIANTS: dict[str, dict[str, object]] = {
     "cameras absent twice as often": {"camera_dropout": 0.4},
     "no part loss": {"part_loss": 0, "part_loss_elsewhere": 0},
     "no skips between cameras": {"skip": 0},
-    "skips twice as wide": {"skip": 48},
     "no modulation": {"modulation": 1},
     "each camera its part alone": {"modulation": 0, "skip": 0},
     "no geometry loss": {"geometry_loss": 0},
@@ -39,7 +38,6 @@ VARIANTS: dict[str, dict[str, object]] = {
     "no neutral pictures": {"calibration": False},
     "randomised pictures": {"randomise": 1},
     "pictures as they are": {"shift": 0, "scale": 0, "rotation_deg": 0, "jitter_neutral": 0},
-    "little weight decay": {"weight_decay": 0.01},
     "combinations withheld": {"withhold": "combined"},
     "holistic, combinations withheld": {**HOLISTIC, "withhold": "combined"},
 }

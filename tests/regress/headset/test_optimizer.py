@@ -62,7 +62,9 @@ def test_every_parameter_has_one_optimizer(architecture: str):
     names = {id(parameter): name for name, parameter in network.named_parameters()}
     adam, muon = ({names[key] for key in keys} for keys in moved)
     assert {name for name in muon if not name.startswith("encoders")} == (
-        {"hidden.0.weight"} if architecture == "holistic" else {"tells.left_eye.weight", "tells.mouth.weight"}
+        {"hidden.0.weight"}
+        if architecture == "holistic"
+        else {"tells.left_eye.weight", "tells.mouth.weight", "tells.mouth mirrored.weight"}
     )
     assert all(name.endswith("weight") for name in muon)
     assert not any("convolutions" in name and ".0.weight" in name for name in adam)
