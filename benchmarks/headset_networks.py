@@ -262,10 +262,13 @@ def print_shapes(key: str, figures: list[Figures]) -> None:
 
 
 def print_curve(models: dict[Path, HeadsetPredictor], found: dict[Path, Figures]) -> None:
-    """By how many people the models were trained on, where that differs."""
-    points = defaultdict(list)
+    """By how many people the models were trained on, where that differs and nothing else does but kind and seed."""
+    points, free = defaultdict(list), ("architecture", "seed", "people")
+    plain = {k: v for k, v in recipe_of(next(iter(models.values())).model.training).items() if k not in free}
     for path, one in models.items():
         record = one.model.training
+        if {k: v for k, v in recipe_of(record).items() if k not in free} != plain:
+            continue
         points[(record["people"], record["rows"], record["recipe"]["architecture"])].append(
             found[path]["conditions"]
         )
