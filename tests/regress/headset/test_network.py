@@ -137,6 +137,18 @@ def test_the_mouth_tells_an_eye_that_is_seen_mirrored_of_a_mirrored_mouth():
         ]
 
 
+def test_a_holistic_network_traces_what_an_absent_camera_would_see_and_has_a_code_for_its_absence():
+    made, seen = network("holistic"), torch.rand(3, 2, SQUARE, SQUARE) * 255
+    there = torch.ones(2, 3)
+    absent = there * torch.tensor([1.0, 1, 0])
+    whole, without = (made(seen, torch.zeros_like(seen), here, torch.zeros(2)) for here in (there, absent))
+    for one, other in zip(whole.places, without.places, strict=True):
+        assert torch.equal(one, other)
+    made.absent[2].data += 1
+    again = made(seen, torch.zeros_like(seen), absent, torch.zeros(2)).blended.mean
+    assert (again - without.blended.mean).abs().max() > 1e-3
+
+
 def test_a_missing_cameras_pictures_do_not_matter(graph: HeadsetGraph):
     pictures = frames(3)
     whole = graph.run(pictures)
