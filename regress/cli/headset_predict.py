@@ -28,6 +28,7 @@ from regress.cli.talk import say
 from regress.errors import InputError
 from regress.headset.film import check_film_name, write_film
 from regress.headset.footage import Footage
+from regress.headset.orientation import told_orientation
 from regress.headset.performance import ASSUMED_FPS, Performance, perform
 from regress.headset.points import check_points, points_csv
 from regress.headset.predictor import load_headset_predictor
@@ -169,7 +170,7 @@ def predict(
         raise InputError(f"{footage.source} does not say when its frames were taken; give --fps")
     if strict and not footage.present[:, footage.recorded].all():
         raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
-    for note in footage.notes:
+    for note in (*footage.notes, *told_orientation(footage, predictor.typical)):
         say(note)
     neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None)
     performance = perform(

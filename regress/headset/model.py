@@ -98,6 +98,9 @@ class HeadsetModel:
         ``"optional"``: neutral pictures help; ``"none"``: they are not looked at.
     points
         For each camera that traces any, which of ``VIEW_POINTS`` ``points_<camera>`` has; none in older models.
+    typical
+        For each camera the mean picture of its training (24 x 24 grey levels), by which ``predict`` knows pictures
+        that are turned or of another camera (``regress.headset.orientation``); none in older models.
     weights
         Names of the columns of ``weights``, ``deviation`` and ``shares``.
     outputs
@@ -121,6 +124,7 @@ class HeadsetModel:
     architecture: str
     calibration: str
     points: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    typical: dict[str, tuple[tuple[int, ...], ...]] = field(default_factory=dict)
     weights: tuple[str, ...] = BLENDSHAPES
     outputs: tuple[str, ...] = GRAPH_OUTPUTS
     temporal: Temporal | None = None
@@ -228,6 +232,9 @@ def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
                 "cameras": tuple(CameraInput(**camera) for camera in document["cameras"]),
                 "parts": {name: tuple(shapes) for name, shapes in document["parts"].items()},
                 "points": {name: tuple(points) for name, points in document.get("points", {}).items()},
+                "typical": {
+                    name: tuple(map(tuple, rows)) for name, rows in document.get("typical", {}).items()
+                },
                 "weights": tuple(document["weights"]),
                 "outputs": tuple(document["outputs"]),
                 "temporal": _temporal(document.get("temporal")),

@@ -33,6 +33,11 @@ class HeadsetPredictor:
         """Width and height of each camera's pictures, in the model's order."""
         return {camera.name: (camera.width, camera.height) for camera in self.model.cameras}
 
+    @property
+    def typical(self) -> dict[str, np.ndarray]:
+        """(24, 24) uint8 of each camera: its mean picture in training; none of older models."""
+        return {name: np.array(rows, dtype=np.uint8) for name, rows in self.model.typical.items()}
+
     def predict(
         self,
         pictures: Mapping[str, np.ndarray],

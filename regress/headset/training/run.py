@@ -6,12 +6,14 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import torch
 
 from regress.headset.arrays import HeadsetArrays
 from regress.headset.evaluation import evaluate
 from regress.headset.graph import HeadsetGraph
 from regress.headset.model import GRAPH_OUTPUTS, HeadsetModel, points_output, save_headset_model
+from regress.headset.orientation import typical_picture
 from regress.headset.outputs import WEIGHTS
 from regress.headset.parts import encoder_owners, part_of
 from regress.headset.recipe import HeadsetRecipe
@@ -76,6 +78,7 @@ def train_headset(
         architecture=recipe.architecture,
         calibration="optional" if recipe.calibration else "none",
         points=points,
+        typical={name: _typical(pictures, training.rows) for name, pictures in arrays.pictures.items()},
         outputs=(*GRAPH_OUTPUTS, *map(points_output, points)),
         training={
             "recipe": recipe.settings(),
@@ -101,6 +104,10 @@ def train_headset(
     written = save_headset_model(model, graph, folder)
     checkpoint.unlink(missing_ok=True)
     return written
+
+
+def _typical(pictures: np.ndarray, rows: np.ndarray) -> tuple[tuple[int, ...], ...]:
+    return tuple(map(tuple, typical_picture(pictures, rows).tolist()))
 
 
 def _licences(description: dict[str, Any]) -> tuple[str, ...]:

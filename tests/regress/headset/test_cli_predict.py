@@ -127,6 +127,33 @@ def test_a_camera_that_is_black_throughout_is_said_and_stops_a_strict_run(run, m
     assert run("headset", "predict", model, *options[:4], "--strict")[0] == 0
 
 
+def test_exchanged_cameras_are_told_and_weights_come_all_the_same(run, tmp_path: Path):
+    down, across = np.mgrid[:12, :16]
+    ramp = (40 + 8 * across + 5 * down).astype(np.uint8)
+    looks = {"left_eye": ramp, "right_eye": ramp[:, ::-1], "mouth": ramp // 2}
+    typical = {name: tuple(map(tuple, cv2.resize(look, (24, 24)).tolist())) for name, look in looks.items()}
+    model = write_tiny_model(tmp_path / "model", typical=typical)
+    taken = {
+        name: np.clip(pictures([0] * 9).astype(int) + look, 0, 255).astype(np.uint8)
+        for name, look in looks.items()
+    }
+    options = write_take(tmp_path / "take", taken)
+    assert run("headset", "predict", model, *options)[::2] == (0, "")
+    folder = tmp_path / "take"
+    swapped = [
+        "--left-eye",
+        folder / "right_eye",
+        "--right-eye",
+        folder / "left_eye",
+        "--mouth",
+        folder / "mouth",
+    ]
+    code, out, said = run("headset", "predict", model, *swapped, "--strict")
+    assert (code, len(_rows(out))) == (0, 9)
+    assert [line.split(":")[0] for line in said.splitlines()] == ["left_eye", "right_eye"]
+    assert "look more like those of right_eye or its own in a mirror" in said
+
+
 def test_a_camera_may_be_left_out(run, model: Path, take: list[str]):
     code, out, said = run("headset", "predict", model, *take[:4])
     assert code == 0

@@ -103,6 +103,12 @@ def test_the_folder_says_all_there_is_to_say(trained: tuple[HeadsetModel, Path],
     assert sorted(path.name for path in folder.parent.iterdir()) == [folder.name]
     assert sorted(path.name for path in folder.iterdir()) == ["model.json", "network.onnx"]
     assert read_headset_model(folder) == model
+    rows = arrays.kept_rows("train")
+    assert {name: np.array(rows).shape for name, rows in model.typical.items()} == dict.fromkeys(
+        model.camera_names, (24, 24)
+    )
+    for name, typical in model.typical.items():  # the drawn pictures are as small themselves
+        assert np.abs(np.array(typical) - arrays.pictures[name][rows].mean(axis=0)).max() <= 0.5
     assert model.training["recipe"]["architecture"] == model.architecture == folder.name
     assert len(model.training["history"]) == QUICK.epochs
     assert model.training["rows"] == len(arrays.rows("train"))

@@ -1,0 +1,116 @@
+"""Pictures that are turned, mirrored or of another camera are told, by what training's looked like."""
+
+from collections.abc import Callable
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from regress.headset.footage import Footage, line_up
+from regress.headset.orientation import told_orientation, typical_picture
+from tests.regress.headset.takes import recording
+
+SIDE = 32
+SIZES = {"left_eye": (SIDE, SIDE), "right_eye": (SIDE, SIDE), "mouth": (SIDE, SIDE)}
+
+
+def face(camera: str) -> np.ndarray:
+    """(32, 32) grey levels without a symmetry: a nose on one side of an eye, dark corners; a mouth below."""
+    down, across = np.mgrid[:SIDE, :SIDE] / SIDE
+    if camera == "mouth":
+        return (
+            60
+            + 120 * np.exp(-20 * (down - 0.25) ** 2)
+            - 40 * np.exp(-30 * ((across - 0.5) ** 2 + (down - 0.7) ** 2))
+        )
+    eye = (
+        150 * np.exp(-8 * (across - 0.1) ** 2)
+        + 80 * down**2
+        - 60 * np.exp(-40 * ((across - 0.6) ** 2 + (down - 0.5) ** 2))
+    )
+    return 40 + (eye if camera == "left_eye" else eye[:, ::-1])
+
+
+TYPICAL = {
+    name: np.rint(cv2.resize(face(name), (24, 24), interpolation=cv2.INTER_AREA)).astype(np.uint8)
+    for name in SIZES
+}
+
+
+def footage(stacks: dict[str, np.ndarray]) -> Footage:
+    return line_up({name: recording(name, stack) for name, stack in stacks.items()}, SIZES)
+
+
+def stacks(seed: int, gain: float = 1.0, offset: float = 0.0) -> dict[str, np.ndarray]:
+    """Ten noisy pictures of each camera."""
+    random = np.random.default_rng(seed)
+    return {
+        name: np.clip(gain * face(name) + offset + random.normal(0, 15, (10, SIDE, SIDE)), 0, 255).astype(
+            np.uint8
+        )
+        for name in SIZES
+    }
+
+
+@given(seed=st.integers(0, 2**32 - 1), gain=st.floats(0.5, 1.0), offset=st.floats(0, 30))
+def test_nothing_is_said_of_pictures_as_training_had_them(seed: int, gain: float, offset: float):
+    assert told_orientation(footage(stacks(seed, gain, offset)), TYPICAL) == []
+
+
+@pytest.mark.parametrize(
+    ("camera", "turn", "said"),
+    [
+        ("left_eye", lambda p: np.rot90(p, 1, (1, 2)), "its own turned by 90° to the left"),
+        ("right_eye", lambda p: np.rot90(p, -1, (1, 2)), "its own turned by 90° to the right"),
+        ("left_eye", lambda p: p[:, ::-1, ::-1], "its own turned by 180°"),
+        ("right_eye", lambda p: p[:, ::-1], "its own turned upside down in a mirror"),
+        ("left_eye", lambda p: p[:, :, ::-1], "those of right_eye or its own in a mirror"),
+    ],
+)
+def test_a_turned_camera_is_told_with_its_turn(camera: str, turn: Callable, said: str):
+    taken = stacks(1)
+    (told,) = told_orientation(footage(taken | {camera: turn(taken[camera])}), TYPICAL)
+    assert told.startswith(f"{camera}: its pictures look more like {said} than like those it had in training")
+
+
+def test_exchanged_cameras_are_told_both():
+    taken = stacks(2)
+    told = told_orientation(
+        footage(taken | {"left_eye": taken["right_eye"], "right_eye": taken["left_eye"]}), TYPICAL
+    )
+    assert [line.split(":")[0] for line in told] == ["left_eye", "right_eye"]
+    assert "those of right_eye" in told[0]
+    told = told_orientation(
+        footage(taken | {"left_eye": taken["mouth"], "mouth": taken["left_eye"]}), TYPICAL
+    )
+    assert "those of mouth" in told[0]
+    assert "those of left_eye" in told[1]
+
+
+def test_what_looks_like_nothing_of_training_is_left_alone():
+    noise = np.random.default_rng(3).integers(0, 255, (10, SIDE, SIDE), dtype=np.uint8)
+    taken = stacks(3)
+    assert told_orientation(footage(taken | {"left_eye": noise}), TYPICAL) == []
+    assert told_orientation(footage({"mouth": taken["left_eye"]}), {}) == [], "an older model"
+    flat = {name: np.full((24, 24), 90, np.uint8) for name in SIZES}
+    assert told_orientation(footage(taken), flat) == []
+
+
+def test_pictures_at_fault_and_cameras_that_are_absent_do_not_count():
+    taken = stacks(4)
+    del taken["right_eye"]
+    taken["left_eye"][3:] = 0
+    assert told_orientation(footage(taken), TYPICAL) == []
+    taken["left_eye"][:3] = taken["left_eye"][:3, ::-1, ::-1]
+    assert len(told_orientation(footage(taken), TYPICAL)) == 1
+
+
+def test_a_typical_picture_is_the_mean_of_the_rows_that_count():
+    pictures = np.repeat(np.arange(4, dtype=np.uint8)[:, None, None] * 50, 48, axis=1).repeat(96, axis=2)
+    assert (typical_picture(pictures, np.array([1, 3])) == 100).all()
+    assert typical_picture(pictures, np.array([0])).shape == (24, 24)
+    many = np.zeros((3000, 2, 2), np.uint8)
+    many[1500:] = 200
+    assert abs(int(typical_picture(many, np.arange(3000))[0, 0]) - 100) <= 1
