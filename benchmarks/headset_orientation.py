@@ -2,8 +2,8 @@
 
     python benchmarks/headset_orientation.py models/headset --data test=datasets/out/headset-test-arrays --data rig=...
 
-One camera of a person is changed at a time; cells are percentages of takes of which it is said. Of those to which nothing
-is done it should not be. Prints Markdown, which stands in docs/headset-network-figures.md.
+One camera of a person is changed at a time; cells are percentages of takes of which it is said. Where nothing is done
+it should not be. Prints Markdown, which stands in docs/headset-network-figures.md.
 """
 
 import argparse

@@ -3,9 +3,11 @@
     facegen headset preview docs/examples/mine.toml --out mine.png
     facegen generate datasets/headset-other-layout.toml --out datasets/out/headset-other-layout
     python docs/figures/headset_networks.py headset mine.png datasets/out/headset-other-layout
+    python docs/figures/headset_networks.py frames TRAINING_ARRAYS
     python docs/figures/headset_networks.py network models/headset ARRAYS
 
-`headset` makes headset-mine.png and headset-mine-views.png, `network` headset-network-training.png,
+`headset` makes headset-mine.png and headset-mine-views.png, `frames` headset-network-frames.png: a person of whom there
+are frames of the most kinds, one of each. `network` makes headset-network-training.png,
 headset-network-cameras.png, headset-network-points.png and headset-network-faces.png: of unseen people in the arrays'
 test split, the points that the network traces; and the cameras' pictures, the true face and the predicted one, both
 drawn on the rig's mean head.
@@ -38,6 +40,8 @@ def main() -> None:
     what, *arguments = sys.argv[1:]
     if what == "headset":
         draw_headset(*map(Path, arguments))
+    elif what == "frames":
+        draw_frames(*map(Path, arguments))
     else:
         draw_network(*map(Path, arguments))
 
@@ -53,6 +57,27 @@ def draw_headset(preview: Path, dataset: Path) -> None:
         for one in chosen
     ]
     cv2.imwrite(str(OUT / "headset-mine-views.png"), np.hstack(columns))
+
+
+def draw_frames(arrays: Path) -> None:
+    """One frame of each kind of a person: what training is made of."""
+    frames = read_arrays(arrays)
+    kinds = {person: set(frames.component[frames.person == person]) for person in np.unique(frames.person)}
+    person = max(kinds, key=lambda one: (len(kinds[one]), -one))
+    of_person = np.flatnonzero((frames.person == person) & ~frames.neutral)
+    rows = {"neutral": int(np.flatnonzero((frames.person == person) & frames.neutral)[0])}
+    for row in of_person:
+        rows.setdefault(str(frames.component[row]), int(row))
+    figure = Figure(figsize=(1.5 * len(rows), 4.75), dpi=100)
+    FigureCanvasAgg(figure)
+    grid = figure.subplots(len(ORDER), len(rows))
+    figure.subplots_adjust(left=0.002, right=0.998, top=0.95, bottom=0.005, wspace=0.02, hspace=0.02)
+    for column, (kind, row) in enumerate(rows.items()):
+        grid[0, column].set_title(kind.replace("_", " "), fontsize=9)
+        for axes, name in zip(grid[:, column], ORDER, strict=True):
+            axes.imshow(frames.pictures[name][row], cmap="gray", vmin=0, vmax=255)
+            axes.set_axis_off()
+    figure.savefig(OUT / "headset-network-frames.png")
 
 
 def draw_network(model: Path, arrays: Path) -> None:
