@@ -274,23 +274,24 @@ def print_curve(models: dict[Path, HeadsetPredictor], found: dict[Path, Figures]
         )
     if len({people for people, _, _ in points}) < 2:
         return
+    columns = {
+        "mm": ("uncalibrated", "geometry_mm"),
+        "R²": ("uncalibrated", "r2"),
+        "blink R²": ("uncalibrated", "blink_r2"),
+        "gaze °": ("uncalibrated", "gaze_deg"),
+        "calibrated mm": ("same_seat", "geometry_mm"),
+        "calibrated R²": ("same_seat", "r2"),
+    }
     rows = [
         [
             architecture,
             people,
             frames,
-            *(
-                spread(one.get(c, {}).get(k) for one in of)
-                for c, k in (
-                    ("uncalibrated", "geometry_mm"),
-                    ("uncalibrated", "r2"),
-                    ("same_seat", "geometry_mm"),
-                )
-            ),
+            *(spread(one.get(c, {}).get(k) for one in of) for c, k in columns.values()),
         ]
         for (people, frames, architecture), of in sorted(points.items())
     ]
-    print_table("By people in training", ["network", "people", "frames", "mm", "R²", "calibrated mm"], rows)
+    print_table("By people in training", ["network", "people", "frames", *columns], rows)
 
 
 def print_drawn(
