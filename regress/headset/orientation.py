@@ -17,7 +17,7 @@ _PICTURES = 1024
 _ALIKE, _MARGIN = 0.5, 0.1
 """Correlation from which pictures look like others, and how much less it is as they are.
 
-Takes of 184 people (six sets: another headset, other heads, more light and a loose strap among them) never pass the
+Takes of 364 people (six sets: another headset, other heads, more light and a loose strap among them) never pass the
 margin; turned, mirrored or exchanged, 83 to 100 % of them do in each set, but for the mouth in a mirror, which looks
 the same, and the mouth upside down in another headset (`benchmarks/headset_orientation.py`).
 """
