@@ -152,8 +152,10 @@ def predict(
         retargeting=None if retarget is None else read_retargeting(retarget),
     )
     _check_tables(table_format, out, gltf, video, retarget)
-    if temporal and dataset is not None:
-        raise InputError("--temporal needs a take: pictures of a dataset do not follow one another")
+    after = {"--temporal": temporal, "--smooth": smooth > 1, "--one-euro": cutoff_hz is not None}
+    asked = [option for option, there in after.items() if there]
+    if asked and dataset is not None:
+        raise InputError(f"{asked[0]} needs a take: pictures of a dataset do not follow one another")
     if trust is not None and not predictor.model.scores:
         raise InputError(f"{model} has no scores on a test split, from which confidence is made")
     if points is not None:

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from regress.cli.talk import say
 from regress.headset.arrays import read_arrays
 from regress.headset.model import describe_headset_model
 from regress.headset.predictor import load_headset_predictor
@@ -26,11 +27,20 @@ def temporal(
     how far the error of a weight moves from frame to frame. Example: regress headset temporal models/headset
     datasets/out/headset-clips-arrays
     """
-    predictor = load_headset_predictor(model)
-    found = fit_temporal(predictor, read_arrays(clips))
+    predictor, arrays = load_headset_predictor(model), read_arrays(clips)
+    found = fit_temporal(predictor, arrays)
+    worn = arrays.description["headset"]
+    if worn != predictor.model.headset:
+        say(f"the clips are of the headset {worn}, and the model's is {predictor.model.headset}")
     describe_headset_model(replace(predictor.model, temporal=found), model)
     typer.echo(f"{'':<14} " + " ".join(f"{title:>9}" for title in _COLUMNS.values()))
     for name, figures in found.scores.items():
         cells = ("-" if figures[column] is None else f"{figures[column]:.4f}" for column in _COLUMNS)
         typer.echo(f"{name:<14} " + " ".join(f"{cell:>9}" for cell in cells))
+    alone, together = (found.scores[name]["geometry_mm"] for name in ("one frame", "taps"))
+    if together > alone:
+        say(
+            f"with the taps these people's faces err by {together:.4f} mm, and by {alone:.4f} mm without: --temporal "
+            f"makes predictions no better here; clips of more people may"
+        )
     typer.echo(f"taps for {found.fps:.0f} frames a second in {model}")

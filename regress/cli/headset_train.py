@@ -13,6 +13,7 @@ from regress.cli.talk import progress, say
 from regress.errors import InputError
 from regress.headset.arrays import read_arrays
 from regress.headset.model import ARCHITECTURES
+from regress.headset.parts import without_side
 from regress.headset.recipe import WITHHOLDINGS, HeadsetRecipe
 
 Architecture = StrEnum("Architecture", list(ARCHITECTURES))
@@ -95,6 +96,8 @@ def train(
             "PyTorch is not installed, which only training needs: pip install 'facegen[headset]'"
         ) from error
     frames = read_arrays(arrays)
+    for note in side_notes(tuple(camera.name for camera in frames.cameras)):
+        say(note)
     began = time.monotonic()
     with progress() as draw:
         model = train_headset(
@@ -112,6 +115,17 @@ def train(
                 f"{said:>14}: {figures['geometry_mm']:.3f} mm, R2 {r2}, gaze {figures['gaze_deg']:.2f} degrees"
             )
     say(f"model in {out}")
+
+
+def side_notes(cameras: tuple[str, ...]) -> list[str]:
+    """What names of cameras leave open, a sentence; nothing where they say all."""
+    lost = without_side(cameras)
+    if not lost:
+        return []
+    return [
+        f"{', '.join(lost)}: the name says neither left nor right, so no network is shared and no mirrored face is "
+        f"learned from; call cameras left_eye and right_eye"
+    ]
 
 
 def _recipe(chosen: dict[str, object], pairs: Sequence[str]) -> HeadsetRecipe:

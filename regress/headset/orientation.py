@@ -6,7 +6,8 @@ import cv2
 import numpy as np
 
 from regress.headset.footage import Footage
-from regress.headset.parts import mirror_partner
+from regress.headset.parts import is_symmetric, mirror_partner
+from regress.headset.recordings import ASPECT
 
 _SIDE = 24
 """Pixels of the squares that are compared: a brow, a lid and a lip are still told apart, and people are not."""
@@ -22,13 +23,11 @@ margin; turned, mirrored or exchanged, 83 to 100 % of them do in each set, but f
 the same, and the mouth upside down in another headset (`benchmarks/headset_orientation.py`).
 """
 
-_TURNS = {
-    "turned by 90° to the left": lambda picture: np.rot90(picture, -1),
-    "turned by 90° to the right": np.rot90,
-    "turned by 180°": lambda picture: picture[::-1, ::-1],
-    "turned upside down in a mirror": lambda picture: picture[::-1],
+_QUARTERS = {
+    "its own turned by 90° to the left": lambda picture: np.rot90(picture, -1),
+    "its own turned by 90° to the right": np.rot90,
 }
-"""What may have happened to pictures, and what makes it good."""
+"""What may have happened to square pictures, and what makes it good; others would be of another shape."""
 
 
 def typical_picture(pictures: np.ndarray, rows: np.ndarray) -> np.ndarray:
@@ -44,7 +43,7 @@ def typical_picture(pictures: np.ndarray, rows: np.ndarray) -> np.ndarray:
     -------
     (24, 24) uint8
     """
-    chosen = rows[:: -(-len(rows) // _PICTURES)]
+    chosen = rows[np.linspace(0, len(rows) - 1, min(len(rows), _PICTURES)).round().astype(int)]
     mean = np.mean(pictures[chosen], axis=0, dtype=np.float32)
     return np.rint(cv2.resize(mean, (_SIDE, _SIDE), interpolation=cv2.INTER_AREA)).astype(np.uint8)
 
@@ -66,7 +65,7 @@ def told_orientation(footage: Footage, typical: Mapping[str, np.ndarray]) -> lis
             continue
         seen = typical_picture(footage.pictures[name], rows)
         plain = _correlation(seen, typical[name])
-        found = _likenesses(seen, name, typical)
+        found = _likenesses(seen, name, typical, footage)
         what = max(found, key=found.__getitem__)
         if found[what] > _ALIKE and found[what] > plain + _MARGIN:
             told.append(
@@ -76,17 +75,30 @@ def told_orientation(footage: Footage, typical: Mapping[str, np.ndarray]) -> lis
     return told
 
 
-def _likenesses(seen: np.ndarray, name: str, typical: Mapping[str, np.ndarray]) -> dict[str, float]:
+def _likenesses(
+    seen: np.ndarray, name: str, typical: Mapping[str, np.ndarray], footage: Footage
+) -> dict[str, float]:
     """Correlation with everything else that pictures of a camera may be."""
-    found = {f"its own {turn}": _correlation(undo(seen), typical[name]) for turn, undo in _TURNS.items()}
-    found |= {f"those of {other}": _correlation(seen, typical[other]) for other in typical if other != name}
-    mirrored, partner = _correlation(seen[:, ::-1], typical[name]), mirror_partner(name)
-    if partner == name or partner not in typical:
-        return found | {"its own in a mirror": mirrored}
-    # faces are symmetric: these two are the same to the eye
-    return found | {
-        f"those of {partner} or its own in a mirror": max(mirrored, found.pop(f"those of {partner}"))
+    own = typical[name]
+    aspects = {
+        other: footage.pictures[other].shape[2] / footage.pictures[other].shape[1] for other in typical
     }
+    turns = _QUARTERS if abs(aspects[name] - 1) < ASPECT else {}
+    found = {what: _correlation(undo(seen), own) for what, undo in turns.items()}
+    for other in typical:
+        if other != name and abs(aspects[other] / aspects[name] - 1) < ASPECT:
+            found[f"those of {other}"] = _correlation(seen, typical[other])
+    mirrored, turned, flipped = (
+        _correlation(one, own) for one in (seen[:, ::-1], seen[::-1, ::-1], seen[::-1])
+    )
+    # Faces are symmetric: a mouth turned is a mouth in a mirror, and one eye in a mirror is the other.
+    if is_symmetric((name,)):
+        return found | {"its own upside down": max(turned, flipped), "its own in a mirror": mirrored}
+    found |= {"its own turned by 180°": turned, "its own upside down in a mirror": flipped}
+    other = f"those of {mirror_partner(name)}"
+    if other not in found:
+        return found | {"its own in a mirror": mirrored}
+    return found | {f"{other} or its own in a mirror": max(mirrored, found.pop(other))}
 
 
 def _correlation(one: np.ndarray, other: np.ndarray) -> float:

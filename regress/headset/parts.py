@@ -1,19 +1,24 @@
 """Which camera is made to see which shapes, and which cameras are each other's mirror image, by their names."""
 
+import re
+
 from facegen.conventions import BLENDSHAPES
 
 _UPPER = ("eye", "brow", "cheekSquint", "noseSneer")
 _LOWER = ("jaw", "mouth", "cheekPuff", "noseSneer", "tongue")
-_LOWER_CAMERAS = ("mouth", "jaw", "chin", "lip")
-_UPPER_CAMERAS = ("eye", "brow", "cheek")
+_SIDE = r"(?<![a-z])(left|right|[lr](?![a-z]))"
+_LOWER_CAMERA = re.compile(r"(?<![a-z])(left|right)?(mouth|jaw|chin|lip)")
+_UPPER_CAMERA = re.compile(r"(?<![a-z])(left|right)?(eye|brow|cheek)")
+_OTHER_SIDE = {"left": "right", "right": "left", "l": "r", "r": "l"}
 
 
 def part_of(camera: str) -> tuple[str, ...]:
     """Shapes that a camera is made to see.
 
     A camera called after mouth, jaw, chin or lip sees the lower face; after eye, brow or cheek the upper face, of its
-    own side where it has one, browInnerUp included. Nose sneers belong to both: the only shape in which two
-    cameras add up (.43 and .33 of its variance alone, .53 together, in the trial). Any other name sees it all.
+    own side where its name has one (left, right, l, r), browInnerUp included. Nose sneers belong to both: the only
+    shape in which two cameras add up (.43 and .33 of its variance alone, .53 together, in the trial). Any other name
+    sees it all.
 
     Parameters
     ----------
@@ -25,25 +30,28 @@ def part_of(camera: str) -> tuple[str, ...]:
     tuple of str
         Names of blendshapes, in their order.
     """
-    words = camera.lower()
-    if any(word in words for word in _LOWER_CAMERAS):
+    if _LOWER_CAMERA.search(camera.lower()):
         return tuple(name for name in BLENDSHAPES if name.startswith(_LOWER))
-    if any(word in words for word in _UPPER_CAMERAS):
+    if _UPPER_CAMERA.search(camera.lower()):
         other = {"left": "Right", "right": "Left"}.get(side_of(camera) or "", "neither")
         return tuple(name for name in BLENDSHAPES if name.startswith(_UPPER) and not name.endswith(other))
     return BLENDSHAPES
 
 
 def side_of(camera: str) -> str | None:
-    """``"left"``, ``"right"`` or None, from the words of a camera's name."""
-    words = camera.lower().split("_")
-    return next((side for side in ("left", "right") if side in words), None)
+    """``"left"``, ``"right"`` or None, from the words of a camera's name: left_eye, lefteye, eye_l."""
+    found = re.search(_SIDE, camera.lower())
+    return found and {"l": "left", "r": "right"}.get(found[1], found[1])
 
 
 def mirror_partner(camera: str) -> str:
     """Name of the camera on the other side of the face; a camera without a side names itself."""
-    swapped = {"left": "right", "right": "left"}
-    return "_".join(swapped.get(word, word) for word in camera.split("_"))
+    return re.sub(_SIDE, lambda found: _OTHER_SIDE[found[1]], camera)
+
+
+def without_side(cameras: tuple[str, ...]) -> list[str]:
+    """Cameras of an eye, a brow or a cheek whose names say neither left nor right: of which one is not known."""
+    return [name for name in cameras if _UPPER_CAMERA.search(name.lower()) and side_of(name) is None]
 
 
 def encoder_owners(cameras: tuple[str, ...]) -> dict[str, str | None]:
@@ -60,4 +68,4 @@ def encoder_owners(cameras: tuple[str, ...]) -> dict[str, str | None]:
 
 def is_symmetric(cameras: tuple[str, ...]) -> bool:
     """Whether the mirror image of a frame is a frame of the same headset: every camera has its partner."""
-    return all(mirror_partner(camera) in cameras for camera in cameras)
+    return not without_side(cameras) and all(mirror_partner(camera) in cameras for camera in cameras)

@@ -10,7 +10,8 @@ def seat_change(same_seat: np.ndarray, usable: np.ndarray, *, fps: float) -> int
     """Row from which the seat is no longer that of the neutral pictures; None where it stays.
 
     A running mean over `PATIENCE_S` that is below one half for as long tells a new seat; it counts from the
-    frame at which the mean fell. A headset that comes back to its old seat exactly does not happen.
+    frame at which the mean fell. A take of less than twice as long is judged by the mean of all, from its first frame
+    below one half on. A headset that comes back to its old seat exactly does not happen.
 
     Parameters
     ----------
@@ -24,7 +25,8 @@ def seat_change(same_seat: np.ndarray, usable: np.ndarray, *, fps: float) -> int
     rows = np.flatnonzero(usable)
     window = max(1, round(PATIENCE_S * fps))
     if len(rows) < 2 * window:  # too short for a running mean: judged as a whole
-        return int(rows[0]) if len(rows) and float(np.mean(same_seat[rows])) < 0.5 else None
+        changed = same_seat[rows] < 0.5
+        return int(rows[np.argmax(changed)]) if len(rows) and float(np.mean(same_seat[rows])) < 0.5 else None
     sums = np.cumsum(np.concatenate([[0.0], same_seat[rows].astype(np.float64)]))
     mean = (sums[window:] - sums[:-window]) / window
     low = 0

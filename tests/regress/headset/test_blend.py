@@ -8,7 +8,14 @@ from hypothesis import strategies as st
 torch = pytest.importorskip("torch")
 
 from facegen.conventions import BLENDSHAPES, mirrored_name  # noqa: E402
-from regress.headset.parts import encoder_owners, is_symmetric, mirror_partner, part_of  # noqa: E402
+from regress.headset.parts import (  # noqa: E402
+    encoder_owners,
+    is_symmetric,
+    mirror_partner,
+    part_of,
+    side_of,
+    without_side,
+)
 from regress.headset.training.blend import blend  # noqa: E402
 
 CAMERAS = ("left_eye", "right_eye", "mouth")
@@ -69,3 +76,31 @@ def test_the_second_of_two_partners_shares_the_firsts_encoder():
     assert is_symmetric(CAMERAS)
     assert not is_symmetric(("left_eye", "mouth"))
     assert mirror_partner("mouth_left") == "mouth_right"
+
+
+@pytest.mark.parametrize(
+    ("left", "right"),
+    [
+        ("left_eye", "right_eye"),
+        ("eye_l", "eye_r"),
+        ("lefteye", "righteye"),
+        ("clip_left_eye", "clip_right_eye"),
+    ],
+)
+def test_sides_are_known_in_every_usual_spelling(left: str, right: str):
+    assert (side_of(left), side_of(right)) == ("left", "right")
+    assert (mirror_partner(left), mirror_partner(right)) == (right, left)
+    assert part_of(left) == part_of("left_eye")
+    assert encoder_owners((left, right, "mouth")) == {left: None, right: left, "mouth": None}
+    assert is_symmetric((left, right, "mouth"))
+    assert without_side((left, right, "mouth")) == []
+
+
+def test_an_eye_of_no_side_is_nobodys_mirror_image():
+    cameras = ("eye_a", "eye_b", "mouth")
+    assert without_side(cameras) == ["eye_a", "eye_b"]
+    assert not is_symmetric(cameras), "half of its training would be faces that its cameras cannot see"
+    assert set(part_of("eye_a")) == set(part_of("left_eye")) | set(part_of("right_eye"))
+    assert side_of("relay") is None
+    assert mirror_partner("relay") == "relay"
+    assert is_symmetric(("wide", "mouth"))

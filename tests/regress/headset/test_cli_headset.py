@@ -11,6 +11,7 @@ import pytest
 
 from facegen.conventions import BLENDSHAPES
 from regress import timing
+from regress.cli.headset_train import side_notes
 from regress.headset.arrays import HeadsetArrays
 from regress.headset.evaluation import evaluate
 from regress.headset.predictor import load_headset_predictor
@@ -61,6 +62,13 @@ def test_settings_that_cannot_be_are_one_sentence(
     code, _, said = run("headset", "train", arrays_folder, "--out", tmp_path / "model", *words)
     assert (code, message in said, len(said.splitlines())) == (2, True, 1)
     assert not list(tmp_path.iterdir())
+
+
+def test_cameras_whose_names_have_no_side_are_told():
+    assert side_notes(("left_eye", "right_eye", "mouth")) == []
+    (note,) = side_notes(("eye_a", "eye_b", "mouth"))
+    assert note.startswith("eye_a, eye_b: the name says neither left nor right")
+    assert "call cameras left_eye and right_eye" in note
 
 
 def test_without_pytorch_training_names_the_extra_and_the_rest_works(

@@ -139,6 +139,18 @@ def test_a_reseated_headset_is_seen_and_goes_on_uncalibrated(predictor: HeadsetP
     assert again.weights[later.row :] == pytest.approx(0, abs=0.005)
 
 
+def test_a_short_take_is_judged_as_a_whole_and_its_neutral_frame_stays_calibrated(
+    predictor: HeadsetPredictor,
+):
+    footage = _footage(predictor, {name: [60.0] * 7 + [160.0] * 11 for name in NAMES})
+    made = perform(predictor, footage, [Neutral(row=0, pictures=neutral_of_frame(footage, 0))])
+    assert made.reseated == (7,)
+    assert made.weights[:7] == pytest.approx(0, abs=0.005)
+    assert made.weights[7:] == pytest.approx(160 / 255, abs=0.005)
+    mostly = _footage(predictor, {name: [60.0] * 11 + [160.0] * 7 for name in NAMES})
+    assert perform(predictor, mostly, [Neutral(row=0, pictures=neutral_of_frame(mostly, 0))]).reseated == ()
+
+
 @given(low=st.integers(0, 60), length=st.integers(0, 40), fps=st.sampled_from([10, 30]))
 @settings(max_examples=60, deadline=None)
 def test_a_seat_changes_only_where_it_stays_changed(low: int, length: int, fps: int):

@@ -220,9 +220,10 @@ def test_stills_have_no_frames_before(run, model: Path, arrays_folder: Path, tmp
     assert (code, out) == (2, "")
     assert 'pack a dataset of kind "sequence"' in said
     assert (model / "model.json").read_bytes() == before
-    code, _, said = run("headset", "predict", model, tmp_path, "--temporal")
-    assert code == 2
-    assert "--temporal needs a take" in said
+    for option in (["--temporal"], ["--smooth", 5], ["--one-euro", 1.0]):
+        code, _, said = run("headset", "predict", model, tmp_path, *option)
+        assert code == 2
+        assert f"{option[0]} needs a take: pictures of a dataset do not follow one another" in said
 
 
 def test_by_command_taps_go_into_the_model(run, arrays_folder: Path, tmp_path: Path):
@@ -245,6 +246,7 @@ def test_by_command_taps_go_into_the_model(run, arrays_folder: Path, tmp_path: P
     assert code == 0, said
     assert [line.split("  ")[0] for line in out.splitlines()[1:-1]] == ["one frame", "mean of five", "taps"]
     assert "taps for 30 frames a second" in out
+    assert "the clips are of the headset drawn3, and the model's is tracking3" in said
     found = read_headset_model(model).temporal
     assert np.shape(found.taps) == (56, TAPS)
     np.testing.assert_allclose(np.sum(found.taps, axis=1), 1)
