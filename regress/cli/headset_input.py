@@ -44,6 +44,7 @@ def read_footage(
     *,
     from_start: bool,
     fps: float | None,
+    bits: int | None = None,
 ) -> Footage:
     """The cameras' frames, side by side, from a dataset or from a path each.
 
@@ -63,12 +64,17 @@ def read_footage(
         if dataset is not None:
             recordings[name] = read_rendered(dataset, name, width=width, height=height)
         elif name in paths:
-            recordings[name] = read_recording(paths[name], name, width=width, height=height)
+            recordings[name] = read_recording(paths[name], name, width=width, height=height, bits=bits)
     return line_up(recordings, predictor.sizes, from_start=from_start, still=dataset is not None, fps=fps)
 
 
 def read_neutrals(
-    predictor: HeadsetPredictor, footage: Footage, named: Sequence[str], *, still: bool
+    predictor: HeadsetPredictor,
+    footage: Footage,
+    named: Sequence[str],
+    *,
+    still: bool,
+    bits: int | None = None,
 ) -> list[Neutral]:
     """Neutral pictures as the options ask for them; none where frames are to be seen alone.
 
@@ -87,7 +93,7 @@ def read_neutrals(
             "each its own"
         )
     if len(named) == 1:
-        return _one_neutral(predictor, footage, named[0])
+        return _one_neutral(predictor, footage, named[0], bits)
     rows = [_row(footage, name) for name in named]
     if rows != sorted(set(rows)):
         raise InputError(f"--neutral frames {', '.join(named)} are not in the order of time")
@@ -104,7 +110,9 @@ def _row(footage: Footage, named: str) -> int:
     return int(np.flatnonzero(footage.numbers == int(named))[0])
 
 
-def _one_neutral(predictor: HeadsetPredictor, footage: Footage, named: str) -> list[Neutral]:
+def _one_neutral(
+    predictor: HeadsetPredictor, footage: Footage, named: str, bits: int | None
+) -> list[Neutral]:
     """A frame, a folder's pictures or the calmest frame; nothing where none can be relied on."""
     present = footage.present
     if named == "auto":
@@ -120,7 +128,8 @@ def _one_neutral(predictor: HeadsetPredictor, footage: Footage, named: str) -> l
         return [Neutral(row=row, pictures=neutral_of_frame(footage, row))]
     if Path(named).is_dir():
         sizes = zip(predictor.sizes.items(), footage.given, strict=True)
-        pictures = read_neutral(Path(named), {name: size for (name, size), there in sizes if there})
+        needed = {name: size for (name, size), there in sizes if there}
+        pictures = read_neutral(Path(named), needed, bits=bits)
         return [Neutral(row=0, pictures=pictures)]
     first, last = footage.numbers[[0, -1]]
     raise InputError(

@@ -72,6 +72,12 @@ def predict(
             "--from-start", help="Match first frames, not numbers: eyes of one take, mouth of another."
         ),
     ] = False,
+    bits: Annotated[
+        int | None,
+        typer.Option(
+            "--bits", min=8, max=16, help="How many bits the cameras use, of pictures with 16 bits a pixel."
+        ),
+    ] = None,
     out: OutOption = None,
     table_format: FormatOption = Format.csv,
     retarget: RetargetOption = None,
@@ -166,7 +172,7 @@ def predict(
     paths = camera_paths(
         predictor, camera or [], {name: path for name, path in short.items() if path is not None}
     )
-    footage = read_footage(predictor, dataset, paths, from_start=from_start, fps=fps)
+    footage = read_footage(predictor, dataset, paths, from_start=from_start, fps=fps, bits=bits)
     needed = output.one_euro is not None or table_format is Format.livelink or gltf is not None
     if needed and footage.time_s is None:
         raise InputError(f"{footage.source} does not say when its frames were taken; give --fps")
@@ -174,7 +180,7 @@ def predict(
         raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
     for note in (*footage.notes, *told_orientation(footage, predictor.typical)):
         say(note)
-    neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None)
+    neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None, bits=bits)
     performance = perform(
         predictor,
         footage,

@@ -100,7 +100,9 @@ def calmest_frame(weights: np.ndarray, usable: np.ndarray) -> NeutralFrame:
     )
 
 
-def read_neutral(folder: Path, cameras: Mapping[str, tuple[int, int]]) -> dict[str, np.ndarray]:
+def read_neutral(
+    folder: Path, cameras: Mapping[str, tuple[int, int]], *, bits: int | None = None
+) -> dict[str, np.ndarray]:
     """Neutral pictures from a folder with ``CAMERA.png`` for each camera, as a rendered sample's folder has.
 
     Parameters
@@ -109,6 +111,8 @@ def read_neutral(folder: Path, cameras: Mapping[str, tuple[int, int]]) -> dict[s
         Another ending of pictures will do too.
     cameras
         Width and height of those that are needed.
+    bits
+        How many of their 16 bits the cameras use, of pictures that have so many.
 
     Returns
     -------
@@ -125,7 +129,7 @@ def read_neutral(folder: Path, cameras: Mapping[str, tuple[int, int]]) -> dict[s
         path = next((file for file in files if file.is_file()), None)
         if path is None:
             raise InputError(f"{folder} has no neutral picture of {name}; {files[0].name} is looked for")
-        fitted = read_picture(path, width=width, height=height)
+        fitted = read_picture(path, width=width, height=height, bits=bits)
         if fitted.fault is not None:
             raise InputError(f"{path} cannot be the neutral picture of {name}: it is {fitted.fault.value}")
         pictures[name] = fitted.picture

@@ -58,22 +58,27 @@ class Recording:
     scaled_from: np.ndarray | None = None
 
 
-def read_recording(path: Path, camera: str, *, width: int, height: int) -> Recording:
+def read_recording(path: Path, camera: str, *, width: int, height: int, bits: int | None = None) -> Recording:
     """Read a folder of pictures or a film, in grey, scaled where only the size differs.
 
     All of it is held in memory: 28 kB a frame of three 96 x 96 views, 50 MB a minute.
 
+    Parameters
+    ----------
+    bits
+        How many of their 16 bits the camera uses, of pictures that have so many.
+
     Raises
     ------
     InputError
-        Where the path is missing, is no folder or film, or holds no pictures.
+        Where the path is missing, is no folder or film, or holds no pictures; see ``read_picture``.
     """
     if path.is_dir():
         files = [file for file in path.iterdir() if file.suffix.lower() in PICTURES]
         if not files:
             raise InputError(f"{path} has no pictures of {camera}; {', '.join(PICTURES)} can be read")
         numbers, files = _in_order(files)
-        fitted = [read_picture(file, width=width, height=height) for file in files]
+        fitted = [read_picture(file, width=width, height=height, bits=bits) for file in files]
         return _recording(camera, path, numbers, fitted)
     if not path.exists():
         raise InputError(
@@ -126,14 +131,43 @@ class FittedPicture:
     scaled_from: tuple[int, int] | None
 
 
-def read_picture(path: Path, *, width: int, height: int) -> FittedPicture:
-    """Read a picture in grey and bring it to a size; a file that is no picture is a fault of it."""
+def read_picture(path: Path, *, width: int, height: int, bits: int | None = None) -> FittedPicture:
+    """Read a picture in grey and bring it to a size; a file that is no picture is a fault of it.
+
+    Parameters
+    ----------
+    bits
+        How many of its 16 bits the camera uses, where the picture has so many: files do not say.
+
+    Raises
+    ------
+    InputError
+        Where a picture has 16 bits and ``bits`` is not given, or a level that they do not hold; where it has numbers of
+        another kind.
+    """
     try:
         data = np.frombuffer(path.read_bytes(), dtype=np.uint8)
-        grey = cv2.imdecode(data, cv2.IMREAD_GRAYSCALE) if len(data) else None
+        grey = cv2.imdecode(data, cv2.IMREAD_GRAYSCALE | cv2.IMREAD_ANYDEPTH) if len(data) else None
     except (OSError, cv2.error):
         grey = None
+    if grey is not None and grey.dtype != np.uint8:
+        grey = _eight_bits(grey, path, bits)
     return fit_picture(grey, width=width, height=height)
+
+
+def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
+    if grey.dtype != np.uint16:
+        raise InputError(f"{path} has pixels of type {grey.dtype}; pictures of 8 or 16 bits can be read")
+    if bits is None:
+        raise InputError(
+            f"{path} has 16 bits a pixel, and the brightest is {grey.max()}; --bits says how many of them the camera "
+            f"uses (10 for levels to 1023)"
+        )
+    if grey.max() >= 1 << bits:
+        raise InputError(
+            f"{path} has the level {grey.max()}, and --bits {bits} holds levels to {(1 << bits) - 1}; give more"
+        )
+    return (grey >> (bits - 8)).astype(np.uint8)
 
 
 def fit_picture(grey: np.ndarray | None, *, width: int, height: int) -> FittedPicture:

@@ -154,6 +154,36 @@ def test_exchanged_cameras_are_told_and_weights_come_all_the_same(run, tmp_path:
     assert "look more like those of right_eye or its own in a mirror" in said
 
 
+@pytest.mark.parametrize("suffix", ["png", "tiff", "pgm"])
+def test_pictures_of_more_bits_say_how_many(run, model: Path, tmp_path: Path, suffix: str):
+    levels = {
+        name: pictures([mean] * 4).astype(np.uint16) for name, mean in zip(NAMES, (51, 102, 153), strict=True)
+    }
+    for name, stack in levels.items():
+        for place, depth in (("eight", np.uint8), ("twelve", np.uint16)):
+            folder = tmp_path / place / name
+            folder.mkdir(parents=True)
+            for number, picture in enumerate(stack):
+                deep = picture if depth is np.uint8 else 16 * picture + 7
+                assert cv2.imwrite(str(folder / f"{number}.{suffix}"), deep.astype(depth))
+                assert cv2.imwrite(str(folder.parent / f"{name}.{suffix}"), deep.astype(depth))
+    eight, twelve = (
+        [word for name in NAMES for word in ("--camera", f"{name}={tmp_path / place / name}")]
+        for place in ("eight", "twelve")
+    )
+    code, out, said = run("headset", "predict", model, *eight, "--neutral", tmp_path / "eight")
+    assert (code, said) == (0, "")
+    neutral = ("--neutral", tmp_path / "twelve")
+    assert run("headset", "predict", model, *twelve, *neutral, "--bits", 12) == (0, out, "")
+    code, nothing, said = run("headset", "predict", model, *twelve)
+    assert (code, nothing, len(said.splitlines())) == (2, "", 1)
+    assert "has 16 bits a pixel" in said
+    assert "--bits says how many of them the camera uses" in said
+    code, nothing, said = run("headset", "predict", model, *twelve, "--bits", 10)
+    assert (code, nothing) == (2, "")
+    assert "--bits 10 holds levels to 1023" in said
+
+
 def test_a_camera_may_be_left_out(run, model: Path, take: list[str]):
     code, out, said = run("headset", "predict", model, *take[:4])
     assert code == 0
