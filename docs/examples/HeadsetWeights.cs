@@ -8,25 +8,47 @@ using Microsoft.ML.OnnxRuntime.Tensors;
 // `regress headset export models/headset` makes headset.onnx; names and sizes are in headset.json beside it.
 public sealed class HeadsetWeights : IDisposable
 {
-    readonly InferenceSession session;
-    readonly string[] cameras;
-    readonly int width, height;
-
-    public HeadsetWeights(string graph, string[] cameras, int width, int height)
+    // One of "cameras" in headset.json, in its order.
+    public sealed class Camera
     {
-        var options = new SessionOptions { IntraOpNumThreads = 1 };
-        session = new InferenceSession(graph, options);
-        (this.cameras, this.width, this.height) = (cameras, width, height);
+        public readonly string Name;
+        public readonly int Width, Height;
+
+        public Camera(string name, int width, int height)
+        {
+            Name = name;
+            Width = width;
+            Height = height;
+        }
+    }
+
+    // Weights have the order of "shapes" in headset.json. Gaze is yaw and pitch of the left eye, then of the right one,
+    // in radians, yaw to the subject's left. SameSeat below .5: the headset has moved since the neutral pictures.
+    public sealed class Answer
+    {
+        public float[] Weights, Gaze;
+        public float SameSeat;
+    }
+
+    static readonly string[] outputs = { "weights", "gaze", "same_seat" };
+
+    readonly InferenceSession session;
+    readonly Camera[] cameras;
+
+    public HeadsetWeights(string graph, params Camera[] cameras)
+    {
+        this.cameras = cameras;
+        session = new InferenceSession(graph, new SessionOptions { IntraOpNumThreads = 1 });
     }
 
     // Grey pictures by camera, rows from the top; a camera that is missing is left out. Neutral pictures may be null.
-    // The result has the order of "shapes" in headset.json.
-    public float[] Predict(IReadOnlyDictionary<string, byte[]> pictures, IReadOnlyDictionary<string, byte[]> neutral = null)
+    public Answer Predict(
+        IReadOnlyDictionary<string, byte[]> pictures, IReadOnlyDictionary<string, byte[]> neutral = null)
     {
         foreach (var name in pictures.Keys)
-            if (!cameras.Contains(name) || (neutral != null && !neutral.ContainsKey(name)))
+            if (cameras.All(camera => camera.Name != name) || (neutral != null && !neutral.ContainsKey(name)))
                 throw new ArgumentException(name + " is no camera of the headset, or has no neutral picture");
-        var present = cameras.Select(camera => pictures.ContainsKey(camera) ? 1f : 0f).ToArray();
+        var present = cameras.Select(camera => pictures.ContainsKey(camera.Name) ? 1f : 0f).ToArray();
         var calibrated = new[] { neutral == null ? 0f : 1f };
         var inputs = new List<NamedOnnxValue>
         {
@@ -35,17 +57,26 @@ public sealed class HeadsetWeights : IDisposable
         };
         foreach (var camera in cameras)
         {
-            inputs.Add(NamedOnnxValue.CreateFromTensor("pictures_" + camera, Grey(pictures, camera)));
-            inputs.Add(NamedOnnxValue.CreateFromTensor("neutral_" + camera, Grey(neutral, camera)));
+            inputs.Add(NamedOnnxValue.CreateFromTensor("pictures_" + camera.Name, Grey(pictures, camera)));
+            inputs.Add(NamedOnnxValue.CreateFromTensor("neutral_" + camera.Name, Grey(neutral, camera)));
         }
-        using var results = session.Run(inputs, new[] { "weights" });
-        return results.First().AsEnumerable<float>().ToArray();
+        using (var results = session.Run(inputs, outputs))
+        {
+            var found = results.ToDictionary(one => one.Name, one => one.AsEnumerable<float>().ToArray());
+            return new Answer { Weights = found["weights"], Gaze = found["gaze"], SameSeat = found["same_seat"][0] };
+        }
     }
 
-    DenseTensor<byte> Grey(IReadOnlyDictionary<string, byte[]> pictures, string camera)
+    static DenseTensor<byte> Grey(IReadOnlyDictionary<string, byte[]> pictures, Camera camera)
     {
-        var found = pictures != null && pictures.TryGetValue(camera, out var picture) ? picture : new byte[width * height];
-        return new DenseTensor<byte>(found, new[] { 1, height, width });
+        byte[] grey = null;
+        if (pictures != null)
+            pictures.TryGetValue(camera.Name, out grey);
+        grey = grey ?? new byte[camera.Width * camera.Height];
+        if (grey.Length != camera.Width * camera.Height)
+            throw new ArgumentException(
+                $"{camera.Name} has {grey.Length} grey levels; {camera.Width} x {camera.Height} are needed");
+        return new DenseTensor<byte>(grey, new[] { 1, camera.Height, camera.Width });
     }
 
     public void Dispose() => session.Dispose();

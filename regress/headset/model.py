@@ -23,6 +23,9 @@ def points_output(camera: str) -> str:
     return f"points_{camera}"
 
 
+TYPICAL_SIDE = 24
+"""Pixels of the squares that say what a camera's pictures look like."""
+
 ARCHITECTURES = ("modular", "holistic")
 CALIBRATIONS = ("optional", "none")
 
@@ -249,6 +252,11 @@ def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
     ):
         if value not in allowed:
             raise ModelError(f"{path} has {name} {value!r}; {' or '.join(allowed)} is needed")
+    for name, rows in model.typical.items():
+        if {len(rows), *map(len, rows)} != {TYPICAL_SIDE}:
+            raise ModelError(
+                f"{path} has a typical picture of {name} that is not {TYPICAL_SIDE} x {TYPICAL_SIDE}"
+            )
     return model
 
 

@@ -6,11 +6,9 @@ import cv2
 import numpy as np
 
 from regress.headset.footage import Footage
+from regress.headset.model import TYPICAL_SIDE
 from regress.headset.parts import is_symmetric, mirror_partner
 from regress.headset.recordings import ASPECT
-
-_SIDE = 24
-"""Pixels of the squares that are compared: a brow, a lid and a lip are still told apart, and people are not."""
 
 _PICTURES = 1024
 """Evenly chosen, of which a mean is made: more do not change it."""
@@ -45,7 +43,9 @@ def typical_picture(pictures: np.ndarray, rows: np.ndarray) -> np.ndarray:
     """
     chosen = rows[np.linspace(0, len(rows) - 1, min(len(rows), _PICTURES)).round().astype(int)]
     mean = np.mean(pictures[chosen], axis=0, dtype=np.float32)
-    return np.rint(cv2.resize(mean, (_SIDE, _SIDE), interpolation=cv2.INTER_AREA)).astype(np.uint8)
+    return np.rint(cv2.resize(mean, (TYPICAL_SIDE, TYPICAL_SIDE), interpolation=cv2.INTER_AREA)).astype(
+        np.uint8
+    )
 
 
 def told_orientation(footage: Footage, typical: Mapping[str, np.ndarray]) -> list[str]:
