@@ -37,6 +37,20 @@ def camera_paths(
     return paths
 
 
+def check_stills(**asked: bool) -> None:
+    """Refuse options that need a take where there is a dataset, by their names.
+
+    Raises
+    ------
+    InputError
+        Where any is asked for.
+    """
+    for name, there in asked.items():
+        if there:
+            why = "its pictures have 8 bits" if name == "bits" else "its pictures do not follow one another"
+            raise InputError(f"--{name.replace('_', '-')} needs a take, and this is a dataset: {why}")
+
+
 def read_footage(
     predictor: HeadsetPredictor,
     dataset: Path | None,

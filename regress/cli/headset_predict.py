@@ -10,7 +10,7 @@ import typer
 
 from facegen.conventions import LANDMARK_COUNT
 from regress.adjustment import read_adjustments
-from regress.cli.headset_input import camera_paths, read_footage, read_neutrals
+from regress.cli.headset_input import camera_paths, check_stills, read_footage, read_neutrals
 from regress.cli.options import (
     AvatarOption,
     BetaOption,
@@ -158,10 +158,10 @@ def predict(
         retargeting=None if retarget is None else read_retargeting(retarget),
     )
     _check_tables(table_format, out, gltf, video, retarget)
-    after = {"--temporal": temporal, "--smooth": smooth > 1, "--one-euro": cutoff_hz is not None}
-    asked = [option for option, there in after.items() if there]
-    if asked and dataset is not None:
-        raise InputError(f"{asked[0]} needs a take: pictures of a dataset do not follow one another")
+    if dataset is not None:
+        check_stills(
+            temporal=temporal, smooth=smooth > 1, one_euro=cutoff_hz is not None, bits=bits is not None
+        )
     if trust is not None and not predictor.model.scores:
         raise InputError(f"{model} has no scores on a test split, from which confidence is made")
     if points is not None:

@@ -123,8 +123,8 @@ def side_notes(cameras: tuple[str, ...]) -> list[str]:
     if not lost:
         return []
     return [
-        f"{', '.join(lost)}: the name says neither left nor right, so no network is shared and no mirrored face is "
-        f"learned from; call cameras left_eye and right_eye"
+        f"{', '.join(lost)}: the name says neither left nor right, so it shares no other's network and no faces in a "
+        f"mirror are learned from; call cameras left_eye and right_eye, or one of both eyes"
     ]
 
 

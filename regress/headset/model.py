@@ -10,6 +10,7 @@ from typing import Any
 from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError, OutputError
 from regress.files import write_whole
+from regress.headset.typical import read_typical
 from regress.model import HEADSET, KEYPOINTS, write_folder
 
 VERSION = 1
@@ -22,9 +23,6 @@ def points_output(camera: str) -> str:
     """Name of the graph's output that holds a camera's traced points."""
     return f"points_{camera}"
 
-
-TYPICAL_SIDE = 24
-"""Pixels of the squares that say what a camera's pictures look like."""
 
 ARCHITECTURES = ("modular", "holistic")
 CALIBRATIONS = ("optional", "none")
@@ -103,7 +101,7 @@ class HeadsetModel:
         For each camera that traces any, which of ``VIEW_POINTS`` ``points_<camera>`` has; none in older models.
     typical
         For each camera the mean picture of its training (24 x 24 grey levels), by which ``predict`` knows pictures
-        that are turned or of another camera (``regress.headset.orientation``); none in older models.
+        that are turned or of another camera (``regress.headset.typical``); none in older models.
     weights
         Names of the columns of ``weights``, ``deviation`` and ``shares``.
     outputs
@@ -229,22 +227,22 @@ def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
 
 def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
     try:
+        cameras = tuple(CameraInput(**camera) for camera in document["cameras"])
+        names = [camera.name for camera in cameras]
         model = HeadsetModel(
             **{
                 **document,
-                "cameras": tuple(CameraInput(**camera) for camera in document["cameras"]),
+                "cameras": cameras,
                 "parts": {name: tuple(shapes) for name, shapes in document["parts"].items()},
                 "points": {name: tuple(points) for name, points in document.get("points", {}).items()},
-                "typical": {
-                    name: tuple(map(tuple, rows)) for name, rows in document.get("typical", {}).items()
-                },
+                "typical": read_typical(document.get("typical", {}), names),
                 "weights": tuple(document["weights"]),
                 "outputs": tuple(document["outputs"]),
                 "temporal": _temporal(document.get("temporal")),
                 "licences": tuple(document["licences"]),
             }
         )
-    except (KeyError, TypeError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise ModelError(f"{path} is not a headset model's description: {error}") from error
     for name, value, allowed in (
         ("architecture", model.architecture, ARCHITECTURES),
@@ -252,11 +250,6 @@ def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
     ):
         if value not in allowed:
             raise ModelError(f"{path} has {name} {value!r}; {' or '.join(allowed)} is needed")
-    for name, rows in model.typical.items():
-        if {len(rows), *map(len, rows)} != {TYPICAL_SIDE}:
-            raise ModelError(
-                f"{path} has a typical picture of {name} that is not {TYPICAL_SIDE} x {TYPICAL_SIDE}"
-            )
     return model
 
 

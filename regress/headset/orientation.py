@@ -2,16 +2,12 @@
 
 from collections.abc import Mapping
 
-import cv2
 import numpy as np
 
 from regress.headset.footage import Footage
-from regress.headset.model import TYPICAL_SIDE
 from regress.headset.parts import is_symmetric, mirror_partner
 from regress.headset.recordings import ASPECT
-
-_PICTURES = 1024
-"""Evenly chosen, of which a mean is made: more do not change it."""
+from regress.headset.typical import typical_picture
 
 _ALIKE, _MARGIN = 0.5, 0.1
 """Correlation from which pictures look like others, and how much less it is as they are.
@@ -28,26 +24,6 @@ _QUARTERS = {
 """What may have happened to square pictures, and what makes it good; others would be of another shape."""
 
 
-def typical_picture(pictures: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Mean of pictures as a small square, by which their camera is known again.
-
-    Parameters
-    ----------
-    pictures : (n, h, w) uint8
-    rows : (k,) int
-        Of pictures that count, at least one.
-
-    Returns
-    -------
-    (24, 24) uint8
-    """
-    chosen = rows[np.linspace(0, len(rows) - 1, min(len(rows), _PICTURES)).round().astype(int)]
-    mean = np.mean(pictures[chosen], axis=0, dtype=np.float32)
-    return np.rint(cv2.resize(mean, (TYPICAL_SIDE, TYPICAL_SIDE), interpolation=cv2.INTER_AREA)).astype(
-        np.uint8
-    )
-
-
 def told_orientation(footage: Footage, typical: Mapping[str, np.ndarray]) -> list[str]:
     """A sentence for each camera whose pictures look more like something else than like its own of training.
 
@@ -56,7 +32,7 @@ def told_orientation(footage: Footage, typical: Mapping[str, np.ndarray]) -> lis
     footage
         What was recorded.
     typical
-        Of training, by camera (``typical_picture``); of cameras that are left out nothing is said.
+        Of training, by camera (``regress.headset.typical``); of cameras that are left out nothing is said.
     """
     told = []
     for column, name in enumerate(footage.cameras):

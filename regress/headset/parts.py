@@ -6,9 +6,10 @@ from facegen.conventions import BLENDSHAPES
 
 _UPPER = ("eye", "brow", "cheekSquint", "noseSneer")
 _LOWER = ("jaw", "mouth", "cheekPuff", "noseSneer", "tongue")
-_SIDE = r"(?<![a-z])(left|right|[lr](?![a-z]))"
-_LOWER_CAMERA = re.compile(r"(?<![a-z])(left|right)?(mouth|jaw|chin|lip)")
-_UPPER_CAMERA = re.compile(r"(?<![a-z])(left|right)?(eye|brow|cheek)")
+_SIDE = re.compile(r"(?<![a-z])(left|right|[lr](?=eye|brow|cheek|[^a-z]|$))")
+_LOWER_CAMERA = re.compile(r"mouth|jaw|chin(?!e)|(?<![cfs])lip")
+_UPPER_CAMERA = re.compile(r"eye|brow|cheek")
+_OF_ONE_SIDE = re.compile(r"(eye|brow|cheek)(?!s)")
 _OTHER_SIDE = {"left": "right", "right": "left", "l": "r", "r": "l"}
 
 
@@ -39,19 +40,19 @@ def part_of(camera: str) -> tuple[str, ...]:
 
 
 def side_of(camera: str) -> str | None:
-    """``"left"``, ``"right"`` or None, from the words of a camera's name: left_eye, lefteye, eye_l."""
-    found = re.search(_SIDE, camera.lower())
+    """``"left"``, ``"right"`` or None, from a camera's name: left_eye, lefteye, eye_l, leye."""
+    found = _SIDE.search(camera.lower())
     return found and {"l": "left", "r": "right"}.get(found[1], found[1])
 
 
 def mirror_partner(camera: str) -> str:
     """Name of the camera on the other side of the face; a camera without a side names itself."""
-    return re.sub(_SIDE, lambda found: _OTHER_SIDE[found[1]], camera)
+    return _SIDE.sub(lambda found: _OTHER_SIDE[found[1]], camera)
 
 
 def without_side(cameras: tuple[str, ...]) -> list[str]:
-    """Cameras of an eye, a brow or a cheek whose names say neither left nor right: of which one is not known."""
-    return [name for name in cameras if _UPPER_CAMERA.search(name.lower()) and side_of(name) is None]
+    """Cameras of an eye, a brow or a cheek whose names say neither left nor right; one of both (eyes) needs no side."""
+    return [name for name in cameras if _OF_ONE_SIDE.search(name.lower()) and side_of(name) is None]
 
 
 def encoder_owners(cameras: tuple[str, ...]) -> dict[str, str | None]:

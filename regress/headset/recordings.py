@@ -165,7 +165,8 @@ def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
         )
     if grey.max() >= 1 << bits:
         raise InputError(
-            f"{path} has the level {grey.max()}, and --bits {bits} holds levels to {(1 << bits) - 1}; give more"
+            f"{path} has the level {grey.max()}, and --bits {bits} holds levels to {(1 << bits) - 1}; give more, or 16 "
+            f"where the camera's bits are the upper ones"
         )
     return (grey >> (bits - 8)).astype(np.uint8)
 

@@ -34,6 +34,8 @@ def seat_change(same_seat: np.ndarray, usable: np.ndarray, *, fps: float) -> int
         low = low + 1 if value < 0.5 else 0
         if low == window:
             began = place - window + 1
-            # where the first whole window is low already, so was what came before it
-            return int(rows[0 if began == window - 1 else began])
+            if began > window - 1:
+                return int(rows[began])
+            # the first whole window is low already: so was what came before it, but for a neutral frame and its like
+            return int(rows[np.argmax(same_seat[rows] < 0.5)])
     return None

@@ -13,12 +13,12 @@ from regress.headset.arrays import HeadsetArrays
 from regress.headset.evaluation import evaluate
 from regress.headset.graph import HeadsetGraph
 from regress.headset.model import GRAPH_OUTPUTS, HeadsetModel, points_output, save_headset_model
-from regress.headset.orientation import typical_picture
 from regress.headset.outputs import WEIGHTS
 from regress.headset.parts import encoder_owners, part_of
 from regress.headset.recipe import HeadsetRecipe
 from regress.headset.training.export import export_graph
 from regress.headset.training.loop import Progress, Training
+from regress.headset.typical import typical_picture
 from regress.model import HEADSET, check_place
 
 

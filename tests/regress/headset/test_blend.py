@@ -84,6 +84,8 @@ def test_the_second_of_two_partners_shares_the_firsts_encoder():
         ("left_eye", "right_eye"),
         ("eye_l", "eye_r"),
         ("lefteye", "righteye"),
+        ("leye", "reye"),
+        ("undereye_l", "undereye_r"),
         ("clip_left_eye", "clip_right_eye"),
     ],
 )
@@ -101,6 +103,9 @@ def test_an_eye_of_no_side_is_nobodys_mirror_image():
     assert without_side(cameras) == ["eye_a", "eye_b"]
     assert not is_symmetric(cameras), "half of its training would be faces that its cameras cannot see"
     assert set(part_of("eye_a")) == set(part_of("left_eye")) | set(part_of("right_eye"))
+    assert without_side(("left_eye", "eyes", "brows", "mouth")) == []
+    assert is_symmetric(("eyes", "mouth")), "one camera of both"
+    assert part_of("upperlip") == part_of("lowerjaw") == part_of("mouth")
     assert side_of("relay") is None
     assert mirror_partner("relay") == "relay"
     assert is_symmetric(("wide", "mouth"))

@@ -154,11 +154,19 @@ def test_exchanged_cameras_are_told_and_weights_come_all_the_same(run, tmp_path:
     assert "look more like those of right_eye or its own in a mirror" in said
 
 
-@pytest.mark.parametrize("typical", [[[1] * 20] * 20, [[1] * 24] * 23 + [[1]], [1, 2], 7])
+@pytest.mark.parametrize(
+    "typical",
+    [
+        *({"mouth": rows} for rows in ([[1] * 20] * 20, [[1] * 24] * 23 + [[1]], [1, 2], 7)),
+        *({"mouth": [[value] * 24] * 24} for value in ("a", 300, -1, 1.5)),
+        {"chin": [[1] * 24] * 24},
+        7,
+    ],
+)
 def test_a_damaged_typical_picture_is_one_sentence(run, take: list[str], tmp_path: Path, typical: object):
     model = write_tiny_model(tmp_path / "model")
     path = model / "model.json"
-    path.write_text(json.dumps(json.loads(path.read_text()) | {"typical": {"mouth": typical}}))
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"typical": typical}))
     code, out, said = run("headset", "predict", model, *take)
     assert (code, out, len(said.splitlines())) == (2, "", 1)
     assert str(path) in said

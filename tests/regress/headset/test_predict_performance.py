@@ -147,6 +147,8 @@ def test_a_short_take_is_judged_as_a_whole_and_its_neutral_frame_stays_calibrate
     assert made.reseated == (7,)
     assert made.weights[:7] == pytest.approx(0, abs=0.005)
     assert made.weights[7:] == pytest.approx(160 / 255, abs=0.005)
+    longer = _footage(predictor, {name: [60.0] * 3 + [160.0] * 60 for name in NAMES})
+    assert perform(predictor, longer, [Neutral(row=0, pictures=neutral_of_frame(longer, 0))]).reseated == (3,)
     mostly = _footage(predictor, {name: [60.0] * 11 + [160.0] * 7 for name in NAMES})
     assert perform(predictor, mostly, [Neutral(row=0, pictures=neutral_of_frame(mostly, 0))]).reseated == ()
 

@@ -220,10 +220,10 @@ def test_stills_have_no_frames_before(run, model: Path, arrays_folder: Path, tmp
     assert (code, out) == (2, "")
     assert 'pack a dataset of kind "sequence"' in said
     assert (model / "model.json").read_bytes() == before
-    for option in (["--temporal"], ["--smooth", 5], ["--one-euro", 1.0]):
+    for option in (["--temporal"], ["--smooth", 5], ["--one-euro", 1.0], ["--bits", 10]):
         code, _, said = run("headset", "predict", model, tmp_path, *option)
         assert code == 2
-        assert f"{option[0]} needs a take: pictures of a dataset do not follow one another" in said
+        assert f"{option[0]} needs a take, and this is a dataset: its pictures " in said
 
 
 def test_by_command_taps_go_into_the_model(run, arrays_folder: Path, tmp_path: Path):
