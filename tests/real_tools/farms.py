@@ -63,12 +63,17 @@ def rendered(out: Path) -> list[int]:
     return sorted(int(path.name) for path in (out / "renders").glob("*/*"))
 
 
-def outcomes(out: Path) -> list[str]:
-    """How all attempts of all runs ended."""
+def attempts(out: Path) -> list[dict]:
+    """What the logs say of all attempts of all runs."""
     lines = [
         line for path in sorted((out / "logs").glob("run-*.jsonl")) for line in path.read_text().splitlines()
     ]
-    return [json.loads(line)["outcome"] for line in lines]
+    return [json.loads(line) for line in lines]
+
+
+def outcomes(out: Path) -> list[str]:
+    """How all attempts of all runs ended."""
+    return [attempt["outcome"] for attempt in attempts(out)]
 
 
 def files_of(out: Path) -> dict[str, bytes]:
@@ -86,8 +91,8 @@ def no_leftovers(out: Path) -> bool:
     return not list((out / "tmp").iterdir()) and not list(out.rglob("*.part"))
 
 
-def wait_for(condition: Callable[[], object], *, seconds: float = 60, what: str = "") -> None:
-    """Wait until something holds."""
+def wait_for(condition: Callable[[], object], *, seconds: float = 180, what: str = "") -> None:
+    """Wait until something holds, on the slowest machine."""
     deadline = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < deadline, f"after {seconds} s still not: {what}"

@@ -202,10 +202,9 @@ def processes(folder: Path) -> list[int]:
 
 def stop(folder: Path) -> None:
     """End every process of a sandbox and remove its folder."""
-    deadline = time.monotonic() + 30
-    for number in (signal.SIGTERM, signal.SIGKILL):
-        end = time.monotonic() + 3
-        while (left := processes(folder)) and time.monotonic() < min(end, deadline):
+    for number, patience_s in ((signal.SIGTERM, 3), (signal.SIGKILL, 30)):
+        end = time.monotonic() + patience_s
+        while (left := processes(folder)) and time.monotonic() < end:
             for process in left:
                 try:
                     os.kill(process, number)
@@ -222,6 +221,9 @@ def _clear_leftovers() -> None:
     for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
         try:
             os.kill(int((folder / "owner").read_text()), 0)
+        except FileNotFoundError:
+            if folder.exists() and time.time() - folder.stat().st_mtime > _START_S:
+                stop(folder)  # a young one is just being made by another run
         except (OSError, ValueError):
             stop(folder)
 

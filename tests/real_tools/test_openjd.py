@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import pytest
@@ -51,13 +50,12 @@ def openjd(*arguments: str, code: int = 0) -> str:
 
 
 @pytest.fixture(autouse=True)
-def no_session_is_left():
-    sessions = Path(tempfile.gettempdir()) / "OpenJD"
-    before = set(sessions.glob("*"))
+def no_session_is_left(tmp_path_factory, monkeypatch):
+    """Sessions have a folder of this test's, and leave nothing in it."""
+    folder = tmp_path_factory.mktemp("sessions")
+    monkeypatch.setenv("TMPDIR", str(folder))
     yield
-    assert set(sessions.glob("*")) <= before
-    if not before:
-        shutil.rmtree(sessions, ignore_errors=True)
+    assert not list((folder / "OpenJD").glob("*"))
 
 
 def test_the_template_passes_the_check_with_every_step(tmp_path):

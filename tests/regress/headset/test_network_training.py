@@ -27,7 +27,7 @@ from regress.headset.training import train_headset  # noqa: E402
 from regress.headset.training.batches import Frames  # noqa: E402
 from tests.regress.headset.takes import write_pictures  # noqa: E402
 
-QUICK = HeadsetRecipe(input_size=16, code=48, hidden=64, epochs=16, batch=16, learning_rate=4e-3)
+QUICK = HeadsetRecipe(input_size=16, code=48, hidden=64, epochs=20, batch=16, learning_rate=4e-3)
 
 
 @pytest.fixture(scope="module", params=["modular", "holistic"])
@@ -83,10 +83,10 @@ def test_it_says_where_points_lie_in_each_cameras_own_pictures(
 def test_it_learns_what_unseen_people_do(trained: tuple[HeadsetModel, Path]):
     scores = trained[0].scores
     found, floor = scores["conditions"], scores["floors"]["mean"]
-    # two seconds of training: a modular network is at .71 and .69 of the floor then, a holistic one at .88 and 1.01
+    # seconds of training: a modular network is at .71 and .20 of the floors then, a holistic one at .88 and .27
     share = {"modular": 0.8, "holistic": 0.95}[trained[0].architecture]
     assert found["uncalibrated"]["geometry_mm"] < share * floor["geometry_mm"]
-    assert found["uncalibrated"]["gaze_deg"] < (share + 0.1) * floor["gaze_deg"]
+    assert found["uncalibrated"]["gaze_deg"] < 0.4 * floor["gaze_deg"]
     assert found["uncalibrated"]["r2"] > 0.1
     assert floor["r2"] < 0.01
     assert set(scores["cameras"]) == {"left_eye", "right_eye", "mouth"}
