@@ -32,6 +32,22 @@ SHOWN_PX = 240
 
 Figures = dict[str, dict]
 
+COLUMNS = {
+    "mm": ("uncalibrated", "geometry_mm"),
+    "R²": ("uncalibrated", "r2"),
+    "MAE": ("uncalibrated", "mae"),
+    "RMSE": ("uncalibrated", "rmse"),
+    "blink R²": ("uncalibrated", "blink_r2"),
+    "gaze °": ("uncalibrated", "gaze_deg"),
+    "open eyes °": ("uncalibrated", "gaze_open_deg"),
+    "calibrated mm": ("same_seat", "geometry_mm"),
+    "calibrated R²": ("same_seat", "r2"),
+    "reseated mm": ("other_seat", "geometry_mm"),
+    "reseated, fallback mm": ("other_seat_fallback", "geometry_mm"),
+    "same seat, fallback mm": ("same_seat_fallback", "geometry_mm"),
+}
+"""Condition and figure of each column of the main table."""
+
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -94,27 +110,13 @@ def recipe_of(training: dict[str, object]) -> dict[str, object]:
 
 
 def print_main(groups: dict[str, list[Path]], found: dict[Path, Figures], title: str) -> None:
-    columns = {
-        "mm": ("uncalibrated", "geometry_mm"),
-        "R²": ("uncalibrated", "r2"),
-        "MAE": ("uncalibrated", "mae"),
-        "RMSE": ("uncalibrated", "rmse"),
-        "blink R²": ("uncalibrated", "blink_r2"),
-        "gaze °": ("uncalibrated", "gaze_deg"),
-        "open eyes °": ("uncalibrated", "gaze_open_deg"),
-        "calibrated mm": ("same_seat", "geometry_mm"),
-        "calibrated R²": ("same_seat", "r2"),
-        "reseated mm": ("other_seat", "geometry_mm"),
-        "reseated, fallback mm": ("other_seat_fallback", "geometry_mm"),
-        "same seat, fallback mm": ("same_seat_fallback", "geometry_mm"),
-    }
     rows = [
         [
             key,
             len(paths),
             *(
                 spread(found[path]["conditions"].get(c, {}).get(k) for path in paths)
-                for c, k in columns.values()
+                for c, k in COLUMNS.values()
             ),
         ]
         for key, paths in groups.items()
@@ -125,10 +127,10 @@ def print_main(groups: dict[str, list[Path]], found: dict[Path, Figures], title:
             [
                 f"floor: {name}",
                 "",
-                *(spread([figures[k]] if c == "uncalibrated" else []) for c, k in columns.values()),
+                *(spread([figures[k]] if c == "uncalibrated" else []) for c, k in COLUMNS.values()),
             ]
         )
-    print_table(title, ["network", "seeds", *columns], rows)
+    print_table(title, ["network", "seeds", *COLUMNS], rows)
 
 
 def print_losses(groups: dict[str, list[Path]], found: dict[Path, Figures]) -> None:
@@ -274,24 +276,17 @@ def print_curve(models: dict[Path, HeadsetPredictor], found: dict[Path, Figures]
         )
     if len({people for people, _, _ in points}) < 2:
         return
-    columns = {
-        "mm": ("uncalibrated", "geometry_mm"),
-        "R²": ("uncalibrated", "r2"),
-        "blink R²": ("uncalibrated", "blink_r2"),
-        "gaze °": ("uncalibrated", "gaze_deg"),
-        "calibrated mm": ("same_seat", "geometry_mm"),
-        "calibrated R²": ("same_seat", "r2"),
-    }
+    titles = ("mm", "R²", "blink R²", "gaze °", "calibrated mm", "calibrated R²")
     rows = [
         [
             architecture,
             people,
             frames,
-            *(spread(one.get(c, {}).get(k) for one in of) for c, k in columns.values()),
+            *(spread(one.get(c, {}).get(k) for one in of) for c, k in map(COLUMNS.get, titles)),
         ]
         for (people, frames, architecture), of in sorted(points.items())
     ]
-    print_table("By people in training", ["network", "people", "frames", *columns], rows)
+    print_table("By people in training", ["network", "people", "frames", *titles], rows)
 
 
 def print_drawn(

@@ -1,12 +1,14 @@
 """`regress headset train | evaluate | export` and `regress bench`, as a person runs them."""
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import onnxruntime
+import pyarrow.parquet as pq
 import pytest
 
 from facegen.conventions import BLENDSHAPES
@@ -64,11 +66,30 @@ def test_settings_that_cannot_be_are_one_sentence(
     assert not list(tmp_path.iterdir())
 
 
-def test_cameras_whose_names_have_no_side_are_told():
+def test_training_tells_cameras_whose_names_have_no_side(run, arrays_folder: Path, tmp_path: Path):
+    pytest.importorskip("torch")
+    names = {"left_eye": "eye_a", "right_eye": "eye_b"}
+    folder = tmp_path / "arrays"
+    shutil.copytree(arrays_folder, folder)
+    table = pq.read_table(folder / "labels.parquet")
+    columns = {f"points_{name}": f"points_{other}" for name, other in names.items()}
+    pq.write_table(
+        table.rename_columns([columns.get(name, name) for name in table.column_names]),
+        folder / "labels.parquet",
+    )
+    text = (folder / "arrays.json").read_text()
+    for name, other in names.items():
+        (folder / f"{name}.npy").rename(folder / f"{other}.npy")
+        text = text.replace(name, other)
+    (folder / "arrays.json").write_text(text)
+    settings = [word for one in ("input_size=16", "code=8", "hidden=8") for word in ("--set", one)]
+    code, _, said = run("headset", "train", folder, "--out", tmp_path / "model", "--epochs", 1, *settings)
+    assert code == 0, said
+    assert "eye_a, eye_b: the name says neither left nor right" in said
+    assert "call cameras left_eye and right_eye" in said
+    cameras = load_headset_predictor(tmp_path / "model").model.cameras
+    assert [camera.mirrored_of for camera in cameras] == [None] * 3
     assert side_notes(("left_eye", "right_eye", "mouth")) == []
-    (note,) = side_notes(("eye_a", "eye_b", "mouth"))
-    assert note.startswith("eye_a, eye_b: the name says neither left nor right")
-    assert "call cameras left_eye and right_eye" in note
 
 
 def test_without_pytorch_training_names_the_extra_and_the_rest_works(

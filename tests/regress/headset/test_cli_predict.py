@@ -200,6 +200,11 @@ def test_pictures_of_more_bits_say_how_many(run, model: Path, tmp_path: Path, su
     code, nothing, said = run("headset", "predict", model, *twelve, "--bits", 10)
     assert (code, nothing) == (2, "")
     assert "--bits 10 holds levels to 1023" in said
+    if suffix == "tiff":
+        assert cv2.imwrite(str(tmp_path / "twelve" / "mouth" / "0.tiff"), np.zeros((12, 16), np.float32))
+        code, nothing, said = run("headset", "predict", model, *twelve, "--bits", 12)
+        assert (code, nothing) == (2, "")
+        assert "has pixels of type float32; pictures of 8 or 16 bits can be read" in said
 
 
 def test_a_camera_may_be_left_out(run, model: Path, take: list[str]):

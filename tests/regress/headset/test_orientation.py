@@ -104,6 +104,14 @@ def test_cameras_of_other_shapes_are_no_answer():
     )
 
 
+def test_pictures_that_are_not_square_cannot_have_been_turned_by_a_quarter():
+    turned = np.rot90(stacks(7)["left_eye"], 1, (1, 2))
+    typical = {"left_eye": TYPICAL["left_eye"]}
+    for stack, size, count in ((turned, (SIDE, SIDE), 1), (turned[:, ::2], (SIDE, SIDE // 2), 0)):
+        found = line_up({"left_eye": recording("left_eye", stack)}, {"left_eye": size})
+        assert len([line for line in told_orientation(found, typical) if "90°" in line]) == count
+
+
 def test_one_camera_alone_and_one_without_a_partner():
     taken = stacks(6)["left_eye"][:, :, ::-1]
     alone = line_up({"left_eye": recording("left_eye", taken)}, {"left_eye": (SIDE, SIDE)})

@@ -250,3 +250,23 @@ def test_by_command_taps_go_into_the_model(run, arrays_folder: Path, tmp_path: P
     found = read_headset_model(model).temporal
     assert np.shape(found.taps) == (56, TAPS)
     np.testing.assert_allclose(np.sum(found.taps, axis=1), 1)
+
+
+def test_taps_that_make_it_worse_are_told(
+    run, arrays_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    figures = {"r2": None, "blink_r2": None, "gaze_deg": 1.0, "shake": 0.1}
+    errors_mm = {"one frame": 0.5, "mean of five": 0.7, "taps": 0.6}
+    found = Temporal(
+        fps=30,
+        taps=((1.0, 0.0, 0.0, 0.0, 0.0),) * 56,
+        people=1,
+        dataset_hash="",
+        scores={name: figures | {"geometry_mm": error} for name, error in errors_mm.items()},
+    )
+    monkeypatch.setattr("regress.cli.headset_temporal.fit_temporal", lambda predictor, arrays: found)
+    code, _, said = run(
+        "headset", "temporal", write_tiny_model(tmp_path / "tiny", headset="drawn3"), arrays_folder
+    )
+    assert code == 0
+    assert said.startswith("with the taps these people's faces err by 0.6000 mm, and by 0.5000 mm without")
