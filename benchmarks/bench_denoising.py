@@ -3,7 +3,7 @@
     python benchmarks/bench_denoising.py DATASET [--faces 6000] [--networks "eyes.blink;jaw.open"] [--hidden 20]
 
 Networks beside a neutral frame are trained on the default recipe's faces, at one L2 strength, on features as they are
-and on features from which the noise of each face is taken (`regress.networks.Denoising`). Printed: test R2 on exact
+and on features from which the noise of each face is taken (`Denoising`). Printed: test R2 on exact
 points with noise on every coordinate, per cent of the outer-eye distance, and with a detector's bias, beside ridge
 regression on the same rows; of the blink also what is said of a wink: shut eye, open eye, and either where both are
 shut.
@@ -22,14 +22,12 @@ from bench_recipes import NOISE_PERCENT, noisy
 from threadpoolctl import threadpool_limits
 
 from facegen.conventions import LANDMARK_GROUPS, mirrored_name
-from regress.features import Features, closed_under_mirror, depths_of, load_reference_shape, mean_shape
-from regress.levenberg_marquardt import Settings, minimise
-from regress.networks import Layout, NetworkProblem, Rows, fit_ridge, ridge_directions, ridge_knots
-from regress.probes.faces import frontal, read_faces
-from regress.probes.winks import SHUT
-from regress.targets import NETWORKS, OUTPUTS
-from regress.training import RECIPES, read_dataset
-from regress.training.preparation import (
+from regress.learning.levenberg_marquardt import Settings, minimise
+from regress.learning.networks import Layout, NetworkProblem, Rows, fit_ridge, ridge_directions, ridge_knots
+from regress.learning.probes.faces import frontal, read_faces
+from regress.learning.probes.winks import SHUT
+from regress.learning.training import RECIPES, read_dataset
+from regress.learning.training.preparation import (
     OUTPUT_COLUMNS,
     Faces,
     Prepared,
@@ -40,7 +38,15 @@ from regress.training.preparation import (
     prepare,
     used_outputs,
 )
-from regress.training.record import DETECTOR
+from regress.learning.training.record import DETECTOR
+from regress.runtime.features import (
+    Features,
+    closed_under_mirror,
+    depths_of,
+    load_reference_shape,
+    mean_shape,
+)
+from regress.targets import NETWORKS, OUTPUTS
 
 KEYS = [network.key for network in NETWORKS]
 SOME = (

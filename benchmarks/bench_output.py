@@ -23,16 +23,16 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_GROUPS, MIRRORED_BLENDSHAPES, MIRRORED_LANDMARKS
 from regress import confidence
-from regress.features import align_similarity
-from regress.model import Model, load_model, symmetrised
-from regress.networks import evaluate
-from regress.smoothing import OneEuro, moving_average, one_euro, smooth_landmarks
+from regress.learning.training import read_dataset
+from regress.learning.training.noise import DetectorNoise
+from regress.learning.training.preparation import Faces, as_detected, faces_of
+from regress.learning.training.record import DETECTOR
+from regress.learning.training.scores import score_faces
+from regress.runtime.features import align_similarity
+from regress.runtime.model import Model, load_model, symmetrised
+from regress.runtime.networks import evaluate
+from regress.runtime.smoothing import OneEuro, moving_average, one_euro, smooth_landmarks
 from regress.targets import VISIBLE_SHAPES
-from regress.training import read_dataset
-from regress.training.noise import DetectorNoise
-from regress.training.preparation import Faces, as_detected, faces_of
-from regress.training.record import DETECTOR
-from regress.training.scores import score_faces
 
 VISIBLE = [BLENDSHAPE_INDEX[name] for name in VISIBLE_SHAPES]
 FPS, FRAMES, CLIPS = 30, 90, 60

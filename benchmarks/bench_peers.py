@@ -27,12 +27,12 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy and torch read it
 
 import numpy as np
 
-from regress.features import Features, load_reference_shape, mean_shape
-from regress.levenberg_marquardt import Settings, minimise
-from regress.networks import Layout, NetworkProblem, Rows, ridge_directions, ridge_knots
+from regress.learning.levenberg_marquardt import Settings, minimise
+from regress.learning.networks import Layout, NetworkProblem, Rows, ridge_directions, ridge_knots
+from regress.learning.training import read_dataset
+from regress.learning.training.preparation import Split, network_columns, prepare
+from regress.runtime.features import Features, load_reference_shape, mean_shape
 from regress.targets import NETWORKS
-from regress.training import read_dataset
-from regress.training.preparation import Split, network_columns, prepare
 
 NAMES = ("jaw.open", "mouth.close", "eyes.blink", "brows.down", "lips.press", "nose.sneer")
 HIDDEN = 20

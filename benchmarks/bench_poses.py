@@ -3,7 +3,7 @@
     python benchmarks/bench_poses.py DATASET MODEL [MODEL ...] [--json]
 
 DATASET is what all MODELs were trained on. A thousand faces of people of the test split, exact points, are turned to a
-grid of poses 10 degrees apart (regress.probes.poses); with a neutral frame, that frame is frontal. docs/training.md has
+grid of poses 10 degrees apart (probes.poses); with a neutral frame, that frame is frontal. docs/training.md has
 a run's table.
 """
 
@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from regress import load_model
-from regress.probes.faces import read_faces
-from regress.probes.methods import networks_of
-from regress.probes.poses import PoseErrors, pose_errors
+from regress.learning.probes.faces import read_faces
+from regress.learning.probes.methods import networks_of
+from regress.learning.probes.poses import PoseErrors, pose_errors
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 
 

@@ -4,7 +4,7 @@
 
 DATASET is a folder that `facegen generate` made. Networks train on its detected points; people of the test split
 are judged on exact points with normal noise on every coordinate, in per cent of the distance between the outer
-eye corners, and with a detector's bias (regress.training.record.DETECTOR). With a neutral frame, that frame has noise
+eye corners, and with a detector's bias (training.record.DETECTOR). With a neutral frame, that frame has noise
 of the same size. `below ridge` counts shapes whose R2 is more than 0.01 below that of ridge regression on the same
 features and the same training rows, strength chosen per shape. --bound prints what one large network reaches that
 learns one level of noise alone, from aligned coordinates of the frame and of the neutral frame: it need not be small,
@@ -25,7 +25,15 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")  # the fit has threads of its own
 import numpy as np
 from sklearn.neural_network import MLPRegressor
 
-from regress.features import (
+from regress.learning.networks import fit_ridge
+from regress.learning.training import RECIPES, Recipe, read_dataset, train
+from regress.learning.training.baseline import fit_baseline
+from regress.learning.training.dataset import KeypointDataset
+from regress.learning.training.noise import DetectorNoise, displace
+from regress.learning.training.preparation import OUTPUT_COLUMNS, Faces, as_detected, faces_of
+from regress.learning.training.record import DETECTOR
+from regress.learning.training.scores import score, score_faces
+from regress.runtime.features import (
     Features,
     align_affine,
     depths_of,
@@ -34,16 +42,8 @@ from regress.features import (
     mean_shape,
     undo_turn,
 )
-from regress.model import Model
-from regress.networks import fit_ridge
+from regress.runtime.model import Model
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
-from regress.training import RECIPES, Recipe, read_dataset, train
-from regress.training.baseline import fit_baseline
-from regress.training.dataset import KeypointDataset
-from regress.training.noise import DetectorNoise, displace
-from regress.training.preparation import OUTPUT_COLUMNS, Faces, as_detected, faces_of
-from regress.training.record import DETECTOR
-from regress.training.scores import score, score_faces
 
 NOISE_PERCENT = (0.0, 0.1, 0.5, 1.0, 2.0)
 PAPER, EXACT, DEFAULT = (RECIPES[name] for name in ("paper", "exact", "default"))

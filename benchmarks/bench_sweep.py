@@ -5,8 +5,8 @@
 Datasets are `datasets/default.toml` with other heads or winks; `facegen generate` makes the missing ones in WORK. All
 trials are judged on one of them, "heads 6/6, 5 %", on its test people: exact points, beside a neutral frame that has as
 much noise as the face. Columns: mean R2 of the visible shapes frontal, and what is lost of it within 20 degrees
-(regress.probes.poses); what is said of the shut and of the open eye in a wink, and of both where both are shut
-(regress.probes.winks); mean R2 over all shapes at five levels of noise, with how many lie more than 0.01 below ridge
+(probes.poses); what is said of the shut and of the open eye in a wink, and of both where both are shut
+(probes.winks); mean R2 over all shapes at five levels of noise, with how many lie more than 0.01 below ridge
 regression on the same rows; with --real, the error on recorded expressions of another rig at 0.5 px
 (benchmarks/real_recordings.py) and r of mouthClose there. docs/training.md has a run's table.
 """
@@ -24,15 +24,15 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")  # the fit has threads of its own
 
 import numpy as np
 
-from regress.model import Model
-from regress.probes.faces import ProbeFaces, read_faces
-from regress.probes.methods import networks_of, ridges_of
-from regress.probes.observability import NOISE_PERCENT, observability
-from regress.probes.poses import pose_errors
-from regress.probes.winks import winks
+from regress.learning.probes.faces import ProbeFaces, read_faces
+from regress.learning.probes.methods import networks_of, ridges_of
+from regress.learning.probes.observability import NOISE_PERCENT, observability
+from regress.learning.probes.poses import pose_errors
+from regress.learning.probes.winks import winks
+from regress.learning.training import RECIPES, Recipe, read_dataset, train
+from regress.learning.training.noise import DetectorNoise
+from regress.runtime.model import Model
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
-from regress.training import RECIPES, Recipe, read_dataset, train
-from regress.training.noise import DetectorNoise
 
 SPEC = Path(__file__).parents[1] / "datasets" / "default.toml"
 PEOPLE_FACES = 10

@@ -15,11 +15,11 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
-from regress.headset.arrays import HeadsetArrays, read_arrays
-from regress.headset.evaluation import evaluate
-from regress.headset.predictor import load_headset_predictor
-from regress.headset.recipe import HeadsetRecipe
-from regress.headset.training import train_headset
+from regress.learning.headset.arrays import HeadsetArrays, read_arrays
+from regress.learning.headset.evaluation import evaluate
+from regress.learning.headset.recipe import HeadsetRecipe
+from regress.learning.headset.training import train_headset
+from regress.runtime.headset.predictor import load_headset_predictor
 
 HOLISTIC = {"architecture": "holistic"}
 VARIANTS: dict[str, dict[str, object]] = {

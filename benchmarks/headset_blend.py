@@ -14,10 +14,10 @@ import numpy as np
 import onnx
 from onnx import numpy_helper
 
-from regress.headset import HeadsetGraph, read_headset_model
-from regress.headset.accuracy import summary
-from regress.headset.arrays import read_arrays
-from regress.headset.evaluation import COMBINED, conditions, estimate
+from regress.learning.headset.accuracy import summary
+from regress.learning.headset.arrays import read_arrays
+from regress.learning.headset.evaluation import COMBINED, conditions, estimate
+from regress.runtime.headset import HeadsetGraph, read_headset_model
 
 FACTORS = (1e-4, 0.03, 0.1, 0.3, 1.0)
 

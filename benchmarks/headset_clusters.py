@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 from headset_networks import print_table, spread
 
-from regress.headset.arrays import HeadsetArrays, read_arrays
-from regress.headset.clusters import cluster_error_mm
+from regress.learning.headset.arrays import HeadsetArrays, read_arrays
+from regress.learning.headset.clusters import cluster_error_mm
 
 CLUSTERS = (25, 100, 400)
 SEEDS = range(3)

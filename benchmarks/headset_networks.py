@@ -21,10 +21,10 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES
 from facegen.preview import pictures, play_weights
 from facegen.rigs import load_rig
-from regress.headset.arrays import HeadsetArrays, read_arrays
-from regress.headset.comparison import compare
-from regress.headset.evaluation import Condition, estimate, evaluate
-from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.learning.headset.arrays import HeadsetArrays, read_arrays
+from regress.learning.headset.comparison import compare
+from regress.learning.headset.evaluation import Condition, estimate, evaluate
+from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.timing import time_headset
 
 SHOWN_PX = 240

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from regress.headset.arrays import HeadsetArrays, read_arrays
-from regress.headset.footage import Footage
-from regress.headset.orientation import told_orientation
-from regress.headset.parts import mirror_partner
-from regress.headset.predictor import load_headset_predictor
+from regress.learning.headset.arrays import HeadsetArrays, read_arrays
+from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.orientation import told_orientation
+from regress.runtime.headset.parts import mirror_partner
+from regress.runtime.headset.predictor import load_headset_predictor
 
 TURNS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "nothing": lambda pictures: pictures,

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import LANDMARK_GROUPS, VIEW_POINTS
-from regress.headset.arrays import HeadsetArrays, read_arrays
-from regress.headset.evaluation import COMBINED
-from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.learning.headset.arrays import HeadsetArrays, read_arrays
+from regress.learning.headset.evaluation import COMBINED
+from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 
 NEAR_DEG = 12.0
 """Of gaze, within which a pupil moves about evenly with it."""

@@ -30,14 +30,14 @@ from facegen.formats import read_live_link
 from facegen.rigs import Rig, evaluate, load_rig
 from facegen.sampling.gaze import axes_from_weights
 from regress import Model, load_model
-from regress.features import extract
-from regress.inputs import read_frames
+from regress.learning.training import evaluate_model, read_dataset
+from regress.learning.training.baseline import Baseline, fit_baseline
+from regress.learning.training.dataset import KeypointDataset
+from regress.learning.training.noise import OUTER_EYES, DetectorNoise, displace, draw_bias
+from regress.learning.training.preparation import OUTPUT_COLUMNS
+from regress.runtime.features import extract
+from regress.runtime.inputs import read_frames
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
-from regress.training import evaluate_model, read_dataset
-from regress.training.baseline import Baseline, fit_baseline
-from regress.training.dataset import KeypointDataset
-from regress.training.noise import OUTER_EYES, DetectorNoise, displace, draw_bias
-from regress.training.preparation import OUTPUT_COLUMNS
 
 TAKES = {"range of motion": "livelink/alex_rom_3.csv", "speech": "livelink/S07-001.csv"}
 CLIPS = ("landmarks/pyfeat_clip_001.csv", "landmarks/pyfeat_clip_007.csv")

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from regress.model import Model, load_model
+from regress.runtime.model import Model, load_model
 
 __version__ = "0.1.0"
 
@@ -13,7 +13,7 @@ def __getattr__(name: str) -> Any:
     if (
         name == "LevenbergMarquardtRegressor"
     ):  # scikit-learn takes a second to import, which predicting need not wait
-        from regress.training.estimator import LevenbergMarquardtRegressor
+        from regress.learning.training.estimator import LevenbergMarquardtRegressor
 
         return LevenbergMarquardtRegressor
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

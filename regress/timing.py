@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from regress.exporters import export_model
-from regress.headset.predictor import HeadsetPredictor
-from regress.model import FastPredictor, Model
+from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.model import FastPredictor, Model
 
 BATCH_FRAMES = 20_000
 HEADSET_BATCH_FRAMES = 64

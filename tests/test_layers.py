@@ -28,7 +28,7 @@ def _packages() -> list[str]:
     return names
 
 
-EXTRAS = {"regress.headset.training": "torch"}
+EXTRAS = {"regress.learning.headset.training": "torch"}
 """Packages that need an optional extra; `make test-headset` has it."""
 
 

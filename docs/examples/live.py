@@ -9,7 +9,7 @@ import numpy as np
 
 import regress
 from facegen.conventions import BLENDSHAPES
-from regress.model import FastPredictor
+from regress.runtime.model import FastPredictor
 
 model = regress.load_model(sys.argv[1])
 predictor = None

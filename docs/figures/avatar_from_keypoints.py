@@ -20,7 +20,7 @@ from facegen.conventions import LANDMARK_GROUPS
 from facegen.formats.weight_table import read_weight_table
 from facegen.preview import pictures, play_weights
 from facegen.rigs import load_rig
-from regress.inputs import read_frames
+from regress.runtime.inputs import read_frames
 
 OUT = Path(__file__).resolve().parents[1] / "pictures" / "avatar-from-keypoints.png"
 COLUMNS = 4  # of each recording

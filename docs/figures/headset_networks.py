@@ -25,9 +25,9 @@ from PIL import Image
 from facegen.conventions import BLENDSHAPES, VIEW_POINTS
 from facegen.preview import pictures, play_weights
 from facegen.rigs import load_rig
-from regress.headset.arrays import read_arrays
-from regress.headset.evaluation import Condition, estimate, evaluate
-from regress.headset.predictor import load_headset_predictor
+from regress.learning.headset.arrays import read_arrays
+from regress.learning.headset.evaluation import Condition, estimate, evaluate
+from regress.runtime.headset.predictor import load_headset_predictor
 
 OUT = Path(__file__).resolve().parents[1] / "pictures"
 FACES = 7

@@ -19,7 +19,7 @@ from PIL import Image
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress import load_model
-from regress.inputs import read_frames
+from regress.runtime.inputs import read_frames
 
 OUT = Path(__file__).resolve().parents[1] / "pictures" / "real-sequence.png"
 STILL = ("noseSneerLeft", "mouthRollLower", "browOuterUpLeft", "eyeBlinkLeft")

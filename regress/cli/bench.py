@@ -8,8 +8,8 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from regress.headset.predictor import is_headset_model, load_headset_predictor
-from regress.model import load_model
+from regress.runtime.headset.predictor import is_headset_model, load_headset_predictor
+from regress.runtime.model import load_model
 from regress.timing import time_headset, time_model
 
 

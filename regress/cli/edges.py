@@ -9,9 +9,8 @@ import typer
 
 from regress.cli.talk import say
 from regress.errors import InputError, OutputError
-from regress.features import make_reference_shape
-from regress.features.reference_shape import TILT_DEG, reference_shape_json
 from regress.files import write_whole
+from regress.learning.reference_shape import TILT_DEG, make_reference_shape, reference_shape_json
 
 
 def edges(

@@ -9,10 +9,10 @@ from typing import Annotated
 import typer
 
 from facegen.conventions import SPLITS
-from regress.model import load_model
+from regress.learning.training import evaluate_model, read_dataset
+from regress.learning.training.scores import mean_r2
+from regress.runtime.model import load_model
 from regress.targets import OUTPUTS, VISIBLE_SHAPES, observability
-from regress.training import evaluate_model, read_dataset
-from regress.training.scores import mean_r2
 
 SplitName = StrEnum("SplitName", list(SPLITS))
 

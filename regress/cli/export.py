@@ -8,8 +8,8 @@ import typer
 
 from regress.cli.rows import sound_rows
 from regress.exporters import EXPORTERS, export_model
-from regress.inputs import read_frames
-from regress.model import load_model, symmetrised
+from regress.runtime.inputs import read_frames
+from regress.runtime.model import load_model, symmetrised
 
 Format = StrEnum("Format", ["all", *EXPORTERS])
 

@@ -8,9 +8,9 @@ from typing import Annotated, Any
 import typer
 
 from facegen.conventions import BLENDSHAPES, SPLITS
-from regress.headset.arrays import read_arrays
-from regress.headset.evaluation import evaluate as evaluate_model
-from regress.headset.predictor import load_headset_predictor
+from regress.learning.headset.arrays import read_arrays
+from regress.learning.headset.evaluation import evaluate as evaluate_model
+from regress.runtime.headset.predictor import load_headset_predictor
 
 SplitName = StrEnum("SplitName", list(SPLITS))
 

@@ -7,9 +7,9 @@ from typing import Annotated
 import typer
 
 from regress.errors import OutputError
+from regress.exporters.headset_interface import interface_of
 from regress.files import write_whole
-from regress.headset.export import interface_of
-from regress.headset.predictor import load_headset_predictor
+from regress.runtime.headset.predictor import load_headset_predictor
 
 
 def export(

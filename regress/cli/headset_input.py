@@ -7,10 +7,10 @@ import numpy as np
 
 from regress.cli.talk import say
 from regress.errors import InputError
-from regress.headset.footage import Footage, line_up
-from regress.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
-from regress.headset.predictor import HeadsetPredictor
-from regress.headset.recordings import read_recording, read_rendered
+from regress.runtime.headset.footage import Footage, line_up
+from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
+from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.recordings import read_recording, read_rendered
 
 
 def camera_paths(

@@ -9,7 +9,6 @@ import numpy as np
 import typer
 
 from facegen.conventions import LANDMARK_COUNT
-from regress.adjustment import read_adjustments
 from regress.cli.headset_input import camera_paths, check_stills, read_footage, read_neutrals
 from regress.cli.options import (
     AvatarOption,
@@ -26,17 +25,18 @@ from regress.cli.options import (
 from regress.cli.results import Format, write_avatar, write_confidence, write_points, write_table
 from regress.cli.talk import say
 from regress.errors import InputError
-from regress.headset.film import check_film_name, write_film
-from regress.headset.footage import Footage
-from regress.headset.orientation import told_orientation
-from regress.headset.performance import ASSUMED_FPS, Performance, perform
-from regress.headset.points import check_points, points_csv
-from regress.headset.predictor import load_headset_predictor
-from regress.headset.temporal import TAPS
-from regress.inputs import Frames
-from regress.predict import Output, Prediction, prediction_csv
-from regress.retargeting import read_retargeting
-from regress.smoothing import OneEuro
+from regress.runtime.adjustment import read_adjustments
+from regress.runtime.headset.film import check_film_name, write_film
+from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.orientation import told_orientation
+from regress.runtime.headset.performance import ASSUMED_FPS, Performance, perform
+from regress.runtime.headset.points import check_points, points_csv
+from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.temporal import TAPS
+from regress.runtime.inputs import Frames
+from regress.runtime.predict import Output, Prediction, prediction_csv
+from regress.runtime.retargeting import read_retargeting
+from regress.runtime.smoothing import OneEuro
 
 GAZE_COLUMNS = ("left_eye_yaw_deg", "left_eye_pitch_deg", "right_eye_yaw_deg", "right_eye_pitch_deg")
 """Of the CSV, behind the weights: yaw to the subject's left, pitch upwards, in the head frame."""

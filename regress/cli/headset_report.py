@@ -10,12 +10,12 @@ from regress.cli.headset_evaluate import SplitName
 from regress.cli.talk import say
 from regress.errors import InputError, ModelError, OutputError
 from regress.files import write_whole
-from regress.headset.arrays import read_arrays
-from regress.headset.comparison import compare
-from regress.headset.evaluation import evaluate
-from regress.headset.predictor import load_headset_predictor
-from regress.headset.worst import worst_frames
+from regress.learning.headset.arrays import read_arrays
+from regress.learning.headset.comparison import compare
+from regress.learning.headset.evaluation import evaluate
+from regress.learning.headset.worst import worst_frames
 from regress.report.headset_page import Judged, write_headset_report
+from regress.runtime.headset.predictor import load_headset_predictor
 from regress.timing import time_headset
 
 

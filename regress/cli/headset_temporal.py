@@ -7,10 +7,10 @@ from typing import Annotated
 import typer
 
 from regress.cli.talk import say
-from regress.headset.arrays import read_arrays
-from regress.headset.model import describe_headset_model
-from regress.headset.predictor import load_headset_predictor
-from regress.headset.temporal import fit_temporal
+from regress.learning.headset.arrays import read_arrays
+from regress.learning.headset.taps import fit_temporal
+from regress.runtime.headset.model import describe_headset_model
+from regress.runtime.headset.predictor import load_headset_predictor
 
 _COLUMNS = {"geometry_mm": "mm", "r2": "R2", "blink_r2": "blink R2", "gaze_deg": "gaze deg", "shake": "shake"}
 

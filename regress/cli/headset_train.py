@@ -11,10 +11,10 @@ import typer
 
 from regress.cli.talk import progress, say
 from regress.errors import InputError
-from regress.headset.arrays import read_arrays
-from regress.headset.model import ARCHITECTURES
-from regress.headset.parts import without_side
-from regress.headset.recipe import WITHHOLDINGS, HeadsetRecipe
+from regress.learning.headset.arrays import read_arrays
+from regress.learning.headset.recipe import WITHHOLDINGS, HeadsetRecipe
+from regress.runtime.headset.model import ARCHITECTURES
+from regress.runtime.headset.parts import without_side
 
 Architecture = StrEnum("Architecture", list(ARCHITECTURES))
 Withholding = StrEnum("Withholding", list(WITHHOLDINGS))
@@ -64,7 +64,7 @@ def train(
         typer.Option(
             "--set",
             metavar="NAME=VALUE",
-            help="Any other setting of regress/headset/recipe.py, as learning_rate=1e-3.",
+            help="Any other setting of regress/learning/headset/recipe.py, as learning_rate=1e-3.",
         ),
     ] = None,
 ) -> None:
@@ -88,7 +88,7 @@ def train(
         settings or [],
     )
     try:
-        from regress.headset.training import train_headset
+        from regress.learning.headset.training import train_headset
     except ModuleNotFoundError as error:
         if error.name != "torch":
             raise

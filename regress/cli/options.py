@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from regress.cli.results import Format
-from regress.retargeting import shipped_targets
+from regress.runtime.retargeting import shipped_targets
 
 OutOption = Annotated[
     Path | None,

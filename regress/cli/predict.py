@@ -8,8 +8,6 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from regress.adjustment import mirror as exchanged
-from regress.adjustment import read_adjustments
 from regress.cli.options import (
     AvatarOption,
     BetaOption,
@@ -25,15 +23,17 @@ from regress.cli.options import (
 from regress.cli.results import Format, write_avatar, write_confidence, write_table
 from regress.cli.rows import sound_rows
 from regress.cli.talk import say
-from regress.confidence import confidence
 from regress.errors import InputError
-from regress.inputs import Frames, read_frames
-from regress.model import Model, load_model, symmetrised
-from regress.neutral import estimate_neutral
-from regress.predict import Output, predict_frames
-from regress.retargeting import read_retargeting
-from regress.smoothing import OneEuro
-from regress.stream import stream_csv
+from regress.runtime.adjustment import mirror as exchanged
+from regress.runtime.adjustment import read_adjustments
+from regress.runtime.confidence import confidence
+from regress.runtime.inputs import Frames, read_frames
+from regress.runtime.model import Model, load_model, symmetrised
+from regress.runtime.neutral import estimate_neutral
+from regress.runtime.predict import Output, predict_frames
+from regress.runtime.retargeting import read_retargeting
+from regress.runtime.smoothing import OneEuro
+from regress.runtime.stream import stream_csv
 
 
 def predict(

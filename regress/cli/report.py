@@ -9,9 +9,9 @@ import typer
 from regress.cli.talk import say
 from regress.errors import InputError, OutputError
 from regress.files import write_whole
-from regress.model import load_model
-from regress.probes import figures_of, measure
+from regress.learning.probes import figures_of, measure
 from regress.report import write_report
+from regress.runtime.model import load_model
 
 
 def report(

@@ -11,7 +11,7 @@ from facegen.formats.gltf_animation import animate_avatar
 from regress.cli.talk import say
 from regress.errors import InputError, OutputError
 from regress.files import write_whole
-from regress.predict import Prediction, prediction_csv
+from regress.runtime.predict import Prediction, prediction_csv
 
 
 class Format(StrEnum):

@@ -2,7 +2,7 @@
 
 from regress.cli.talk import say
 from regress.errors import InputError
-from regress.inputs import Frames, emptied, row_faults, told
+from regress.runtime.inputs import Frames, emptied, row_faults, told
 
 
 def sound_rows(frames: Frames, *, strictly: bool = False, strict: bool = False) -> Frames:

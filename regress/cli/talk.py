@@ -11,7 +11,7 @@ from typing import TextIO
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from regress.training.fitting import Progress as ProgressCall
+from regress.learning.training.fitting import Progress as ProgressCall
 
 _PLAIN_SECONDS = 10.0
 """Between two plain progress lines: a log of a long run stays short."""

@@ -8,9 +8,9 @@ from typing import Annotated
 import typer
 
 from regress.cli.talk import progress, say
-from regress.model import KEYPOINTS, check_place, save_model
-from regress.training import RECIPES, read_dataset
-from regress.training import train as train_model
+from regress.learning.training import RECIPES, read_dataset
+from regress.learning.training import train as train_model
+from regress.runtime.model import KEYPOINTS, check_place, save_model
 
 RecipeName = StrEnum("RecipeName", list(RECIPES))
 

@@ -16,7 +16,7 @@ from regress.exporters.json_text import export_json
 from regress.exporters.npz_archive import export_npz
 from regress.exporters.onnx_graph import export_onnx, export_onnx_networks
 from regress.files import write_whole
-from regress.model import Model
+from regress.runtime.model import Model
 
 __all__ = ["EXPORTERS", "Formula", "export_model", "formula_of"]
 

@@ -24,9 +24,9 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, FACE_WIDTH_LANDMARKS, LANDMARK_COUNT
 from regress import __version__
-from regress.features import ANCHORS, turn_weights
-from regress.model import Model
-from regress.networks import Denoising
+from regress.runtime.features import ANCHORS, turn_weights
+from regress.runtime.model import Model
+from regress.runtime.networks import Denoising
 
 DENOISING = ("axes", "offset", "signal", "noise_axes", "surplus", "usual", "least")
 """Arrays of a formula that denoises."""

@@ -4,11 +4,11 @@ from pathlib import Path
 
 from regress.errors import OutputError
 from regress.files import write_whole
-from regress.model import Model
-from regress.probes import Measured
+from regress.learning.probes import Measured
 from regress.report.page import render_page
 from regress.report.probed import probed_of
 from regress.report.reading import content_of
+from regress.runtime.model import Model
 
 __all__ = ["content_of", "render_page", "write_report"]
 

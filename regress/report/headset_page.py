@@ -14,8 +14,7 @@ from markupsafe import Markup
 from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError, OutputError
 from regress.files import write_whole
-from regress.headset.model import HeadsetModel
-from regress.headset.worst import WorstFrame
+from regress.learning.headset.worst import WorstFrame
 from regress.report.axes import figure
 from regress.report.content import PARTLY_R2, SEEN_R2, Headline
 from regress.report.headset_tables import (
@@ -31,6 +30,7 @@ from regress.report.headset_tables import (
 )
 from regress.report.histogram import histogram
 from regress.report.people_curve import people_curve
+from regress.runtime.headset.model import HeadsetModel
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -42,9 +42,9 @@ class Judged:
     title
         What the frames are.
     figures
-        Of ``regress.headset.evaluation.evaluate``.
+        Of ``regress.learning.headset.evaluation.evaluate``.
     rivals
-        Title of another model, and figures of ``regress.headset.comparison.compare`` against it.
+        Title of another model, and figures of ``regress.learning.headset.comparison.compare`` against it.
     worst
         Frames with the largest errors.
     """

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
-from regress.headset.model import Temporal
 from regress.report.axes import figure
 from regress.report.content import PARTLY_R2, SEEN_R2
+from regress.runtime.headset.model import Temporal
 
 MAIN = ("uncalibrated", "same_seat", "same_seat_fallback", "other_seat", "other_seat_fallback")
 """Conditions in the order of the page; those of lost and single cameras follow."""

@@ -7,13 +7,13 @@ from itertools import groupby
 import numpy as np
 from markupsafe import Markup
 
-from regress.probes import Measured
-from regress.probes.crosstalk import WEIGHT, CrossTalk
-from regress.probes.observability import NOISE_PERCENT, Observability
-from regress.probes.people import PersonErrors
-from regress.probes.poses import PITCH_DEG, WITHIN_DEG, YAW_DEG, PoseErrors
-from regress.probes.stillness import JITTER_PERCENT, Stillness
-from regress.probes.winks import SHUT, Winks
+from regress.learning.probes import Measured
+from regress.learning.probes.crosstalk import WEIGHT, CrossTalk
+from regress.learning.probes.observability import NOISE_PERCENT, Observability
+from regress.learning.probes.people import PersonErrors
+from regress.learning.probes.poses import PITCH_DEG, WITHIN_DEG, YAW_DEG, PoseErrors
+from regress.learning.probes.stillness import JITTER_PERCENT, Stillness
+from regress.learning.probes.winks import SHUT, Winks
 from regress.report.content import PARTLY_R2, SEEN_R2
 from regress.report.heatmap import leak_map, pose_map
 from regress.report.histogram import histogram

@@ -7,7 +7,6 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, SPLITS
 from regress.errors import ModelError
-from regress.model import Model
 from regress.report.content import (
     SEEN_R2,
     CalibrationRow,
@@ -19,6 +18,7 @@ from regress.report.content import (
     ShapeScores,
     mean_curve,
 )
+from regress.runtime.model import Model
 from regress.targets import VISIBLE_SHAPES
 
 

@@ -11,8 +11,8 @@ import pyarrow.parquet as pq
 import pytest
 
 import regress.cli
-from regress.model import Model, save_model
-from regress.training import KeypointDataset, Recipe, train
+from regress.learning.training import KeypointDataset, Recipe, train
+from regress.runtime.model import Model, save_model
 from tests.regress.drawn import drawn_dataset
 
 QUICK = Recipe(name="default", alphas=(0.3, 3.0), steps=8, search_rows=150, hidden=6)

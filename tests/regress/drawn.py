@@ -6,7 +6,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS
 from facegen.geometry import rotation_from_angles
-from regress.training import KeypointDataset
+from regress.learning.training import KeypointDataset
 
 SHAPE_MODES_SEED = 11
 

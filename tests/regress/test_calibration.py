@@ -9,13 +9,13 @@ import pytest
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_GROUPS
 from regress.errors import InputError
 from regress.exporters import export_model
-from regress.features import extract
-from regress.model import Model, load_model, save_model
-from regress.networks import evaluate
-from regress.neutral import estimate_neutral
-from regress.training import KeypointDataset, evaluate_model, train
-from regress.training.noise import DetectorNoise, displace, draw_bias, draw_displacements
-from regress.training.preparation import faces_of, prepare
+from regress.learning.training import KeypointDataset, evaluate_model, train
+from regress.learning.training.noise import DetectorNoise, displace, draw_bias, draw_displacements
+from regress.learning.training.preparation import faces_of, prepare
+from regress.runtime.features import extract
+from regress.runtime.model import Model, load_model, save_model
+from regress.runtime.networks import evaluate
+from regress.runtime.neutral import estimate_neutral
 from tests.regress.conftest import QUICK, write_dataset
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 from tests.regress.exporters.readers import READERS

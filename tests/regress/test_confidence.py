@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from regress.adjustment import mirror
-from regress.confidence import confidence
 from regress.errors import InputError
-from regress.model import load_model
+from regress.runtime.adjustment import mirror
+from regress.runtime.confidence import confidence
+from regress.runtime.model import load_model
 
 
 @pytest.fixture

@@ -8,11 +8,18 @@ import numpy as np
 import pytest
 
 from facegen.conventions import MIRRORED_LANDMARKS, mirrored_name
-from regress.features import Features, closed_under_mirror, extract, load_reference_shape, mirrored_edges
-from regress.model import FastPredictor, Model, load_model, save_model, symmetrised
-from regress.networks import Denoising, fit_denoising
-from regress.training import RECIPES, train
-from regress.training.noise import displace
+from regress.learning.networks import fit_denoising
+from regress.learning.training import RECIPES, train
+from regress.learning.training.noise import displace
+from regress.runtime.features import (
+    Features,
+    closed_under_mirror,
+    extract,
+    load_reference_shape,
+    mirrored_edges,
+)
+from regress.runtime.model import FastPredictor, Model, load_model, save_model, symmetrised
+from regress.runtime.networks import Denoising
 from tests.regress.conftest import QUICK
 from tests.regress.drawn import drawn_face, in_pictures
 

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from regress.errors import InputError
-from regress.features import depths_of, load_reference_shape
-from regress.model import FastPredictor, Model
+from regress.runtime.features import depths_of, load_reference_shape
+from regress.runtime.model import FastPredictor, Model
 
 AGREE = 1e-5
 

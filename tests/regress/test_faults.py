@@ -9,8 +9,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from facegen.conventions import MIRRORED_LANDMARKS
-from regress.inputs import Fault, Frames, TimeOrder, emptied, face_faults, read_frames, row_faults, told
-from regress.predict import Output, predict_frames
+from regress.runtime.inputs import (
+    Fault,
+    Frames,
+    TimeOrder,
+    emptied,
+    face_faults,
+    read_frames,
+    row_faults,
+    told,
+)
+from regress.runtime.predict import Output, predict_frames
 from tests.regress.drawn import drawn_face, drawn_faces
 
 GOOD = drawn_faces(np.random.default_rng(8), 9)

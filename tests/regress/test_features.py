@@ -9,20 +9,19 @@ from hypothesis import strategies as st
 
 from facegen.conventions import MIRRORED_LANDMARKS
 from regress.errors import InputError
-from regress.features import (
+from regress.learning.reference_shape import delaunay_edges, make_reference_shape, reference_shape_json
+from regress.runtime.features import (
     ANCHORS,
     Features,
     align_affine,
-    delaunay_edges,
     depths_of,
     edge_distances,
     extract,
     load_reference_shape,
-    make_reference_shape,
     mean_shape,
     mirrored_edges,
 )
-from regress.features.reference_shape import edges_sha256, reference_shape_json
+from regress.runtime.features.reference_shape import edges_sha256
 from tests.regress.drawn import drawn_faces
 
 REFERENCE = load_reference_shape()

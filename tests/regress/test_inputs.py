@@ -10,7 +10,7 @@ from facegen.conventions import LANDMARK_COUNT
 from facegen.errors import FormatError
 from facegen.formats import write_pts
 from regress.errors import InputError
-from regress.inputs import READERS, Frames, read_frames
+from regress.runtime.inputs import READERS, Frames, read_frames
 from tests.regress.drawn import drawn_faces
 
 FACES = drawn_faces(np.random.default_rng(1), 3)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from regress.levenberg_marquardt import (
+from regress.learning.levenberg_marquardt import (
     Outcome,
     Settings,
     exact_step,
@@ -15,7 +15,7 @@ from regress.levenberg_marquardt import (
     minimise_with_evidence,
     pcg_step,
 )
-from regress.networks import Layout, NetworkProblem, Rows
+from regress.learning.networks import Layout, NetworkProblem, Rows
 
 
 @dataclass

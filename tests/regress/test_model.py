@@ -12,9 +12,9 @@ import pytest
 import regress
 from facegen.conventions import BLENDSHAPE_INDEX, MIRRORED_BLENDSHAPES
 from regress.errors import InputError, ModelError, OutputError
-from regress.features import extract
-from regress.model import Model, load_model, save_model
-from regress.training import KeypointDataset
+from regress.learning.training import KeypointDataset
+from regress.runtime.features import extract
+from regress.runtime.model import Model, load_model, save_model
 
 
 def test_saving_and_loading_gives_the_same_model_and_the_same_bytes(quick_model: Model, tmp_path: Path):

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
-from regress.networks import (
+from regress.learning.networks import (
     Layout,
     NetworkProblem,
     Rows,
-    evaluate,
     fit_ridge,
     fold,
     nguyen_widrow,
@@ -16,6 +15,7 @@ from regress.networks import (
     ridge_directions,
     ridge_knots,
 )
+from regress.runtime.networks import evaluate
 from regress.targets import NETWORKS, NOT_OBSERVABLE, OUTPUTS, REGIONS, VISIBLE_SHAPES, observability
 
 

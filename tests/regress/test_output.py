@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
-from regress.adjustment import ShapeAdjustment, adjust, blend_sides, mirror, read_adjustments
 from regress.errors import InputError
-from regress.inputs import Frames
-from regress.model import Model
-from regress.predict import Output, predict_frames
-from regress.smoothing import OneEuro, OneEuroStream, by_region, one_euro
-from regress.stream import stream_csv
+from regress.runtime.adjustment import ShapeAdjustment, adjust, blend_sides, mirror, read_adjustments
+from regress.runtime.inputs import Frames
+from regress.runtime.model import Model
+from regress.runtime.predict import Output, predict_frames
+from regress.runtime.smoothing import OneEuro, OneEuroStream, by_region, one_euro
+from regress.runtime.stream import stream_csv
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 
 WEIGHTS = np.random.default_rng(0).uniform(size=(20, 52))

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from regress.errors import OutputError
-from regress.model import HEADSET, KEYPOINTS, Model, check_place, load_model, save_model
+from regress.runtime.model import HEADSET, KEYPOINTS, Model, check_place, load_model, save_model
 from tests.regress.headset.tiny import write_tiny_model
 
 

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPES
-from regress.inputs import Frames
-from regress.model import Model
-from regress.predict import moving_average, predict_frames, prediction_csv
-from regress.training import KeypointDataset
+from regress.learning.training import KeypointDataset
+from regress.runtime.inputs import Frames
+from regress.runtime.model import Model
+from regress.runtime.predict import moving_average, predict_frames, prediction_csv
 
 
 def _frames(points: np.ndarray, *, time_s: np.ndarray | None = None) -> Frames:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
-from regress.training import RECIPES, KeypointDataset
+from regress.learning.training import RECIPES, KeypointDataset
 from tests.regress.conftest import QUICK
 from tests.regress.test_inputs import bad_inputs
 
@@ -191,7 +191,7 @@ def test_version_and_help(run):
 _ENDLESS = """
 import dataclasses, signal
 from regress.cli import main, talk
-from regress.training import RECIPES
+from regress.learning.training import RECIPES
 from tests.regress.conftest import QUICK
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
 talk._PLAIN_SECONDS = 0

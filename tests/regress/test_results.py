@@ -9,12 +9,12 @@ from pygltflib import GLTF2
 
 from facegen.conventions import BLENDSHAPES
 from facegen.formats import read_live_link
-from regress.features import align_similarity, extract
-from regress.inputs import Frames
-from regress.predict import Output, predict_frames
-from regress.retargeting import read_retargeting, shipped_targets
-from regress.smoothing import smooth_landmarks
-from regress.stream import WeightStream
+from regress.runtime.features import align_similarity, extract
+from regress.runtime.inputs import Frames
+from regress.runtime.predict import Output, predict_frames
+from regress.runtime.retargeting import read_retargeting, shipped_targets
+from regress.runtime.smoothing import smooth_landmarks
+from regress.runtime.stream import WeightStream
 from tests.facegen.formats.test_gltf_animation import avatar
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 

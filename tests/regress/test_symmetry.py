@@ -7,9 +7,9 @@ import pytest
 
 from facegen.conventions import MIRRORED_BLENDSHAPES, MIRRORED_LANDMARKS, mirrored_name
 from regress.errors import InputError
-from regress.model import FastPredictor, load_model, save_model, symmetrised
+from regress.learning.training import train
+from regress.runtime.model import FastPredictor, load_model, save_model, symmetrised
 from regress.targets import Network
-from regress.training import train
 from tests.regress.conftest import QUICK
 from tests.regress.drawn import drawn_faces
 

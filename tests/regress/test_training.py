@@ -10,10 +10,10 @@ import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.errors import InputError, Interrupted
-from regress.model import Model
+from regress.learning.training import RECIPES, KeypointDataset, evaluate_model, read_dataset, score, train
+from regress.learning.training.preparation import mirrored, prepare
+from regress.runtime.model import Model
 from regress.targets import NETWORKS, OUTPUTS
-from regress.training import RECIPES, KeypointDataset, evaluate_model, read_dataset, score, train
-from regress.training.preparation import mirrored, prepare
 from tests.regress.conftest import QUICK, write_dataset
 
 

@@ -6,17 +6,18 @@ import numpy as np
 import pytest
 
 from regress import Model, load_model
-from regress.features import (
+from regress.learning.networks import fit_denoising
+from regress.learning.reference_shape import delaunay_edges
+from regress.runtime.features import (
     Features,
     closed_under_mirror,
-    delaunay_edges,
     depths_of,
     extract,
     load_reference_shape,
     mirrored_edges,
 )
-from regress.model import Normalisation
-from regress.networks import FoldedNetworks, fit_denoising
+from regress.runtime.model import Normalisation
+from regress.runtime.networks import FoldedNetworks
 from regress.targets import NETWORKS
 from tests.regress.drawn import drawn_face, drawn_faces
 

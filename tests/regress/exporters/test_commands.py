@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from regress.cli import main
-from regress.model import save_model
-from regress.training import Recipe, train
+from regress.learning.training import Recipe, train
+from regress.runtime.model import save_model
 from tests.regress.drawn import drawn_dataset
 
 

@@ -14,7 +14,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError, OutputError
 from regress.exporters import EXPORTERS, export_model, formula_of
 from regress.exporters.onnx_graph import OPERATORS, OPSET, build_graph, build_networks_graph
-from regress.training import Recipe, train
+from regress.learning.training import Recipe, train
 from tests.regress.drawn import drawn_dataset, drawn_faces
 from tests.regress.exporters.conftest import random_model
 from tests.regress.exporters.readers import READERS

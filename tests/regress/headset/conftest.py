@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from regress.headset.arrays import HeadsetArrays, read_arrays
+from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from tests.regress.headset.drawn import write_drawn_arrays
 
 

@@ -9,7 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from facegen.conventions import BLENDSHAPES, IRIS_POINTS, VIEW_POINTS, mirrored_name
-from regress.headset.parts import part_of
+from regress.runtime.headset.parts import part_of
 
 CAMERAS = ("left_eye", "right_eye", "mouth")
 SIDE = 24

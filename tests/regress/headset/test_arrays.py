@@ -9,7 +9,7 @@ import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.errors import InputError
-from regress.headset.arrays import HeadsetArrays, read_arrays
+from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from tests.regress.headset.drawn import write_drawn_arrays
 
 

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 torch = pytest.importorskip("torch")
 
 from facegen.conventions import BLENDSHAPES, mirrored_name  # noqa: E402
-from regress.headset.parts import (  # noqa: E402
+from regress.learning.headset.training.blend import blend  # noqa: E402
+from regress.runtime.headset.parts import (  # noqa: E402
     encoder_owners,
     is_symmetric,
     mirror_partner,
@@ -16,7 +17,6 @@ from regress.headset.parts import (  # noqa: E402
     side_of,
     without_side,
 )
-from regress.headset.training.blend import blend  # noqa: E402
 
 CAMERAS = ("left_eye", "right_eye", "mouth")
 

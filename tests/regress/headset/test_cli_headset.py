@@ -14,9 +14,9 @@ import pytest
 from facegen.conventions import BLENDSHAPES
 from regress import timing
 from regress.cli.headset_train import side_notes
-from regress.headset.arrays import HeadsetArrays
-from regress.headset.evaluation import evaluate
-from regress.headset.predictor import load_headset_predictor
+from regress.learning.headset.arrays import HeadsetArrays
+from regress.learning.headset.evaluation import evaluate
+from regress.runtime.headset.predictor import load_headset_predictor
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.takes import write_pictures
 from tests.regress.headset.tiny import NAMES, write_tiny_model
@@ -96,7 +96,7 @@ def test_without_pytorch_training_names_the_extra_and_the_rest_works(
     run, model: Path, arrays_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     for name in list(sys.modules):
-        if name.startswith("regress.headset.training"):
+        if name.startswith("regress.learning.headset.training"):
             monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "torch", None)
     code, _, said = run("headset", "train", arrays_folder, "--out", tmp_path / "model")

@@ -13,13 +13,13 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
-from regress.headset.arrays import HeadsetArrays
-from regress.headset.comparison import compare
-from regress.headset.evaluation import evaluate
-from regress.headset.model import Temporal, describe_headset_model, read_headset_model
-from regress.headset.predictor import load_headset_predictor
-from regress.headset.worst import worst_frames
+from regress.learning.headset.arrays import HeadsetArrays
+from regress.learning.headset.comparison import compare
+from regress.learning.headset.evaluation import evaluate
+from regress.learning.headset.worst import worst_frames
 from regress.report.headset_page import Judged, write_headset_report
+from regress.runtime.headset.model import Temporal, describe_headset_model, read_headset_model
+from regress.runtime.headset.predictor import load_headset_predictor
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.tiny import NAMES, write_tiny_model
 
@@ -145,7 +145,7 @@ def test_a_model_is_reported_by_its_own_scores_without_data(
 ):
     many, _ = models
     predictor = load_headset_predictor(many)
-    from regress.headset.arrays import read_arrays
+    from regress.learning.headset.arrays import read_arrays
 
     scored = write_tiny_model(
         tmp_path / "scored",

@@ -7,7 +7,7 @@ import pytest
 torch = pytest.importorskip("torch")
 
 from facegen.conventions import IRIS_POINTS, VIEW_POINTS  # noqa: E402
-from regress.headset.training.foveas import Fovea, center, iris_columns  # noqa: E402
+from regress.learning.headset.training.foveas import Fovea, center, iris_columns  # noqa: E402
 
 EYES = {
     side: [

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from regress.headset.clusters import cluster_error_mm
-from regress.headset.geometry import FaceGeometry
+from regress.learning.headset.clusters import cluster_error_mm
+from regress.learning.headset.geometry import FaceGeometry
 
 CAMERAS = ("left_eye", "right_eye", "mouth")
 
@@ -29,7 +29,7 @@ def test_the_error_is_the_mean_distance_of_displaced_vertices(face: FaceGeometry
 def test_blocks_do_not_matter(face: FaceGeometry, monkeypatch: pytest.MonkeyPatch):
     predicted, true = np.random.default_rng(2).random((2, 9, 52))
     whole = face.error_mm(predicted, true)
-    monkeypatch.setattr("regress.headset.geometry._BLOCK_BYTES", 4 * 30 * 3 * 2)
+    monkeypatch.setattr("regress.learning.headset.geometry._BLOCK_BYTES", 4 * 30 * 3 * 2)
     np.testing.assert_allclose(face.error_mm(predicted, true), whole, rtol=1e-6)
 
 

@@ -14,14 +14,14 @@ from hypothesis import strategies as st  # noqa: E402
 
 from facegen.conventions import MIRRORED_BLENDSHAPES, VIEW_POINTS  # noqa: E402
 from regress.errors import ModelError  # noqa: E402
-from regress.headset import CameraInput, HeadsetGraph  # noqa: E402
-from regress.headset.outputs import MIRROR, MIRROR_SIGN, OUTPUTS  # noqa: E402
-from regress.headset.recipe import HeadsetRecipe  # noqa: E402
-from regress.headset.training import export  # noqa: E402
-from regress.headset.training.export import export_graph  # noqa: E402
-from regress.headset.training.networks import NETWORKS  # noqa: E402
-from regress.headset.training.resampling import reduced, resampling_matrix, warp_matrix  # noqa: E402
-from regress.headset.training.targets import target_scale  # noqa: E402
+from regress.learning.headset.recipe import HeadsetRecipe  # noqa: E402
+from regress.learning.headset.training import export  # noqa: E402
+from regress.learning.headset.training.export import export_graph  # noqa: E402
+from regress.learning.headset.training.networks import NETWORKS  # noqa: E402
+from regress.learning.headset.training.resampling import reduced, resampling_matrix, warp_matrix  # noqa: E402
+from regress.learning.headset.training.targets import target_scale  # noqa: E402
+from regress.runtime.headset import CameraInput, HeadsetGraph  # noqa: E402
+from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN, OUTPUTS  # noqa: E402
 
 CAMERAS = (
     CameraInput(name="left_eye", width=40, height=40),

@@ -14,17 +14,17 @@ torch = pytest.importorskip("torch")
 
 from facegen.conventions import BLENDSHAPE_INDEX, IRIS_POINTS, VIEW_POINTS  # noqa: E402
 from regress.errors import InputError, Interrupted, OutputError  # noqa: E402
-from regress.headset import HeadsetGraph, read_headset_model  # noqa: E402
-from regress.headset.accuracy import share_better, summary  # noqa: E402
-from regress.headset.arrays import HeadsetArrays  # noqa: E402
-from regress.headset.evaluation import evaluate  # noqa: E402
-from regress.headset.graph import Estimates  # noqa: E402
-from regress.headset.model import HeadsetModel  # noqa: E402
-from regress.headset.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
-from regress.headset.parts import part_of  # noqa: E402
-from regress.headset.recipe import HeadsetRecipe  # noqa: E402
-from regress.headset.training import train_headset  # noqa: E402
-from regress.headset.training.batches import Frames  # noqa: E402
+from regress.learning.headset.accuracy import share_better, summary  # noqa: E402
+from regress.learning.headset.arrays import HeadsetArrays  # noqa: E402
+from regress.learning.headset.evaluation import evaluate  # noqa: E402
+from regress.learning.headset.recipe import HeadsetRecipe  # noqa: E402
+from regress.learning.headset.training import train_headset  # noqa: E402
+from regress.learning.headset.training.batches import Frames  # noqa: E402
+from regress.runtime.headset import HeadsetGraph, read_headset_model  # noqa: E402
+from regress.runtime.headset.graph import Estimates  # noqa: E402
+from regress.runtime.headset.model import HeadsetModel  # noqa: E402
+from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
+from regress.runtime.headset.parts import part_of  # noqa: E402
 from tests.regress.headset.takes import write_pictures  # noqa: E402
 
 QUICK = HeadsetRecipe(input_size=16, code=48, hidden=64, epochs=20, batch=16, learning_rate=4e-3)
@@ -307,7 +307,7 @@ def test_impossible_settings_are_refused(settings: dict, message: str):
 
 def test_nothing_but_training_loads_torch():
     code = (
-        "import sys, regress.headset, regress.headset.evaluation, regress.headset.clusters, regress.cli\n"
+        "import sys, regress.runtime.headset, regress.learning.headset.evaluation, regress.cli\n"
         "assert 'torch' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 torch = pytest.importorskip("torch")
 
 from facegen.conventions import VIEW_POINTS  # noqa: E402
-from regress.headset.recipe import HeadsetRecipe  # noqa: E402
-from regress.headset.training.networks import NETWORKS  # noqa: E402
-from regress.headset.training.optimizer import Muon, optimizers_of, orthogonalised  # noqa: E402
+from regress.learning.headset.recipe import HeadsetRecipe  # noqa: E402
+from regress.learning.headset.training.networks import NETWORKS  # noqa: E402
+from regress.learning.headset.training.optimizer import Muon, optimizers_of, orthogonalised  # noqa: E402
 
 EYE = tuple(range(VIEW_POINTS.index("left_pupil"), VIEW_POINTS.index("right_upper_lid_0")))
 CAMERAS = ("left_eye", "right_eye", "mouth")

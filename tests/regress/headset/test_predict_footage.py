@@ -9,9 +9,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from regress.errors import InputError
-from regress.headset.faults import FROZEN_FRAMES, Fault, frozen_frames, picture_fault, told_faults
-from regress.headset.footage import Footage, line_up
-from regress.headset.recordings import Recording, read_recording, read_rendered
+from regress.runtime.headset.faults import FROZEN_FRAMES, Fault, frozen_frames, picture_fault, told_faults
+from regress.runtime.headset.footage import Footage, line_up
+from regress.runtime.headset.recordings import Recording, read_recording, read_rendered
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 
 SIZES = {"left_eye": (WIDTH, HEIGHT), "right_eye": (WIDTH, HEIGHT), "mouth": (WIDTH, HEIGHT)}

@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
-from regress.headset.confidence import confidence
-from regress.headset.footage import Footage, line_up
-from regress.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
-from regress.headset.performance import AMPLIFIED, perform
-from regress.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.headset.seats import seat_change
-from regress.predict import Output
-from regress.smoothing import OneEuro
+from regress.runtime.headset.confidence import confidence
+from regress.runtime.headset.footage import Footage, line_up
+from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
+from regress.runtime.headset.performance import AMPLIFIED, perform
+from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.seats import seat_change
+from regress.runtime.predict import Output
+from regress.runtime.smoothing import OneEuro
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 from tests.regress.headset.tiny import NAMES, OWNER, R2, RMSE, write_tiny_model
 

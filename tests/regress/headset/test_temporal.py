@@ -15,10 +15,11 @@ from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPE_INDEX, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
-from regress.headset.arrays import HeadsetArrays
-from regress.headset.graph import Estimates
-from regress.headset.model import Temporal, describe_headset_model, read_headset_model
-from regress.headset.temporal import TAPS, convolve, fit_taps, fit_temporal
+from regress.learning.headset.arrays import HeadsetArrays
+from regress.learning.headset.taps import fit_taps, fit_temporal
+from regress.runtime.headset.graph import Estimates
+from regress.runtime.headset.model import Temporal, describe_headset_model, read_headset_model
+from regress.runtime.headset.temporal import TAPS, convolve
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.takes import pictures, write_take
 from tests.regress.headset.tiny import NAMES, write_tiny_model

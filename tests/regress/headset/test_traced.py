@@ -8,17 +8,17 @@ import pytest
 torch = pytest.importorskip("torch")
 
 from facegen.conventions import BLENDSHAPES, IRIS_POINTS, VIEW_POINTS  # noqa: E402
-from regress.headset.arrays import HeadsetArrays  # noqa: E402
-from regress.headset.outputs import OUTPUTS  # noqa: E402
-from regress.headset.recipe import HeadsetRecipe  # noqa: E402
-from regress.headset.training.batches import Frames  # noqa: E402
-from regress.headset.training.blend import Blended  # noqa: E402
-from regress.headset.training.encoders import Encoder  # noqa: E402
-from regress.headset.training.loop import Training  # noqa: E402
-from regress.headset.training.losses import places_loss, total_loss  # noqa: E402
-from regress.headset.training.networks import Answer, ModularNetwork  # noqa: E402
-from regress.headset.training.traced import traced_points  # noqa: E402
-from regress.headset.training.tracers import Tracer  # noqa: E402
+from regress.learning.headset.arrays import HeadsetArrays  # noqa: E402
+from regress.learning.headset.recipe import HeadsetRecipe  # noqa: E402
+from regress.learning.headset.training.batches import Frames  # noqa: E402
+from regress.learning.headset.training.blend import Blended  # noqa: E402
+from regress.learning.headset.training.encoders import Encoder  # noqa: E402
+from regress.learning.headset.training.loop import Training  # noqa: E402
+from regress.learning.headset.training.losses import places_loss, total_loss  # noqa: E402
+from regress.learning.headset.training.networks import Answer, ModularNetwork  # noqa: E402
+from regress.learning.headset.training.traced import traced_points  # noqa: E402
+from regress.learning.headset.training.tracers import Tracer  # noqa: E402
+from regress.runtime.headset.outputs import OUTPUTS  # noqa: E402
 from tests.regress.headset.drawn import DOTS, dot_of  # noqa: E402
 
 IRIS = [f"left_iris_{place}" for place in range(IRIS_POINTS)]

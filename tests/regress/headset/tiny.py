@@ -7,8 +7,8 @@ import onnx
 from onnx import TensorProto, helper, numpy_helper
 
 from facegen.conventions import BLENDSHAPES
-from regress.headset.model import GRAPH_OUTPUTS, CameraInput, HeadsetModel, save_headset_model
-from regress.headset.parts import part_of
+from regress.runtime.headset.model import GRAPH_OUTPUTS, CameraInput, HeadsetModel, save_headset_model
+from regress.runtime.headset.parts import part_of
 
 NAMES = ("left_eye", "right_eye", "mouth")
 OWNER = {shape: next(name for name in NAMES if shape in part_of(name)) for shape in BLENDSHAPES}

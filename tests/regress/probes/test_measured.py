@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from regress.errors import InputError
-from regress.model import save_model
-from regress.probes import figures_of, measure, read_faces
-from regress.probes.observability import NOISE_PERCENT
+from regress.learning.probes import figures_of, measure, read_faces
+from regress.learning.probes.observability import NOISE_PERCENT
+from regress.learning.training import Recipe, evaluate_model, read_dataset, train
+from regress.learning.training.noise import DetectorNoise
 from regress.report import write_report
+from regress.runtime.model import save_model
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
-from regress.training import Recipe, evaluate_model, read_dataset, train
-from regress.training.noise import DetectorNoise
 from tests.regress.conftest import write_dataset
 from tests.regress.drawn import drawn_heads
 

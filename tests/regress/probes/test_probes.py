@@ -8,19 +8,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPE_INDEX
-from regress.probes import ProbeFaces
-from regress.probes.crosstalk import WEIGHT, cross_talk, moved_with
-from regress.probes.faces import frontal
-from regress.probes.methods import Method
-from regress.probes.movements import movements
-from regress.probes.observability import NOISE_PERCENT, observability
-from regress.probes.people import person_errors
-from regress.probes.poses import PITCH_DEG, WITHIN_DEG, YAW_DEG, PoseErrors, pose_errors
-from regress.probes.stillness import JITTER_PERCENT, stillness
-from regress.probes.winks import winks
+from regress.learning.probes import ProbeFaces
+from regress.learning.probes.crosstalk import WEIGHT, cross_talk, moved_with
+from regress.learning.probes.faces import frontal
+from regress.learning.probes.methods import Method
+from regress.learning.probes.movements import movements
+from regress.learning.probes.observability import NOISE_PERCENT, observability
+from regress.learning.probes.people import person_errors
+from regress.learning.probes.poses import PITCH_DEG, WITHIN_DEG, YAW_DEG, PoseErrors, pose_errors
+from regress.learning.probes.stillness import JITTER_PERCENT, stillness
+from regress.learning.probes.winks import winks
+from regress.learning.training.noise import OUTER_EYES
+from regress.learning.training.preparation import OUTPUT_COLUMNS
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
-from regress.training.noise import OUTER_EYES
-from regress.training.preparation import OUTPUT_COLUMNS
 from tests.regress.drawn import drawn_heads
 
 

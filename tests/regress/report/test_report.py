@@ -9,10 +9,10 @@ import pytest
 
 from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError, OutputError
-from regress.model import load_model, save_model
+from regress.learning.training import Recipe, train
 from regress.report import content_of, render_page, write_report
+from regress.runtime.model import load_model, save_model
 from regress.targets import VISIBLE_SHAPES
-from regress.training import Recipe, train
 from tests.regress.drawn import drawn_dataset
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from regress.training.regression import CELLS, regression
+from regress.learning.training.regression import CELLS, regression
 
 
 def test_every_value_counts_once_where_it_belongs():

@@ -1,5 +1,0 @@
-"""Training of headset networks: the one place that imports PyTorch (the extra ``headset``)."""
-
-from regress.headset.training.run import train_headset
-
-__all__ = ["train_headset"]

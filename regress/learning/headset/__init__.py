@@ -1,0 +1,1 @@
+"""Headset networks: their arrays, training and judgement."""

@@ -1,0 +1,98 @@
+"""Finds the taps of the temporal convolution on clips of people whom the network has not seen."""
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from regress.errors import InputError
+from regress.learning.headset.accuracy import summary
+from regress.learning.headset.arrays import HeadsetArrays
+from regress.learning.headset.evaluation import Condition, estimate
+from regress.runtime.headset.graph import Estimates
+from regress.runtime.headset.model import Temporal
+from regress.runtime.headset.outputs import MIRROR, WEIGHTS
+from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.temporal import TAPS, convolve, lagged
+
+_RIDGE = 1e-3
+"""Of the mean squared difference between frames: an output that says the same throughout keeps its own frame alone."""
+
+
+def fit_taps(said: np.ndarray, true: np.ndarray, starts: np.ndarray) -> np.ndarray:
+    """Taps (56, TAPS) of least squared error; both sides of the face share theirs.
+
+    As taps add up to 1, the error of the mean is the frame's own error plus the differences to the frames before, each
+    times its tap: a small regression for each output.
+
+    Parameters
+    ----------
+    said, true : (n, 56)
+        Weights, then gaze angles, clip after clip.
+    starts : (n,) bool
+        First frames of clips.
+    """
+    history = lagged(said, starts)
+    change = history[:, 1:] - history[:, :1]
+    gram = np.einsum("nio,njo->oij", change, change)
+    moment = np.einsum("nio,no->oi", change, true - said)
+    gram, moment = gram + gram[MIRROR], moment + moment[MIRROR]
+    ridge = _RIDGE * np.trace(gram, axis1=1, axis2=2) / (TAPS - 1) + 1e-12
+    before = np.linalg.solve(gram + ridge[:, None, None] * np.eye(TAPS - 1), moment[..., None])[..., 0]
+    return np.concatenate([1 - before.sum(axis=1, keepdims=True), before], axis=1)
+
+
+def fit_temporal(predictor: HeadsetPredictor, arrays: HeadsetArrays) -> Temporal:
+    """Taps from the clips of the arrays' training people, and what they do for those of the test people.
+
+    Raises
+    ------
+    InputError
+        Where the arrays are no clips, have no training or test people, or are of other cameras.
+    """
+    if arrays.clip_starts().all():
+        raise InputError(
+            'the arrays hold no frames that follow one another; pack a dataset of kind "sequence" '
+            "(datasets/headset-clips.toml)"
+        )
+    rows = {split: arrays.rows(split) for split in ("train", "test")}
+    for split, there in rows.items():
+        if not len(there):
+            raise InputError(f"the clips have no {split} people; split_shares in their spec gives some")
+    said = {
+        split: estimate(predictor.graph, predictor.model, arrays, there, Condition())
+        for split, there in rows.items()
+    }
+    starts = arrays.clip_starts()
+    taps = fit_taps(_joined(said["train"]), _true(arrays, rows["train"]), starts[rows["train"]])
+    even = np.full_like(taps, 1 / TAPS)
+    alone = np.zeros_like(taps)
+    alone[:, 0] = 1
+    return Temporal(
+        fps=arrays.frames_a_second(),
+        taps=tuple(map(tuple, taps.tolist())),
+        people=len(np.unique(arrays.person[rows["train"]])),
+        dataset_hash=arrays.description.get("dataset_hash", ""),
+        scores={
+            name: _scores(arrays, rows["test"], said["test"], one)
+            for name, one in (("one frame", alone), ("mean of five", even), ("taps", taps))
+        },
+    )
+
+
+def _scores(arrays: HeadsetArrays, rows: np.ndarray, said: Estimates, taps: np.ndarray) -> dict[str, Any]:
+    starts = arrays.clip_starts()[rows]
+    values = convolve(_joined(said), starts, taps)
+    weights, gaze = np.clip(values[:, :WEIGHTS], 0, 1), values[:, WEIGHTS:].reshape(-1, 2, 2)
+    true = arrays.weights[rows]
+    figures = summary(arrays.face, weights, gaze, true, arrays.gaze[rows].reshape(-1, 2, 2))
+    shake = np.diff(weights - true, axis=0)[~starts[1:]]
+    return asdict(figures) | {"shake": float(np.sqrt(np.mean(shake**2)))}
+
+
+def _joined(said: Estimates) -> np.ndarray:
+    return np.concatenate([said.weights, said.gaze.reshape(-1, 4)], axis=1).astype(np.float64)
+
+
+def _true(arrays: HeadsetArrays, rows: np.ndarray) -> np.ndarray:
+    return np.concatenate([arrays.weights[rows], arrays.gaze[rows]], axis=1).astype(np.float64)

@@ -1,0 +1,5 @@
+"""Training of headset networks: the one place that imports PyTorch (the extra ``headset``)."""
+
+from regress.learning.headset.training.run import train_headset
+
+__all__ = ["train_headset"]

@@ -1,0 +1,166 @@
+"""A trained network as one ONNX graph, preprocessing included, checked against PyTorch."""
+
+import io
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+import onnxruntime
+import torch
+from torch import nn
+
+from regress.errors import ModelError
+from regress.learning.headset.training.networks import HeadsetNetwork
+from regress.learning.headset.training.resampling import resampling_matrix
+from regress.learning.headset.training.targets import Targets
+from regress.runtime.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
+from regress.runtime.headset.outputs import WEIGHTS
+
+TOLERANCE = 1e-4
+"""Largest difference between the graph and PyTorch that is let through."""
+
+_OPSET = 17
+
+
+class Deployed(nn.Module):
+    """Pictures as cameras give them to weights, deviations and gaze: what the graph computes."""
+
+    def __init__(
+        self,
+        network: HeadsetNetwork,
+        cameras: tuple[CameraInput, ...],
+        targets: Targets,
+        square_size: int,
+        deviation_scale: np.ndarray,
+        calibration: bool,
+    ) -> None:
+        super().__init__()
+        self.network, self.calibration = network, calibration
+        self.register_buffer("deviation_std", torch.from_numpy(targets.std * deviation_scale))
+        self.register_buffer("mean", torch.from_numpy(targets.mean))
+        self.register_buffer("std", torch.from_numpy(targets.std))
+        self.cameras, self.square_size = cameras, square_size
+        for column, camera in enumerate(cameras):
+            rows, columns = (resampling_matrix(side, square_size) for side in (camera.height, camera.width))
+            self.register_buffer(f"rows_{column}", torch.from_numpy(rows))
+            self.register_buffer(f"columns_{column}", torch.from_numpy(columns.T.copy()))
+
+    def forward(self, *inputs: torch.Tensor) -> tuple[torch.Tensor, ...]:
+        """Outputs of each camera's pictures and neutral ones, ``present``, ``calibrated``; see ``GRAPH_OUTPUTS``."""
+        *seen, present, calibrated = inputs
+        if not self.calibration:  # a product, so that the graph keeps the input
+            calibrated = 0 * calibrated
+        answer = self.network(self._squares(seen[0::2]), self._squares(seen[1::2]), present, calibrated)
+        said = answer.blended.mean * self.std + self.mean
+        deviation = torch.sqrt(answer.blended.variance) * self.deviation_std
+        # yaw and pitch of the left eye, then of the right
+        gaze = said[:, WEIGHTS:].reshape(-1, 2, 2)
+        weights, shares = said[:, :WEIGHTS].clamp(0, 1), answer.blended.shares[..., :WEIGHTS]
+        points = [
+            self._pixels(camera, places) for camera, places in zip(self.cameras, answer.places, strict=True)
+        ]
+        known = [pixels for pixels in points if pixels is not None]
+        return weights, deviation[:, :WEIGHTS], gaze, shares, torch.sigmoid(answer.seat), *known
+
+    def _pixels(self, camera: CameraInput, places: torch.Tensor) -> torch.Tensor | None:
+        """Places (n, P, 2) that the camera's encoder found, in pixels of the camera's own picture."""
+        encoder = self.network.encoder(camera.name)
+        if encoder.tracer is None:
+            return None
+        across, down = encoder.shares(places).unbind(2)
+        across = across if camera.mirrored_of is None else 1 - across
+        return torch.stack([across * camera.width - 0.5, down * camera.height - 0.5], dim=2)
+
+    def _squares(self, pictures: Sequence[torch.Tensor]) -> list[torch.Tensor]:
+        return [self._square(column, seen.float()) for column, seen in enumerate(pictures)]
+
+    def _square(self, column: int, seen: torch.Tensor) -> torch.Tensor:
+        camera = self.cameras[column]
+        if (camera.width, camera.height) != (self.square_size, self.square_size):
+            seen = getattr(self, f"rows_{column}") @ seen @ getattr(self, f"columns_{column}")
+        return seen if camera.mirrored_of is None else seen.flip(-1)
+
+
+def export_graph(
+    network: HeadsetNetwork,
+    cameras: tuple[CameraInput, ...],
+    targets: Targets,
+    *,
+    square_size: int,
+    deviation_scale: np.ndarray,
+    calibration: bool = True,
+) -> tuple[bytes, float]:
+    """The graph's bytes, and its largest difference from PyTorch on random frames.
+
+    Parameters
+    ----------
+    network
+        Trained, in evaluation mode.
+    cameras, targets, square_size
+        What it was trained with.
+    deviation_scale : (56,) float32
+        Factor on each output's predicted deviation.
+    calibration
+        Whether it was trained with neutral pictures; otherwise the graph takes ``calibrated`` for 0 whatever is given.
+
+    Raises
+    ------
+    ModelError
+        Where the difference is above ``TOLERANCE``.
+    """
+    deployed = Deployed(network, cameras, targets, square_size, deviation_scale, calibration).eval()
+    names = [f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")]
+    names += ["present", "calibrated"]
+    outputs = [
+        *GRAPH_OUTPUTS,
+        *(points_output(c.name) for c in cameras if network.encoder(c.name).tracer is not None),
+    ]
+    buffer = io.BytesIO()
+    with warnings.catch_warnings():
+        # The exporter that needs no further package is called deprecated, and warns of what tracing fixes.
+        warnings.simplefilter("ignore")
+        torch.onnx.export(
+            deployed,
+            _probe(cameras, 2),
+            buffer,
+            input_names=names,
+            output_names=outputs,
+            dynamic_axes={name: {0: "frames"} for name in (*names, *outputs)},
+            opset_version=_OPSET,
+            dynamo=False,
+        )
+    graph = buffer.getvalue()
+    difference = _difference(deployed, graph, names, _probe(cameras, 7))
+    if not difference <= TOLERANCE:
+        raise ModelError(
+            f"the exported graph differs from PyTorch by {difference:.2g}; {TOLERANCE} is allowed"
+        )
+    return graph, difference
+
+
+def _probe(cameras: tuple[CameraInput, ...], count: int) -> tuple[torch.Tensor, ...]:
+    """Random frames, some without a camera, some without a neutral picture."""
+    random = np.random.default_rng(count)
+    seen = [
+        torch.from_numpy(random.integers(0, 256, (count, camera.height, camera.width), dtype=np.uint8))
+        for camera in cameras
+        for _ in range(2)
+    ]
+    present = (random.random((count, len(cameras))) < 0.7).astype(np.float32)
+    present[0] = 1
+    return *seen, torch.from_numpy(present), torch.from_numpy((np.arange(count) % 2).astype(np.float32))
+
+
+def _difference(deployed: Deployed, graph: bytes, names: list[str], probe: tuple[torch.Tensor, ...]) -> float:
+    with torch.no_grad():
+        expected = deployed(*probe)
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads, options.log_severity_level = 1, 3
+    session = onnxruntime.InferenceSession(graph, options, providers=["CPUExecutionProvider"])
+    feed = {name: value.numpy() for name, value in zip(names, probe, strict=True)}
+    found = session.run(None, feed)
+    # points as shares of the picture: pixels are up to hundreds, and float32 has seven digits
+    largest = max(max(camera.width, camera.height) for camera in deployed.cameras)
+    scales = [1.0] * len(GRAPH_OUTPUTS) + [1 / largest] * (len(found) - len(GRAPH_OUTPUTS))
+    pairs = zip(found, expected, scales, strict=True)
+    return float(max(scale * np.abs(one - other.numpy()).max() for one, other, scale in pairs))

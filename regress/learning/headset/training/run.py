@@ -1,0 +1,115 @@
+"""Training from arrays to a model folder."""
+
+import os
+from dataclasses import replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from regress.learning.headset.arrays import HeadsetArrays
+from regress.learning.headset.evaluation import evaluate
+from regress.learning.headset.recipe import HeadsetRecipe
+from regress.learning.headset.training.export import export_graph
+from regress.learning.headset.training.loop import Progress, Training
+from regress.runtime.headset.graph import HeadsetGraph
+from regress.runtime.headset.model import GRAPH_OUTPUTS, HeadsetModel, points_output, save_headset_model
+from regress.runtime.headset.outputs import WEIGHTS
+from regress.runtime.headset.parts import encoder_owners, part_of
+from regress.runtime.headset.typical import typical_picture
+from regress.runtime.model import HEADSET, check_place
+
+
+def train_headset(
+    arrays: HeadsetArrays,
+    recipe: HeadsetRecipe,
+    folder: str | os.PathLike[str],
+    *,
+    progress: Progress | None = None,
+) -> HeadsetModel:
+    """Train a network and write its model folder; stopped, it goes on where the last whole epoch ended.
+
+    Parameters
+    ----------
+    arrays
+        With a training split; scores come from its test split where it has one.
+    recipe
+        All settings.
+    folder
+        Where the model goes. Until it is written its state is in a file beside it, ``.NAME.checkpoint``.
+    progress
+        Called after each epoch.
+
+    Raises
+    ------
+    InputError
+        Where no training row is left, or the checkpoint belongs to another training.
+    Interrupted
+        On Ctrl-C.
+    OutputError
+        Where the model cannot be written.
+    """
+    folder = Path(folder)
+    check_place(folder, HEADSET)
+    checkpoint = folder.parent / f".{folder.name}.checkpoint"
+    training = Training(arrays, recipe, checkpoint)
+    resumed = len(training.history)
+    network = training.run(progress)
+    owners = encoder_owners(tuple(camera.name for camera in arrays.cameras))
+    cameras = tuple(replace(camera, mirrored_of=owners[camera.name]) for camera in arrays.cameras)
+    scale = training.deviation_scale()
+    graph, difference = export_graph(
+        network,
+        cameras,
+        training.targets,
+        square_size=recipe.square_size,
+        deviation_scale=scale,
+        calibration=recipe.calibration,
+    )
+    points = training.points()
+    description = arrays.description
+    model = HeadsetModel(
+        headset=description["headset"],
+        cameras=cameras,
+        parts={name: part_of(name) for name in owners},
+        modulation=recipe.modulation if recipe.architecture == "modular" else 1.0,
+        architecture=recipe.architecture,
+        calibration="optional" if recipe.calibration else "none",
+        points=points,
+        typical={name: _typical(pictures, training.rows) for name, pictures in arrays.pictures.items()},
+        outputs=(*GRAPH_OUTPUTS, *map(points_output, points)),
+        training={
+            "recipe": recipe.settings(),
+            "data_seed": description.get("seed"),
+            "rows": len(training.rows),
+            "people": len(set(arrays.person[training.rows].tolist())),
+            "parameters": sum(parameter.numel() for parameter in network.parameters()),
+            "history": training.history,
+            "cpu_s": training.cpu_s,
+            "resumed_after_epochs": resumed,
+            "onnx_difference": difference,
+            "deviation_scale": scale.tolist(),
+            "mean_weights": training.targets.mean[:WEIGHTS].tolist(),
+            "mean_gaze": training.targets.mean[WEIGHTS:].tolist(),
+            "versions": {"facegen": version("facegen"), "torch": torch.__version__},
+        },
+        dataset_hash=description.get("dataset_hash", ""),
+        rig=description.get("rig", ""),
+        licences=_licences(description),
+    )
+    if (arrays.split == "test").any():
+        model = replace(model, scores=evaluate(HeadsetGraph(graph, cameras), model, arrays))
+    written = save_headset_model(model, graph, folder)
+    checkpoint.unlink(missing_ok=True)
+    return written
+
+
+def _typical(pictures: np.ndarray, rows: np.ndarray) -> tuple[tuple[int, ...], ...]:
+    return tuple(map(tuple, typical_picture(pictures, rows).tolist()))
+
+
+def _licences(description: dict[str, Any]) -> tuple[str, ...]:
+    licence = description.get("licence", ())
+    return (licence,) if isinstance(licence, str) else tuple(map(str, licence))

@@ -1,0 +1,21 @@
+"""Many small networks side by side: how they start, train and fold."""
+
+from regress.learning.networks.denoising import fit_denoising
+from regress.learning.networks.folding import fold
+from regress.learning.networks.initial import nguyen_widrow, ridge_directions, ridge_knots
+from regress.learning.networks.least_squares import Layout, NetworkProblem, Rows
+from regress.learning.networks.ridge import Ridge, fit_ridge, ridge_coefficients
+
+__all__ = [
+    "Layout",
+    "NetworkProblem",
+    "Ridge",
+    "Rows",
+    "fit_denoising",
+    "fit_ridge",
+    "fold",
+    "nguyen_widrow",
+    "ridge_coefficients",
+    "ridge_directions",
+    "ridge_knots",
+]

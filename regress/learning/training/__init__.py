@@ -1,0 +1,17 @@
+"""From a facegen dataset to a model: splits, z-scores, 31 networks, baselines, scores."""
+
+from regress.learning.training.dataset import KeypointDataset, read_dataset
+from regress.learning.training.recipes import RECIPES, Recipe
+from regress.learning.training.run import train
+from regress.learning.training.scores import Scores, evaluate_model, score
+
+__all__ = [
+    "RECIPES",
+    "KeypointDataset",
+    "Recipe",
+    "Scores",
+    "evaluate_model",
+    "read_dataset",
+    "score",
+    "train",
+]

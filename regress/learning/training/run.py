@@ -1,0 +1,133 @@
+"""Training from start to model: features, networks with and without a neutral frame, and the record."""
+
+import dataclasses
+from dataclasses import dataclass
+
+from regress.errors import Interrupted
+from regress.learning.networks import fold
+from regress.learning.training.dataset import KeypointDataset
+from regress.learning.training.fitting import Fit, Progress, fit_networks
+from regress.learning.training.preparation import Prepared, prepare
+from regress.learning.training.recipes import Recipe
+from regress.learning.training.record import training_record
+from regress.runtime.features import (
+    Features,
+    closed_under_mirror,
+    depths_of,
+    load_reference_shape,
+    mean_shape,
+)
+from regress.runtime.model import Calibrated, Model, symmetrised
+from regress.runtime.networks import FoldedNetworks
+from regress.targets import NETWORKS
+
+
+def train(
+    dataset: KeypointDataset, recipe: Recipe, *, seed: int = 0, progress: Progress | None = None
+) -> Model:
+    """Train all networks on a dataset; the same inputs give the same model on one machine.
+
+    Parameters
+    ----------
+    dataset
+        Points, weights and splits.
+    recipe
+        One of ``RECIPES``, or another.
+    seed
+        Of the starts and of the rows on which alphas are compared.
+    progress
+        Called as work goes on, from any thread.
+
+    Raises
+    ------
+    Interrupted
+        On Ctrl-C.
+    """
+    try:
+        return _trained(dataset, recipe, seed, progress)
+    except KeyboardInterrupt:
+        raise Interrupted("training was stopped; no model was written") from None
+
+
+def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Progress | None) -> Model:
+    reference = load_reference_shape()
+    features = Features(
+        alignment=recipe.alignment,
+        mean_shape=mean_shape(dataset.points[dataset.rows("train")]),
+        edges=closed_under_mirror(reference.edges) if recipe.denoise else reference.edges,
+        reference_name=reference.name,
+        reference_sha256=reference.sha256,
+        depth=depths_of(reference) if recipe.undo_turn else None,
+    )
+    alone = _fit_set(dataset, features, recipe, calibrated=False, seed=seed, progress=progress)
+    compared = None
+    if recipe.calibrated and dataset.has_neutral_frames:
+        compared = _fit_set(dataset, features, recipe, calibrated=True, seed=seed, progress=progress)
+    model = Model(
+        recipe=recipe.name,
+        table=NETWORKS,
+        features=features,
+        normalisation=alone.prepared.normalisation,
+        networks=alone.networks,
+        record={},
+        calibrated=None
+        if compared is None
+        else Calibrated(normalisation=compared.prepared.normalisation, networks=compared.networks),
+    )
+    if recipe.symmetric:
+        model = symmetrised(model)
+    fits = {"alone": alone.fit} if compared is None else {"alone": alone.fit, "calibrated": compared.fit}
+    rows = len(alone.prepared.splits["train"].inputs)
+    record = training_record(model, dataset, recipe, seed=seed, fits=fits, training_rows=rows)
+    return dataclasses.replace(model, record=record)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _FittedSet:
+    prepared: Prepared
+    fit: Fit
+    networks: FoldedNetworks
+
+
+def _fit_set(
+    dataset: KeypointDataset,
+    features: Features,
+    recipe: Recipe,
+    *,
+    calibrated: bool,
+    seed: int,
+    progress: Progress | None,
+) -> _FittedSet:
+    """One set of 31 networks: for a frame alone, or beside a neutral one."""
+    prepared = prepare(
+        dataset,
+        features,
+        mirror=recipe.mirror,
+        noise=recipe.calibrated_noise if calibrated else recipe.noise,
+        calibrated=calibrated,
+        denoise=recipe.denoise,
+        seed=seed,
+    )
+    stages = progress
+    if progress is not None and calibrated:
+
+        def stages(stage: str, done: int, total: int) -> None:
+            progress(f"calibrated, {stage}", done, total)
+
+    fit = fit_networks(prepared, recipe, seed=seed, progress=stages)
+    normalisation = prepared.normalisation
+    networks = fold(
+        fit.layout,
+        fit.parameters,
+        outputs=tuple(len(network.outputs) for network in NETWORKS),
+        rotation=prepared.rotation,
+        input_mean=prepared.input_mean,
+        input_std=prepared.input_std,
+        target_mean=normalisation.target_mean,
+        target_std=normalisation.target_std,
+    )
+    if prepared.denoising is not None:  # on places along the axes instead of the features made of them
+        networks = dataclasses.replace(
+            networks, w1=networks.w1 @ prepared.denoising.back.T, denoising=prepared.denoising
+        )
+    return _FittedSet(prepared=prepared, fit=fit, networks=networks)

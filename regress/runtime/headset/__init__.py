@@ -1,0 +1,15 @@
+"""Networks that see the pictures of a headset's cameras; training alone needs PyTorch (the extra ``headset``)."""
+
+from regress.runtime.headset.graph import Estimates, HeadsetGraph
+from regress.runtime.headset.model import CameraInput, HeadsetModel, read_headset_model, save_headset_model
+from regress.runtime.headset.outputs import GAZE_OUTPUTS
+
+__all__ = [
+    "GAZE_OUTPUTS",
+    "CameraInput",
+    "Estimates",
+    "HeadsetGraph",
+    "HeadsetModel",
+    "read_headset_model",
+    "save_headset_model",
+]

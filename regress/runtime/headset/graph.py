@@ -1,0 +1,157 @@
+"""The trained graph, run by onnxruntime on one core."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+
+from regress.errors import InputError, ModelError
+from regress.runtime.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
+
+_BLOCK_ROWS = 64
+"""Frames run at a time: more need more memory and are no faster."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimates:
+    """What a network says of n frames.
+
+    Parameters
+    ----------
+    weights : (n, 52) float32
+        In [0, 1], in ``BLENDSHAPES`` order.
+    deviation : (n, 52) float32
+        Predicted standard deviation of each weight.
+    gaze : (n, 2, 2) float32
+        Yaw and pitch of the left and the right eye's optical axis, radians, head frame.
+    shares : (n, cameras, 52) float32
+        How much each camera had to say; they add up to 1 over the cameras.
+    same_seat : (n,) float32
+        Probability that the neutral pictures come from the frame's own seat of the headset.
+    """
+
+    weights: np.ndarray
+    deviation: np.ndarray
+    gaze: np.ndarray
+    shares: np.ndarray
+    same_seat: np.ndarray
+
+
+class HeadsetGraph:
+    """A session of onnxruntime on a graph whose inputs and outputs ``HeadsetModel`` describes.
+
+    Parameters
+    ----------
+    source
+        Path of network.onnx, or its bytes.
+    cameras
+        The model's cameras, in its order.
+
+    Raises
+    ------
+    ModelError
+        Where onnxruntime cannot read the graph, or it lacks an input of a camera.
+    """
+
+    def __init__(self, source: str | os.PathLike[str] | bytes, cameras: tuple[CameraInput, ...]) -> None:
+        options = onnxruntime.SessionOptions()
+        options.intra_op_num_threads = options.inter_op_num_threads = 1
+        options.log_severity_level = 3
+        data = source if isinstance(source, bytes) else Path(source).read_bytes()
+        try:
+            self._session = onnxruntime.InferenceSession(data, options, providers=["CPUExecutionProvider"])
+        except Exception as error:  # onnxruntime's own classes share no public base
+            raise ModelError(f"network.onnx is not a graph that onnxruntime reads: {error}") from error
+        self._cameras = cameras
+        known = {value.name for value in self._session.get_inputs()}
+        lost = {f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")} - known
+        if lost:
+            raise ModelError(f"network.onnx has no input {', '.join(sorted(lost))}; model.json names them")
+
+    def run(
+        self,
+        pictures: dict[str, np.ndarray],
+        *,
+        neutral: dict[str, np.ndarray] | None = None,
+        present: np.ndarray | None = None,
+        calibrated: np.ndarray | None = None,
+    ) -> Estimates:
+        """Estimates of n frames.
+
+        Parameters
+        ----------
+        pictures : dict of (n, height, width) uint8
+            By camera; one that is left out counts as not present.
+        neutral : dict of (n, height, width) uint8 or None
+            Neutral pictures for each frame; None means uncalibrated.
+        present : (n, cameras) float or None
+            0 where a camera is not to be listened to.
+        calibrated : (n,) float or None
+            1 where the neutral pictures count; all, where they are given.
+
+        Raises
+        ------
+        InputError
+            Where pictures are of a camera that the model does not have, or a camera that is present in a calibrated
+            frame has no neutral pictures.
+        """
+        found = self._outputs(GRAPH_OUTPUTS, pictures, neutral, present, calibrated)
+        return Estimates(**dict(zip(GRAPH_OUTPUTS, found, strict=True)))
+
+    def trace(self, pictures: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """Pixels (n, P, 2) float32 of the points that each of these cameras traces; see ``HeadsetModel.points``.
+
+        Cameras that trace none are left out, and so are all of older models.
+        """
+        known = {value.name for value in self._session.get_outputs()}
+        cameras = [name for name in pictures if points_output(name) in known]
+        found = self._outputs([points_output(name) for name in cameras], pictures, None, None, None)
+        return dict(zip(cameras, found, strict=True))
+
+    def _outputs(
+        self,
+        names: Sequence[str],
+        pictures: dict[str, np.ndarray],
+        neutral: dict[str, np.ndarray] | None,
+        present: np.ndarray | None,
+        calibrated: np.ndarray | None,
+    ) -> list[np.ndarray]:
+        if not names:
+            return []
+        cameras = [camera.name for camera in self._cameras]
+        unknown = [name for name in (*pictures, *(neutral or {})) if name not in cameras]
+        if unknown:
+            raise InputError(
+                f"pictures are given of {', '.join(dict.fromkeys(unknown))}; the model has {', '.join(cameras)}"
+            )
+        rows = len(next(iter(pictures.values())))
+        here = np.tile(np.array([name in pictures for name in cameras], np.float32), (rows, 1))
+        if present is not None:
+            here *= np.asarray(present, np.float32)
+        known = np.full(rows, float(neutral is not None), np.float32)
+        if calibrated is not None:
+            known *= np.asarray(calibrated, np.float32)
+        compared = zip(cameras, (here * known[:, None]).any(axis=0), strict=True)
+        lost = [name for name, there in compared if there and name not in neutral]
+        if lost:
+            raise InputError(
+                f"no neutral pictures are given of {', '.join(lost)}; a calibrated frame needs them of every camera "
+                f"that is present"
+            )
+        blocks = []
+        for start in range(0, max(rows, 1), _BLOCK_ROWS):
+            block = slice(start, start + _BLOCK_ROWS)
+            feed = {"present": here[block], "calibrated": known[block]}
+            for camera in self._cameras:
+                blank = np.zeros((len(known[block]), camera.height, camera.width), np.uint8)
+                feed[f"pictures_{camera.name}"] = _rows(pictures, camera.name, block, blank)
+                feed[f"neutral_{camera.name}"] = _rows(neutral or {}, camera.name, block, blank)
+            blocks.append(self._session.run(names, feed))
+        return [np.concatenate(found) for found in zip(*blocks, strict=True)]
+
+
+def _rows(arrays: dict[str, np.ndarray], name: str, block: slice, blank: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(arrays[name][block]) if name in arrays else blank

@@ -1,0 +1,156 @@
+"""Neutral pictures of the person: a frame by its number, files, or a frame that looks like rest."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from regress.errors import InputError
+from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.recordings import PICTURES, read_picture
+
+_CALM_SHARE = 0.25
+"""Frames taken for calm: the quarter that shows least, as people's faces rest most of the time."""
+
+_FEWEST_CALM = 8
+"""Calm frames below which nothing is certain."""
+
+_AGREEMENT = 0.15
+"""Mean difference of weights, over the shapes that move, by which early and late calm frames may differ."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class NeutralFrame:
+    """Which frame of a recording looks neutral, and whether that can be relied on.
+
+    Parameters
+    ----------
+    row
+        Of the footage.
+    sure
+        Whether there are enough calm frames, and they agree.
+    reason
+        Why, in a sentence.
+    """
+
+    row: int
+    sure: bool
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Neutral:
+    """Neutral pictures that count from a frame on.
+
+    Parameters
+    ----------
+    row
+        Of the footage.
+    pictures
+        (h, w) uint8 of every camera in use.
+    """
+
+    row: int
+    pictures: dict[str, np.ndarray]
+
+
+def calmest_frame(weights: np.ndarray, usable: np.ndarray) -> NeutralFrame:
+    """The frame of a recording of one person that stands best for the face at rest.
+
+    The network without calibration says how much is going on in a frame: what a person's looks add to that is the same
+    in all of them. Of the calmest quarter the frame counts whose weights are nearest to the quarter's median. Someone
+    who smiles throughout is taken for neutral: a frame named by a person is better.
+
+    Parameters
+    ----------
+    weights : (n, 52) float
+        Without calibration, in the order of time.
+    usable : (n,) bool
+        Frames in which every given camera has a picture.
+
+    Raises
+    ------
+    InputError
+        Where no frame is usable.
+    """
+    rows = np.flatnonzero(usable)
+    if not len(rows):
+        raise InputError("no frame has a picture of every camera, so none can be the neutral one")
+    found = np.asarray(weights[rows], dtype=np.float64)
+    count = max(1, round(_CALM_SHARE * len(rows)))
+    calm = np.sort(np.argsort(found.sum(axis=1), kind="stable")[:count])
+    median = np.median(found[calm], axis=0)
+    row = int(rows[calm[np.argmin(np.abs(found[calm] - median).sum(axis=1))]])
+    if count < _FEWEST_CALM:
+        fewest = int(_FEWEST_CALM / _CALM_SHARE)
+        return NeutralFrame(
+            row=row, sure=False, reason=f"{len(rows)} frames are usable, and {fewest} are needed"
+        )
+    early, late = (np.median(half, axis=0) for half in np.array_split(found[calm], 2))
+    moving = found.std(axis=0) > 0.02
+    difference = float(np.abs(early - late)[moving].mean()) if moving.any() else 0.0
+    if difference > _AGREEMENT:
+        reason = (
+            f"early and late calm frames differ by weights of {difference:.2f}, and {_AGREEMENT} is allowed"
+        )
+        return NeutralFrame(row=row, sure=False, reason=reason)
+    return NeutralFrame(
+        row=row, sure=True, reason=f"{count} calm frames of {len(rows)} agree to {difference:.2f}"
+    )
+
+
+def read_neutral(
+    folder: Path, cameras: Mapping[str, tuple[int, int]], *, bits: int | None = None
+) -> dict[str, np.ndarray]:
+    """Neutral pictures from a folder with ``CAMERA.png`` for each camera, as a rendered sample's folder has.
+
+    Parameters
+    ----------
+    folder
+        Another ending of pictures will do too.
+    cameras
+        Width and height of those that are needed.
+    bits
+        How many of their 16 bits the cameras use, of pictures that have so many.
+
+    Returns
+    -------
+    dict of (h, w) uint8
+
+    Raises
+    ------
+    InputError
+        Where a camera's picture is lacking or shows nothing.
+    """
+    pictures = {}
+    for name, (width, height) in cameras.items():
+        files = [folder / f"{name}{suffix}" for suffix in PICTURES]
+        path = next((file for file in files if file.is_file()), None)
+        if path is None:
+            raise InputError(f"{folder} has no neutral picture of {name}; {files[0].name} is looked for")
+        fitted = read_picture(path, width=width, height=height, bits=bits)
+        if fitted.fault is not None:
+            raise InputError(f"{path} cannot be the neutral picture of {name}: it is {fitted.fault.value}")
+        pictures[name] = fitted.picture
+    return pictures
+
+
+def neutral_of_frame(footage: Footage, row: int) -> dict[str, np.ndarray]:
+    """Pictures (h, w) of the cameras that are in use, from one frame of the footage.
+
+    Raises
+    ------
+    InputError
+        Where a camera that other frames have is at fault in this one.
+    """
+    given = footage.given
+    for name, there in zip(footage.cameras, given, strict=True):
+        fault = footage.faults[name][row]
+        if there and fault is not None:
+            raise InputError(
+                f"frame {footage.numbers[row]} cannot be the neutral one: {name} has {fault.value} there"
+            )
+    return {
+        name: footage.pictures[name][row] for name, there in zip(footage.cameras, given, strict=True) if there
+    }

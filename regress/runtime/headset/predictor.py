@@ -1,0 +1,93 @@
+"""A headset network ready to be used: what its folder says, and its graph."""
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from regress.runtime.headset.graph import Estimates, HeadsetGraph
+from regress.runtime.headset.model import HeadsetModel, read_headset_model
+from regress.runtime.model import HEADSET
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class HeadsetPredictor:
+    """A loaded model folder.
+
+    Parameters
+    ----------
+    model
+        What the folder says of the network.
+    graph
+        Runs it.
+    """
+
+    model: HeadsetModel
+    graph: HeadsetGraph
+
+    @property
+    def sizes(self) -> dict[str, tuple[int, int]]:
+        """Width and height of each camera's pictures, in the model's order."""
+        return {camera.name: (camera.width, camera.height) for camera in self.model.cameras}
+
+    @property
+    def typical(self) -> dict[str, np.ndarray]:
+        """(24, 24) uint8 of each camera: its mean picture in training; none of older models."""
+        return {name: np.array(rows, dtype=np.uint8) for name, rows in self.model.typical.items()}
+
+    def predict(
+        self,
+        pictures: Mapping[str, np.ndarray],
+        *,
+        present: np.ndarray | None = None,
+        neutral: Mapping[str, np.ndarray] | None = None,
+        calibrated: np.ndarray | None = None,
+    ) -> Estimates:
+        """Estimates of n frames.
+
+        Parameters
+        ----------
+        pictures
+            (n, h, w) uint8 by camera of the model; one that is left out is not present.
+        present : (n, cameras) bool, optional
+            Which pictures count.
+        neutral
+            (h, w) or (n, h, w) uint8 of every camera that is present; without them no frame is calibrated.
+        calibrated : (n,) bool, optional
+            Which frames are compared with the neutral pictures; all by default.
+
+        Raises
+        ------
+        InputError
+            Where a camera is not the model's, or is present in a calibrated frame and has no neutral picture.
+        """
+        count = len(next(iter(pictures.values())))
+        repeated = neutral and {
+            name: np.broadcast_to(picture, (count, *picture.shape[-2:])) for name, picture in neutral.items()
+        }
+        return self.graph.run(
+            dict(pictures), present=present, neutral=repeated or None, calibrated=calibrated
+        )
+
+
+def is_headset_model(folder: str | os.PathLike[str]) -> bool:
+    """Whether a folder says of itself that it is a headset network's; False as well where it says nothing."""
+    try:
+        return json.loads((Path(folder) / "model.json").read_bytes()).get("kind") == HEADSET.name
+    except (OSError, ValueError, AttributeError):
+        return False
+
+
+def load_headset_predictor(folder: str | os.PathLike[str]) -> HeadsetPredictor:
+    """Load a model folder of ``regress headset train``.
+
+    Raises
+    ------
+    ModelError
+        Where it is none, or damaged.
+    """
+    model = read_headset_model(folder)
+    return HeadsetPredictor(model=model, graph=HeadsetGraph(Path(folder) / "network.onnx", model.cameras))

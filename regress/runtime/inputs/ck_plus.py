@@ -1,0 +1,42 @@
+"""CK+ landmarks: ``.txt`` files of 68 lines ``x y``, in folders by subject and sequence."""
+
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import LANDMARK_COUNT
+from regress.errors import InputError
+from regress.runtime.inputs.frames import Frames
+
+_ENDING = "_landmarks.txt"
+
+
+def is_ck_plus(path: Path) -> bool:
+    """Whether this is such a file, or a folder that holds some at any depth."""
+    if path.is_dir():
+        return next(path.rglob(f"*{_ENDING}"), None) is not None
+    return path.name.endswith(_ENDING)
+
+
+def read_ck_plus(path: Path) -> Frames:
+    """Faces in the order of subject, sequence and frame; ``S005_001_00000011`` is what a frame is called.
+
+    A sequence goes from neutral to the peak of an expression: its first frame is one for ``--neutral``.
+    """
+    files = sorted(path.rglob(f"*{_ENDING}")) if path.is_dir() else [path]
+    labels = tuple(file.name.removesuffix(_ENDING) for file in files)
+    return Frames(
+        points=np.stack([_face(file) for file in files]), labels=labels, time_s=None, source=str(path)
+    )
+
+
+def _face(path: Path) -> np.ndarray:
+    try:
+        points = np.loadtxt(path, dtype=np.float64, ndmin=2)
+    except ValueError as error:
+        raise InputError(f"{path} holds something that is not a number ({error})") from error
+    if points.shape != (LANDMARK_COUNT, 2):
+        raise InputError(
+            f"{path} holds {points.shape[0]} lines of {points.shape[-1]}; 68 lines x y are needed"
+        )
+    return points

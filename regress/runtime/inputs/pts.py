@@ -1,0 +1,46 @@
+"""iBUG ``.pts`` files: one face each, alone or folders of them in the order of their names."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import LANDMARK_COUNT
+from facegen.formats import read_pts
+from regress.errors import InputError
+from regress.runtime.inputs.frames import Frames
+
+
+def is_pts(path: Path) -> bool:
+    """Whether this is one ``.pts`` file."""
+    return path.suffix.lower() == ".pts"
+
+
+def read_one(path: Path) -> Frames:
+    """One face; its label is the file's name without the ending."""
+    return Frames(points=_face(path)[None], labels=(path.stem,), time_s=None, source=str(path))
+
+
+def read_folder(path: Path) -> Frames:
+    """All ``.pts`` files of a folder and those below it, as 300-W has them; ``frame_2`` before ``frame_10``.
+
+    A face is called by its file's name, with the folders between where there are some.
+    """
+    files = sorted((file for file in path.rglob("*") if is_pts(file)), key=lambda file: _natural(path, file))
+    if not files:
+        raise InputError(f"{path} holds no .pts file")
+    points = np.stack([_face(file) for file in files])
+    labels = tuple(file.relative_to(path).with_suffix("").as_posix() for file in files)
+    return Frames(points=points, labels=labels, time_s=None, source=str(path))
+
+
+def _face(path: Path) -> np.ndarray:
+    points = read_pts(path)
+    if len(points) != LANDMARK_COUNT:
+        raise InputError(f"{path} holds {len(points)} points; the iBUG order of {LANDMARK_COUNT} is needed")
+    return points
+
+
+def _natural(folder: Path, file: Path) -> list[tuple[int, str]]:
+    pieces = re.split(r"(\d+)", file.relative_to(folder).as_posix())
+    return [(int(piece), "") if piece.isdigit() else (-1, piece) for piece in pieces]

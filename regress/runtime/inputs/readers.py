@@ -1,0 +1,70 @@
+"""The table of input formats, and the choice among them."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from regress.errors import InputError
+from regress.runtime.inputs import arrays, ck_plus, coco, dlib_xml, pts, tables
+from regress.runtime.inputs.frames import Frames
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reader:
+    """One input format.
+
+    Parameters
+    ----------
+    description
+        For people, with the ending.
+    matches
+        Whether a path looks like this format.
+    read
+        Path to frames.
+    """
+
+    description: str
+    matches: Callable[[Path], bool]
+    read: Callable[[Path], Frames]
+
+
+READERS: dict[str, Reader] = {
+    "ck_plus": Reader(
+        description="a folder of CK+ landmarks", matches=ck_plus.is_ck_plus, read=ck_plus.read_ck_plus
+    ),
+    "pts_folder": Reader(description="a folder of .pts files", matches=Path.is_dir, read=pts.read_folder),
+    "pts": Reader(description="a .pts file", matches=pts.is_pts, read=pts.read_one),
+    "npy": Reader(description="an .npy file (n, 68, 2)", matches=arrays.is_array, read=arrays.read_array),
+    "dlib_xml": Reader(description="a dlib .xml", matches=dlib_xml.is_dlib_xml, read=dlib_xml.read_dlib_xml),
+    "coco": Reader(description="a COCO keypoints .json", matches=coco.is_coco, read=coco.read_coco),
+    "csv": Reader(description="an OpenFace or py-feat .csv", matches=tables.is_table, read=tables.read_table),
+}
+"""Tried in this order."""
+
+
+def read_frames(path: str | os.PathLike[str]) -> Frames:
+    """Read landmarks from any known file.
+
+    Raises
+    ------
+    InputError, facegen.formats.FormatError
+        Where the file does not exist, is of no known format, is not what its format says, or where no frame
+        has all its landmarks.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError(f"{path} does not exist")
+    reader = next((reader for reader in READERS.values() if reader.matches(path)), None)
+    if reader is None:
+        known = ", ".join(reader.description for reader in READERS.values())
+        raise InputError(f"{path} is of no known format; {known} can be read")
+    try:
+        frames = reader.read(path)
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror or error}") from error
+    if not frames.usable.any():
+        raise InputError(
+            f"{path} holds no usable frame: each of its {len(frames.points)} has missing landmarks"
+        )
+    return frames

@@ -1,0 +1,183 @@
+"""A model on disk: a folder with model.json and weights.npz, no pickle, equal bytes for equal models."""
+
+import dataclasses
+import hashlib
+import io
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES
+from regress.errors import ModelError
+from regress.runtime.features import Features
+from regress.runtime.model.model import Calibrated, Model, Normalisation
+from regress.runtime.model.place import KEYPOINTS, write_folder
+from regress.runtime.networks import Denoising, FoldedNetworks
+from regress.targets import Network, observability
+
+SCHEMAS = (1, 2, 3, 4)
+"""Those read; the last one is written. 1 knows no array ``depth``: its readers would take turned heads as they are. 2
+knows no arrays ``denoising_*``: its readers would show networks what they cannot read. 3 knows no surplus: its readers
+would take a face unlike those trained on for one without noise."""
+
+_CALIBRATED = "calibrated_"
+"""Begins the names of the arrays that compare with a neutral frame."""
+
+
+_DENOISING = "denoising_"
+"""Begins the names of the arrays that shrink features."""
+
+_INFERENCE = (
+    "clip(w2 tanh(w1 features + b1) + b2, 0, 1); features are raw, z-scores are folded in",
+    "clip(w2 tanh(w1 p + b1) + b2, 0, 1) with p = (axes x + offset) signal / (signal + noise), x = features less "
+    "origin, noise = the mean square of noise_axes x, or surplus (axes x)^2 - usual where that is larger, plus "
+    "least (arrays denoising_*); features are raw",
+)
+"""Of networks that see features, and of those that see what denoising leaves of them."""
+
+
+def save_model(model: Model, folder: str | os.PathLike[str]) -> None:
+    """Write a model folder whole, by one rename; equal models give equal bytes.
+
+    Raises
+    ------
+    OutputError
+        Where the place cannot be written, or holds anything but an older model of 68 points (``check_place``).
+    """
+    weights = _weights_bytes(model)
+    text = json.dumps(_document(model, hashlib.sha256(weights).hexdigest()), indent=1, allow_nan=False) + "\n"
+    write_folder(Path(folder), KEYPOINTS, {"weights.npz": weights, "model.json": text.encode()})
+
+
+def load_model(folder: str | os.PathLike[str]) -> Model:
+    """Read a model folder.
+
+    Raises
+    ------
+    ModelError
+        Where model.json or weights.npz is missing, damaged or does not belong to the other.
+    """
+    folder = Path(folder)
+    document_path, weights_path = folder / "model.json", folder / "weights.npz"
+    for path in (document_path, weights_path):
+        if path.is_file():
+            continue
+        if (folder / "network.onnx").is_file():
+            raise ModelError(f"{folder} is a model of headset pictures; `regress headset` commands take it")
+        raise ModelError(f"{path} does not exist; a model is a folder with model.json and weights.npz")
+    try:
+        document = json.loads(document_path.read_text())
+        schema, expected = document["schema"], document["weights_sha256"]
+    except (ValueError, KeyError, TypeError, OSError) as error:
+        raise ModelError(f"{document_path} is not a model's description: {error}") from error
+    if schema not in SCHEMAS:
+        raise ModelError(
+            f"{document_path} has schema {schema!r}; this version reads {' and '.join(map(str, SCHEMAS))}"
+        )
+    weights = weights_path.read_bytes()
+    if hashlib.sha256(weights).hexdigest() != expected:
+        raise ModelError(
+            f"{weights_path} is damaged or belongs to another model: its SHA-256 is not model.json's"
+        )
+    with np.load(io.BytesIO(weights), allow_pickle=False) as arrays:
+        return _model(document, {name: arrays[name] for name in arrays.files}, document_path)
+
+
+def _document(model: Model, weights_sha256: str) -> dict[str, Any]:
+    return {
+        "schema": SCHEMAS[-1],
+        "recipe": model.recipe,
+        "blendshapes": list(BLENDSHAPES),
+        "networks": [dataclasses.asdict(network) for network in model.table],
+        "observability": {name: observability(name) for name in BLENDSHAPES},
+        "hidden": model.networks.hidden,
+        "features": {
+            "kind": "edge lengths over face width",
+            "alignment": model.features.alignment,
+            "turn": "undone by the array depth" if model.features.depth is not None else "left as it is",
+            "edges": model.features.edges.tolist(),
+            "reference_name": model.features.reference_name,
+            "reference_sha256": model.features.reference_sha256,
+        },
+        "inference": _INFERENCE[model.networks.denoising is not None],
+        "calibrated": model.calibrated is not None
+        and "the same with the arrays calibrated_*, on features less the neutral frame's",
+        "weights_sha256": weights_sha256,
+        "record": model.record,
+    }
+
+
+def _arrays(model: Model) -> dict[str, np.ndarray]:
+    arrays = {**_fields(model.networks), **_fields(model.normalisation)}
+    if model.calibrated is not None:
+        calibrated = {**_fields(model.calibrated.networks), **_fields(model.calibrated.normalisation)}
+        arrays |= {_CALIBRATED + name: array for name, array in calibrated.items()}
+    depth = {} if model.features.depth is None else {"depth": model.features.depth}
+    return {**arrays, "mean_shape": model.features.mean_shape, **depth}
+
+
+def _fields(record: FoldedNetworks | Normalisation | Denoising) -> dict[str, np.ndarray]:
+    values = {field.name: getattr(record, field.name) for field in dataclasses.fields(record)}
+    denoising = values.pop("denoising", None)
+    if denoising is not None:
+        values |= {_DENOISING + name: array for name, array in _fields(denoising).items()}
+    return values
+
+
+def _weights_bytes(model: Model) -> bytes:
+    buffer = io.BytesIO()
+    np.savez(buffer, **_arrays(model))  # stored, not compressed, with 1980 as every entry's date: equal bytes
+    return buffer.getvalue()
+
+
+def _model(document: dict[str, Any], arrays: dict[str, np.ndarray], path: Path) -> Model:
+    try:
+        described = document["features"]
+        return Model(
+            recipe=document["recipe"],
+            table=tuple(
+                Network(region=entry["region"], name=entry["name"], outputs=tuple(entry["outputs"]))
+                for entry in document["networks"]
+            ),
+            features=Features(
+                alignment=described["alignment"],
+                mean_shape=arrays["mean_shape"],
+                edges=np.array(described["edges"], dtype=np.int64),
+                reference_name=described["reference_name"],
+                reference_sha256=described["reference_sha256"],
+                depth=arrays.get("depth"),
+            ),
+            normalisation=_taken(Normalisation, arrays),
+            networks=_networks(arrays),
+            record=document["record"],
+            calibrated=_calibrated(arrays),
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise ModelError(f"{path} lacks a part of the model: {error}") from error
+
+
+def _calibrated(arrays: dict[str, np.ndarray]) -> Calibrated | None:
+    named = {
+        name.removeprefix(_CALIBRATED): array
+        for name, array in arrays.items()
+        if name.startswith(_CALIBRATED)
+    }
+    if not named:
+        return None
+    return Calibrated(normalisation=_taken(Normalisation, named), networks=_networks(named))
+
+
+def _networks(arrays: dict[str, np.ndarray]) -> FoldedNetworks:
+    named = {
+        name.removeprefix(_DENOISING): array for name, array in arrays.items() if name.startswith(_DENOISING)
+    }
+    if named and "surplus" not in named:  # schema 3
+        named |= {"surplus": np.zeros(len(named["axes"])), "usual": np.zeros(())}
+    return _taken(FoldedNetworks, {**arrays, "denoising": _taken(Denoising, named) if named else None})
+
+
+def _taken(kind: type, arrays: dict[str, np.ndarray]) -> Any:
+    return kind(**{field.name: arrays[field.name] for field in dataclasses.fields(kind)})

@@ -1,0 +1,8 @@
+"""Weights for avatars with other shapes than ARKit's: a matrix for each target, read from a TOML file.
+
+A target that ships is a file in ``targets``; a new one is a new file there, and the tests run over them all.
+"""
+
+from regress.runtime.retargeting.matrix import Retargeting, read_retargeting, shipped_targets
+
+__all__ = ["Retargeting", "read_retargeting", "shipped_targets"]
