@@ -1,5 +1,6 @@
 """``facegen preview``."""
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from facegen.preview import Performance
 
 STRIP = ".png"
+PIPE = Path("-")
 PAGE = ".html"
 
 
@@ -21,7 +23,8 @@ def preview(
         Path,
         typer.Option(
             "--out",
-            help="File to write: PNG; of clips and weights also .mp4, .gif or .webp; .html for statistics.",
+            help="File to write: PNG; of clips and weights also .webm, .mp4, .gif or .webp, or - for PPM pictures on "
+            "standard output; .html for statistics.",
         ),
     ] = Path("contact-sheet.png"),
     samples: Annotated[
@@ -56,9 +59,9 @@ def preview(
 
     facegen preview datasets/out/default --out statistics.html
 
-    facegen preview datasets/out/protocol --clip 74 --out sentence.mp4
+    facegen preview datasets/out/protocol --clip 74 --out sentence.webm
 
-    facegen preview --weights take.csv --rig anny --out face.mp4
+    facegen preview --weights take.csv --rig anny --out face.webm
     """
     if (dataset is None) == (weights is None):
         raise InputError(
@@ -80,17 +83,20 @@ def preview(
         _statistics(dataset, out)
     else:
         _sheet(dataset, out, samples, columns, landmarks)
-    print(out)
+    if out != PIPE:
+        print(out)
 
 
 def _play(performance: "Performance", out: Path, frames: str | None, height_px: int, landmarks: bool) -> None:
-    """Write a strip or a film."""
-    from facegen.preview import ANIMATIONS, FILMS, clip_strip, pictures, write_film
+    """Write a strip, a film, or pictures to standard output."""
+    from facegen.formats.ppm import ppm_bytes
+    from facegen.preview import ANIMATION_SUFFIXES, FILM_SUFFIXES, clip_strip, pictures, write_film
     from facegen.spec import sample_numbers
     from facegen.store import whole_file
 
-    if out.suffix.lower() not in (STRIP, *FILMS, *ANIMATIONS):
-        raise InputError(f"--out: {out} ends in none of {', '.join((STRIP, *FILMS, *ANIMATIONS))}")
+    suffixes = (STRIP, *FILM_SUFFIXES, *ANIMATION_SUFFIXES)
+    if out != PIPE and out.suffix.lower() not in suffixes:
+        raise InputError(f"--out: {out} ends in none of {', '.join(suffixes)}")
     if frames is not None:
         total = len(performance.time_s)
         performance = performance.rows(sample_numbers(frames, total=total, where="--frames", what="frame"))
@@ -106,6 +112,11 @@ def _play(performance: "Performance", out: Path, frames: str | None, height_px: 
                 yield picture
                 update(done + 1)
 
+        if out == PIPE:
+            for picture in counted():
+                sys.stdout.buffer.write(ppm_bytes(picture))
+            sys.stdout.buffer.flush()
+            return
         with whole_file(out) as part:
             write_film(part, counted(), fps=performance.fps)
 

@@ -1,4 +1,4 @@
-"""Pictures one after the other: films, animated pictures, and strips for a page."""
+"""Writes the frames of a performance as a film, an animated picture or a strip for a page."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -14,8 +14,8 @@ from facegen.errors import InputError
 from facegen.formats.film import encode_film
 from facegen.preview.performance import Performance, pictures
 
-FILMS, ANIMATIONS = (".mp4",), (".gif", ".webp")
-"""Suffixes: films by OpenCV, animated pictures by Pillow (which hold all frames in memory)."""
+FILM_SUFFIXES, ANIMATION_SUFFIXES = (".webm", ".mp4"), (".gif", ".webp")
+"""Films are written by OpenCV, animated pictures by Pillow (which holds all frames in memory)."""
 CURVES = 8
 """Weights that a strip draws: those that move most."""
 
@@ -26,12 +26,12 @@ def write_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None:
     Raises
     ------
     InputError
-        If the suffix is none of `FILMS` and `ANIMATIONS`.
+        If the suffix is none of `FILM_SUFFIXES` and `ANIMATION_SUFFIXES`.
     OSError
         If OpenCV cannot write the film.
     """
     suffix = path.suffix.lower()
-    if suffix in ANIMATIONS:
+    if suffix in ANIMATION_SUFFIXES:
         images = [Image.fromarray(frame) for frame in frames]
         options = {"lossless": False, "quality": 80} if suffix == ".webp" else {"optimize": True}
         unit_ms = 1 if suffix == ".webp" else 10  # GIF counts hundredths of a second
@@ -39,8 +39,8 @@ def write_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None:
         lasting = np.diff(ends).tolist()
         images[0].save(path, save_all=True, append_images=images[1:], duration=lasting, loop=0, **options)
         return
-    if suffix not in FILMS:
-        raise InputError(f"{path}: films end in {', '.join((*FILMS, *ANIMATIONS))}")
+    if suffix not in FILM_SUFFIXES:
+        raise InputError(f"{path}: films end in {', '.join((*FILM_SUFFIXES, *ANIMATION_SUFFIXES))}")
     encode_film(path, frames, fps=fps)
 
 

@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -27,7 +28,16 @@ def test_a_frame_that_fails_ends_the_film(tmp_path: Path):
         encode_film(tmp_path / "face.mp4", frames(), fps=25)
 
 
-@pytest.mark.parametrize("suffix", [".mp4", ".avi"])
+def test_browsers_play_webm_and_no_library_complains(tmp_path: Path, capfd: pytest.CaptureFixture):
+    frames = np.zeros((3, 32, 32, 3), dtype=np.uint8)
+    encode_film(tmp_path / "face.WEBM", frames, fps=25)
+    film = cv2.VideoCapture(str(tmp_path / "face.WEBM"))
+    assert int(film.get(cv2.CAP_PROP_FOURCC)).to_bytes(4, "little") == b"VP90"
+    print("still there", file=sys.stderr)
+    assert capfd.readouterr().err == "still there\n"
+
+
+@pytest.mark.parametrize("suffix", [".webm", ".mp4", ".avi"])
 def test_a_film_that_finds_no_room_says_so(tmp_path: Path, suffix: str):
     # beyond this size every write fails, as on a full disk; a process of its own, because the limit stays
     program = f"""

@@ -1,5 +1,7 @@
 """Clips and tables of weights as strips and films."""
 
+import io
+
 import cv2
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from facegen.cli import app
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.errors import FacegenError, InputError
 from facegen.formats import live_link_csv
+from facegen.formats.ppm import ppm_bytes, read_ppm_stream
 from facegen.preview import clip_of_dataset, clip_strip, pictures, play_weights, write_film
 
 JAW = BLENDSHAPE_INDEX["jawOpen"]
@@ -42,10 +45,11 @@ def test_pictures_show_the_jaw_opening_and_the_landmarks_on_it(opening):
     assert blue > 40
 
 
-def test_films_hold_every_frame_at_its_rate(opening, tmp_path):
+@pytest.mark.parametrize("name", ["face.webm", "face.mp4"])
+def test_films_hold_every_frame_at_its_rate(opening, tmp_path, name):
     frames = list(pictures(opening, height_px=96))
-    write_film(tmp_path / "face.mp4", frames, fps=opening.fps)
-    film = cv2.VideoCapture(str(tmp_path / "face.mp4"))
+    write_film(tmp_path / name, frames, fps=opening.fps)
+    film = cv2.VideoCapture(str(tmp_path / name))
     assert film.get(cv2.CAP_PROP_FPS) == pytest.approx(25)
     read = []
     while True:
@@ -56,12 +60,16 @@ def test_films_hold_every_frame_at_its_rate(opening, tmp_path):
     assert len(read) == 4
     for found, made in zip(read, frames, strict=True):
         assert np.abs(found.astype(int) - made).mean() < 12  # of 255: the codec loses detail, not the picture
+
+
+def test_animated_pictures_hold_every_frame_at_its_rate(opening, tmp_path):
+    frames = list(pictures(opening, height_px=96))
     for suffix in (".gif", ".webp"):
         write_film(tmp_path / f"face{suffix}", frames, fps=opening.fps)
         with Image.open(tmp_path / f"face{suffix}") as image:
             assert image.n_frames == 3  # two equal frames become one, shown twice as long
             assert image.size == frames[0].shape[1::-1]
-    with pytest.raises(InputError, match=r"\.mp4, \.gif, \.webp"):
+    with pytest.raises(InputError, match=r"\.webm, \.mp4, \.gif, \.webp"):
         write_film(tmp_path / "face.avi", frames, fps=25)
 
 
@@ -90,8 +98,16 @@ def test_the_command_plays_a_recording_and_refuses_what_it_cannot(anny, tmp_path
         assert image.n_frames == 3
         assert [image.seek(n) or image.info["duration"] for n in range(3)] == [70, 60, 70]  # 200 ms in all
     assert {path.name for path in tmp_path.iterdir()} == {"take.csv", "face.gif"}  # nothing half-made
+    piped = CliRunner().invoke(app, [*call, "-", "--frames", "0-1", "--no-landmarks"])
+    assert piped.exit_code == 0
+    rig_pictures = pictures(
+        play_weights(anny, weights, np.arange(6) / 30, title=""), height_px=64, landmarks=False
+    )
+    for found, drawn in zip(read_ppm_stream(io.BytesIO(piped.stdout_bytes)), rig_pictures, strict=False):
+        np.testing.assert_array_equal(found, drawn)
+    assert len(piped.stdout_bytes) == 2 * len(ppm_bytes(drawn))
     for arguments, words in (
-        ([*call, str(tmp_path / "face.avi")], "ends in none of .png, .mp4"),
+        ([*call, str(tmp_path / "face.avi")], "ends in none of .png, .webm, .mp4"),
         ([*call, str(out), "--frames", "6"], "frame 6 does not exist"),
         (["preview", "--out", str(out)], "give one of them"),
     ):
