@@ -11,6 +11,7 @@ from pathlib import Path
 from types import ModuleType
 
 from facegen.errors import InputError, MissingAsset
+from facegen.extras import FACTORY, missing_extra
 
 DEBIAN_PACKAGES = {
     "libX11.so": "libx11-6",
@@ -72,10 +73,8 @@ def missing_library_sentence(error: ImportError) -> str:
             else "install the system package that brings it"
         )
         return f"Blender cannot start because the system library {library} is missing: {remedy}"
-    if isinstance(error, ModuleNotFoundError) and error.name == "bpy":
-        return (
-            "Blender is not installed as a Python module: `pip install 'bpy==4.5.*'`, which needs Python 3.11"
-        )
+    if isinstance(error, ModuleNotFoundError) and (sentence := missing_extra(error, "rendering", (FACTORY,))):
+        return sentence
     return f"Blender cannot start: {error}"
 
 

@@ -1,7 +1,8 @@
-"""The ``facegen`` command. Only this package prints: results to stdout, talk to stderr."""
+"""The ``facegen`` command. Only this package prints: results to stdout, talk to stderr.
 
-import sys
-from importlib.metadata import version as installed
+A command imports what it needs when it is called, so that ``--help`` is quick and needs none of the extras.
+"""
+
 from typing import Annotated
 
 import typer
@@ -17,9 +18,9 @@ from facegen.cli.pack import pack
 from facegen.cli.preview import preview
 from facegen.cli.rig import rig_app
 from facegen.cli.spec import spec_app
-from facegen.cli.talk import hang_up, say
 from facegen.cli.validate import validate
-from facegen.errors import FacegenError
+from facegen.console import run, versions
+from facegen.extras import FACTORY
 
 app = typer.Typer(
     name="facegen",
@@ -44,8 +45,7 @@ app.command()(blend)
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        parts = ", ".join(f"{name} {installed(name)}" for name in ("bpy", "numpy", "pyarrow"))
-        print(f"facegen {__version__} ({parts}, Python {sys.version.split()[0]})")
+        print(f"facegen {__version__} ({versions('bpy', 'numpy', 'pyarrow')})")
         raise typer.Exit
 
 
@@ -65,20 +65,5 @@ def _options(
 
 
 def main() -> None:
-    """Entry point of the console script: one sentence and an exit code for every error on purpose."""
-    code: int | str | None = 0
-    try:
-        app()
-    except FacegenError as error:
-        say(f"facegen: {error}")
-        code = error.exit_code
-    except SystemExit as left:
-        if isinstance(left.__context__, BrokenPipeError):
-            hang_up(sys.stdout)  # its reader has gone, as `| head` does, of which Typer and rich make 1
-        else:
-            code = left.code
-    try:
-        sys.stdout.flush()
-    except BrokenPipeError:
-        hang_up(sys.stdout)
-    sys.exit(code)
+    """Entry point of the console script."""
+    run(app, extras=(FACTORY,))

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.cli.progress import progress
+from facegen.console import progress
 
 
 def develop(
@@ -44,6 +44,8 @@ def develop(
         numbers = sample_numbers(samples, total=opened.plan.samples, where="--samples")
     settings = Settings(exposure=exposure, gain=gain, noise=noise, seed=seed)
     total = len(opened.folder.rendered() if numbers is None else numbers)
-    with progress("samples developed", total) as update:
-        made = develop_dataset(opened, out, settings, numbers, on_progress=update)
+    with progress() as show:
+        made = develop_dataset(
+            opened, out, settings, numbers, on_progress=lambda done: show("samples developed", done, total)
+        )
     print(f"{out}: {made} samples developed, {total - made} were there")

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.cli.talk import say
+from facegen.console import say
 from facegen.conventions import ExitCode
 from facegen.errors import InputError
 

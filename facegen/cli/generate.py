@@ -8,8 +8,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.cli.progress import progress
-from facegen.cli.talk import say
+from facegen.console import progress, say
 from facegen.conventions import ExitCode
 
 
@@ -85,7 +84,12 @@ def generate(
             as_json=as_json,
         )
         return
-    with progress("shards and rendered samples", len(work.missing), style=progress_style) as update:
+    with progress(style=progress_style) as show:
+
+        def show_done(done: int) -> None:
+            show("shards and rendered samples", done, len(work.missing))
+
+        show_done(0)
         summary = make(
             dataset,
             samples,
@@ -94,7 +98,7 @@ def generate(
             grace_s=grace,
             limits=Limits(silence_s=hang_limit, phase_s=view_limit),
             retry_quarantined=retry_quarantined,
-            on_progress=update,
+            on_progress=show_done,
         )
     names = [task.name for task in summary.quarantined]
     _print(

@@ -3,14 +3,12 @@
 import dataclasses
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
 import typer
-from pydantic import TypeAdapter
 
-from facegen.geometry import unproject
-from facegen.headsets import Headset, headset_path, list_headsets, load_headset
+if TYPE_CHECKING:
+    from facegen.headsets import Headset
 
 headset_app = typer.Typer(
     no_args_is_help=True,
@@ -24,6 +22,8 @@ def list_() -> None:
 
     Example: facegen headset list
     """
+    from facegen.headsets import list_headsets, load_headset
+
     for name in list_headsets():
         typer.echo(f"{name:12} {load_headset(name).description}")
 
@@ -39,6 +39,10 @@ def show(
 
     Example: facegen headset show tracking3 --json
     """
+    from pydantic import TypeAdapter
+
+    from facegen.headsets import Headset, headset_path, load_headset
+
     headset = load_headset(name)
     if as_json:
         typer.echo(json.dumps(TypeAdapter(Headset).dump_python(headset, mode="json"), indent=2))
@@ -76,6 +80,7 @@ def preview(
 
     Example: facegen headset preview tracking3 --out tracking3.png
     """
+    from facegen.headsets import load_headset
     from facegen.preview.headsets import draw_headset
     from facegen.rigs import load_rig
     from facegen.store import whole_file
@@ -86,8 +91,12 @@ def preview(
     typer.echo(out)
 
 
-def field_of_view_deg(headset: Headset, camera_name: str) -> float:
+def field_of_view_deg(headset: "Headset", camera_name: str) -> float:
     """Horizontal field of view through the middle of the picture, edge to edge."""
+    import numpy as np
+
+    from facegen.geometry import unproject
+
     camera = headset.camera(camera_name).camera
     middle = (camera.height - 1) / 2
     left, right = unproject(camera, np.array([[-0.5, middle], [camera.width - 0.5, middle]]))

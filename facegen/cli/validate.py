@@ -7,8 +7,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.cli.progress import progress
-from facegen.cli.talk import say
+from facegen.console import progress, say
 from facegen.conventions import ExitCode
 
 
@@ -41,8 +40,13 @@ def validate(
     opened = open_dataset(dataset)
     listing = list_dataset(opened)
     things = len(listing.shards) + len(listing.renders)
-    with progress("shards and rendered samples checked", things) as update:
-        verdict = check(opened, workers=workers or available_cpus(), listing=listing, on_progress=update)
+    with progress() as show:
+        verdict = check(
+            opened,
+            workers=workers or available_cpus(),
+            listing=listing,
+            on_progress=lambda done: show("shards and rendered samples checked", done, things),
+        )
     if not as_json:
         for finding in verdict.findings:
             print(finding)

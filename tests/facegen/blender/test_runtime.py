@@ -30,7 +30,7 @@ def test_an_unknown_library_is_still_named():
 
 def test_a_missing_module_says_what_to_install():
     error = ModuleNotFoundError("No module named 'bpy'", name="bpy")
-    assert "pip install 'bpy==4.5.*'" in missing_library_sentence(error)
+    assert "pip install 'facegen[factory]' in Python 3.11" in missing_library_sentence(error)
 
 
 def test_stdout_is_quiet_and_comes_back(capfd):

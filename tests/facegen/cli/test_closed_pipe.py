@@ -37,10 +37,10 @@ def test_an_error_keeps_its_code_whoever_reads(stream: str, tmp_path: Path):
 
 def test_work_goes_on_where_nobody_listens():
     program = """
-from facegen.cli.progress import progress
-with progress("shards", 2) as update:
-    update(2)
-    update(2)
+from facegen.console import progress
+with progress() as show:
+    show("shards", 2, 2)
+    show("shards", 2, 2)
 print("all there")
 """
     assert unread("stderr", program=program) == (0, "all there\n", "")
