@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from regress.learning.headset.clusters import cluster_error_mm
+from benchmarks.experiments.headset_clusters import cluster_error_mm
 from regress.learning.headset.geometry import FaceGeometry
 
 CAMERAS = ("left_eye", "right_eye", "mouth")

@@ -1,6 +1,6 @@
 """What the dataset's heads and winks, and the recipe's noise and size, each do: one line a trial, as Markdown.
 
-    python benchmarks/bench_sweep.py WORK [--faces 6000] [--only "NAME;NAME"] [--real RECORDINGS]
+    python -m benchmarks.experiments.bench_sweep WORK [--faces 6000] [--only "NAME;NAME"] [--real RECORDINGS]
 
 Datasets are `datasets/default.toml` with other heads or winks; `facegen generate` makes the missing ones in WORK. All
 trials are judged on one of them, "heads 6/6, 5 %", on its test people: exact points, beside a neutral frame that has as
@@ -34,7 +34,7 @@ from regress.learning.training.noise import DetectorNoise
 from regress.runtime.model import Model
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 
-SPEC = Path(__file__).parents[1] / "datasets" / "default.toml"
+SPEC = Path(__file__).parents[2] / "datasets" / "default.toml"
 PEOPLE_FACES = 10
 """Faces of each person in that spec."""
 TAKE_NOISE_PX = 0.5
@@ -140,8 +140,7 @@ def judged(model: Model, dataset_folder: Path, faces: ProbeFaces, neutral: Probe
 
 def replayed(model: Model, real: Path) -> list[str]:
     """Cells of the recorded expressions: error of either take, and r of mouthClose in the range of motion."""
-    from real_recordings import mean_mae, replay
-
+    from benchmarks.real_recordings import mean_mae, replay
     from facegen.rigs import load_rig
 
     rows = {

@@ -1,7 +1,8 @@
-"""What each part of a headset network's training is worth: networks that lack one, trained and judged.
+"""Trains headset networks that lack one part of the default training each, and evaluates them.
 
-    python benchmarks/headset_ablation.py datasets/out/headset-arrays --test datasets/out/headset-test-arrays \
-        [--test light=... ...] [--out models/ablation] [--people 270] [--epochs 16] [--jobs 2]
+    python -m benchmarks.experiments.headset_ablation datasets/out/headset-arrays \
+        --test datasets/out/headset-test-arrays [--test light=... ...] [--out models/ablation] [--people 270] \
+        [--epochs 16] [--jobs 2]
 
 A network is some three processor minutes at these defaults; those that lie under `--out` are not trained again, and one
 that was stopped goes on. Errors of unseen people, and on combinations that training seldom shows. Prints Markdown,

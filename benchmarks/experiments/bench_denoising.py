@@ -1,6 +1,7 @@
-"""What denoising brings some of the networks: a trial that takes a minute where a training takes five.
+"""Compares some of the networks with and without denoising: a minute, where a training takes five.
 
-    python benchmarks/bench_denoising.py DATASET [--faces 6000] [--networks "eyes.blink;jaw.open"] [--hidden 20]
+    python -m benchmarks.experiments.bench_denoising DATASET [--faces 6000] [--hidden 20]
+        [--networks "eyes.blink;jaw.open"]
 
 Networks beside a neutral frame are trained on the default recipe's faces, at one L2 strength, on features as they are
 and on features from which the noise of each face is taken (`Denoising`). Printed: test R2 on exact
@@ -18,9 +19,9 @@ from collections.abc import Callable
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
-from bench_recipes import NOISE_PERCENT, noisy
 from threadpoolctl import threadpool_limits
 
+from benchmarks.bench_recipes import NOISE_PERCENT, noisy
 from facegen.conventions import LANDMARK_GROUPS, mirrored_name
 from regress.learning.levenberg_marquardt import Settings, minimise
 from regress.learning.networks import Layout, NetworkProblem, Rows, fit_ridge, ridge_directions, ridge_knots

@@ -1,6 +1,6 @@
 """How cameras are blended: the modulation and the variances of a trained network, changed in its graph.
 
-    python benchmarks/headset_blend.py models/headset ARRAYS
+    python -m benchmarks.experiments.headset_blend models/headset ARRAYS
 
 The second paper's equation 6 weighs each camera by its inverse variance, and multiplies what lies outside its part by a
 factor. Training knows one factor; this evaluates others, and equal variances, without training again. Prints Markdown;
