@@ -8,6 +8,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ import numpy as np
 from regress.exporters import export_model
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.model import FastPredictor, Model
+from regress.runtime.onnx_session import open_session
 
 BATCH_FRAMES = 20_000
 HEADSET_BATCH_FRAMES = 64
@@ -85,10 +87,8 @@ def time_headset(predictor: HeadsetPredictor) -> tuple[Timing, ...]:
 
     Runs are of a millisecond, shorter than the turns that a busy machine gives its programs.
     """
-    import onnxruntime
-
     rng = np.random.default_rng(0)
-    note = f"onnxruntime {onnxruntime.__version__}, {len(predictor.sizes)} cameras"
+    note = f"onnxruntime {version('onnxruntime')}, {len(predictor.sizes)} cameras"
 
     def noise(count: int) -> dict[str, np.ndarray]:
         return {
@@ -117,16 +117,12 @@ def time_headset(predictor: HeadsetPredictor) -> tuple[Timing, ...]:
 
 
 def _time_onnx(folder: Path, faces: np.ndarray) -> Timing:
-    import onnxruntime
-
-    options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = 1
-    session = onnxruntime.InferenceSession(folder / "face.onnx", options, providers=["CPUExecutionProvider"])
+    session = open_session((folder / "face.onnx").read_bytes())
     feed = {"points": faces[:1].astype(np.float32)}
     return Timing(
         name="ONNX, one frame",
         microseconds=_best(lambda: session.run(None, feed), repeat=200),
-        note=f"onnxruntime {onnxruntime.__version__}",
+        note=f"onnxruntime {version('onnxruntime')}",
     )
 
 

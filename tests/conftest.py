@@ -1,5 +1,6 @@
 """Fixtures that tests of several packages share."""
 
+import os
 import signal
 
 import pytest
@@ -12,6 +13,8 @@ from facegen.rigs.building import build_rig
 def pytest_configure() -> None:
     """A stop from outside ends as Ctrl-C does: fixtures still take down what they put up."""
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    # tests that import onnxruntime by themselves, as a user's program does, tell Microsoft nothing of this machine
+    os.environ["ORT_DISABLE_TELEMETRY"] = "1"
     # a busy machine makes any example slow; speed is measured in benchmarks/
     settings.register_profile("facegen", deadline=None)
     settings.load_profile("facegen")

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import onnxruntime
 
 from regress.errors import InputError, ModelError
 from regress.runtime.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
+from regress.runtime.onnx_session import open_session
 
 _BLOCK_ROWS = 64
 """Frames run at a time: more need more memory and are no faster."""
@@ -57,12 +57,9 @@ class HeadsetGraph:
     """
 
     def __init__(self, source: str | os.PathLike[str] | bytes, cameras: tuple[CameraInput, ...]) -> None:
-        options = onnxruntime.SessionOptions()
-        options.intra_op_num_threads = options.inter_op_num_threads = 1
-        options.log_severity_level = 3
         data = source if isinstance(source, bytes) else Path(source).read_bytes()
         try:
-            self._session = onnxruntime.InferenceSession(data, options, providers=["CPUExecutionProvider"])
+            self._session = open_session(data)
         except Exception as error:  # onnxruntime's own classes share no public base
             raise ModelError(f"network.onnx is not a graph that onnxruntime reads: {error}") from error
         self._cameras = cameras

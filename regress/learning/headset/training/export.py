@@ -5,7 +5,6 @@ import warnings
 from collections.abc import Sequence
 
 import numpy as np
-import onnxruntime
 import torch
 from torch import nn
 
@@ -15,6 +14,7 @@ from regress.learning.headset.training.resampling import resampling_matrix
 from regress.learning.headset.training.targets import Targets
 from regress.runtime.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
 from regress.runtime.headset.outputs import WEIGHTS
+from regress.runtime.onnx_session import open_session
 
 TOLERANCE = 1e-4
 """Largest difference between the graph and PyTorch that is let through."""
@@ -154,11 +154,8 @@ def _probe(cameras: tuple[CameraInput, ...], count: int) -> tuple[torch.Tensor, 
 def _difference(deployed: Deployed, graph: bytes, names: list[str], probe: tuple[torch.Tensor, ...]) -> float:
     with torch.no_grad():
         expected = deployed(*probe)
-    options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads, options.log_severity_level = 1, 3
-    session = onnxruntime.InferenceSession(graph, options, providers=["CPUExecutionProvider"])
     feed = {name: value.numpy() for name, value in zip(names, probe, strict=True)}
-    found = session.run(None, feed)
+    found = open_session(graph).run(None, feed)
     # points as shares of the picture: pixels are up to hundreds, and float32 has seven digits
     largest = max(max(camera.width, camera.height) for camera in deployed.cameras)
     scales = [1.0] * len(GRAPH_OUTPUTS) + [1 / largest] * (len(found) - len(GRAPH_OUTPUTS))
