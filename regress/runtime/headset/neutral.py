@@ -1,4 +1,4 @@
-"""Neutral pictures of the person: a frame by its number, files, or a frame that looks like rest."""
+"""Reads neutral pictures of a person: from a frame by its number, from files, or from the calmest frame."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -7,17 +7,15 @@ from pathlib import Path
 import numpy as np
 
 from regress.errors import InputError
+from regress.runtime.calm import calm_frames
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.recordings import PICTURES, read_picture
 
-_CALM_SHARE = 0.25
-"""Frames taken for calm: the quarter that shows least, as people's faces rest most of the time."""
-
-_FEWEST_CALM = 8
-"""Calm frames below which nothing is certain."""
-
 _AGREEMENT = 0.15
 """Mean difference of weights, over the shapes that move, by which early and late calm frames may differ."""
+
+_MOVING = 0.02
+"""Standard deviation of a weight over the usable frames above which its shape moves."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,11 +54,7 @@ class Neutral:
 
 
 def calmest_frame(weights: np.ndarray, usable: np.ndarray) -> NeutralFrame:
-    """The frame of a recording of one person that stands best for the face at rest.
-
-    The network without calibration says how much is going on in a frame: what a person's looks add to that is the same
-    in all of them. Of the calmest quarter the frame counts whose weights are nearest to the quarter's median. Someone
-    who smiles throughout is taken for neutral: a frame named by a person is better.
+    """Choose the frame of a recording of one person that is nearest to the median of the calm frames.
 
     Parameters
     ----------
@@ -77,27 +71,17 @@ def calmest_frame(weights: np.ndarray, usable: np.ndarray) -> NeutralFrame:
     rows = np.flatnonzero(usable)
     if not len(rows):
         raise InputError("no frame has a picture of every camera, so none can be the neutral one")
-    found = np.asarray(weights[rows], dtype=np.float64)
-    count = max(1, round(_CALM_SHARE * len(rows)))
-    calm = np.sort(np.argsort(found.sum(axis=1), kind="stable")[:count])
-    median = np.median(found[calm], axis=0)
-    row = int(rows[calm[np.argmin(np.abs(found[calm] - median).sum(axis=1))]])
-    if count < _FEWEST_CALM:
-        fewest = int(_FEWEST_CALM / _CALM_SHARE)
-        return NeutralFrame(
-            row=row, sure=False, reason=f"{len(rows)} frames are usable, and {fewest} are needed"
-        )
-    early, late = (np.median(half, axis=0) for half in np.array_split(found[calm], 2))
-    moving = found.std(axis=0) > 0.02
-    difference = float(np.abs(early - late)[moving].mean()) if moving.any() else 0.0
-    if difference > _AGREEMENT:
-        reason = (
-            f"early and late calm frames differ by weights of {difference:.2f}, and {_AGREEMENT} is allowed"
-        )
-        return NeutralFrame(row=row, sure=False, reason=reason)
-    return NeutralFrame(
-        row=row, sure=True, reason=f"{count} calm frames of {len(rows)} agree to {difference:.2f}"
-    )
+    weights = np.asarray(weights, dtype=np.float64)
+    moving = weights[rows].std(axis=0) > _MOVING
+
+    def difference(early: np.ndarray, late: np.ndarray) -> float:
+        before, after = (np.median(weights[half], axis=0) for half in (early, late))
+        return float(np.abs(before - after)[moving].mean()) if moving.any() else 0.0
+
+    calm = calm_frames(weights[rows].sum(axis=1), rows, difference=difference, agreement=_AGREEMENT)
+    quiet = weights[calm.frames]
+    nearest = np.argmin(np.abs(quiet - np.median(quiet, axis=0)).sum(axis=1))
+    return NeutralFrame(row=int(calm.frames[nearest]), sure=calm.sure, reason=calm.reason)
 
 
 def read_neutral(
