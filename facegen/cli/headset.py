@@ -80,10 +80,10 @@ def preview(
 
     Example: facegen headset preview tracking3 --out tracking3.png
     """
+    from facegen.files import whole_file
     from facegen.headsets import load_headset
     from facegen.preview.headsets import draw_headset
     from facegen.rigs import load_rig
-    from facegen.store import whole_file
 
     figure = draw_headset(load_headset(name), load_rig(rig))
     with whole_file(out, suffix=".png") as part:

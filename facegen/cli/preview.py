@@ -89,10 +89,10 @@ def preview(
 
 def _play(performance: "Performance", out: Path, frames: str | None, height_px: int, landmarks: bool) -> None:
     """Write a strip, a film, or pictures to standard output."""
+    from facegen.files import whole_file
     from facegen.formats.ppm import ppm_bytes
     from facegen.preview import ANIMATION_SUFFIXES, FILM_SUFFIXES, clip_strip, pictures, write_film
     from facegen.spec import sample_numbers
-    from facegen.store import whole_file
 
     suffixes = (STRIP, *FILM_SUFFIXES, *ANIMATION_SUFFIXES)
     if out != PIPE and out.suffix.lower() not in suffixes:
@@ -123,8 +123,9 @@ def _play(performance: "Performance", out: Path, frames: str | None, height_px: 
 
 def _statistics(dataset: Path, out: Path) -> None:
     """Write the page of statistics."""
+    from facegen.files import whole_file
     from facegen.preview import dataset_statistics, statistics_page
-    from facegen.store import open_dataset, whole_file
+    from facegen.store import open_dataset
 
     opened = open_dataset(dataset)
     text = statistics_page(opened, dataset_statistics(opened))
@@ -134,9 +135,10 @@ def _statistics(dataset: Path, out: Path) -> None:
 
 def _sheet(dataset: Path, out: Path, samples: str | None, columns: int, landmarks: bool) -> None:
     """Write a contact sheet."""
+    from facegen.files import whole_file
     from facegen.preview import SHEETS, contact_sheet
     from facegen.spec import sample_numbers
-    from facegen.store import open_dataset, whole_file
+    from facegen.store import open_dataset
 
     if out.suffix.lower() not in SHEETS:
         raise InputError(

@@ -110,8 +110,8 @@ def landmarks(
     """
     import numpy as np
 
+    from facegen.files import whole_file
     from facegen.rigs import load_rig, neutral_landmarks
-    from facegen.store import whole_file
 
     rig = load_rig(name)
     points = neutral_landmarks(rig, np.zeros((1, rig.components)))[0]

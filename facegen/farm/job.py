@@ -9,7 +9,8 @@ from pydantic import TypeAdapter, ValidationError
 
 from facegen.errors import InputError
 from facegen.farm.chunks import Chunk
-from facegen.store import DatasetFolder, output_errors
+from facegen.files import output_errors
+from facegen.store import DatasetFolder
 
 STEPS = ("generate", "validate", "pack", "train", "export")
 """What a job can do, each after the one before it."""

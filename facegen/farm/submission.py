@@ -8,8 +8,9 @@ from facegen.farm.chunks import cut_chunks
 from facegen.farm.engine import Activity
 from facegen.farm.engines import ENGINES
 from facegen.farm.job import Job, Resources, Submission, list_jobs, new_job_name, write_record
+from facegen.files import output_errors
 from facegen.spec import format_ranges
-from facegen.store import Dataset, DatasetFolder, begin, output_errors
+from facegen.store import Dataset, DatasetFolder, begin
 from facegen.work import Task, plan_work
 
 

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from facegen.errors import InputError
+from facegen.files import output_errors
 from facegen.packing.arrays import ARRAYS
 from facegen.packing.coco import COCO
 from facegen.packing.keypoints import KEYPOINTS
@@ -19,7 +20,6 @@ from facegen.store import (
     Dataset,
     DatasetFolder,
     commit_file,
-    output_errors,
     read_json,
     staging,
     sweep,

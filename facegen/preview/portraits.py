@@ -152,7 +152,7 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    from facegen.store import whole_file
+    from facegen.files import whole_file
 
     people = people if rig.components else 1
     rng = np.random.Generator(np.random.PCG64(7))

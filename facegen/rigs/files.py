@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import Part
-from facegen.errors import InputError, MissingAsset, OutputError
+from facegen.errors import InputError, MissingAsset
+from facegen.files import output_errors, write_whole
 from facegen.rigs.rig import Rig
 
 FORMAT = 1
@@ -56,12 +57,10 @@ def save_rig(rig: Rig, folder: Path | None = None) -> Path:
     folder = Path(folder) if folder is not None else rigs_folder()
     content = _zip_bytes({name: _on_disk(name, getattr(rig, name)) for name in _ARRAYS})
     npz, record = folder / f"{rig.name}.npz", _record(rig, content)
-    try:
+    with output_errors(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        _write_whole(npz, content)
-        _write_whole(npz.with_suffix(".json"), (json.dumps(record, indent=2) + "\n").encode())
-    except OSError as error:
-        raise OutputError(f"The rig cannot be written to {folder}: {error.strerror or error}.") from error
+    write_whole(npz, content)
+    write_whole(npz.with_suffix(".json"), json.dumps(record, indent=2) + "\n")
     return npz
 
 
@@ -179,15 +178,3 @@ def _zip_bytes(arrays: dict[str, np.ndarray]) -> bytes:
                 zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0)), entry.getvalue()
             )
     return stream.getvalue()
-
-
-def _write_whole(path: Path, content: bytes) -> None:
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        with open(temporary, "wb") as stream:
-            stream.write(content)
-            stream.flush()
-            os.fsync(stream.fileno())
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)

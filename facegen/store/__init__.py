@@ -5,10 +5,8 @@ from facegen.store.folder import (
     DatasetFolder,
     commit_file,
     commit_folder,
-    output_errors,
     read_json,
     shard_samples,
-    whole_file,
     write_json,
 )
 from facegen.store.images import exr_bytes, png_bytes, read_exr, read_png
@@ -37,7 +35,6 @@ __all__ = [
     "keypoint_table",
     "merge",
     "open_dataset",
-    "output_errors",
     "place",
     "png_bytes",
     "read_exr",
@@ -49,7 +46,6 @@ __all__ = [
     "shard_samples",
     "staging",
     "sweep",
-    "whole_file",
     "write_json",
     "write_shard",
 ]

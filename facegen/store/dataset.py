@@ -15,11 +15,12 @@ from pydantic import TypeAdapter, ValidationError
 from facegen import __version__
 from facegen.conventions import BLENDSHAPES, SHARD_ROWS
 from facegen.errors import InputError
+from facegen.files import output_errors
 from facegen.headsets import Headset, headset_path, load_headset
 from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset
 from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_hash, spec_table
-from facegen.store.folder import DatasetFolder, commit_file, output_errors, read_json, write_json
+from facegen.store.folder import DatasetFolder, commit_file, read_json, write_json
 from facegen.store.keypoint_table import column_array, read_shard
 from facegen.store.stage import staging
 

@@ -1,15 +1,14 @@
 """A dataset's folder: where everything lies, and how things appear in it complete or not at all."""
 
-import contextlib
 import errno
 import json
 import os
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from facegen.conventions import SHARD_ROWS
-from facegen.errors import InputError, OutputError
+from facegen.errors import InputError
+from facegen.files import sync
 
 SAMPLES_PER_FOLDER = 1000
 
@@ -64,56 +63,6 @@ class DatasetFolder:
 def shard_samples(index: int, *, total: int) -> range:
     """Samples in a shard of a dataset of ``total`` samples."""
     return range(index * SHARD_ROWS, min((index + 1) * SHARD_ROWS, total))
-
-
-@contextlib.contextmanager
-def output_errors(path: Path) -> Iterator[None]:
-    """Turns the operating system's refusals to write into `OutputError`, with the place and the reason."""
-    try:
-        yield
-    except OSError as error:
-        if error.errno in (errno.ENOSPC, errno.EDQUOT):
-            raise OutputError(f"{path}: no space left; free some and run the same command again") from error
-        reason = os.strerror(error.errno) if error.errno else str(error)
-        raise OutputError(f"{path}: cannot be written ({reason}); choose another folder") from error
-
-
-@contextlib.contextmanager
-def whole_file(path: Path, *, suffix: str | None = None) -> Iterator[Path]:
-    """Gives another name to write to; what stands there at the end appears under ``path``, whole or not at all.
-
-    Parameters
-    ----------
-    path
-        The file; an older one is replaced.
-    suffix
-        Of the name to write to, for writers that go by it; without, that of ``path``.
-
-    Raises
-    ------
-    InputError
-        If ``path`` is a folder.
-    OutputError
-        If the file cannot be written.
-    """
-    with output_errors(path):
-        if path.is_dir():
-            raise InputError(f"{path}: is a folder; name the file to write")
-        part = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix if suffix is None else suffix}")
-        try:
-            yield part
-            os.replace(part, path)
-        finally:
-            part.unlink(missing_ok=True)
-
-
-def sync(path: Path) -> None:
-    """Flush a file or folder to the disk, so that a rename after it never shows an empty file."""
-    handle = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
 
 
 def commit_file(source: Path, target: Path) -> None:

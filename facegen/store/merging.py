@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from facegen.errors import InputError, InvalidData
+from facegen.files import output_errors
 from facegen.store.dataset import Dataset, open_dataset
-from facegen.store.folder import DatasetFolder, commit_file, commit_folder, output_errors, read_json
+from facegen.store.folder import DatasetFolder, commit_file, commit_folder, read_json
 from facegen.store.stage import staging, sweep
 
 _FIRST_THINGS = ("tmp", "spec.toml", "headset.toml", "recording.csv")

@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from facegen.store.folder import DatasetFolder, output_errors
+from facegen.files import output_errors
+from facegen.store.folder import DatasetFolder
 
 STALE_AFTER_S = 24 * 3600.0
 """Half-made things of other machines, whose processes cannot be asked for, are removed at this age: no task

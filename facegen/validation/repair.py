@@ -5,8 +5,9 @@ import shutil
 from dataclasses import dataclass
 
 from facegen.errors import InvalidData
+from facegen.files import output_errors
 from facegen.spec import format_ranges
-from facegen.store import Dataset, output_errors, staging
+from facegen.store import Dataset, staging
 from facegen.validation.verdict import Verdict
 
 MANY = 10

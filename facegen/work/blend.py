@@ -4,8 +4,9 @@ from pathlib import Path
 
 from facegen.conventions import BLOCK
 from facegen.errors import InputError
+from facegen.files import whole_file
 from facegen.sampling import draw_samples
-from facegen.store import Dataset, whole_file
+from facegen.store import Dataset
 from facegen.work.worker import draw_render_seed, label_sample
 
 

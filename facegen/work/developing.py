@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from facegen.errors import InputError
+from facegen.files import output_errors
 from facegen.labels import session_unit
 from facegen.sampling import Shot, draw_shot
 from facegen.sensor import develop_view
@@ -15,7 +16,6 @@ from facegen.store import (
     DatasetFolder,
     commit_file,
     commit_folder,
-    output_errors,
     png_bytes,
     read_exr,
     read_json,

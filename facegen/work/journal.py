@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from facegen.store import DatasetFolder, output_errors, place
+from facegen.files import output_errors
+from facegen.store import DatasetFolder, place
 from facegen.work.tasks import Task
 
 LOGS_PER_FOLDER = 1000

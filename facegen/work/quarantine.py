@@ -3,7 +3,8 @@
 import shutil
 from pathlib import Path
 
-from facegen.store import DatasetFolder, commit_folder, output_errors, staging
+from facegen.files import output_errors
+from facegen.store import DatasetFolder, commit_folder, staging
 from facegen.work.journal import attempt_logs
 from facegen.work.tasks import Task
 

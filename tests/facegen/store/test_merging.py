@@ -92,7 +92,7 @@ def test_the_command_shows_how_far_it_is(tmp_path):
     one = keypoints(tmp_path / "one")
     done = CliRunner().invoke(app, ["merge", str(one), "--out", str(tmp_path / "all")])
     assert done.exit_code == 0, done.output
-    assert "shards and rendered samples: 1/1" in done.stderr
+    assert "shards and rendered samples: 1 of 1" in done.stderr
     assert "1 shards and rendered samples taken over" in done.stdout
 
 
