@@ -22,6 +22,7 @@ from facegen.headsets import Sensor
 from facegen.labels import RenderedSample, label_rendered, with_glints
 from facegen.sampling import draw_samples
 from facegen.sensor import develop
+from facegen.sessions import draw_sample_scene
 from facegen.store import Dataset, open_dataset, read_exr, read_json, read_png
 
 EYE = {
@@ -85,7 +86,7 @@ def eye_figures(grey: np.ndarray, part: np.ndarray, view: dict, side: str) -> di
 
 def glint_area(wide: RenderedSample, name: str, sensor: Sensor) -> float:
     """Mean number of saturated pixels of a view's corneal glints, before an iris as bright as the average one."""
-    glints, camera = wide.views[name].glints, wide.headset.camera(name)
+    glints, camera = wide.views[name].glints, wide.sample.session.unit.camera(name)
     seen = [
         i
         for i, surface in enumerate(glints.surfaces)
@@ -105,7 +106,8 @@ def at_640(dataset: Dataset, number: int) -> RenderedSample:
     samples = draw_samples(dataset.plan, dataset.rig, number // BLOCK)
     row = number % BLOCK
     headset = dataset.headset.scaled(640)
-    return label_rendered(dataset.spec, dataset.rig, headset, samples.rows(slice(row, row + 1)))
+    sample = draw_sample_scene(dataset.spec, dataset.rig, headset, samples.rows(slice(row, row + 1)))
+    return label_rendered(dataset.spec, dataset.rig, sample)
 
 
 def measure(folder: Path) -> dict[str, list[dict[str, float]]]:
@@ -119,7 +121,7 @@ def measure(folder: Path) -> dict[str, list[dict[str, float]]]:
         for name, view in record["views"].items():
             grey, part = read_png(path / f"{name}.png"), read_exr(path / f"{name}.exr").part
             if name.endswith("_eye"):
-                area = {"glint area, px at 640": glint_area(wide, name, wide.headset.sensor)}
+                area = {"glint area, px at 640": glint_area(wide, name, wide.sample.session.unit.sensor)}
                 figures["eye"].append(eye_figures(grey, part, view, name.removesuffix("_eye")) | area)
             elif name == "mouth":
                 figures["mouth"].append(levels(grey, part))

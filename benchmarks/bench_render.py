@@ -136,7 +136,7 @@ def print_fixed(spec: Spec, count: int) -> None:
     block = draw_samples(dataset.plan, dataset.rig, 0)
     label_sample(dataset, 0, block)
     start = time.process_time()
-    made = [label_sample(dataset, number, block) for number in range(count)]
+    made = [label_sample(dataset, number, block).sample for number in range(count)]
     labels = (time.process_time() - start) / count
     renderer = open_renderer(threads=1, subsurface=spec.render.subsurface)
     renderer._load(made[-1].scene)
@@ -157,7 +157,7 @@ def print_fixed(spec: Spec, count: int) -> None:
 def print_noise(spec: Spec, paths: int) -> None:
     """How near few paths come to many, view by view."""
     dataset = resolve(spec, "nowhere")
-    scene = label_sample(dataset, 1, draw_samples(dataset.plan, dataset.rig, 0)).scene
+    scene = label_sample(dataset, 1, draw_samples(dataset.plan, dataset.rig, 0)).sample.scene
     renderer = open_renderer(threads=1, subsurface=spec.render.subsurface)
 
     def radiance(view: str, samples: int, seed: int) -> tuple[np.ndarray, float]:

@@ -3,11 +3,12 @@
 from facegen.labels.eye_outlines import EyeOutlines
 from facegen.labels.glints import Glints
 from facegen.labels.keypoints import Keypoints, label_keypoints, project_pinhole
-from facegen.labels.rendered import RenderedSample, label_rendered, session_unit
+from facegen.labels.rendered import RenderedSample, label_rendered
 from facegen.labels.spots import with_glints
-from facegen.labels.views import ViewLabels
+from facegen.labels.views import VIEW_LABEL_KEYS, ViewLabels
 
 __all__ = [
+    "VIEW_LABEL_KEYS",
     "EyeOutlines",
     "Glints",
     "Keypoints",
@@ -16,6 +17,5 @@ __all__ = [
     "label_keypoints",
     "label_rendered",
     "project_pinhole",
-    "session_unit",
     "with_glints",
 ]

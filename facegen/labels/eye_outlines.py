@@ -1,4 +1,4 @@
-"""What a camera sees of eyes: the pupil through the cornea, the limbus, and the edges of the lids.
+"""Outlines eyes in a headset's views: the pupil through the cornea, the limbus, and the margins of the lids.
 
 The cornea refracts as a ball of one index does, which is what is rendered (`facegen.scene.eyes`): each point of the
 pupil's edge leaves the cornea at one place towards a camera, and appears there. The ellipse shares 97 % with that
@@ -6,9 +6,11 @@ outline up to 45 degrees beside the optical axis where the pupil is 8 mm wide, u
 """
 
 from dataclasses import dataclass
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from facegen.conventions import SIDES
 from facegen.geometry import (
     Ellipse,
     apply_transform,
@@ -17,11 +19,14 @@ from facegen.geometry import (
     project,
     refract_through_sphere,
 )
+from facegen.labels.view_label import LabelKey
+from facegen.rigs import Rig, lid_margins
 from facegen.rigs.eyes import CORNEA_INDEX, EyeGeometry
 from facegen.scene import View
 from facegen.scene.eyes import head_from_eye
+from facegen.sessions import SampleScene
 
-PLACES = 32
+CIRCLE_POINTS = 32
 """Points of a circle that are projected: with twice as many the ellipse is the same to a millionth of a pixel."""
 
 
@@ -52,6 +57,79 @@ class EyeOutlines:
     iris: Ellipse
     upper_lid_2d: np.ndarray
     lower_lid_2d: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ViewOutlines:
+    """Outlines of the subject's left and right eye in a view."""
+
+    left: EyeOutlines
+    right: EyeOutlines
+
+    KEYS: ClassVar = (
+        LabelKey(
+            name="pupil_center_refracted_2d",
+            meaning="by side: where the middle of the pupil appears through the cornea",
+            unit="px",
+        ),
+        LabelKey(
+            name="pupil_ellipse",
+            meaning="by side: the pupil as it appears through the cornea: `center`, `semi_axes` (the longer first) and "
+            "`angle_rad` (from the picture's x towards y to the longer axis)",
+            unit="px, rad",
+        ),
+        LabelKey(name="pupil_ellipse_bare", meaning="the same without refraction", unit="px, rad"),
+        LabelKey(
+            name="iris_ellipse",
+            meaning="the same of the limbus, where cornea and sclera meet",
+            unit="px, rad",
+        ),
+        LabelKey(
+            name="upper_lid_2d",
+            meaning="by side: line along the lid's margin, from the inner to the outer canthus",
+            unit="px",
+        ),
+        LabelKey(name="lower_lid_2d", meaning="likewise", unit="px"),
+    )
+
+    @classmethod
+    def of_sample(cls, rig: Rig, sample: SampleScene) -> dict[str, Self]:
+        """Label every view of a sample."""
+        vertices = sample.face.vertices[0]
+        margins = [tuple(vertices[line] for line in lid_margins(rig, eye)) for eye in range(len(SIDES))]
+        return {
+            view.name: cls(
+                **{
+                    side: outline_eye(view, eye, lids)
+                    for side, eye, lids in zip(SIDES, sample.eyes, margins, strict=True)
+                }
+            )
+            for view in sample.scene.views
+        }
+
+    def record(self) -> dict[str, Any]:
+        """Values of `KEYS`."""
+        sides = {side: _values(getattr(self, side)) for side in SIDES}
+        return {key.name: {side: values[key.name] for side, values in sides.items()} for key in self.KEYS}
+
+
+def _values(eye: EyeOutlines) -> dict[str, Any]:
+    return {
+        "pupil_center_refracted_2d": eye.pupil_center_2d,
+        "pupil_ellipse": _ellipse(eye.pupil),
+        "pupil_ellipse_bare": _ellipse(eye.pupil_bare),
+        "iris_ellipse": _ellipse(eye.iris),
+        "upper_lid_2d": eye.upper_lid_2d,
+        "lower_lid_2d": eye.lower_lid_2d,
+    }
+
+
+def _ellipse(ellipse: Ellipse) -> dict[str, np.ndarray]:
+    return {
+        "center": np.asarray(ellipse.center),
+        "semi_axes": np.asarray(ellipse.semi_axes),
+        "angle_rad": np.asarray(ellipse.angle),
+    }
 
 
 def outline_eye(view: View, eye: EyeGeometry, margins: tuple[np.ndarray, np.ndarray]) -> EyeOutlines:
@@ -99,7 +177,9 @@ def outline_eye(view: View, eye: EyeGeometry, margins: tuple[np.ndarray, np.ndar
 
 
 def _circle(eye: EyeGeometry, radius: float, offset: float) -> np.ndarray:
-    """Points (PLACES, 3) about the optical axis, ``offset`` along it from the eyeball's centre; head frame, metres."""
-    angle = np.linspace(0.0, 2.0 * np.pi, PLACES, endpoint=False)
-    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(PLACES, offset)], axis=-1)
+    """Points (n, 3) about the optical axis, ``offset`` along it from the eyeball's centre; head frame, metres."""
+    angle = np.linspace(0.0, 2.0 * np.pi, CIRCLE_POINTS, endpoint=False)
+    points = np.stack(
+        [radius * np.cos(angle), radius * np.sin(angle), np.full(CIRCLE_POINTS, offset)], axis=-1
+    )
     return apply_transform(head_from_eye(eye), points)

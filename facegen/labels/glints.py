@@ -1,4 +1,4 @@
-"""Glints: mirror images of the LEDs on corneas and scleras, solved instead of rendered.
+"""Solves for glints, the mirror images of the LEDs on corneas and scleras, instead of rendering them.
 
 An LED's image is smaller than a pixel and a thousand times as bright as the iris: path tracing finds it in one
 of 40 samples, and a denoiser takes it for an error. So Cycles' eyes do not mirror lamps; the images are computed
@@ -10,11 +10,13 @@ References
    cornea as a spherical mirror.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from facegen.conventions import SIDES
+from facegen.conventions import SIDES, Part
 from facegen.geometry import (
     Camera,
     Reflection,
@@ -26,12 +28,16 @@ from facegen.geometry import (
     reflect_in_sphere,
     reflect_in_thread,
 )
+from facegen.labels.occluders import occluders
+from facegen.labels.view_label import LabelKey
 from facegen.raster import hidden
+from facegen.rigs import Rig
 from facegen.rigs.eyes import CORNEA_INDEX, EyeGeometry
-from facegen.scene import Lamp, View
+from facegen.scene import Lamp, View, tear_lines
 from facegen.scene.glasses import LensMirror
 from facegen.scene.lamps import radiant_intensity
 from facegen.scene.materials import MATERIALS
+from facegen.sessions import SampleScene
 
 HIDING_M = 3e-5
 """What hides a glint is nearer than its mirror by at least this; closed lids lie 0.35 mm before the cornea."""
@@ -84,6 +90,44 @@ class Glints:
     sigma_px: np.ndarray
     clump_px: np.ndarray
 
+    KEYS: ClassVar = (
+        LabelKey(
+            name="glints",
+            meaning="mirror images of LEDs in the picture: `lamp`, `eye`, `surface` (`cornea`, `sclera`, `tears`, "
+            "`lens` of glasses), `point_2d`, `point_camera`, `seen` (not behind a lid, a lash or the nose, for the "
+            "camera or the LED); an LED without an image on a surface has no entry",
+            unit="px; m, camera",
+        ),
+    )
+
+    @classmethod
+    def of_sample(cls, rig: Rig, sample: SampleScene) -> dict[str, Self]:
+        """Label every view of a sample; what the rim of a camera's lens covers is not seen."""
+        occluder = occluders(sample.scene.meshes, transparent=(Part.CORNEA, Part.LENS))
+        tears = tear_lines(rig, sample.face.vertices[0], sample.face.eye_center[0])
+        labels = {}
+        for view in sample.scene.views:
+            glints = label_glints(view, sample.scene.lamps, sample.eyes, tears, occluder, sample.lenses)
+            inside_px = sample.session.unit.camera(view.name).inside_aperture_px(glints.points_2d)
+            labels[view.name] = replace(glints, seen=glints.seen & (inside_px >= 0))
+        return labels
+
+    def record(self) -> dict[str, Any]:
+        """Values of `KEYS`."""
+        return {
+            "glints": [
+                {
+                    "lamp": lamp,
+                    "eye": self.eyes[i],
+                    "surface": self.surfaces[i],
+                    "point_2d": self.points_2d[i],
+                    "point_camera": self.points_camera[i],
+                    "seen": self.seen[i],
+                }
+                for i, lamp in enumerate(self.lamps)
+            ]
+        }
+
 
 def label_glints(
     view: View,
@@ -107,7 +151,7 @@ def label_glints(
         Their `facegen.scene.lids.tear_lines`.
     occluder
         Everything that hides a glint, lashes included, corneas and lenses not
-        (`facegen.labels.views.occluders`).
+        (`facegen.labels.occluders.occluders`).
     lenses
         The subject's left and right lens of glasses, if there are any.
     """
@@ -118,7 +162,10 @@ def label_glints(
         for side in range(len(SIDES))
         for surface in ("cornea", "sclera", "tears")
     }
-    mirrors |= {(side, "lens"): _lens_images(lens, lit, camera_m) for side, lens in enumerate(lenses)}
+    mirrors |= {
+        (side, "lens"): _sphere_images(lens.center, lens.radius, lens.holds, lit, camera_m)
+        for side, lens in enumerate(lenses)
+    }
     images = [
         (lamp, side, surface, found[index])
         for index, lamp in enumerate(lit)
@@ -168,22 +215,26 @@ def _images(
         center, radius = eye.center + eye.cornea_center_offset * eye.axis, eye.cornea_radius
     else:
         center, radius = eye.center, eye.radius
+
+    # the cornea ends, and the sclera begins, at the limbus
+    def on_surface(points: np.ndarray) -> np.ndarray:
+        before_limbus = ((points - eye.center) * eye.axis).sum(axis=-1) > eye.limbus_offset
+        return before_limbus == (surface == "cornea")
+
+    return _sphere_images(center, radius, on_surface, lamps, camera_m)
+
+
+def _sphere_images(
+    center: np.ndarray,
+    radius: float,
+    on_surface: Callable[[np.ndarray], np.ndarray],
+    lamps: list[Lamp],
+    camera_m: np.ndarray,
+) -> list[Reflection]:
+    """The lamps' images in the part of a sphere for whose points (n, 3) ``on_surface`` is True (n,)."""
     positions = np.array([lamp.position for lamp in lamps]).reshape(-1, 3)
     image = reflect_in_sphere(center, radius, positions, camera_m)
-    # the cornea ends, and the sclera begins, at the limbus
-    before_limbus = ((image.point - eye.center) * eye.axis).sum(axis=-1) > eye.limbus_offset
-    point = np.where((before_limbus == (surface == "cornea"))[:, None], image.point, np.nan)
-    return [
-        Reflection(point=point[i], cosine=image.cosine[i], gain=image.gain[i], shrinking=image.shrinking[i])
-        for i in range(len(lamps))
-    ]
-
-
-def _lens_images(lens: LensMirror, lamps: list[Lamp], camera_m: np.ndarray) -> list[Reflection]:
-    """The lamps' images in a lens of glasses, as in `_images`."""
-    positions = np.array([lamp.position for lamp in lamps]).reshape(-1, 3)
-    image = reflect_in_sphere(lens.center, lens.radius, positions, camera_m)
-    point = np.where(lens.holds(image.point)[:, None], image.point, np.nan)
+    point = np.where(on_surface(image.point)[:, None], image.point, np.nan)
     return [
         Reflection(point=point[i], cosine=image.cosine[i], gain=image.gain[i], shrinking=image.shrinking[i])
         for i in range(len(lamps))

@@ -3,6 +3,15 @@
 from facegen.sampling.frames import COMPONENT_NAMES
 from facegen.sampling.plan import Plan, plan_dataset
 from facegen.sampling.samples import Samples, draw_samples
-from facegen.sampling.shots import Shot, draw_shot
+from facegen.sampling.shots import Shot, draw_shot, draw_shots
 
-__all__ = ["COMPONENT_NAMES", "Plan", "Samples", "Shot", "draw_samples", "draw_shot", "plan_dataset"]
+__all__ = [
+    "COMPONENT_NAMES",
+    "Plan",
+    "Samples",
+    "Shot",
+    "draw_samples",
+    "draw_shot",
+    "draw_shots",
+    "plan_dataset",
+]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from facegen.geometry import direction_from_angles
+from facegen.headsets import Headset
 from facegen.randomness import stream
 from facegen.spec import Spec
 
@@ -98,6 +99,20 @@ def draw_shot(
         flash=flash,
         dropped_led=leds[led] if leds and drops < spec.sensor.dropped_led else None,
     )
+
+
+def draw_shots(spec: Spec, headset: Headset, *, session: int, sample: int) -> dict[str, Shot]:
+    """The shots of all views of a sample by camera name, each with its own LEDs."""
+    return {
+        camera.name: draw_shot(
+            spec,
+            camera.name,
+            tuple(led.name for led in headset.leds if led.camera == camera.name),
+            session=session,
+            sample=sample,
+        )
+        for camera in headset.cameras
+    }
 
 
 def _draw_room(spec: Spec, seed: int, session: int) -> tuple[str, float, np.ndarray]:

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, SIDES, SPLITS
-from facegen.geometry import Camera, Ellipse
-from facegen.labels import EyeOutlines, Glints, Keypoints, RenderedSample, ViewLabels
+from facegen.geometry import Camera
+from facegen.labels import Keypoints, RenderedSample
 from facegen.rigs import EyeGeometry, visual_axis
-from facegen.sampling import COMPONENT_NAMES, Shot
-from facegen.scene import Lamp, View
+from facegen.sampling import COMPONENT_NAMES
+from facegen.scene import Lamp
 from facegen.scene.accessories import Accessories
 
 
@@ -26,7 +26,8 @@ def numbers(array: np.ndarray) -> Any:
 
 def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> dict:
     """Labels of a rendered sample that follow from (spec, sample number) alone; pictures' checksums come on top."""
-    samples, keypoints = rendered.samples, rendered.keypoints
+    sample, keypoints = rendered.sample, rendered.keypoints
+    samples, unit = sample.row, sample.session.unit
     return {
         "spec_hash": dataset_hash,
         "rig": rig,
@@ -52,29 +53,34 @@ def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> d
             "camera_from_head": samples.camera_from_head[0].tolist(),
             "intrinsics": samples.intrinsics[0].tolist(),
         },
-        **_accessories(rendered.accessories),
+        **_accessories(sample.session.accessories),
         "eyes": {
             side: _eye(*values)
             for side, *values in zip(
                 SIDES,
-                rendered.eyes,
-                visual_axis(np.stack([eye.axis for eye in rendered.eyes])),
+                sample.eyes,
+                visual_axis(np.stack([eye.axis for eye in sample.eyes])),
                 rendered.lid_gap_m,
                 rendered.openness,
                 strict=True,
             )
         },
         "headset": {
-            "name": rendered.headset.name,
-            "head_from_headset": rendered.head_from_headset.tolist(),
-            "donning": rendered.donning.tolist(),
-            "slip": rendered.slip.tolist(),
-            "lamps": [_lamp(lamp) for lamp in rendered.scene.lamps],
-            "sensor": asdict(rendered.headset.sensor),
+            "name": unit.name,
+            "head_from_headset": sample.head_from_headset.tolist(),
+            "donning": sample.donning.tolist(),
+            "slip": sample.slip.tolist(),
+            "lamps": [_lamp(lamp) for lamp in sample.scene.lamps],
+            "sensor": asdict(unit.sensor),
         },
         "views": {
-            view.name: _view(view, rendered.views[view.name], rendered.shots[view.name])
-            for view in rendered.scene.views
+            view.name: {
+                "camera": _camera(view.camera),
+                "camera_from_head": view.camera_from_head.tolist(),
+                **_plain(rendered.views[view.name].record()),
+                "shot": asdict(sample.shots[view.name]),
+            }
+            for view in sample.scene.views
         },
     }
 
@@ -131,66 +137,10 @@ def _camera(camera: Camera) -> dict:
     }
 
 
-def _view(view: View, labels: ViewLabels, shot: Shot) -> dict:
-    return {
-        "camera": _camera(view.camera),
-        "camera_from_head": view.camera_from_head.tolist(),
-        "points_2d": numbers(labels.points_2d),
-        "points_camera": numbers(labels.points_camera),
-        "visibility": numbers(labels.visibility),
-        "eye_center_2d": dict(zip(SIDES, numbers(labels.eye_center_2d), strict=True)),
-        "pupil_center_2d": dict(zip(SIDES, numbers(labels.pupil_center_2d), strict=True)),
-        "pupil_center_camera": dict(zip(SIDES, numbers(labels.pupil_center_camera), strict=True)),
-        "gaze_camera": dict(zip(SIDES, numbers(labels.gaze_camera), strict=True)),
-        **_outlines(labels.eyes),
-        "glints": _glints(labels.glints),
-        "shot": asdict(shot),
-    }
-
-
-def _outlines(eyes: tuple[EyeOutlines, EyeOutlines]) -> dict:
-    """Outlines of the eyes: label, then side."""
-    sides = [
-        {
-            "pupil_center_refracted_2d": numbers(eye.pupil_center_2d),
-            "pupil_ellipse": _ellipse(eye.pupil),
-            "pupil_ellipse_bare": _ellipse(eye.pupil_bare),
-            "iris_ellipse": _ellipse(eye.iris),
-            "upper_lid_2d": numbers(eye.upper_lid_2d),
-            "lower_lid_2d": numbers(eye.lower_lid_2d),
-        }
-        for eye in eyes
-    ]
-    return {
-        name: {side: labels[name] for side, labels in zip(SIDES, sides, strict=True)} for name in sides[0]
-    }
-
-
-def _ellipse(ellipse: Ellipse) -> dict:
-    return {
-        "center": numbers(ellipse.center),
-        "semi_axes": numbers(ellipse.semi_axes),
-        "angle_rad": numbers(ellipse.angle),
-    }
-
-
-def _glints(glints: Glints) -> list[dict]:
-    return [
-        {
-            "lamp": lamp,
-            "eye": eye,
-            "surface": surface,
-            "point_2d": point_2d,
-            "point_camera": point_camera,
-            "seen": seen,
-        }
-        for lamp, eye, surface, point_2d, point_camera, seen in zip(
-            glints.lamps,
-            glints.eyes,
-            glints.surfaces,
-            numbers(glints.points_2d),
-            numbers(glints.points_camera),
-            glints.seen.tolist(),
-            strict=True,
-        )
-    ]
+def _plain(values: Any) -> Any:
+    """Values with `numbers` in place of every array, in dicts and lists too."""
+    if isinstance(values, dict):
+        return {key: _plain(value) for key, value in values.items()}
+    if isinstance(values, list):
+        return [_plain(value) for value in values]
+    return numbers(values) if isinstance(values, np.ndarray | np.generic) else values

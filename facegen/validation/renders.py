@@ -13,6 +13,7 @@ from facegen.labels import label_rendered
 from facegen.sampling import Samples, draw_samples
 from facegen.scene import Layers
 from facegen.scene.beards import LENGTH_M
+from facegen.sessions import draw_sample_scene
 from facegen.store import Dataset, read_exr, read_png, sample_record
 from facegen.validation.agreement import disagreements
 from facegen.validation.finding import Finding, Kind
@@ -111,7 +112,9 @@ def _sha256(path: Path) -> str:
 
 def _check_labels(dataset: Dataset, record: dict, samples: Samples) -> _Wrong:
     made = sample_record(
-        label_rendered(dataset.spec, dataset.rig, dataset.headset, samples),
+        label_rendered(
+            dataset.spec, dataset.rig, draw_sample_scene(dataset.spec, dataset.rig, dataset.headset, samples)
+        ),
         dataset_hash=dataset.hash,
         rig=dataset.rig.name,
     )

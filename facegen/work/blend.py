@@ -49,7 +49,7 @@ def save_blend(dataset: Dataset, number: int, path: Path, *, view: str | None = 
     with whole_file(path, suffix=".blend") as part:
         path.parent.mkdir(parents=True, exist_ok=True)
         open_renderer(subsurface=render.subsurface).save(
-            made.scene,
+            made.sample.scene,
             view,
             part.absolute(),
             samples=render.samples_per_pixel,

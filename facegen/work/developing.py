@@ -8,9 +8,9 @@ import numpy as np
 
 from facegen.errors import InputError
 from facegen.files import output_errors
-from facegen.labels import session_unit
 from facegen.sampling import Shot, draw_shot
 from facegen.sensor import develop_view
+from facegen.sessions import draw_unit_of_session
 from facegen.store import (
     Dataset,
     DatasetFolder,
@@ -109,7 +109,7 @@ def develop_sample(
         key: getattr(settings, key) for key in ("exposure", "gain") if getattr(settings, key) is not None
     }
     headset = replace(dataset.headset, sensor=replace(dataset.headset.sensor, **given))
-    unit = session_unit(spec, headset, record["session"])
+    unit = draw_unit_of_session(spec, headset, record["session"])
     pictures, shots = {}, {}
     for camera in unit.cameras:
         view = camera.name

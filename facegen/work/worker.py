@@ -12,6 +12,7 @@ from facegen.labels import RenderedSample, label_keypoints, label_rendered, with
 from facegen.randomness import stream
 from facegen.sampling import Samples, draw_samples
 from facegen.sensor import develop_view
+from facegen.sessions import draw_sample_scene
 from facegen.store import (
     Dataset,
     commit_file,
@@ -106,25 +107,25 @@ class Worker:
         if self._renderer is None:
             on_phase("start Blender")
             self._renderer = open_renderer(threads=self.threads, subsurface=settings.subsurface)
-        files = {}
-        for view in rendered.scene.views:
+        files, sample = {}, rendered.sample
+        for view in sample.scene.views:
             on_phase(f"render {view.name}")
             render = self._renderer.render if settings.truth else self._renderer.glimpse
             layers = render(
-                rendered.scene,
+                sample.scene,
                 view.name,
                 samples=settings.samples_per_pixel,
-                seed=draw_render_seed(self.dataset.spec.seed, view.name, int(rendered.samples.sample[0])),
+                seed=draw_render_seed(self.dataset.spec.seed, view.name, int(sample.row.sample[0])),
                 denoise=settings.denoise,
             )
             glints = rendered.views[view.name].glints
             layers = dataclasses.replace(layers, radiance=with_glints(layers.radiance, glints))
             grey = develop_view(
                 layers,
-                rendered.headset.camera(view.name),
+                sample.session.unit.camera(view.name),
                 view.camera_from_head,
-                rendered.headset.sensor,
-                rendered.shots[view.name],
+                sample.session.unit.sensor,
+                sample.shots[view.name],
             )
             files[f"{view.name}.png"] = png_bytes(grey)
             if settings.truth:
@@ -139,5 +140,6 @@ def draw_render_seed(seed: int, view: str, sample: int) -> int:
 
 def label_sample(dataset: Dataset, number: int, block: Samples) -> RenderedSample:
     """Scene and labels of one sample out of its drawn block."""
-    row = number % BLOCK
-    return label_rendered(dataset.spec, dataset.rig, dataset.headset, block.rows(slice(row, row + 1)))
+    row = block.rows(slice(number % BLOCK, number % BLOCK + 1))
+    sample = draw_sample_scene(dataset.spec, dataset.rig, dataset.headset, row)
+    return label_rendered(dataset.spec, dataset.rig, sample)

@@ -49,7 +49,7 @@ said = {
 }
 dataset = resolve(load_spec(sys.argv[2]), sys.argv[3])
 made = label_sample(dataset, 1, draw_samples(dataset.plan, dataset.rig, 0))
-layers = open_renderer().render(made.scene, "mouth", samples=2, seed=draw_render_seed(3, "mouth", 1))
+layers = open_renderer().render(made.sample.scene, "mouth", samples=2, seed=draw_render_seed(3, "mouth", 1))
 said["difference"] = float(np.abs(opened - layers.radiance).max())
 said["brightest"] = float(layers.radiance.max())
 print(json.dumps(said))

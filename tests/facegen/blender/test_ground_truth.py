@@ -14,6 +14,7 @@ from facegen.labels.rendered import RenderedSample
 from facegen.raster import triangles_of
 from facegen.sampling import draw_samples
 from facegen.scene import Layers, Mesh
+from facegen.sessions import draw_sample_scene
 from facegen.spec import parse_spec
 from facegen.store import resolve
 
@@ -51,9 +52,11 @@ def seen(anny, tmp_path_factory) -> dict[str, Seen]:
     seen = {}
     for name, degrees in GAZES.items():
         gaze = np.broadcast_to(direction_from_angles(*np.radians(degrees)), (1, 2, 3))
-        labels = label_rendered(dataset.spec, anny, headset, replace(row, gaze=gaze))
+        labels = label_rendered(
+            dataset.spec, anny, draw_sample_scene(dataset.spec, anny, headset, replace(row, gaze=gaze))
+        )
         layers = {
-            view: renderer.render(labels.scene, view, samples=1, seed=0, denoise=False)
+            view: renderer.render(labels.sample.scene, view, samples=1, seed=0, denoise=False)
             for view in (VIEWS if name == "nasal" else EYE_VIEWS)
         }
         seen[name] = Seen(labels=labels, layers=layers)
@@ -63,7 +66,7 @@ def seen(anny, tmp_path_factory) -> dict[str, Seen]:
 @pytest.mark.parametrize("view", EYE_VIEWS)
 @pytest.mark.parametrize("gaze", GAZES)
 def test_the_pupils_ellipse_is_the_pupil_that_is_seen(seen, gaze, view):
-    part, outlines = seen[gaze].layers[view].part, seen[gaze].labels.views[view].eyes[0]
+    part, outlines = seen[gaze].layers[view].part, seen[gaze].labels.views[view].outlines.left
     assert _agreement(outlines.pupil, part) > 0.99  # half a pixel aside it would be below 0.987
     assert _agreement(outlines.pupil_bare, part) < 0.9
 
@@ -83,7 +86,7 @@ def _agreement(ellipse: Ellipse, part: np.ndarray) -> float:
 
 @pytest.mark.parametrize("view", VIEWS)
 def test_depth_and_normals_are_those_of_rays_cast_on_the_meshes(seen, view):
-    scene, layers = seen["nasal"].labels.scene, seen["nasal"].layers[view]
+    scene, layers = seen["nasal"].labels.sample.scene, seen["nasal"].layers[view]
     (shot,) = (shot for shot in scene.views if shot.name == view)
     # a mesh's triangles, normals at their corners, and a tree of all
     vertices = np.concatenate([mesh.vertices for mesh in scene.meshes])

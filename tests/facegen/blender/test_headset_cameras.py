@@ -16,6 +16,7 @@ from facegen.scene import Scene
 from facegen.scene.assembly import headset_views
 from facegen.scene.housing import headset_meshes
 from facegen.sensor import develop_view
+from facegen.sessions import draw_sample_scene
 from facegen.spec import parse_spec
 from facegen.store import resolve
 from tests.facegen.blender.scenes import sphere
@@ -89,6 +90,11 @@ def test_the_housing_is_rendered_where_its_mesh_is(renderer, name):
     assert seen > 100
 
 
+def _mouth_landmarks(dataset, headset, row):
+    sample = draw_sample_scene(dataset.spec, dataset.rig, headset, row)
+    return label_rendered(dataset.spec, dataset.rig, sample).views["mouth"].landmarks
+
+
 def test_landmarks_behind_the_housing_are_labelled_hidden(anny, tmp_path):
     table = {
         "version": 1,
@@ -99,9 +105,9 @@ def test_landmarks_behind_the_housing_are_labelled_hidden(anny, tmp_path):
     }
     dataset = resolve(parse_spec(table, where="here"), tmp_path)
     row = draw_samples(dataset.plan, anny, 0).rows(slice(0, 1))
-    made = label_rendered(dataset.spec, anny, dataset.headset, row).views["mouth"]
+    made = _mouth_landmarks(dataset, dataset.headset, row)
     unhoused = replace(dataset.headset, occluders=())
-    bare = label_rendered(dataset.spec, anny, unhoused, row).views["mouth"]
+    bare = _mouth_landmarks(dataset, unhoused, row)
     assert (made.points_2d == bare.points_2d).all()
     hidden = (bare.visibility == Visibility.VISIBLE) & (made.visibility == Visibility.HIDDEN)
     assert hidden[36:48].sum() >= 2, "the lower plate hides eyes from a camera below the chin"
@@ -116,11 +122,12 @@ def test_mouth1_sees_what_a_real_mouth_camera_sees(renderer, anny, tmp_path):
     block = draw_samples(dataset.plan, anny, 0)
     figures = []
     for number in (0, 2, 5, 9):
-        made = label_rendered(dataset.spec, anny, dataset.headset, block.rows(slice(number, number + 1)))
+        row = block.rows(slice(number, number + 1))
+        made = draw_sample_scene(dataset.spec, anny, dataset.headset, row)
         (view,) = made.scene.views
         layers = renderer.render(made.scene, "mouth", samples=4, seed=1)
-        camera, shot = made.headset.camera("mouth"), made.shots["mouth"]
-        grey = develop_view(layers, camera, view.camera_from_head, made.headset.sensor, shot)
+        unit, shot = made.session.unit, made.shots["mouth"]
+        grey = develop_view(layers, unit.camera("mouth"), view.camera_from_head, unit.sensor, shot)
         figures.append([grey.mean(), grey.std(), *np.percentile(grey, [1, 50, 99])])
         assert (grey < 250).all()
     mean, deviation, dark, median, bright = np.mean(figures, axis=0)

@@ -9,7 +9,7 @@ from facegen.conventions import Part
 from facegen.geometry import apply_transform, fresnel, invert_transform, pixel_rays, project
 from facegen.labels import with_glints
 from facegen.labels.glints import label_glints
-from facegen.labels.views import occluders
+from facegen.labels.occluders import occluders
 from facegen.rigs import eye_geometry
 from facegen.scene import Mesh
 from facegen.scene.glasses import LensMirror

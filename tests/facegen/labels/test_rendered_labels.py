@@ -10,9 +10,9 @@ from facegen.conventions import Visibility
 from facegen.geometry import rotation_from_angles
 from facegen.headsets import Lens, Tolerances
 from facegen.labels import label_rendered
-from facegen.labels import rendered as module
 from facegen.sampling import draw_samples
 from facegen.scene import draw_look
+from facegen.sessions import draw_sample_scene, sample_scene, session
 from facegen.spec import Looks, parse_spec
 from facegen.store import resolve, sample_record
 
@@ -29,15 +29,20 @@ def dataset(anny, tmp_path_factory):
     return resolve(parse_spec(table, where="here"), tmp_path_factory.mktemp("labels"))
 
 
+def labelled(spec, rig, headset, row):
+    return label_rendered(spec, rig, draw_sample_scene(spec, rig, headset, row))
+
+
 def _record(dataset, headset) -> dict:
     block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(1, 2))
-    rendered = label_rendered(dataset.spec, dataset.rig, headset, block)
+    rendered = labelled(dataset.spec, dataset.rig, headset, block)
     return sample_record(rendered, rig="anny", dataset_hash="")
 
 
 def test_keypoint_labels_do_not_change_with_materials_hair_or_sensor(dataset, monkeypatch):
     before = _record(dataset, dataset.headset)
-    monkeypatch.setattr(module, "_look", lambda seed, person, rig: draw_look(np.random.default_rng(77), rig))
+    monkeypatch.setattr(session, "draw_look", lambda _, rig: draw_look(np.random.default_rng(77), rig))
+    session.draw_session.cache_clear()
     sensor = dataclasses.replace(dataset.headset.sensor, exposure=2.0, black_level=40, veiling_glare=0.2)
     after = _record(dataset, dataclasses.replace(dataset.headset, sensor=sensor))
     assert before["headset"].pop("sensor") != after["headset"].pop("sensor")
@@ -55,7 +60,7 @@ def test_accessories_change_no_label_but_what_a_frame_hides(dataset):
     for row in range(3):  # men and women
         samples = block.rows(slice(row, row + 1))
         bare, worn = (
-            label_rendered(
+            labelled(
                 dataclasses.replace(dataset.spec, looks=Looks(beard=share, glasses=share, make_up=share)),
                 dataset.rig,
                 dataset.headset,
@@ -63,16 +68,19 @@ def test_accessories_change_no_label_but_what_a_frame_hides(dataset):
             )
             for share in shares.values()
         )
-        assert worn.accessories.glasses is not None
-        assert (worn.accessories.beard is None) == samples.female[0] == (worn.accessories.make_up is not None)
+        accessories = worn.sample.session.accessories
+        assert accessories.glasses is not None
+        assert (accessories.beard is None) == samples.female[0] == (accessories.make_up is not None)
         for field in dataclasses.fields(bare.keypoints):
             assert np.array_equal(getattr(bare.keypoints, field.name), getattr(worn.keypoints, field.name))
         for name, view in bare.views.items():
             after = worn.views[name]
-            for key in ("points_2d", "points_camera", "pupil_center_2d", "gaze_camera"):
-                assert np.array_equal(getattr(view, key), getattr(after, key))
-            hidden = view.visibility != after.visibility
-            assert (after.visibility[hidden] == Visibility.HIDDEN).all()
+            for key in ("points_2d", "points_camera"):
+                assert np.array_equal(getattr(view.landmarks, key), getattr(after.landmarks, key))
+            for key in ("pupil_center_2d", "gaze_camera"):
+                assert np.array_equal(getattr(view.eyes, key), getattr(after.eyes, key))
+            hidden = view.landmarks.visibility != after.landmarks.visibility
+            assert (after.landmarks.visibility[hidden] == Visibility.HIDDEN).all()
             assert hidden.sum() <= 8
         record = sample_record(worn, rig="anny", dataset_hash="")
         assert set(record["accessories"]) == {"glasses", "make_up" if samples.female[0] else "beard"}
@@ -82,7 +90,7 @@ def test_accessories_change_no_label_but_what_a_frame_hides(dataset):
 
 def test_labels_do_not_change_with_teeth_and_tongue(dataset, monkeypatch):
     with_ours = _record(dataset, dataset.headset)
-    monkeypatch.setattr(module, "has_own_teeth", lambda rig: True)
+    monkeypatch.setattr(sample_scene, "has_own_teeth", lambda rig: True)
     assert _record(dataset, dataset.headset) == with_ours
 
 
@@ -97,43 +105,49 @@ def test_keypoints_do_not_change_with_units_shots_or_rooms(dataset):
         "dropped_led": 1.0,
     }
     spec = dataclasses.replace(dataset.spec, sensor=dataclasses.replace(dataset.spec.sensor, **off))
-    plain, other = (label_rendered(s, dataset.rig, dataset.headset, block) for s in (dataset.spec, spec))
+    plain, other = (labelled(s, dataset.rig, dataset.headset, block) for s in (dataset.spec, spec))
     for field in dataclasses.fields(plain.keypoints):
         assert np.array_equal(getattr(plain.keypoints, field.name), getattr(other.keypoints, field.name))
-    assert np.allclose(plain.views["mouth"].points_2d, other.views["mouth"].points_2d, atol=3.0)
-    assert not np.array_equal(plain.views["mouth"].points_2d, other.views["mouth"].points_2d)
+    assert np.allclose(
+        plain.views["mouth"].landmarks.points_2d, other.views["mouth"].landmarks.points_2d, atol=3.0
+    )
+    assert not np.array_equal(
+        plain.views["mouth"].landmarks.points_2d, other.views["mouth"].landmarks.points_2d
+    )
     # an LED that stays dark is not lit and has no glint
-    dark = {name: shot.dropped_led for name, shot in other.shots.items()}
-    assert all(dark[view.name] and dark[view.name] not in view.lamps for view in other.scene.views)
+    dark = {name: shot.dropped_led for name, shot in other.sample.shots.items()}
+    assert all(dark[view.name] and dark[view.name] not in view.lamps for view in other.sample.scene.views)
     assert not {*dark.values()} & {lamp for view in other.views.values() for lamp in view.glints.lamps}
-    assert other.headset.cameras[0].fx == dataset.headset.cameras[0].fx
+    assert other.sample.session.unit.cameras[0].fx == dataset.headset.cameras[0].fx
 
 
 def test_donning_and_slip_make_the_pose(dataset):
     block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(0, 1))
     record = sample_record(
-        label_rendered(dataset.spec, dataset.rig, dataset.headset, block), rig="anny", dataset_hash=""
+        labelled(dataset.spec, dataset.rig, dataset.headset, block), rig="anny", dataset_hash=""
     )
     tight = dataclasses.replace(dataset.headset, tolerances=Tolerances())
-    rest = label_rendered(dataset.spec, dataset.rig, tight, block)
-    assert not rest.donning.any()
-    assert not rest.slip.any()
+    rest = labelled(dataset.spec, dataset.rig, tight, block)
+    assert not rest.sample.donning.any()
+    assert not rest.sample.slip.any()
     off = np.add(record["headset"]["donning"], record["headset"]["slip"])
     assert 1e-4 < np.abs(off[:3]).max() < 2e-2
     pose = np.array(record["headset"]["head_from_headset"])
-    assert np.allclose(pose[:3, 3], rest.head_from_headset[:3, 3] + off[:3])
+    assert np.allclose(pose[:3, 3], rest.sample.head_from_headset[:3, 3] + off[:3])
     assert np.allclose(pose[:3, :3], rotation_from_angles(*off[3:]))
 
 
 def test_a_doubled_slip_is_twice_as_far_and_nothing_else(dataset):
     block = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(0, 1))
     loose = dataclasses.replace(dataset.spec, sensor=dataclasses.replace(dataset.spec.sensor, slip=2.0))
-    one, two = (label_rendered(s, dataset.rig, dataset.headset, block) for s in (dataset.spec, loose))
-    assert one.slip.any()
-    np.testing.assert_allclose(two.slip, 2 * one.slip)
-    np.testing.assert_array_equal(two.donning, one.donning)
+    one, two = (labelled(s, dataset.rig, dataset.headset, block) for s in (dataset.spec, loose))
+    assert one.sample.slip.any()
+    np.testing.assert_allclose(two.sample.slip, 2 * one.sample.slip)
+    np.testing.assert_array_equal(two.sample.donning, one.sample.donning)
     np.testing.assert_allclose(
-        two.head_from_headset[:3, 3] - one.head_from_headset[:3, 3], one.slip[:3], atol=1e-12
+        two.sample.head_from_headset[:3, 3] - one.sample.head_from_headset[:3, 3],
+        one.sample.slip[:3],
+        atol=1e-12,
     )
 
 
@@ -144,15 +158,16 @@ def test_what_the_rim_of_a_lens_covers_is_hidden(dataset):
         lens = Lens(aperture_radius=radius)
         cameras = tuple(dataclasses.replace(camera, lens=lens) for camera in dataset.headset.cameras)
         headset = dataclasses.replace(dataset.headset, cameras=cameras)
-        return label_rendered(dataset.spec, dataset.rig, headset, block).views["left_eye"]
+        return labelled(dataset.spec, dataset.rig, headset, block).views["left_eye"]
 
     clear, covered = labels(None), labels(0.25)
     middle = (64 - 1) / 2
-    outside = np.linalg.norm(clear.points_2d - middle, axis=-1) > 0.25 * 64
-    assert (clear.visibility[outside] == Visibility.VISIBLE).any()
-    assert (clear.visibility[~outside] == Visibility.VISIBLE).any()
-    assert (covered.visibility[outside] == np.minimum(clear.visibility[outside], Visibility.HIDDEN)).all()
-    assert (covered.visibility[~outside] == clear.visibility[~outside]).all()
+    outside = np.linalg.norm(clear.landmarks.points_2d - middle, axis=-1) > 0.25 * 64
+    free, rimmed = clear.landmarks.visibility, covered.landmarks.visibility
+    assert (free[outside] == Visibility.VISIBLE).any()
+    assert (free[~outside] == Visibility.VISIBLE).any()
+    assert (rimmed[outside] == np.minimum(free[outside], Visibility.HIDDEN)).all()
+    assert (rimmed[~outside] == free[~outside]).all()
     aside = np.linalg.norm(clear.glints.points_2d - middle, axis=-1) > 0.25 * 64
     assert clear.glints.seen[aside].any()
     assert (covered.glints.seen == (clear.glints.seen & ~aside)).all()

@@ -18,6 +18,7 @@ from facegen.packing import Options, plan_pack, write_pack
 from facegen.raster import triangles_of
 from facegen.rigs import Rig, evaluate
 from facegen.sampling import Samples, draw_samples, plan_dataset
+from facegen.sessions import draw_sample_scene
 from facegen.spec import Spec, parse_spec
 from facegen.store import column_array, resolve, sample_record
 from facegen.validation import check_shard
@@ -104,8 +105,7 @@ def test_is_written_checked_and_packed_where_the_spec_asks(anny: Rig, tmp_path: 
     packed = pq.read_table(tmp_path / "pack" / "shard-000000.parquet")
     np.testing.assert_array_equal(column_array(packed, "contour_2d"), labels.contour_2d.astype(np.float32))
     headset = load_headset("tracking3")
-    record = sample_record(
-        label_rendered(spec, anny, headset, samples.rows(slice(3, 4))), dataset_hash="", rig="anny"
-    )
+    sample = draw_sample_scene(spec, anny, headset, samples.rows(slice(3, 4)))
+    record = sample_record(label_rendered(spec, anny, sample), dataset_hash="", rig="anny")
     contour_3d = np.asarray(record["keypoints"]["contour_3d"], np.float32)
     np.testing.assert_array_equal(contour_3d, labels.contour_3d[3].astype(np.float32))

@@ -13,8 +13,9 @@ import numpy as np
 
 from facegen.geometry import invert_transform
 from facegen.rigs import EyeGeometry
-from facegen.scene import MATERIALS, Lamp, View
 from facegen.scene.lamps import radiant_intensity
+from facegen.scene.materials import MATERIALS
+from facegen.scene.scene import Lamp, View
 
 WIDTH_RAD = np.radians(1.5)
 """Angle at which an LED's share has fallen to 1/e: at 2 degrees it is a sixth, at 4 a thousandth (chosen)."""

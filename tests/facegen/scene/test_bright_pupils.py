@@ -7,10 +7,10 @@ import pytest
 
 from facegen.geometry import invert_transform
 from facegen.headsets import head_from_headset, load_headset
-from facegen.labels.bright_pupils import bright_pupil
 from facegen.rigs import eye_geometry
 from facegen.scene import MATERIALS
 from facegen.scene.assembly import headset_lamps, headset_views
+from facegen.scene.bright_pupils import bright_pupil
 from tests.facegen.blender.scenes import eye_scene
 
 EYES = tuple(eye_geometry(np.array([x, 0.0, 0.0]), 0.012, np.array([0.0, 0.0, 1.0])) for x in (0.0, -0.06))
