@@ -10,6 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 from facegen.errors import InputError
 from facegen.farm.chunks import Chunk
 from facegen.files import output_errors
+from facegen.refusals import refusal
 from facegen.store import DatasetFolder
 
 STEPS = ("generate", "validate", "pack", "train", "export")
@@ -165,8 +166,10 @@ def asked_jobs(folder: DatasetFolder) -> list[Job]:
 def _read(path: Path, kind: type):
     try:
         return TypeAdapter(kind).validate_json(path.read_bytes())
-    except (OSError, ValidationError) as error:
+    except OSError as error:
         raise InputError(f"{path}: cannot be read as the record of a farm job ({error})") from None
+    except ValidationError as error:
+        raise InputError(f"{path}: is not the record of a farm job ({refusal(error, kind)})") from None
 
 
 def _seconds(text: str) -> int:

@@ -7,6 +7,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from facegen.errors import FormatError, InputError, MissingAsset
 from facegen.headsets.headset import Headset
+from facegen.refusals import refusal
 
 HEADSET_FOLDER = Path(__file__).resolve().parents[2] / "blender_assets" / "headsets"
 """Folder of the headsets that come with the project; a new one is a new file there, or a path."""
@@ -44,7 +45,7 @@ def parse_headset(content: dict, *, source: str) -> Headset:
     try:
         return _ADAPTER.validate_python(content)
     except ValidationError as error:
-        raise InputError(f"{source}: {_sentence(error)}") from None
+        raise InputError(f"{source}: {refusal(error, Headset)}") from None
 
 
 def headset_path(name_or_path: str | Path) -> Path:
@@ -58,37 +59,3 @@ def headset_path(name_or_path: str | Path) -> Path:
             f"there is no headset {str(name_or_path)!r}; known are {known}, or give the path of a .toml file"
         )
     return path
-
-
-def _sentence(error: ValidationError) -> str:
-    """All refusals of a file: key path, value found, what is allowed."""
-    sentences = []
-    for entry in error.errors(include_url=False):
-        key = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in entry["loc"]).lstrip(
-            "."
-        )
-        match entry["type"]:
-            case "unexpected_keyword_argument":
-                sentences.append(f"{key} is not a known key{_known_keys(entry['loc'])}")
-            case "missing" | "missing_keyword_only_argument":
-                sentences.append(f"{key} is missing")
-            case _:
-                message = entry["msg"].removeprefix("Value error, ")
-                message = message[:1].lower() + message[1:] if message.startswith("Input") else message
-                found = (
-                    f" is {entry['input']!r}" if isinstance(entry["input"], str | int | float | list) else ""
-                )
-                sentences.append(f"{key}{found}: {message}" if key else message)
-    return "; ".join(sentences)
-
-
-def _known_keys(loc: tuple) -> str:
-    """``; known are ...`` for the table in which an unknown key stands."""
-    fields = Headset.__pydantic_fields__
-    for part in loc[:-1]:
-        if isinstance(part, int):
-            continue
-        kind = fields[part].annotation
-        kind = next((a for a in getattr(kind, "__args__", ()) if hasattr(a, "__pydantic_fields__")), kind)
-        fields = kind.__pydantic_fields__
-    return f"; known are {', '.join(fields)}"

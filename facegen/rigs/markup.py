@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from facegen.errors import InputError
+from facegen.refusals import refusal
 
 Vertex = Annotated[int, Field(ge=0)]
 Position = tuple[float, float, float]
@@ -100,8 +101,5 @@ def read_markup(path: Path) -> HeadMarkup:
     except json.JSONDecodeError as error:
         raise InputError(f"{path} is not valid JSON: {error}") from error
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(key) for key in first["loc"]) or "the file"
-        raise InputError(
-            f"{path}: {where}: {first['msg']} (docs/adding-a-rig.md lists what is allowed)"
-        ) from error
+        sentence = refusal(error, HeadMarkup)
+        raise InputError(f"{path}: {sentence} (docs/adding-a-rig.md lists what is allowed)") from error

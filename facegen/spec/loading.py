@@ -1,7 +1,6 @@
 """From a TOML file to a checked `Spec`, and what makes two datasets the same: the hash."""
 
 import dataclasses
-import difflib
 import hashlib
 import json
 import operator
@@ -15,6 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import is_pydantic_dataclass
 
 from facegen.errors import InputError
+from facegen.refusals import refusal
 from facegen.spec.distribution import as_data
 from facegen.spec.sample_ranges import parse_ranges
 from facegen.spec.spec import Clips, Spec
@@ -82,7 +82,7 @@ def parse_spec(table: dict[str, Any], *, where: str) -> Spec:
         # through JSON, whose strict mode takes tables as records and lists as tuples
         spec = _ADAPTER.validate_json(json.dumps(table, default=str))
     except ValidationError as error:
-        raise InputError(f"{where}: {_sentence(error.errors()[0])}") from None
+        raise InputError(f"{where}: {refusal(error, Spec)}") from None
     if abs(sum(spec.split_shares) - 1) > 1e-9:
         raise InputError(
             f"{where}: split_shares = {list(spec.split_shares)} must add up to 1 (train, validation, test)"
@@ -164,32 +164,3 @@ def _records(record: Any) -> Iterator[Any]:
 
 def _records_of(field: dataclasses.Field) -> list[Any]:
     return [kind for kind in (field.type, *get_args(field.type)) if is_pydantic_dataclass(kind)]
-
-
-def _known_keys(location: tuple[int | str, ...]) -> list[str]:
-    record: Any = Spec
-    for key in location[:-1]:
-        options = [kind for f in dataclasses.fields(record) if f.name == key for kind in _records_of(f)]
-        if not options:
-            return []
-        record = options[0]
-    return [f.name for f in dataclasses.fields(record)]
-
-
-def _sentence(error: dict[str, Any]) -> str:
-    location = error["loc"]
-    path = ".".join(str(part) for part in location)
-    if error["type"] == "unexpected_keyword_argument":
-        known = _known_keys(location)
-        close = difflib.get_close_matches(str(location[-1]), known, n=1)
-        hint = f"did you mean {close[0]!r}? " if close else ""
-        return f"unknown key {path!r}; {hint}Known keys here: {', '.join(known)}"
-    if error["type"] in ("missing", "missing_argument"):
-        return f"key {path!r} is missing"
-    message = (
-        error["msg"]
-        .replace("Input should", "must")
-        .replace("must be a valid integer", "must be a whole number")
-    )
-    message = message.replace("must be a valid", "must be a").replace("must be an object", "must be a table")
-    return f"{path} = {json.dumps(error['input'], default=str)}: {message}"

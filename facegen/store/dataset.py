@@ -17,6 +17,7 @@ from facegen.conventions import BLENDSHAPES, SHARD_ROWS
 from facegen.errors import InputError
 from facegen.files import output_errors
 from facegen.headsets import Headset, headset_path, load_headset
+from facegen.refusals import refusal
 from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset
 from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_hash, spec_table
@@ -210,13 +211,11 @@ def _scaled(headset: Headset, size_px: int) -> Headset:
         try:
             camera.scaled(size_px)
         except ValidationError as error:
-            wrong = error.errors()[0]
-            why = ": ".join([*map(str, wrong["loc"]), wrong["msg"].replace("Input should", "must")])
             height = f"{camera.height * size_px / camera.width:.0f}"
             raise InputError(
                 f"render.size_px = {size_px}: camera {camera.name!r} of headset {headset.name!r} has "
                 f"{camera.width} x {camera.height} px and would have {size_px} x {height}, which is not allowed "
-                f"({why}); choose another size"
+                f"({refusal(error, type(camera))}); choose another size"
             ) from None
     return headset.scaled(size_px)
 

@@ -59,26 +59,30 @@ def test_headsets_of_the_project_load(name):
         (
             "fx = 60.0",
             "fx = 60.0\nfocal = 3",
-            r"small\.toml: cameras\[0\]\.focal is not a known key; known are name, model,",
+            r"small\.toml: unknown key 'cameras\[0\]\.focal'; .*Known keys here: name, model,",
         ),
         (
             "exposure = 0.5",
             "exposure = 0.5\niso = 2",
-            r"sensor\.iso is not a known key; known are exposure, gain, black_level, veiling_glare, ",
+            r"unknown key 'sensor\.iso'; .*Known keys here: exposure, gain, black_level, veiling_glare, ",
         ),
-        ("k1 = -0.02", "k7 = -0.02", r"cameras\[0\]\.distortion\.k7 is not a known key; known are k1, k2"),
+        (
+            "k1 = -0.02",
+            "k7 = -0.02",
+            r"unknown key 'cameras\[0\]\.distortion\.k7'; .*Known keys here: k1, k2",
+        ),
         (
             "width = 64",
             "width = -64",
-            r"cameras\[0\]\.width is -64: input should be greater than or equal to 8",
+            r"cameras\[0\]\.width = -64: must be greater than or equal to 8",
         ),
-        ("fx = 60.0", "fx = 0.0", r"cameras\[0\]\.fx is 0\.0: input should be greater than 0"),
+        ("fx = 60.0", "fx = 0.0", r"cameras\[0\]\.fx = 0\.0: must be greater than 0"),
         (
             '"fisheye"',
             '"orthographic"',
-            r"cameras\[0\]\.model is 'orthographic': input should be 'pinhole' or 'fisheye'",
+            r"cameras\[0\]\.model = \"orthographic\": must be 'pinhole' or 'fisheye'",
         ),
-        ("fy = 61.0", "", r"cameras\[0\]\.fy is missing"),
+        ("fy = 61.0", "", r"key 'cameras\[0\]\.fy' is missing"),
         ("k1 = -0.02", "p1 = 0.1", r"a fisheye camera has no distortion term p1; it has k1, k2, k3, k4"),
         ("k1 = -0.02", "k1 = -4.0", r"distortion folds within the picture"),
         ('camera = "eye"', 'camera = "nose"', r"leds\[0\]\.camera is 'nose', but the cameras are eye"),
@@ -86,9 +90,9 @@ def test_headsets_of_the_project_load(name):
         (
             "power_mw = 1.0",
             'power_mw = "much"',
-            r"leds\[0\]\.power_mw is 'much': input should be a valid number",
+            r"leds\[0\]\.power_mw = \"much\": must be a number",
         ),
-        ("[40, -10, 45]", "[40, -10]", r"cameras\[0\]\.position_mm\[2\] is missing"),
+        ("[40, -10, 45]", "[40, -10]", r"key 'cameras\[0\]\.position_mm\[2\]' is missing"),
     ],
 )
 def test_refusals_name_the_key_and_what_is_allowed(was, becomes, says):

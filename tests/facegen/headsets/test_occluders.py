@@ -92,9 +92,9 @@ depth_mm = 6
         (
             '"ring"',
             '"torus"',
-            r"occluders\[0\]\.shape is 'torus': input should be 'ring', 'cylinder' or 'box'",
+            r"occluders\[0\]\.shape = \"torus\": must be 'ring', 'cylinder' or 'box'",
         ),
-        ("depth_mm = 6", "depth_mm = -6", r"occluders\[0\]\.depth_mm is -6: input should be greater than 0"),
+        ("depth_mm = 6", "depth_mm = -6", r"occluders\[0\]\.depth_mm = -6: must be greater than 0"),
         (
             "[32, 0, 50]",
             "[66, 10, 41]",
@@ -103,7 +103,7 @@ depth_mm = 6
         (
             "rim_mm = 5",
             "rim_mm = 5\ncolour = 1",
-            r"occluders\[0\]\.colour is not a known key; known are name, shape",
+            r"unknown key 'occluders\[0\]\.colour'; .*Known keys here: name, shape",
         ),
     ],
 )
