@@ -37,7 +37,7 @@ LAMPS_KNOWN = "Known keys here: power_mw, name"
 @pytest.mark.parametrize(
     ("table", "sentence"),
     [
-        ({"size": 2.5}, "size = 2.5: must be a valid integer, got a number with a fractional part"),
+        ({"size": 2.5}, "size = 2.5: must be a whole number, got a number with a fractional part"),
         ({"size": "x" * 80}, "size: must be a whole number, unable to parse string as an integer"),
         ({"sise": 2}, "unknown key 'sise'; did you mean 'size'? Known keys here: lamps, spare, size"),
         ({"lamps": [{"power_mw": 1}, {"power_mw": -1}]}, "lamps[1].power_mw = -1: must be greater than or"),
@@ -52,4 +52,4 @@ LAMPS_KNOWN = "Known keys here: power_mw, name"
 def test_sentences(record, table, sentence):
     with pytest.raises(ValidationError) as error:
         TypeAdapter(record).validate_python(table)
-    assert sentence.replace("valid integer", "whole number") in refusal(error.value, record)
+    assert sentence in refusal(error.value, record)
