@@ -33,9 +33,7 @@ FACTORY = Extra(
     ),
     python="3.11",
 )
-LEARN = Extra(
-    name="learn", modules=frozenset(("jinja2", "matplotlib", "onnx", "pyarrow", "scipy", "sklearn"))
-)
+LEARN = Extra(name="learn", modules=frozenset(("jinja2", "onnx", "pyarrow", "scipy", "sklearn")))
 HEADSET = Extra(name="headset", modules=frozenset(("torch",)))
 
 

@@ -1,11 +1,14 @@
-"""The ``regress`` command. Only this package prints: results to stdout, talk to stderr."""
+"""The ``regress`` command. Only this package prints: results to stdout, talk to stderr.
 
-import sys
-from importlib.metadata import version as installed
+A command imports what it needs when it is called, so that ``--help`` is quick and needs none of the extras.
+"""
+
 from typing import Annotated
 
 import typer
 
+from facegen.console import run, versions
+from facegen.extras import HEADSET, LEARN
 from facegen.formats import FormatError
 from regress import __version__
 from regress.cli.bench import bench
@@ -15,7 +18,6 @@ from regress.cli.export import export
 from regress.cli.headset import headset
 from regress.cli.predict import predict
 from regress.cli.report import report
-from regress.cli.talk import hang_up, say
 from regress.cli.train import train
 from regress.errors import RegressError
 
@@ -39,8 +41,7 @@ app.add_typer(headset)
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        parts = ", ".join(f"{name} {installed(name)}" for name in ("numpy", "scipy"))
-        print(f"regress {__version__} ({parts}, Python {sys.version.split()[0]})")
+        print(f"regress {__version__} ({versions('numpy', 'onnxruntime', 'scipy')})")
         raise typer.Exit
 
 
@@ -57,20 +58,5 @@ def _options(
 
 
 def main() -> None:
-    """Entry point of the console script: one sentence and an exit code for every error on purpose."""
-    code: int | str | None = 0
-    try:
-        app()
-    except (RegressError, FormatError) as error:
-        say(f"regress: {error}")
-        code = int(error.exit_code)
-    except SystemExit as left:
-        if isinstance(left.__context__, BrokenPipeError):
-            hang_up(sys.stdout)  # its reader has gone, as `| head` does, of which Typer and rich make 1
-        else:
-            code = left.code
-    try:
-        sys.stdout.flush()
-    except BrokenPipeError:
-        hang_up(sys.stdout)
-    sys.exit(code)
+    """Entry point of the console script."""
+    run(app, extras=(HEADSET, LEARN), errors=(RegressError, FormatError))

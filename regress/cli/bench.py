@@ -8,10 +8,6 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from regress.runtime.headset.predictor import is_headset_model, load_headset_predictor
-from regress.runtime.model import load_model
-from regress.timing import time_headset, time_model
-
 
 def bench(
     model: Annotated[Path, typer.Argument(help="Model folder of `regress train` or `regress headset train`")],
@@ -21,6 +17,10 @@ def bench(
 
     Example: regress bench models/default
     """
+    from regress.runtime.headset.predictor import is_headset_model, load_headset_predictor
+    from regress.runtime.model import load_model
+    from regress.timing import time_headset, time_model
+
     if is_headset_model(model):
         timings = time_headset(load_headset_predictor(model))
     else:

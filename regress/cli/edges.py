@@ -7,10 +7,9 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from regress.cli.talk import say
+from facegen.console import say
 from regress.errors import InputError, OutputError
 from regress.files import write_whole
-from regress.learning.reference_shape import TILT_DEG, make_reference_shape, reference_shape_json
 
 
 def edges(
@@ -18,12 +17,17 @@ def edges(
     out: Annotated[Path, typer.Option("--out", help="File to write.")],
     name: Annotated[str, typer.Option("--name", help="Whose face it is.")] = "anny mean face",
     source: Annotated[str, typer.Option("--source", help="How the points were made.")] = "",
-    tilt_deg: Annotated[float, typer.Option("--tilt-deg", help="Tilt about x before projection.")] = TILT_DEG,
+    tilt_deg: Annotated[
+        float | None, typer.Option("--tilt-deg", help="Tilt about x before projection; 1.5 if not given.")
+    ] = None,
 ) -> None:
     """Triangulate a reference face; the package ships the result and copies it into each model.
 
     Example: facegen rig landmarks anny --out anny.npy && regress edges anny.npy --out reference_shape.json
     """
+    from regress.learning.reference_shape import TILT_DEG, make_reference_shape, reference_shape_json
+
+    tilt_deg = TILT_DEG if tilt_deg is None else tilt_deg
     shape = make_reference_shape(_read(points), name=name, source=source, tilt_deg=tilt_deg)
     try:
         write_whole(out, reference_shape_json(shape))

@@ -2,25 +2,20 @@
 
 import dataclasses
 import json
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from facegen.conventions import SPLITS
-from regress.learning.training import evaluate_model, read_dataset
-from regress.learning.training.scores import mean_r2
-from regress.runtime.model import load_model
-from regress.targets import OUTPUTS, VISIBLE_SHAPES, observability
 
-SplitName = StrEnum("SplitName", list(SPLITS))
+SplitOption = Annotated[Literal[SPLITS], typer.Option("--split", help="Whose faces to score.")]
 
 
 def evaluate(
     model: Annotated[Path, typer.Argument(help="Model folder.")],
     dataset: Annotated[Path, typer.Argument(help="Folder that `facegen generate` made.")],
-    split: Annotated[SplitName, typer.Option("--split", help="Whose faces to score.")] = SplitName.test,
+    split: SplitOption = "test",
     calibrated: Annotated[
         bool, typer.Option("--calibrated", help="Give the networks each person's neutral frame.")
     ] = False,
@@ -30,8 +25,13 @@ def evaluate(
 
     Example: regress evaluate models/default datasets/out/default
     """
-    loaded, keypoints = load_model(model), read_dataset(dataset, splits=(split.value,))
-    scores = evaluate_model(loaded, keypoints, split=split.value, calibrated=calibrated)
+    from regress.learning.training import evaluate_model, read_dataset
+    from regress.learning.training.scores import mean_r2
+    from regress.runtime.model import load_model
+    from regress.targets import OUTPUTS, VISIBLE_SHAPES, observability
+
+    loaded, keypoints = load_model(model), read_dataset(dataset, splits=(split,))
+    scores = evaluate_model(loaded, keypoints, split=split, calibrated=calibrated)
     visible = tuple(name for name in VISIBLE_SHAPES if name in scores)
     summary = {
         "mean_r2": mean_r2(scores, tuple(scores)),
@@ -39,7 +39,7 @@ def evaluate(
     }
     if as_json:
         shapes = {name: dataclasses.asdict(figures) for name, figures in scores.items()}
-        document = {"split": split.value, "calibrated": calibrated, "summary": summary, "scores": shapes}
+        document = {"split": split, "calibrated": calibrated, "summary": summary, "scores": shapes}
         typer.echo(json.dumps(document, allow_nan=False))
         return
     typer.echo(f"{'shape':<20} {'R2':>7} {'MAE':>7} {'r':>7}")

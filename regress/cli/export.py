@@ -1,8 +1,7 @@
 """``regress export``: a trained model as a file that runs elsewhere."""
 
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -11,12 +10,10 @@ from regress.exporters import EXPORTERS, export_model
 from regress.runtime.inputs import read_frames
 from regress.runtime.model import load_model, symmetrised
 
-Format = StrEnum("Format", ["all", *EXPORTERS])
-
 
 def export(
     model: Annotated[Path, typer.Argument(help="Model folder, as `regress train` writes it")],
-    chosen: Annotated[Format, typer.Option("--format", help="What to write")] = Format.all,
+    chosen: Annotated[Literal[("all", *EXPORTERS)], typer.Option("--format", help="What to write")] = "all",
     out: Annotated[Path, typer.Option(help="Folder for the files")] = Path(),
     name: Annotated[str, typer.Option(help="What the files, and C functions, are called")] = "face",
     neutral: Annotated[
@@ -31,7 +28,7 @@ def export(
 
     Every file agrees with `regress predict` to 1e-4. Example: regress export models/default --format onnx
     """
-    formats = list(EXPORTERS) if chosen is Format.all else [chosen.value]
+    formats = list(EXPORTERS) if chosen == "all" else [chosen]
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     if neutral is not None:
         loaded = loaded.calibrate(sound_rows(read_frames(neutral)).points)

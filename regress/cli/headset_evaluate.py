@@ -1,18 +1,13 @@
 """``regress headset evaluate``: a model's figures on arrays."""
 
 import json
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from facegen.conventions import BLENDSHAPES, SPLITS
-from regress.learning.headset.arrays import read_arrays
-from regress.learning.headset.evaluation import evaluate as evaluate_model
-from regress.runtime.headset.predictor import load_headset_predictor
-
-SplitName = StrEnum("SplitName", list(SPLITS))
+from facegen.conventions import BLENDSHAPES
+from regress.cli.evaluate import SplitOption
 
 _COLUMNS = ("rows", "geometry_mm", "r2", "mae", "rmse", "blink_r2", "gaze_deg")
 
@@ -20,15 +15,19 @@ _COLUMNS = ("rows", "geometry_mm", "r2", "mae", "rmse", "blink_r2", "gaze_deg")
 def evaluate(
     model: Annotated[Path, typer.Argument(help="Model folder of `regress headset train`.")],
     arrays: Annotated[Path, typer.Argument(help="Folder that `facegen pack --format arrays` made.")],
-    split: Annotated[SplitName, typer.Option("--split", help="Whose faces to score.")] = SplitName.test,
+    split: SplitOption = "test",
     as_json: Annotated[bool, typer.Option("--json", help="Unrounded figures for programs.")] = False,
 ) -> None:
     """Print how well a model does against exact labels: calibrated or not, camera by camera, shape by shape.
 
     Example: regress headset evaluate models/headset datasets/out/headset-test-arrays
     """
+    from regress.learning.headset.arrays import read_arrays
+    from regress.learning.headset.evaluation import evaluate as evaluate_model
+    from regress.runtime.headset.predictor import load_headset_predictor
+
     predictor = load_headset_predictor(model)
-    found = evaluate_model(predictor.graph, predictor.model, read_arrays(arrays), split=split.value)
+    found = evaluate_model(predictor.graph, predictor.model, read_arrays(arrays), split=split)
     if as_json:
         typer.echo(json.dumps(found, allow_nan=False))
         return

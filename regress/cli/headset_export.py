@@ -7,9 +7,7 @@ from typing import Annotated
 import typer
 
 from regress.errors import OutputError
-from regress.exporters.headset_interface import interface_of
 from regress.files import write_whole
-from regress.runtime.headset.predictor import load_headset_predictor
 
 
 def export(
@@ -22,6 +20,9 @@ def export(
     Pictures go in as the cameras give them: the graph holds all that happens to them. Example: regress headset export
     models/headset --out exports
     """
+    from regress.exporters.headset_interface import interface_of
+    from regress.runtime.headset.predictor import load_headset_predictor
+
     predictor = load_headset_predictor(model)
     graph = (model / "network.onnx").read_bytes()
     text = json.dumps(interface_of(predictor.model, graph=f"{name}.onnx"), indent=1) + "\n"

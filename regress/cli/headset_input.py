@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from regress.cli.talk import say
+from facegen.console import say
 from regress.errors import InputError
 from regress.runtime.headset.footage import Footage, line_up
 from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral

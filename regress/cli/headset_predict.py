@@ -8,6 +8,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
+from facegen.console import say
 from facegen.conventions import LANDMARK_COUNT
 from regress.cli.headset_input import camera_paths, check_stills, read_footage, read_neutrals
 from regress.cli.options import (
@@ -23,7 +24,6 @@ from regress.cli.options import (
     TrustOption,
 )
 from regress.cli.results import Format, write_avatar, write_confidence, write_points, write_table
-from regress.cli.talk import say
 from regress.errors import InputError
 from regress.runtime.adjustment import read_adjustments
 from regress.runtime.headset.film import check_film_name, write_film

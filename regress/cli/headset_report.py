@@ -2,21 +2,17 @@
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from regress.cli.headset_evaluate import SplitName
-from regress.cli.talk import say
+from facegen.console import say
+from regress.cli.evaluate import SplitOption
 from regress.errors import InputError, ModelError, OutputError
 from regress.files import write_whole
-from regress.learning.headset.arrays import read_arrays
-from regress.learning.headset.comparison import compare
-from regress.learning.headset.evaluation import evaluate
-from regress.learning.headset.worst import worst_frames
-from regress.report.headset_page import Judged, write_headset_report
-from regress.runtime.headset.predictor import load_headset_predictor
-from regress.timing import time_headset
+
+if TYPE_CHECKING:
+    from regress.report.headset_page import Judged
 
 
 def report(
@@ -38,7 +34,7 @@ def report(
             "--curve", help="A model trained on fewer people, for the learning curve; may be given again."
         ),
     ] = None,
-    split: Annotated[SplitName, typer.Option("--split", help="Whose faces to score.")] = SplitName.test,
+    split: SplitOption = "test",
     figures: Annotated[
         Path | None, typer.Option("--figures", help="JSON file for all that was measured, unrounded.")
     ] = None,
@@ -51,6 +47,14 @@ def report(
     Example: regress headset report models/headset --data datasets/out/headset-test-arrays --against models/holistic
     --out report.html
     """
+    from regress.learning.headset.arrays import read_arrays
+    from regress.learning.headset.comparison import compare
+    from regress.learning.headset.evaluation import evaluate
+    from regress.learning.headset.worst import worst_frames
+    from regress.report.headset_page import Judged, write_headset_report
+    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.timing import time_headset
+
     predictor = load_headset_predictor(model)
     rivals = [(name, load_headset_predictor(path)) for name, path in _titled("--against", against)]
     fewer = [(name, load_headset_predictor(path)) for name, path in _titled("--curve", curve)]
@@ -60,17 +64,17 @@ def report(
         judged.append(
             Judged(
                 title=title,
-                figures=evaluate(predictor.graph, predictor.model, arrays, split=split.value),
+                figures=evaluate(predictor.graph, predictor.model, arrays, split=split),
                 rivals=tuple(
-                    (name, compare(predictor, rival, arrays, split=split.value)) for name, rival in rivals
+                    (name, compare(predictor, rival, arrays, split=split)) for name, rival in rivals
                 ),
-                worst=worst_frames(predictor, arrays, split=split.value),
+                worst=worst_frames(predictor, arrays, split=split),
             )
         )
     for name, one in [*fewer, *([(model.name, predictor)] if fewer else [])]:
         found = one.model.scores
         if folders:
-            found = evaluate(one.graph, one.model, folders[0][1], split=split.value)
+            found = evaluate(one.graph, one.model, folders[0][1], split=split)
         elif not found:
             raise ModelError(f"{name} has no scores on a test split; give --data to measure some")
         points.append((name, one.model.training["people"], one.model.training["rows"], found))
@@ -96,7 +100,7 @@ def _titled(option: str, paths: list[Path] | None) -> list[tuple[str, Path]]:
 
 
 def _write_figures(
-    path: Path, judged: list[Judged], points: list[Any], timings: list[tuple[str, float]]
+    path: Path, judged: "list[Judged]", points: list[Any], timings: list[tuple[str, float]]
 ) -> None:
     document = {
         "data": {one.title: one.figures for one in judged},

@@ -6,11 +6,7 @@ from typing import Annotated
 
 import typer
 
-from regress.cli.talk import say
-from regress.learning.headset.arrays import read_arrays
-from regress.learning.headset.taps import fit_temporal
-from regress.runtime.headset.model import describe_headset_model
-from regress.runtime.headset.predictor import load_headset_predictor
+from facegen.console import say
 
 _COLUMNS = {"geometry_mm": "mm", "r2": "R2", "blink_r2": "blink R2", "gaze_deg": "gaze deg", "shake": "shake"}
 
@@ -27,6 +23,11 @@ def temporal(
     how far the error of a weight moves from frame to frame. Example: regress headset temporal models/headset
     datasets/out/headset-clips-arrays
     """
+    from regress.learning.headset.arrays import read_arrays
+    from regress.learning.headset.taps import fit_temporal
+    from regress.runtime.headset.model import describe_headset_model
+    from regress.runtime.headset.predictor import load_headset_predictor
+
     predictor, arrays = load_headset_predictor(model), read_arrays(clips)
     found = fit_temporal(predictor, arrays)
     worn = arrays.description["headset"]

@@ -3,21 +3,16 @@
 import dataclasses
 import time
 from collections.abc import Sequence
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
-from regress.cli.talk import progress, say
+from facegen.console import progress, say
 from regress.errors import InputError
-from regress.learning.headset.arrays import read_arrays
 from regress.learning.headset.recipe import WITHHOLDINGS, HeadsetRecipe
 from regress.runtime.headset.model import ARCHITECTURES
 from regress.runtime.headset.parts import without_side
-
-Architecture = StrEnum("Architecture", list(ARCHITECTURES))
-Withholding = StrEnum("Withholding", list(WITHHOLDINGS))
 
 _PLAIN = HeadsetRecipe()
 
@@ -28,9 +23,9 @@ def train(
         Path, typer.Option("--out", help="Model folder to write; an older model of this kind is replaced.")
     ],
     architecture: Annotated[
-        Architecture,
+        Literal[tuple(ARCHITECTURES)],
         typer.Option("--architecture", help="A network per camera, blended, or one that sees all."),
-    ] = Architecture.modular,
+    ] = "modular",
     seed: Annotated[
         int, typer.Option("--seed", min=0, help="Seed of the start, order and changes of pictures.")
     ] = 0,
@@ -53,9 +48,9 @@ def train(
         typer.Option("--randomise", help="Strength of photometric randomisation, for other cameras; try 1."),
     ] = _PLAIN.randomise,
     withhold: Annotated[
-        Withholding,
+        Literal[WITHHOLDINGS],
         typer.Option("--withhold", help="Frames to train without, to see what is learned from others."),
-    ] = Withholding.none,
+    ] = "none",
     people: Annotated[
         int, typer.Option("--people", min=0, help="Train on the first so many people; 0 is all.")
     ] = 0,
@@ -72,9 +67,12 @@ def train(
 
     Example: regress headset train datasets/out/headset-arrays --out models/headset
     """
+    from regress.learning.headset.arrays import read_arrays
+    from regress.learning.headset.training import train_headset
+
     recipe = _recipe(
         {
-            "architecture": architecture.value,
+            "architecture": architecture,
             "seed": seed,
             "epochs": epochs,
             "calibration": calibration,
@@ -82,24 +80,16 @@ def train(
             "part_loss": part_loss,
             "camera_dropout": camera_dropout,
             "randomise": randomise,
-            "withhold": withhold.value,
+            "withhold": withhold,
             "people": people,
         },
         settings or [],
     )
-    try:
-        from regress.learning.headset.training import train_headset
-    except ModuleNotFoundError as error:
-        if error.name != "torch":
-            raise
-        raise InputError(
-            "PyTorch is not installed, which only training needs: pip install 'facegen[headset]'"
-        ) from error
     frames = read_arrays(arrays)
     for note in side_notes(tuple(camera.name for camera in frames.cameras)):
         say(note)
     began = time.monotonic()
-    with progress() as draw:
+    with progress(unit="steps") as draw:
         model = train_headset(
             frames, recipe, out, progress=lambda done, total, _: draw(f"{out.name}: epochs", done, total)
         )

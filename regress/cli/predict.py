@@ -8,6 +8,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
+from facegen.console import say
 from regress.cli.options import (
     AvatarOption,
     BetaOption,
@@ -22,7 +23,6 @@ from regress.cli.options import (
 )
 from regress.cli.results import Format, write_avatar, write_confidence, write_table
 from regress.cli.rows import sound_rows
-from regress.cli.talk import say
 from regress.errors import InputError
 from regress.runtime.adjustment import mirror as exchanged
 from regress.runtime.adjustment import read_adjustments

@@ -6,12 +6,9 @@ from typing import Annotated
 
 import typer
 
-from regress.cli.talk import say
+from facegen.console import say
 from regress.errors import InputError, OutputError
 from regress.files import write_whole
-from regress.learning.probes import figures_of, measure
-from regress.report import write_report
-from regress.runtime.model import load_model
 
 
 def report(
@@ -31,6 +28,10 @@ def report(
 
     Example: regress report models/default --data datasets/out/default --out report.html
     """
+    from regress.learning.probes import figures_of, measure
+    from regress.report import write_report
+    from regress.runtime.model import load_model
+
     if figures is not None and data is None:
         raise InputError(
             "--figures has nothing to write without a dataset to measure on; give --data as well"

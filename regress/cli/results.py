@@ -1,20 +1,20 @@
 """Where predicted weights go: a table on standard output or in a file, or an avatar's animation."""
 
 import sys
-from enum import StrEnum
+from enum import Enum
 from pathlib import Path
 
 import numpy as np
 
+from facegen.console import say
 from facegen.formats import live_link_csv
 from facegen.formats.gltf_animation import animate_avatar
-from regress.cli.talk import say
 from regress.errors import InputError, OutputError
 from regress.files import write_whole
 from regress.runtime.predict import Prediction, prediction_csv
 
 
-class Format(StrEnum):
+class Format(str, Enum):
     """Tables that `regress predict` writes."""
 
     csv = "csv"

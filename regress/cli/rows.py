@@ -1,6 +1,6 @@
 """Rows of a recording that can be used, and word of the others."""
 
-from regress.cli.talk import say
+from facegen.console import say
 from regress.errors import InputError
 from regress.runtime.inputs import Frames, emptied, row_faults, told
 

@@ -1,18 +1,13 @@
 """``regress train``: from a dataset to a model."""
 
 import time
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from regress.cli.talk import progress, say
-from regress.learning.training import RECIPES, read_dataset
-from regress.learning.training import train as train_model
-from regress.runtime.model import KEYPOINTS, check_place, save_model
-
-RecipeName = StrEnum("RecipeName", list(RECIPES))
+from facegen.console import progress, say
+from regress.errors import InputError
 
 
 def train(
@@ -20,18 +15,26 @@ def train(
     out: Annotated[
         Path, typer.Option("--out", help="Model folder to write; an older model of this kind is replaced.")
     ],
-    recipe: Annotated[RecipeName, typer.Option("--recipe", help="How to train.")] = RecipeName.default,
+    recipe: Annotated[
+        str, typer.Option("--recipe", help="How to train: default, exact, paper or another of RECIPES.")
+    ] = "default",
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the networks' starts.")] = 0,
 ) -> None:
     """Train the 31 networks on a dataset's keypoints and compare them with ridge regression and the mean.
 
     Example: regress train datasets/out/default --out models/default
     """
+    from regress.learning.training import RECIPES, read_dataset
+    from regress.learning.training import train as train_model
+    from regress.runtime.model import KEYPOINTS, check_place, save_model
+
+    if recipe not in RECIPES:
+        raise InputError(f"--recipe is {recipe!r}, but must be one of {', '.join(RECIPES)}")
     keypoints = read_dataset(dataset)
     check_place(out, KEYPOINTS)
     began = time.monotonic()
-    with progress() as draw:
-        model = train_model(keypoints, RECIPES[recipe.value], seed=seed, progress=draw)
+    with progress(unit="steps") as draw:
+        model = train_model(keypoints, RECIPES[recipe], seed=seed, progress=draw)
     save_model(model, out)
     say(
         f"trained on {model.record['training_rows']} rows in {time.monotonic() - began:.0f} s; model in {out}"

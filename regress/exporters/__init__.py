@@ -5,16 +5,12 @@ one line in `EXPORTERS`; the tests run over the table. All write the same `Formu
 ``Model.predict`` to 1e-4.
 """
 
+import importlib
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from regress.errors import InputError, OutputError
-from regress.exporters.c_source import export_c
 from regress.exporters.formula import Formula, formula_of
-from regress.exporters.javascript import export_javascript
-from regress.exporters.json_text import export_json
-from regress.exporters.npz_archive import export_npz
-from regress.exporters.onnx_graph import export_onnx, export_onnx_networks
 from regress.files import write_whole
 from regress.runtime.model import Model
 
@@ -22,14 +18,15 @@ __all__ = ["EXPORTERS", "Formula", "export_model", "formula_of"]
 
 Exporter = Callable[[Formula, str], dict[str, bytes]]
 
-EXPORTERS: dict[str, Exporter] = {
-    "onnx": export_onnx,
-    "onnx-networks": export_onnx_networks,
-    "c": export_c,
-    "json": export_json,
-    "npz": export_npz,
-    "javascript": export_javascript,
+EXPORTERS = {
+    "onnx": "onnx_graph.export_onnx",
+    "onnx-networks": "onnx_graph.export_onnx_networks",
+    "c": "c_source.export_c",
+    "json": "json_text.export_json",
+    "npz": "npz_archive.export_npz",
+    "javascript": "javascript.export_javascript",
 }
+"""Module and function by format; imported where the format is asked for, since ONNX needs the extra ``learn``."""
 
 
 def export_model(
@@ -68,9 +65,14 @@ def export_model(
     formula = formula_of(model)
     files = {}
     for chosen in formats:
-        files |= EXPORTERS[chosen](formula, name)
+        files |= _exporter(chosen)(formula, name)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         return tuple(write_whole(folder / file_name, content) for file_name, content in files.items())
     except OSError as error:
         raise OutputError(f"cannot write the export into {folder}: {error.strerror or error}") from error
+
+
+def _exporter(chosen: str) -> Exporter:
+    module, _, function = EXPORTERS[chosen].partition(".")
+    return getattr(importlib.import_module(f"{__name__}.{module}"), function)

@@ -98,7 +98,8 @@ def test_extras_bring_the_modules_that_they_are_said_to_bring(extra):
     if extra.name not in project["optional-dependencies"]:
         pytest.skip(f"pyproject.toml has no extra {extra.name!r} yet")
     declared = {canonicalize_name(Requirement(text).name) for text in _all_of(extra.name, project)}
-    homes = importlib.metadata.packages_distributions()
+    # OpenEXR 3.5 says of its modules only that there is Imath
+    homes = {"OpenEXR": ["OpenEXR"], **importlib.metadata.packages_distributions()}
     for module in extra.modules & set(homes):
         assert declared & {canonicalize_name(name) for name in homes[module]}, module
     named = {canonicalize_name(name) for module in extra.modules for name in homes.get(module, ())}

@@ -190,11 +190,12 @@ def test_version_and_help(run):
 
 _ENDLESS = """
 import dataclasses, signal
-from regress.cli import main, talk
+from facegen import console
+from regress.cli import main
 from regress.learning.training import RECIPES
 from tests.regress.conftest import QUICK
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
-talk._PLAIN_SECONDS = 0
+console.LINE_EVERY_S = 0
 RECIPES["default"] = dataclasses.replace(QUICK, steps=10**6, search_steps=10**6, patience=10**6, improvement=0.0)
 main()
 """

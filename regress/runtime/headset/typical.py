@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import cv2
 import numpy as np
 
 TYPICAL_SIDE = 24
@@ -26,6 +25,8 @@ def typical_picture(pictures: np.ndarray, rows: np.ndarray) -> np.ndarray:
     -------
     (24, 24) uint8
     """
+    import cv2
+
     chosen = rows[np.linspace(0, len(rows) - 1, min(len(rows), _PICTURES)).round().astype(int)]
     mean = np.mean(pictures[chosen], axis=0, dtype=np.float32)
     return np.rint(cv2.resize(mean, (TYPICAL_SIDE, TYPICAL_SIDE), interpolation=cv2.INTER_AREA)).astype(

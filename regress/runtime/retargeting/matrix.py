@@ -14,7 +14,7 @@
     JawSide = [-1.0, 1.0]
 """
 
-import tomllib
+import sys
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
@@ -24,6 +24,11 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 _SECTIONS = ("title", "source", "shapes", "limits")
 

@@ -265,7 +265,7 @@ def test_taps_that_make_it_worse_are_told(
         dataset_hash="",
         scores={name: figures | {"geometry_mm": error} for name, error in errors_mm.items()},
     )
-    monkeypatch.setattr("regress.cli.headset_temporal.fit_temporal", lambda predictor, arrays: found)
+    monkeypatch.setattr("regress.learning.headset.taps.fit_temporal", lambda predictor, arrays: found)
     code, _, said = run(
         "headset", "temporal", write_tiny_model(tmp_path / "tiny", headset="drawn3"), arrays_folder
     )
