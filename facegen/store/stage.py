@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
+import psutil
+
 from facegen.files import output_errors
 from facegen.store.folder import DatasetFolder
 
@@ -66,28 +68,20 @@ def is_alive(pid: int, *, since_ns: int | None = None) -> bool:
     A zombie does not run, and a later process with the same number is another one.
     """
     try:
-        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    except (FileNotFoundError, ProcessLookupError):
+        process = psutil.Process(pid)
+        runs = process.status() not in (psutil.STATUS_ZOMBIE, psutil.STATUS_DEAD)
+        return runs and (since_ns is None or process.create_time() * 1e9 < since_ns + _CLOCK_SLACK_NS)
+    except psutil.NoSuchProcess:
         return False
-    if fields[0] in "ZX":
-        return False
-    started_ns = (_boot_time_s() + int(fields[19]) / os.sysconf("SC_CLK_TCK")) * 1e9
-    return since_ns is None or started_ns < since_ns + _CLOCK_SLACK_NS
 
 
 def _abandoned(path: Path) -> bool:
     stem, *stamps = path.name.rsplit("-", 2)
     if len(stamps) == 2 and all(stamp.isdigit() for stamp in stamps):
         pid, since_ns = map(int, stamps)
-        if stem.endswith(f"-{place()}") and Path("/proc/self/stat").exists():
+        if stem.endswith(f"-{place()}"):
             return not is_alive(pid, since_ns=since_ns)
     try:
         return time.time() - path.stat().st_mtime > STALE_AFTER_S
     except FileNotFoundError:
         return False
-
-
-@cache
-def _boot_time_s() -> int:
-    lines = Path("/proc/stat").read_text().splitlines()
-    return next(int(line.split()[1]) for line in lines if line.startswith("btime "))

@@ -4,6 +4,8 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
+import psutil
+
 _MIB = 1 << 20
 
 
@@ -26,7 +28,7 @@ def available_cpus(environ: Mapping[str, str] = os.environ, cgroups: Path = Path
 
 def available_memory(environ: Mapping[str, str] = os.environ, cgroups: Path = Path("/sys/fs/cgroup")) -> int:
     """Bytes of memory that this process and its children may use."""
-    limits = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
+    limits = [psutil.virtual_memory().total]
     if "SLURM_JOB_ID" in environ:
         limits += [size * _MIB for size in _numbers(environ, "SLURM_MEM_PER_NODE") if size]
         per_cpu, cpus = _numbers(environ, "SLURM_MEM_PER_CPU"), _numbers(environ, "SLURM_CPUS_ON_NODE")

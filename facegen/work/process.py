@@ -9,6 +9,8 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
+import psutil
+
 from facegen.store import DatasetFolder, place
 from facegen.work.child import Assignment, Phase, Ready, Report
 from facegen.work.journal import attempt_log
@@ -98,13 +100,18 @@ class WorkerProcess:
 
     def cpu_s(self) -> float:
         """Processor seconds of all threads so far; 0 where the system does not tell."""
-        fields = self._proc("stat").rpartition(")")[2].split()
-        return sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK") if fields else 0.0
+        try:
+            times = psutil.Process(self.process.pid).cpu_times()
+        except psutil.Error:
+            return 0.0
+        return times.user + times.system
 
     def memory(self) -> int:
         """Resident bytes; 0 where the system does not tell."""
-        fields = self._proc("statm").split()
-        return int(fields[1]) * os.sysconf("SC_PAGE_SIZE") if fields else 0
+        try:
+            return psutil.Process(self.process.pid).memory_info().rss
+        except psutil.Error:
+            return 0
 
     def retire(self) -> None:
         """Ask an idle child to end."""
@@ -128,9 +135,3 @@ class WorkerProcess:
             return "\n".join(self.log.read_text(errors="replace").splitlines()[-lines:])
         except OSError:
             return "(no log)"
-
-    def _proc(self, name: str) -> str:
-        try:
-            return Path(f"/proc/{self.process.pid}/{name}").read_text()
-        except OSError:
-            return ""

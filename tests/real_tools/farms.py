@@ -8,6 +8,8 @@ import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+import psutil
+
 ROOT = Path(__file__).resolve().parents[2]
 
 SPEC = """\
@@ -101,22 +103,18 @@ def wait_for(condition: Callable[[], object], *, seconds: float = 180, what: str
 
 def processes_with(*words: str) -> list[int]:
     """Processes whose command line has all these words."""
-    found = []
-    for entry in Path("/proc").iterdir():
-        if entry.name.isdigit() and int(entry.name) != os.getpid():
-            try:
-                line = (entry / "cmdline").read_bytes().decode(errors="replace")
-            except OSError:
-                continue
-            if all(word in line for word in words):
-                found.append(int(entry.name))
-    return found
+    return [
+        process.pid
+        for process in psutil.process_iter(["cmdline"])
+        if process.pid != os.getpid()
+        and all(word in "\0".join(process.info["cmdline"] or ()) for word in words)
+    ]
 
 
 def children_of(process: int) -> list[int]:
     """Worker processes of a supervisor: the spawned ones, not Python's tracker."""
     try:
-        children = Path(f"/proc/{process}/task/{process}/children").read_text().split()
-    except OSError:
+        children = {child.pid for child in psutil.Process(process).children()}
+    except psutil.NoSuchProcess:
         return []
-    return [int(child) for child in children if int(child) in processes_with("spawn_main")]
+    return [child for child in processes_with("spawn_main") if child in children]

@@ -9,12 +9,13 @@ import time
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import InputError, OutputError
 from facegen.spec import load_spec, parse_spec
-from facegen.store import begin, column_array, open_dataset, resolve
+from facegen.store import begin, column_array, is_alive, open_dataset, resolve
 from facegen.work import generate, plan_work
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -148,23 +149,14 @@ def test_workers_die_with_a_supervisor_that_is_killed(tmp_path):
     deadline = time.monotonic() + 60
     while not list(logs.glob("worker-*")) and time.monotonic() < deadline:
         time.sleep(0.05)
-    children = [
-        int(pid) for pid in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-    ]
+    children = [child.pid for child in psutil.Process(process.pid).children()]
     assert children
     process.kill()
     process.communicate()
     deadline = time.monotonic() + 10
-    while any(_alive(pid) for pid in children) and time.monotonic() < deadline:
+    while any(is_alive(pid) for pid in children) and time.monotonic() < deadline:
         time.sleep(0.1)
-    assert not any(_alive(pid) for pid in children)
-
-
-def _alive(pid: int) -> bool:
-    try:
-        return "Z" not in Path(f"/proc/{pid}/stat").read_text().split()[2]
-    except (FileNotFoundError, ProcessLookupError):
-        return False
+    assert not any(is_alive(pid) for pid in children)
 
 
 def test_a_dataset_that_is_not_one_is_said_to_be_none(tmp_path):
