@@ -10,8 +10,8 @@ import typer
 
 from facegen.console import progress, say
 from regress.errors import InputError
+from regress.learning.headset.architectures import ARCHITECTURES
 from regress.learning.headset.recipe import WITHHOLDINGS, HeadsetRecipe
-from regress.runtime.headset.model import ARCHITECTURES
 from regress.runtime.headset.parts import without_side
 
 _PLAIN = HeadsetRecipe()
@@ -24,7 +24,10 @@ def train(
     ],
     architecture: Annotated[
         Literal[tuple(ARCHITECTURES)],
-        typer.Option("--architecture", help="A network per camera, blended, or one that sees all."),
+        typer.Option(
+            "--architecture",
+            help="; ".join(f"{name}: {one.help}" for name, one in ARCHITECTURES.items()) + ".",
+        ),
     ] = "modular",
     seed: Annotated[
         int, typer.Option("--seed", min=0, help="Seed of the start, order and changes of pictures.")

@@ -1,8 +1,9 @@
-"""What a program must know to run a network's graph without this package."""
+"""Describes a network's graph for programs that run it without this package: inputs, outputs, shapes, points."""
 
 from typing import Any
 
-from regress.runtime.headset.model import HeadsetModel, points_output
+from regress.runtime.headset.estimates import GRAPH_OUTPUTS, POINTS, points_output
+from regress.runtime.headset.model import HeadsetModel
 
 FORMAT = "regress-headset"
 
@@ -20,12 +21,10 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
     ]
     neutral = "the person's neutral pictures from the same seat of the headset; 0 where there are none"
     calibrated = "1 where neutral pictures are given, otherwise 0"
-    same_seat = "probability that picture and neutral picture are of one seat of the headset"
     if model.calibration == "none":
         neutral = calibrated = (
             "give 0: the network was trained without neutral pictures and does not look at them"
         )
-        same_seat = "means nothing: the network was trained without neutral pictures"
     inputs: dict[str, Any] = {}
     for kind, meaning in (("pictures", "grey pictures, row by row from the top"), ("neutral", neutral)):
         for camera in model.cameras:
@@ -44,26 +43,6 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
         "shape": ["n"],
         "meaning": calibrated,
     }
-    shapes = len(model.weights)
-    meanings = {
-        "weights": (["n", shapes], "blendshape weights, 0 to 1, named by shapes"),
-        "deviation": (["n", shapes], "predicted standard deviation of each weight"),
-        "gaze": (
-            ["n", 2, 2],
-            "yaw and pitch in radians, left eye first; yaw to the subject's left, pitch upwards",
-        ),
-        "shares": (["n", len(cameras), shapes], "how much each camera had to say"),
-        "same_seat": (["n"], same_seat),
-    }
-    for camera in model.cameras:
-        meanings[points_output(camera.name)] = (
-            ["n", len(model.points.get(camera.name, ())), 2],
-            "pixels of the points named by points, x to the right and y down, 0 in the middle of the first pixel",
-        )
-    outputs = {
-        name: {"type": "float32", "shape": meanings[name][0], "meaning": meanings[name][1]}
-        for name in model.outputs
-    }
     return {
         "format": FORMAT,
         "version": 1,
@@ -75,10 +54,27 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
         "points": {name: list(points) for name, points in model.points.items()},
         "temporal": _temporal(model),
         "inputs": inputs,
-        "outputs": outputs,
+        "outputs": _outputs(model),
         "calibration": model.calibration,
         "licences": list(model.licences),
     }
+
+
+def _outputs(model: HeadsetModel) -> dict[str, Any]:
+    counts = {"cameras": len(model.cameras), "shapes": len(model.weights)}
+    known = {name: (output, counts) for name, output in GRAPH_OUTPUTS.items()}
+    for camera in model.camera_names:
+        known[points_output(camera)] = (POINTS, {"points": len(model.points.get(camera, ()))})
+    outputs = {}
+    for name in model.outputs:
+        output, sizes = known[name]
+        uncalibrated = output.uncalibrated if model.calibration == "none" else None
+        outputs[name] = {
+            "type": "float32",
+            "shape": [sizes.get(size, size) for size in output.shape],
+            "meaning": uncalibrated or output.meaning,
+        }
+    return outputs
 
 
 def _temporal(model: HeadsetModel) -> dict[str, Any] | None:

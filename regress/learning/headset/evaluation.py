@@ -1,6 +1,6 @@
 """How good a headset network is on people it never saw, against exact labels; needs no PyTorch."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,8 @@ from facegen.conventions import BLENDSHAPES
 from regress.errors import InputError
 from regress.learning.headset.accuracy import SCORED, r2_of, summary
 from regress.learning.headset.arrays import HeadsetArrays
-from regress.runtime.headset.graph import Estimates, HeadsetGraph
+from regress.runtime.headset.estimates import Estimates
+from regress.runtime.headset.graph import HeadsetGraph
 from regress.runtime.headset.model import HeadsetModel
 
 CALIBRATIONS = ("none", "same_seat", "other_seat")
@@ -62,7 +63,7 @@ def estimate(
         return answer
     calibrated = answer.same_seat >= 0.5
     settled = graph.run(pictures, neutral=neutral, calibrated=calibrated)
-    return Estimates(**{**vars(settled), "same_seat": answer.same_seat})
+    return replace(settled, same_seat=answer.same_seat)
 
 
 def evaluate(

@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from regress.errors import InputError
-from regress.runtime.headset.model import ARCHITECTURES
+from regress.learning.headset.architectures import ARCHITECTURES
 
 WITHHOLDINGS = ("none", "combined", "regions")
 """What training may leave out: ``combined`` drops frames with an open jaw (> .25) and closed lids (> .2);
@@ -21,7 +21,7 @@ class HeadsetRecipe:
     Parameters
     ----------
     architecture
-        ``"modular"``: one network a camera, blended per weight; ``"holistic"``: the same encoders, concatenated.
+        One of ``ARCHITECTURES``.
     seed, epochs, batch, learning_rate, weight_decay
         Cosine schedule; this learning rate is AdamW's, for biases, scales and what reads the codes.
     matrix_learning_rate

@@ -9,7 +9,7 @@ from regress.errors import InputError
 from regress.learning.headset.accuracy import summary
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import Condition, estimate
-from regress.runtime.headset.graph import Estimates
+from regress.runtime.headset.estimates import Estimates
 from regress.runtime.headset.model import Temporal
 from regress.runtime.headset.outputs import MIRROR, WEIGHTS
 from regress.runtime.headset.predictor import HeadsetPredictor

@@ -2,42 +2,17 @@
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from regress.errors import InputError, ModelError
-from regress.runtime.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
+from regress.runtime.headset.estimates import GRAPH_OUTPUTS, Estimates, points_output
+from regress.runtime.headset.model import CameraInput
 from regress.runtime.onnx_session import open_session
 
 _BLOCK_ROWS = 64
 """Frames run at a time: more need more memory and are no faster."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Estimates:
-    """What a network says of n frames.
-
-    Parameters
-    ----------
-    weights : (n, 52) float32
-        In [0, 1], in ``BLENDSHAPES`` order.
-    deviation : (n, 52) float32
-        Predicted standard deviation of each weight.
-    gaze : (n, 2, 2) float32
-        Yaw and pitch of the left and the right eye's optical axis, radians, head frame.
-    shares : (n, cameras, 52) float32
-        How much each camera had to say; they add up to 1 over the cameras.
-    same_seat : (n,) float32
-        Probability that the neutral pictures come from the frame's own seat of the headset.
-    """
-
-    weights: np.ndarray
-    deviation: np.ndarray
-    gaze: np.ndarray
-    shares: np.ndarray
-    same_seat: np.ndarray
 
 
 class HeadsetGraph:
@@ -63,8 +38,9 @@ class HeadsetGraph:
         except Exception as error:  # onnxruntime's own classes share no public base
             raise ModelError(f"network.onnx is not a graph that onnxruntime reads: {error}") from error
         self._cameras = cameras
-        known = {value.name for value in self._session.get_inputs()}
-        lost = {f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")} - known
+        inputs = {value.name for value in self._session.get_inputs()}
+        self._outputs = {value.name for value in self._session.get_outputs()}
+        lost = {f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")} - inputs
         if lost:
             raise ModelError(f"network.onnx has no input {', '.join(sorted(lost))}; model.json names them")
 
@@ -95,20 +71,20 @@ class HeadsetGraph:
             Where pictures are of a camera that the model does not have, or a camera that is present in a calibrated
             frame has no neutral pictures.
         """
-        found = self._outputs(GRAPH_OUTPUTS, pictures, neutral, present, calibrated)
-        return Estimates(**dict(zip(GRAPH_OUTPUTS, found, strict=True)))
+        names = [name for name in GRAPH_OUTPUTS if name in self._outputs]
+        arrays = self._run(names, pictures, neutral, present, calibrated)
+        return Estimates(**dict(zip(names, arrays, strict=True)))
 
     def trace(self, pictures: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Pixels (n, P, 2) float32 of the points that each of these cameras traces; see ``HeadsetModel.points``.
 
         Cameras that trace none are left out, and so are all of older models.
         """
-        known = {value.name for value in self._session.get_outputs()}
-        cameras = [name for name in pictures if points_output(name) in known]
-        found = self._outputs([points_output(name) for name in cameras], pictures, None, None, None)
-        return dict(zip(cameras, found, strict=True))
+        cameras = [name for name in pictures if points_output(name) in self._outputs]
+        points = self._run([points_output(name) for name in cameras], pictures, None, None, None)
+        return dict(zip(cameras, points, strict=True))
 
-    def _outputs(
+    def _run(
         self,
         names: Sequence[str],
         pictures: dict[str, np.ndarray],

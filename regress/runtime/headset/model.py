@@ -10,21 +10,11 @@ from typing import Any
 from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError, OutputError
 from regress.files import write_whole
+from regress.runtime.headset.estimates import GRAPH_OUTPUTS
 from regress.runtime.headset.typical import read_typical
 from regress.runtime.model import HEADSET, KEYPOINTS, write_folder
 
 VERSION = 1
-
-GRAPH_OUTPUTS = ("weights", "deviation", "gaze", "shares", "same_seat")
-"""Outputs of network.onnx, in order; behind them ``points_<camera>`` of each camera that traces points."""
-
-
-def points_output(camera: str) -> str:
-    """Name of the graph's output that holds a camera's traced points."""
-    return f"points_{camera}"
-
-
-ARCHITECTURES = ("modular", "holistic")
 CALIBRATIONS = ("optional", "none")
 
 
@@ -76,11 +66,8 @@ class HeadsetModel:
     """Description of a trained network; the network itself is network.onnx in the same folder.
 
     The graph takes for n frames ``pictures_<camera>`` and ``neutral_<camera>`` (n, height, width) uint8,
-    ``present`` (n, cameras) and ``calibrated`` (n,) float32, 0 or 1. It gives ``weights`` (n, 52) in [0, 1],
-    ``deviation`` (n, 52) their predicted standard deviation, ``gaze`` (n, 2, 2) yaw and pitch in radians of the
-    left and the right eye, ``shares`` (n, cameras, 52) how much each camera had to say, and ``same_seat`` (n,)
-    the probability that the neutral pictures come from the seat of the headset that the frame has. For each camera that
-    traces points there is ``points_<camera>`` (n, P, 2): pixels of its pictures, x to the right and y down, whole
+    ``present`` (n, cameras) and ``calibrated`` (n,) float32, 0 or 1. It gives what ``Estimates`` holds, and for each
+    camera that traces points ``points_<camera>`` (n, P, 2): pixels of its pictures, x to the right and y down, whole
     numbers in the pixels' middles; places of points that the picture does not show are guesses.
 
     Parameters
@@ -94,7 +81,7 @@ class HeadsetModel:
     modulation
         Factor on a camera's share of shapes outside its part (the paper's eq. 6).
     architecture
-        One of ``ARCHITECTURES``.
+        One of ``regress.learning.headset.architectures.ARCHITECTURES``.
     calibration
         ``"optional"``: neutral pictures help; ``"none"``: they are not looked at.
     points
@@ -127,7 +114,7 @@ class HeadsetModel:
     points: dict[str, tuple[str, ...]] = field(default_factory=dict)
     typical: dict[str, tuple[tuple[int, ...], ...]] = field(default_factory=dict)
     weights: tuple[str, ...] = BLENDSHAPES
-    outputs: tuple[str, ...] = GRAPH_OUTPUTS
+    outputs: tuple[str, ...] = tuple(GRAPH_OUTPUTS)
     temporal: Temporal | None = None
     training: dict[str, Any] = field(default_factory=dict)
     scores: dict[str, Any] = field(default_factory=dict)
@@ -244,12 +231,10 @@ def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise ModelError(f"{path} is not a headset model's description: {error}") from error
-    for name, value, allowed in (
-        ("architecture", model.architecture, ARCHITECTURES),
-        ("calibration", model.calibration, CALIBRATIONS),
-    ):
-        if value not in allowed:
-            raise ModelError(f"{path} has {name} {value!r}; {' or '.join(allowed)} is needed")
+    if model.calibration not in CALIBRATIONS:
+        raise ModelError(
+            f"{path} has calibration {model.calibration!r}; {' or '.join(CALIBRATIONS)} is needed"
+        )
     return model
 
 

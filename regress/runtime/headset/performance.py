@@ -9,8 +9,8 @@ from facegen.conventions import SIDES
 from regress.errors import InputError
 from regress.runtime.adjustment import ShapeAdjustment, adjust, mirror
 from regress.runtime.headset.confidence import confidence
+from regress.runtime.headset.estimates import Estimates
 from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.graph import Estimates
 from regress.runtime.headset.neutral import Neutral
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.seats import seat_change

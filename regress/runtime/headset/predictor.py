@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from regress.runtime.headset.graph import Estimates, HeadsetGraph
+from regress.runtime.headset.estimates import Estimates
+from regress.runtime.headset.graph import HeadsetGraph
 from regress.runtime.headset.model import HeadsetModel, read_headset_model
 from regress.runtime.model import HEADSET
 

@@ -16,6 +16,7 @@ from regress import timing
 from regress.cli.headset_train import side_notes
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
+from regress.runtime.headset.estimates import GRAPH_OUTPUTS
 from regress.runtime.headset.predictor import load_headset_predictor
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.takes import write_pictures
@@ -152,6 +153,8 @@ def test_an_export_runs_by_what_its_description_says(run, model: Path, tmp_path:
     for name, one in description["outputs"].items():
         assert list(found[name].shape) == [5 if n == "n" else n for n in one["shape"]]
         assert str(found[name].dtype) == one["type"]
+    documented = (EXAMPLE.parents[1] / "headset-networks.md").read_text()
+    assert [name for name in GRAPH_OUTPUTS if f"| `{name}` |" not in documented] == []
     assert description["shapes"] == list(BLENDSHAPES)
     assert [camera["name"] for camera in description["cameras"]] == list(NAMES)
 

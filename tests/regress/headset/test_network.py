@@ -14,10 +14,11 @@ from hypothesis import strategies as st  # noqa: E402
 
 from facegen.conventions import MIRRORED_BLENDSHAPES, VIEW_POINTS  # noqa: E402
 from regress.errors import ModelError  # noqa: E402
+from regress.learning.headset.architectures import ARCHITECTURES  # noqa: E402
 from regress.learning.headset.recipe import HeadsetRecipe  # noqa: E402
 from regress.learning.headset.training import export  # noqa: E402
 from regress.learning.headset.training.export import export_graph  # noqa: E402
-from regress.learning.headset.training.networks import NETWORKS  # noqa: E402
+from regress.learning.headset.training.networks import network_of  # noqa: E402
 from regress.learning.headset.training.resampling import reduced, resampling_matrix, warp_matrix  # noqa: E402
 from regress.learning.headset.training.targets import target_scale  # noqa: E402
 from regress.runtime.headset import CameraInput, HeadsetGraph  # noqa: E402
@@ -40,7 +41,7 @@ def network(architecture: str, seed: int = 0, **settings):
     recipe = HeadsetRecipe(architecture=architecture, input_size=SIZE, code=12, hidden=20, **settings)
     torch.manual_seed(seed)
     points = POINTS if recipe.points_loss else dict.fromkeys(POINTS, ())
-    made = NETWORKS[architecture](tuple(camera.name for camera in CAMERAS), recipe, points)
+    made = network_of(architecture)(tuple(camera.name for camera in CAMERAS), recipe, points)
     for encoder in made.encoders.values():
         encoder.set_scale(100.0, 60.0)
     seen = torch.rand(2, 3, 32, SQUARE, SQUARE) * 255
@@ -55,8 +56,7 @@ def targets():
 @pytest.fixture(
     scope="module",
     params=[
-        "modular",
-        "holistic",
+        *ARCHITECTURES,
         "modular with skips",
         "modular without points",
         "modular without second look",
@@ -111,7 +111,7 @@ def test_a_mirrored_frame_gives_the_mirrored_answer_also_where_cameras_hear_each
     cameras = ("left_brow", "left_eye", "mouth", "right_brow", "right_eye")
     recipe = HeadsetRecipe(input_size=SIZE, code=12, skip=5)
     torch.manual_seed(0)
-    made = NETWORKS["modular"](cameras, recipe, {"left_brow": (), **POINTS}).eval()
+    made = network_of("modular")(cameras, recipe, {"left_brow": (), **POINTS}).eval()
     seen, present = torch.rand(5, 2, SQUARE, SQUARE) * 255, torch.tensor([[1.0, 1, 0, 1, 1]]).expand(2, 5)
     # pictures of the right side are kept mirrored, so that sides change places
     said, mirrored = (
@@ -165,7 +165,7 @@ def test_neutral_pictures_matter_only_to_calibrated_frames(graph: HeadsetGraph):
     assert (np.abs(both.weights[1::2] - alone.weights[1::2]).max(axis=1) > 1e-3).all()
 
 
-@pytest.mark.parametrize("architecture", ["modular", "holistic"])
+@pytest.mark.parametrize("architecture", ARCHITECTURES)
 def test_a_network_trained_without_neutral_pictures_does_not_look_at_them(architecture: str):
     graph = HeadsetGraph(exported(network(architecture), calibration=False)[0], CAMERAS)
     alone, both = graph.run(frames(4)), graph.run(frames(4), neutral=frames(4, seed=3))
@@ -250,7 +250,7 @@ def test_cameras_in_the_other_order_share_the_encoder_the_other_way_round():
         CAMERAS[2],
     )
     points = {"right_eye": (5,), "mouth": (48,)}
-    made = NETWORKS["modular"](
+    made = network_of("modular")(
         tuple(camera.name for camera in cameras), HeadsetRecipe(input_size=SIZE), points
     )
     assert list(made.encoders) == ["right_eye", "mouth"]

@@ -17,7 +17,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.taps import fit_taps, fit_temporal
-from regress.runtime.headset.graph import Estimates
+from regress.runtime.headset.estimates import Estimates
 from regress.runtime.headset.model import Temporal, describe_headset_model, read_headset_model
 from regress.runtime.headset.temporal import TAPS, convolve
 from tests.regress.headset.drawn import SIDE

@@ -15,7 +15,8 @@ from regress.learning.headset.training.blend import Blended  # noqa: E402
 from regress.learning.headset.training.encoders import Encoder  # noqa: E402
 from regress.learning.headset.training.loop import Training  # noqa: E402
 from regress.learning.headset.training.losses import places_loss, total_loss  # noqa: E402
-from regress.learning.headset.training.networks import Answer, ModularNetwork  # noqa: E402
+from regress.learning.headset.training.modular import ModularNetwork  # noqa: E402
+from regress.learning.headset.training.networks import Answer  # noqa: E402
 from regress.learning.headset.training.traced import traced_points  # noqa: E402
 from regress.learning.headset.training.tracers import Tracer  # noqa: E402
 from regress.runtime.headset.outputs import OUTPUTS  # noqa: E402

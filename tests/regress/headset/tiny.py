@@ -7,7 +7,8 @@ import onnx
 from onnx import TensorProto, helper, numpy_helper
 
 from facegen.conventions import BLENDSHAPES
-from regress.runtime.headset.model import GRAPH_OUTPUTS, CameraInput, HeadsetModel, save_headset_model
+from regress.runtime.headset.estimates import GRAPH_OUTPUTS
+from regress.runtime.headset.model import CameraInput, HeadsetModel, save_headset_model
 from regress.runtime.headset.parts import part_of
 
 NAMES = ("left_eye", "right_eye", "mouth")
@@ -90,10 +91,14 @@ def tiny_graph(width: int, height: int, gain: float) -> bytes:
         helper.make_tensor_value_info("present", TensorProto.FLOAT, ["n", 3]),
         helper.make_tensor_value_info("calibrated", TensorProto.FLOAT, ["n"]),
     ]
-    shapes = (["n", 52], ["n", 52], ["n", 2, 2], ["n", 3, 52], ["n"])
+    made = {name for node in nodes for name in node.output}
+    counts = {"shapes": len(BLENDSHAPES), "cameras": len(NAMES)}
     outputs = [
-        helper.make_tensor_value_info(name, TensorProto.FLOAT, shape)
-        for name, shape in zip(GRAPH_OUTPUTS, shapes, strict=True)
+        helper.make_tensor_value_info(
+            name, TensorProto.FLOAT, [counts.get(size, size) for size in output.shape]
+        )
+        for name, output in GRAPH_OUTPUTS.items()
+        if name in made
     ]
     initializers = [numpy_helper.from_array(np.asarray(value), name) for name, value in constants.items()]
     graph = helper.make_graph(nodes, "tiny", [*pictures, *flags], outputs, initializers)

@@ -12,7 +12,8 @@ from regress.errors import ModelError
 from regress.learning.headset.training.networks import HeadsetNetwork
 from regress.learning.headset.training.resampling import resampling_matrix
 from regress.learning.headset.training.targets import Targets
-from regress.runtime.headset.model import GRAPH_OUTPUTS, CameraInput, points_output
+from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
+from regress.runtime.headset.model import CameraInput
 from regress.runtime.headset.outputs import WEIGHTS
 from regress.runtime.onnx_session import open_session
 
@@ -46,7 +47,7 @@ class Deployed(nn.Module):
             self.register_buffer(f"columns_{column}", torch.from_numpy(columns.T.copy()))
 
     def forward(self, *inputs: torch.Tensor) -> tuple[torch.Tensor, ...]:
-        """Outputs of each camera's pictures and neutral ones, ``present``, ``calibrated``; see ``GRAPH_OUTPUTS``."""
+        """Outputs by ``output_names``; takes each camera's pictures and neutral ones, ``present``, ``calibrated``."""
         *seen, present, calibrated = inputs
         if not self.calibration:  # a product, so that the graph keeps the input
             calibrated = 0 * calibrated
@@ -55,18 +56,33 @@ class Deployed(nn.Module):
         deviation = torch.sqrt(answer.blended.variance) * self.deviation_std
         # yaw and pitch of the left eye, then of the right
         gaze = said[:, WEIGHTS:].reshape(-1, 2, 2)
-        weights, shares = said[:, :WEIGHTS].clamp(0, 1), answer.blended.shares[..., :WEIGHTS]
-        points = [
-            self._pixels(camera, places) for camera, places in zip(self.cameras, answer.places, strict=True)
-        ]
-        known = [pixels for pixels in points if pixels is not None]
-        return weights, deviation[:, :WEIGHTS], gaze, shares, torch.sigmoid(answer.seat), *known
+        # the graph's nodes stand in this order
+        outputs = {
+            "weights": said[:, :WEIGHTS].clamp(0, 1),
+            "shares": answer.blended.shares[..., :WEIGHTS],
+        }
+        for camera, places in zip(self.cameras, answer.places, strict=True):
+            if self._traces(camera):
+                outputs[points_output(camera.name)] = self._pixels(camera, places)
+        outputs |= {
+            "deviation": deviation[:, :WEIGHTS],
+            "gaze": gaze,
+            "same_seat": torch.sigmoid(answer.seat),
+        }
+        return tuple(outputs[name] for name in self.output_names)
 
-    def _pixels(self, camera: CameraInput, places: torch.Tensor) -> torch.Tensor | None:
+    @property
+    def output_names(self) -> tuple[str, ...]:
+        """Names of the graph's outputs, in order."""
+        traced = [points_output(camera.name) for camera in self.cameras if self._traces(camera)]
+        return (*GRAPH_OUTPUTS, *traced)
+
+    def _traces(self, camera: CameraInput) -> bool:
+        return self.network.encoder(camera.name).tracer is not None
+
+    def _pixels(self, camera: CameraInput, places: torch.Tensor) -> torch.Tensor:
         """Places (n, P, 2) that the camera's encoder found, in pixels of the camera's own picture."""
         encoder = self.network.encoder(camera.name)
-        if encoder.tracer is None:
-            return None
         across, down = encoder.shares(places).unbind(2)
         across = across if camera.mirrored_of is None else 1 - across
         return torch.stack([across * camera.width - 0.5, down * camera.height - 0.5], dim=2)
@@ -111,10 +127,6 @@ def export_graph(
     deployed = Deployed(network, cameras, targets, square_size, deviation_scale, calibration).eval()
     names = [f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")]
     names += ["present", "calibrated"]
-    outputs = [
-        *GRAPH_OUTPUTS,
-        *(points_output(c.name) for c in cameras if network.encoder(c.name).tracer is not None),
-    ]
     buffer = io.BytesIO()
     with warnings.catch_warnings():
         # The exporter that needs no further package is called deprecated, and warns of what tracing fixes.
@@ -124,8 +136,8 @@ def export_graph(
             _probe(cameras, 2),
             buffer,
             input_names=names,
-            output_names=outputs,
-            dynamic_axes={name: {0: "frames"} for name in (*names, *outputs)},
+            output_names=list(deployed.output_names),
+            dynamic_axes={name: {0: "frames"} for name in (*names, *deployed.output_names)},
             opset_version=_OPSET,
             dynamo=False,
         )
@@ -158,6 +170,6 @@ def _difference(deployed: Deployed, graph: bytes, names: list[str], probe: tuple
     found = open_session(graph).run(None, feed)
     # points as shares of the picture: pixels are up to hundreds, and float32 has seven digits
     largest = max(max(camera.width, camera.height) for camera in deployed.cameras)
-    scales = [1.0] * len(GRAPH_OUTPUTS) + [1 / largest] * (len(found) - len(GRAPH_OUTPUTS))
+    scales = [1.0 if name in GRAPH_OUTPUTS else 1 / largest for name in deployed.output_names]
     pairs = zip(found, expected, scales, strict=True)
     return float(max(scale * np.abs(one - other.numpy()).max() for one, other, scale in pairs))

@@ -19,7 +19,7 @@ from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.batches import Batch, Frames
 from regress.learning.headset.training.losses import total_loss
-from regress.learning.headset.training.networks import NETWORKS, Answer, HeadsetNetwork
+from regress.learning.headset.training.networks import Answer, HeadsetNetwork, network_of
 from regress.learning.headset.training.optimizer import optimizers_of
 from regress.learning.headset.training.photometry import draw_photometry
 from regress.learning.headset.training.targets import Targets, target_scale
@@ -61,7 +61,7 @@ class Training:
         self._mean, self._std = torch.from_numpy(self.targets.mean), torch.from_numpy(self.targets.std)
         self._gram = _scaled_gram(arrays, self.targets, rows)
         names = tuple(camera.name for camera in arrays.cameras)
-        self.network = NETWORKS[recipe.architecture](names, recipe, self._frames.traced)
+        self.network = network_of(recipe.architecture)(names, recipe, self._frames.traced)
         self._set_scales()
         self._optimizers = optimizers_of(self.network, recipe)
         self._key = _key(arrays, recipe, rows)

@@ -6,7 +6,7 @@ import torch
 from torch.nn import functional
 
 from regress.learning.headset.recipe import HeadsetRecipe
-from regress.learning.headset.training.networks import Answer, HeadsetNetwork, ModularNetwork
+from regress.learning.headset.training.networks import Answer, HeadsetNetwork
 from regress.runtime.headset.outputs import WEIGHTS
 
 _SEAT = 0.1
@@ -50,7 +50,7 @@ def total_loss(
         weights = error[:, : len(gram)]
         loss = loss + recipe.geometry_loss * ((weights @ gram) * weights).sum(dim=1).mean()
     own = answer.means - wanted[:, None]
-    if isinstance(network, ModularNetwork) and recipe.part_loss:
+    if network.part is not None and recipe.part_loss:
         share = torch.where(network.part, 1.0, recipe.part_loss_elsewhere)
         part = (importance * share * own.square()).mean()
         if recipe.geometry_loss:

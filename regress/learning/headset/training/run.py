@@ -14,8 +14,9 @@ from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.export import export_graph
 from regress.learning.headset.training.loop import Progress, Training
+from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
 from regress.runtime.headset.graph import HeadsetGraph
-from regress.runtime.headset.model import GRAPH_OUTPUTS, HeadsetModel, points_output, save_headset_model
+from regress.runtime.headset.model import HeadsetModel, save_headset_model
 from regress.runtime.headset.outputs import WEIGHTS
 from regress.runtime.headset.parts import encoder_owners, part_of
 from regress.runtime.headset.typical import typical_picture
@@ -74,7 +75,7 @@ def train_headset(
         headset=description["headset"],
         cameras=cameras,
         parts={name: part_of(name) for name in owners},
-        modulation=recipe.modulation if recipe.architecture == "modular" else 1.0,
+        modulation=1.0 if network.part is None else recipe.modulation,
         architecture=recipe.architecture,
         calibration="optional" if recipe.calibration else "none",
         points=points,
