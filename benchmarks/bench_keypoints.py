@@ -123,9 +123,7 @@ def stages(folder: Path, rig: str, rounds: int = 3) -> dict[str, float]:
                 AT_ONCE,
             )
         keypoints = timed("labels", lambda s=samples: label_keypoints(spec, rig, s), BLOCK)
-        table = timed(
-            "table", lambda s=samples, k=keypoints: keypoint_table(s, k, image_size=(640, 480)), BLOCK
-        )
+        table = timed("table", lambda s=samples, k=keypoints: keypoint_table(spec, s, k), BLOCK)
         timed("writing", lambda t=table: write_shard(t, folder / "shard.parquet"), BLOCK)
     best["other labels"] = max(0.0, best.pop("labels") - best["evaluating"] - best["visibility"])
     return best

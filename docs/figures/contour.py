@@ -9,8 +9,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from facegen.conventions import BLENDSHAPES
-from facegen.geometry import apply_transform, rotation_from_angles, transform
-from facegen.labels import project_pinhole
+from facegen.geometry import apply_transform, project_pinhole, rotation_from_angles, transform
 from facegen.labels.contour import JAW, label_contour
 from facegen.labels.keypoints import KEYPOINT_TOLERANCE_M
 from facegen.preview.portraits import drawn_mesh, shade

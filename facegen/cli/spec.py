@@ -1,4 +1,4 @@
-"""``facegen spec check | show | schema | reference``."""
+"""``facegen spec check | show | schema | reference | labels``."""
 
 import json
 import sys
@@ -60,3 +60,14 @@ def reference() -> None:
     from facegen.spec import spec_reference
 
     print(spec_reference(), end="")
+
+
+@spec_app.command()
+def labels() -> None:
+    """Print every label of a sample with shape, unit and meaning, as Markdown: the page docs/labels.md.
+
+    Example: facegen spec labels > docs/labels.md
+    """
+    from facegen.store import labels_reference
+
+    print(labels_reference(), end="")

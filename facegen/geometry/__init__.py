@@ -1,6 +1,6 @@
 """Rigid motions, camera models and small solids: pure functions on arrays, float64."""
 
-from facegen.geometry.cameras import Camera, pixel_rays, project, turning_radius, unproject
+from facegen.geometry.cameras import Camera, pixel_rays, project, project_pinhole, turning_radius, unproject
 from facegen.geometry.ellipses import Ellipse, fit_ellipse
 from facegen.geometry.mirrors import Reflection, fresnel, reflect_in_sphere, reflect_in_thread
 from facegen.geometry.refraction import refract_through_sphere
@@ -29,6 +29,7 @@ __all__ = [
     "look_at",
     "pixel_rays",
     "project",
+    "project_pinhole",
     "reflect_in_sphere",
     "reflect_in_thread",
     "refract_through_sphere",

@@ -88,6 +88,12 @@ def _radial_terms(camera: Camera) -> np.ndarray:
     return np.array([1.0, k[0], k[1], k[4]]) if camera.model == "pinhole" else np.array([1.0, *k])
 
 
+def project_pinhole(points_camera: np.ndarray, intrinsics: np.ndarray) -> np.ndarray:
+    """Pixels (n, p, 2) of points (n, p, 3) in the frames of n pinholes with (n, 4) fx, fy, cx, cy."""
+    focal, center = intrinsics[:, None, :2], intrinsics[:, None, 2:]
+    return points_camera[..., :2] / points_camera[..., 2:] * focal + center
+
+
 @lru_cache(maxsize=256)
 def turning_radius(camera: Camera) -> float:
     """Where a camera's distortion turns back: what lies further from the axis has no pixel.

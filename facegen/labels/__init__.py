@@ -2,20 +2,21 @@
 
 from facegen.labels.eye_outlines import EyeOutlines
 from facegen.labels.glints import Glints
-from facegen.labels.keypoints import Keypoints, label_keypoints, project_pinhole
+from facegen.labels.keypoints import KEYPOINT_LABELS, Keypoints, further_columns, label_keypoints
 from facegen.labels.rendered import RenderedSample, label_rendered
 from facegen.labels.spots import with_glints
 from facegen.labels.views import VIEW_LABEL_KEYS, ViewLabels
 
 __all__ = [
+    "KEYPOINT_LABELS",
     "VIEW_LABEL_KEYS",
     "EyeOutlines",
     "Glints",
     "Keypoints",
     "RenderedSample",
     "ViewLabels",
+    "further_columns",
     "label_keypoints",
     "label_rendered",
-    "project_pinhole",
     "with_glints",
 ]

@@ -1,4 +1,4 @@
-"""The jaw as pictures show it: points that slide from hidden landmarks to the outline of the cheek or chin.
+"""Labels the jaw as pictures show it: points that slide from hidden landmarks to the outline of the cheek or chin.
 
 A variant of landmark marching [1]_: each landmark of the jaw has a path over the skin towards the face's middle, and
 where the face hides the landmark, the label is the first point of the path that can be seen.
@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 from facegen.conventions import LANDMARK_GROUPS
-from facegen.geometry import apply_transform
+from facegen.geometry import apply_transform, project_pinhole
+from facegen.labels.keypoint_label import KEYPOINT_TOLERANCE_M, FacesInView, KeypointColumn, KeypointLabel
 from facegen.raster import hidden_by_own, triangles_of
 from facegen.rigs import Rig, closed_cage
 
@@ -134,3 +135,26 @@ def _hits(corners: np.ndarray, rays: np.ndarray) -> Iterator[_Hits]:
         distance = np.einsum("hk,hkd,d->h", share[met], corners[met], ray)
         ahead = distance > 0.0
         yield _Hits(triangle=met[ahead], share=share[met[ahead]], distance=distance[ahead])
+
+
+def _make(view: FacesInView) -> dict[str, np.ndarray]:
+    samples, jaw = view.samples, (view.faces.landmarks[:, JAW], view.hidden[:, JAW])
+    points = label_contour(
+        view.rig, view.cage, samples.camera_from_head, *jaw, tolerance_m=KEYPOINT_TOLERANCE_M
+    )
+    in_camera = apply_transform(samples.camera_from_head, points)
+    return {"contour_2d": project_pinhole(in_camera, samples.intrinsics), "contour_3d": points}
+
+
+_MEANING = "landmarks 0-16, slid to the face's outline where the face hides them"
+
+SLIDING_CONTOUR = KeypointLabel(
+    columns=(
+        KeypointColumn(name="contour_2d", description=_MEANING, shape=(17, 2), unit="px"),
+        KeypointColumn(
+            name="contour_3d", description=f"{_MEANING}, in the head frame", shape=(17, 3), unit="m"
+        ),
+    ),
+    wanted=lambda spec: spec.landmarks.sliding_contour,
+    make=_make,
+)

@@ -1,20 +1,21 @@
-"""Labels that every sample has, rendered or not: 68 landmarks before the keypoint camera."""
+"""Labels the 68 landmarks of every sample, rendered or not, before its keypoint camera."""
 
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from facegen.conventions import FACE_WIDTH_LANDMARKS, Visibility
-from facegen.geometry import apply_transform
-from facegen.labels.contour import JAW, label_contour
+from facegen.geometry import apply_transform, project_pinhole
+from facegen.labels.contour import SLIDING_CONTOUR
+from facegen.labels.keypoint_label import KEYPOINT_TOLERANCE_M, FacesInView, KeypointColumn, KeypointLabel
 from facegen.raster import hidden_by_own
 from facegen.rigs import EvaluatedFaces, Rig, evaluate, occluder
 from facegen.sampling import Samples
 from facegen.spec import Spec
 
-KEYPOINT_TOLERANCE_M = 2e-3
-"""A face must be this much nearer to hide a landmark. The cage cuts up to 1 mm off the smooth surface between its
-vertices (measured on the default rig), and lips and lids that touch lie within another millimetre."""
+KEYPOINT_LABELS: tuple[KeypointLabel, ...] = (SLIDING_CONTOUR,)
+"""Labels that a spec can ask for beside the landmarks; shards, ``sample.json``, packs, checks and docs/labels.md follow
+from this list."""
 
 AT_ONCE = 100
 """Faces evaluated and labelled together: 10 MB of vertices (default rig) stay near the processor. 1,000 took a third
@@ -37,9 +38,10 @@ class Keypoints:
         (n, 68) uint8, `facegen.conventions.Visibility`.
     face_width
         (n,) pixels between the landmarks at both ends of the jaw.
-    contour_3d, contour_2d
-        (n, 17, 3) and (n, 17, 2) the sliding contour of the jaw (`facegen.labels.contour`), as ``points_3d`` and
-        ``points_2d``; (n, 0, ...) where the spec does not ask for it.
+    image_size
+        (n, 2) width and height of the keypoint camera, pixels.
+    further
+        (n, ...) columns by name of those of `KEYPOINT_LABELS` that the spec asks for.
     """
 
     points_3d: np.ndarray
@@ -47,14 +49,19 @@ class Keypoints:
     detected_2d: np.ndarray
     visibility: np.ndarray
     face_width: np.ndarray
-    contour_3d: np.ndarray
-    contour_2d: np.ndarray
+    image_size: np.ndarray
+    further: dict[str, np.ndarray]
+
+    @property
+    def columns(self) -> dict[str, np.ndarray]:
+        """All arrays by name, the further ones too."""
+        own = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "further"}
+        return own | self.further
 
 
-def project_pinhole(points_camera: np.ndarray, intrinsics: np.ndarray) -> np.ndarray:
-    """Pixels (n, p, 2) of points (n, p, 3) in the frames of n pinholes with (n, 4) fx, fy, cx, cy."""
-    focal, center = intrinsics[:, None, :2], intrinsics[:, None, 2:]
-    return points_camera[..., :2] / points_camera[..., 2:] * focal + center
+def further_columns(spec: Spec) -> tuple[KeypointColumn, ...]:
+    """Columns of those of `KEYPOINT_LABELS` that a spec asks for."""
+    return tuple(column for label in KEYPOINT_LABELS if label.wanted(spec) for column in label.columns)
 
 
 def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFaces | None = None) -> Keypoints:
@@ -65,9 +72,7 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFace
     if faces is None:
         starts = range(0, max(len(samples.sample), 1), AT_ONCE)
         parts = [_label_some(spec, rig, samples.rows(slice(start, start + AT_ONCE))) for start in starts]
-        return Keypoints(
-            **{f.name: np.concatenate([getattr(p, f.name) for p in parts]) for f in fields(Keypoints)}
-        )
+        return _joined(parts)
     in_camera = apply_transform(samples.camera_from_head, faces.landmarks)
     points_2d = project_pinhole(in_camera, samples.intrinsics)
     first, last = FACE_WIDTH_LANDMARKS
@@ -84,22 +89,29 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFace
     )
     visibility = np.where(covered, Visibility.HIDDEN, Visibility.VISIBLE)
     size = np.array([spec.camera.width_px, spec.camera.height_px])
-    contour = np.empty((len(points_2d), 0, 3))
-    if spec.landmarks.sliding_contour:
-        jaw = faces.landmarks[:, JAW], covered[:, JAW]
-        contour = label_contour(rig, mesh, samples.camera_from_head, *jaw, tolerance_m=KEYPOINT_TOLERANCE_M)
     inside = ((points_2d >= -0.5) & (points_2d < size - 0.5)).all(axis=-1) & (in_camera[..., 2] > 0)
+    view = FacesInView(rig=rig, samples=samples, faces=faces, cage=mesh, points_2d=points_2d, hidden=covered)
+    further = {}
+    for label in KEYPOINT_LABELS:
+        if label.wanted(spec):
+            further |= label.make(view)
     return Keypoints(
         points_3d=faces.landmarks,
         points_2d=points_2d,
         detected_2d=points_2d + samples.detector_noise * face_width[:, None, None],
         visibility=np.where(inside, visibility, Visibility.OUTSIDE).astype(np.uint8),
         face_width=face_width,
-        contour_3d=contour,
-        contour_2d=project_pinhole(apply_transform(samples.camera_from_head, contour), samples.intrinsics),
+        image_size=np.broadcast_to(size, (len(points_2d), 2)),
+        further=further,
     )
 
 
 def _label_some(spec: Spec, rig: Rig, samples: Samples) -> Keypoints:
     faces = evaluate(rig, samples.identity, samples.weights, samples.gaze, cage_only=True)
     return label_keypoints(spec, rig, samples, faces)
+
+
+def _joined(parts: list[Keypoints]) -> Keypoints:
+    joined = {name: np.concatenate([part.columns[name] for part in parts]) for name in parts[0].columns}
+    further = {name: joined.pop(name) for name in parts[0].further}
+    return Keypoints(**joined, further=further)

@@ -1,10 +1,30 @@
 """Says what a label of a view is: a record of its own type, made for all views of a sample at once."""
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Literal, Protocol, Self
 
 from facegen.rigs import Rig
 from facegen.sessions import SampleScene
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParquetColumn:
+    """The column ``CAMERA_KEY`` of a key in packs of the format ``parquet``.
+
+    Attributes
+    ----------
+    description
+        What the file says of it; ``{view}`` stands for the camera's name.
+    kind, width
+        ``"float32"`` or ``"uint8"``, and how many numbers a row has.
+    shape
+        Shape of a row (``"68 2"``); without one it is flat.
+    """
+
+    description: str
+    kind: Literal["float32", "uint8"]
+    width: int
+    shape: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,13 +40,13 @@ class LabelKey:
     unit
         Unit and frame, ``"px"`` or ``"m, camera"``.
     parquet
-        Description of its column ``CAMERA_KEY`` in packs of the format ``parquet``; without one it has no column.
+        Its column in packs of the format ``parquet``; without one it stands in their column ``record`` alone.
     """
 
     name: str
     meaning: str
     unit: str = ""
-    parquet: str | None = None
+    parquet: ParquetColumn | None = None
 
 
 class ViewLabel(Protocol):

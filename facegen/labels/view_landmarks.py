@@ -9,7 +9,7 @@ from facegen.conventions import Visibility
 from facegen.geometry import apply_transform, project, unproject
 from facegen.headsets import HeadsetCamera
 from facegen.labels.occluders import occluders
-from facegen.labels.view_label import LabelKey
+from facegen.labels.view_label import LabelKey, ParquetColumn
 from facegen.raster import hidden, nearest_depth
 from facegen.rigs import Rig
 from facegen.scene import View
@@ -45,13 +45,20 @@ class ViewLandmarks:
             name="points_2d",
             meaning="landmarks",
             unit="px",
-            parquet="landmarks in the picture of camera {view}; NaN behind it",
+            parquet=ParquetColumn(
+                description="landmarks in the picture of camera {view}; NaN behind it",
+                kind="float32",
+                width=136,
+                shape="68 2",
+            ),
         ),
         LabelKey(name="points_camera", meaning="landmarks", unit="m, camera"),
         LabelKey(
             name="visibility",
             meaning="of the landmarks: 0 outside the picture, 1 hidden, 2 visible",
-            parquet="0 outside the picture, 1 hidden, 2 visible",
+            parquet=ParquetColumn(
+                description="0 outside the picture, 1 hidden, 2 visible", kind="uint8", width=68
+            ),
         ),
     )
 

@@ -21,7 +21,7 @@ from facegen.packing.plan import Format, Options, Part
 from facegen.packing.rendered import chosen_views, read_rendered
 from facegen.packing.view_points import view_points
 from facegen.rigs import Rig, evaluate
-from facegen.store import Dataset, keypoint_schema, read_json, write_json
+from facegen.store import Dataset, write_json
 
 ABOUT, LABELS, FACE = "arrays.json", "labels.parquet", "face.npz"
 VERSION = 3
@@ -60,7 +60,7 @@ def write_part(dataset: Dataset, part: Part, options: Options, path: Path) -> No
 
 def array_schema(dataset: Dataset, views: Sequence[str]) -> pa.Schema:
     """Columns of ``labels.parquet`` for these views; every column says its unit and shape."""
-    keypoints = keypoint_schema(dataset.rig.components)
+    keypoints = dataset.keypoint_schema
     angles = {
         "description": "left yaw, left pitch, right yaw, right pitch of the optical axes",
         "unit": "rad",
@@ -80,7 +80,7 @@ def array_schema(dataset: Dataset, views: Sequence[str]) -> pa.Schema:
             pa.field("slip", pa.list_(pa.float32(), 6), nullable=False, metadata=slip | {"unit": "m, rad"}),
             *(pa.field(f"points_{view}", points, nullable=False, metadata=places) for view in views),
         ],
-        metadata={"licence": _licence(dataset), "spec_hash": dataset.hash},
+        metadata={"licence": dataset.licence, "spec_hash": dataset.hash},
     )
 
 
@@ -164,13 +164,9 @@ def _about(dataset: Dataset, part: Part, options: Options) -> dict:
         "rows": len(part.samples),
         "rig": dataset.rig.name,
         "dataset_hash": dataset.hash,
-        "licence": _licence(dataset),
+        "licence": dataset.licence,
         "seed": dataset.spec.seed,
     }
-
-
-def _licence(dataset: Dataset) -> str:
-    return read_json(dataset.folder.dataset_json)["licence"]
 
 
 ARRAYS = Format(

@@ -9,7 +9,7 @@ import pyarrow.parquet as pq
 from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
 from facegen.packing.plan import Format, Options, Part, shards
-from facegen.store import Dataset, keypoint_schema, read_json, read_shard
+from facegen.store import Dataset, read_shard
 
 SHARD_SAMPLES = 100_000
 """About 250 MB with all columns."""
@@ -23,7 +23,7 @@ def chosen_columns(dataset: Dataset, options: Options) -> list[str]:
     InputError
         If there is no such column.
     """
-    names = _schema(dataset).names
+    names = dataset.keypoint_schema.names
     unknown = sorted(set(options.columns or ()) - set(names))
     if unknown:
         raise InputError(f"--columns: {unknown[0]!r} is none of {', '.join(names)}")
@@ -33,8 +33,8 @@ def chosen_columns(dataset: Dataset, options: Options) -> list[str]:
 def write_keypoints(dataset: Dataset, part: Part, options: Options, path: Path) -> None:
     """Write one file; one shard of the dataset is in memory at a time."""
     columns = chosen_columns(dataset, options)
-    schema = _schema(dataset)
-    about = {"licence": read_json(dataset.folder.dataset_json)["licence"], "spec_hash": dataset.hash}
+    schema = dataset.keypoint_schema
+    about = {"licence": dataset.licence, "spec_hash": dataset.hash}
     schema = pa.schema([schema.field(name) for name in columns], metadata=about)
     numbers = np.asarray(part.samples, np.int64)
     with pq.ParquetWriter(path, schema, compression="zstd", write_page_checksum=True) as writer:
@@ -42,10 +42,6 @@ def write_keypoints(dataset: Dataset, part: Part, options: Options, path: Path) 
             table = read_shard(dataset.folder.shard(int(shard)), columns)
             rows = table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS))
             writer.write_table(rows.replace_schema_metadata(None).cast(schema), row_group_size=SHARD_ROWS)
-
-
-def _schema(dataset: Dataset) -> pa.Schema:
-    return keypoint_schema(dataset.rig.components, sliding_contour=dataset.spec.landmarks.sliding_contour)
 
 
 KEYPOINTS = Format(

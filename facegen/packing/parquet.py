@@ -12,9 +12,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from facegen.conventions import BLENDSHAPES
+from facegen.labels import VIEW_LABEL_KEYS, further_columns
 from facegen.packing.plan import Format, Options, Part, shards
 from facegen.packing.rendered import RenderedFiles, chosen_views, read_rendered
-from facegen.store import Dataset, keypoint_schema
+from facegen.store import Dataset
 
 SHARD_SAMPLES = 1000
 ROW_GROUP = 100
@@ -25,29 +26,27 @@ _LABELS = (
     "age_years",
 )
 _KEYPOINTS = ("points_2d", "detected_2d", "points_3d", "visibility", "camera_from_head", "intrinsics")
-_CONTOUR = ("contour_2d", "contour_3d")
+_VIEW_KEYS = tuple(key for key in VIEW_LABEL_KEYS if key.parquet is not None)
+_ARROW = {"float32": pa.float32(), "uint8": pa.uint8()}
 _PICTURE = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
 
 
 def row_schema(dataset: Dataset, views: tuple[str, ...]) -> pa.Schema:
     """Columns of a pack with these views; labels are typed and described as in the keypoint shards."""
-    contour = dataset.spec.landmarks.sliding_contour
-    keypoints = keypoint_schema(dataset.rig.components, sliding_contour=contour)
+    keypoints = dataset.keypoint_schema
     fields = [keypoints.field(name) for name in (*_LABELS, "weights", "identity", *_keypoints(dataset))]
     for view in views:
-        notes = {
-            "description": f"landmarks in the picture of camera {view}; NaN behind it",
-            "unit": "px",
-            "shape": "68 2",
-        }
-        fields += [
-            pa.field(view, _PICTURE, metadata={"description": f"PNG of camera {view}, 8-bit grey"}),
-            pa.field(f"{view}_points_2d", pa.list_(pa.float32(), 136), nullable=False, metadata=notes),
-            keypoints.field("visibility").with_name(f"{view}_visibility"),
-        ]
+        picture = {"description": f"PNG of camera {view}, 8-bit grey"}
+        fields.append(pa.field(view, _PICTURE, metadata=picture))
+        for key in _VIEW_KEYS:
+            column, description = key.parquet, key.parquet.description.format(view=view)
+            notes = {"description": description, "unit": key.unit, "shape": column.shape}
+            notes = {name: text for name, text in notes.items() if text}
+            kind = pa.list_(_ARROW[column.kind], column.width)
+            fields.append(pa.field(f"{view}_{key.name}", kind, nullable=False, metadata=notes))
     fields.append(pa.field("record", pa.string(), nullable=False, metadata={"description": "sample.json"}))
     features = {"info": {"features": {view: {"_type": "Image"} for view in views}}}
-    about = {"licence": _licence(dataset), "spec_hash": dataset.hash, "huggingface": json.dumps(features)}
+    about = {"licence": dataset.licence, "spec_hash": dataset.hash, "huggingface": json.dumps(features)}
     return pa.schema(fields, metadata=about)
 
 
@@ -66,7 +65,7 @@ def write_rows(dataset: Dataset, part: Part, options: Options, path: Path) -> No
 
 
 def _keypoints(dataset: Dataset) -> tuple[str, ...]:
-    return (*_KEYPOINTS, *_CONTOUR) if dataset.spec.landmarks.sliding_contour else _KEYPOINTS
+    return (*_KEYPOINTS, *(column.name for column in further_columns(dataset.spec)))
 
 
 def _row(sample: RenderedFiles, views: tuple[str, ...], keypoints: tuple[str, ...]) -> dict:
@@ -77,18 +76,13 @@ def _row(sample: RenderedFiles, views: tuple[str, ...], keypoints: tuple[str, ..
     row |= {name: _flat(record["keypoints"][name]) for name in keypoints}
     for view in views:
         row[view] = {"bytes": sample.pictures[f"{view}.png"], "path": f"{sample.number:06d}.{view}.png"}
-        row[f"{view}_points_2d"] = _flat(record["views"][view]["points_2d"])
-        row[f"{view}_visibility"] = record["views"][view]["visibility"]
+        row |= {f"{view}_{key.name}": _flat(record["views"][view][key.name]) for key in _VIEW_KEYS}
     return row
 
 
 def _flat(values: list) -> list:
     array = np.array(values)
     return array.astype(np.float64).ravel().tolist() if array.dtype == object else array.ravel().tolist()
-
-
-def _licence(dataset: Dataset) -> str:
-    return json.loads(dataset.folder.dataset_json.read_text(encoding="utf-8"))["licence"]
 
 
 PARQUET = Format(

@@ -19,6 +19,7 @@ from facegen.store.keypoint_table import (
 )
 from facegen.store.merging import Merged, merge
 from facegen.store.record import sample_record
+from facegen.store.reference import labels_reference
 from facegen.store.stage import is_alive, place, staging, sweep
 
 __all__ = [
@@ -33,6 +34,7 @@ __all__ = [
     "is_alive",
     "keypoint_schema",
     "keypoint_table",
+    "labels_reference",
     "merge",
     "open_dataset",
     "place",

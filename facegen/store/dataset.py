@@ -22,7 +22,7 @@ from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset
 from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_hash, spec_table
 from facegen.store.folder import DatasetFolder, commit_file, read_json, write_json
-from facegen.store.keypoint_table import column_array, read_shard
+from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
 from facegen.store.stage import staging
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "opencv-contrib-python-headless", "OpenEXR")
@@ -67,6 +67,16 @@ class Dataset:
     def picture_kinds(self) -> tuple[str, ...]:
         """Extensions of a rendered view's files: exr and png, or png alone where the spec wants no truth."""
         return ("exr", "png") if self.spec.render.truth else ("png",)
+
+    @property
+    def licence(self) -> str:
+        """Licence of the pictures, as ``dataset.json`` has it."""
+        return read_json(self.folder.dataset_json)["licence"]
+
+    @property
+    def keypoint_schema(self) -> pa.Schema:
+        """Columns of the keypoint shards."""
+        return keypoint_schema(self.spec, self.rig.components)
 
     def samples_to_render(self, ranges: str | None = None) -> list[int]:
         """Numbers of the samples to render: ``ranges`` (``"0-99,140"``) or, without, the spec's own."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, SIDES, SPLITS
 from facegen.geometry import Camera
-from facegen.labels import Keypoints, RenderedSample
+from facegen.labels import RenderedSample
 from facegen.rigs import EyeGeometry, visual_axis
 from facegen.sampling import COMPONENT_NAMES
 from facegen.scene import Lamp
@@ -49,7 +49,7 @@ def sample_record(rendered: RenderedSample, *, dataset_hash: str, rig: str) -> d
             "detected_2d": numbers(keypoints.detected_2d[0]),
             "points_3d": numbers(keypoints.points_3d[0]),
             "visibility": numbers(keypoints.visibility[0]),
-            **_contour(keypoints),
+            **{name: numbers(values[0]) for name, values in keypoints.further.items()},
             "camera_from_head": samples.camera_from_head[0].tolist(),
             "intrinsics": samples.intrinsics[0].tolist(),
         },
@@ -95,12 +95,6 @@ def _accessories(accessories: Accessories) -> dict:
     if accessories.make_up is not None:
         worn["make_up"] = asdict(accessories.make_up)
     return {"accessories": worn} if worn else {}
-
-
-def _contour(keypoints: Keypoints) -> dict:
-    if not keypoints.contour_2d.shape[1]:
-        return {}
-    return {name: numbers(getattr(keypoints, name)[0]) for name in ("contour_2d", "contour_3d")}
 
 
 def _eye(eye: EyeGeometry, sight: np.ndarray, gap_m: float, openness: float) -> dict:

@@ -7,10 +7,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from facegen.conventions import BLOCK
-from facegen.geometry import apply_transform
-from facegen.labels import label_keypoints, project_pinhole
+from facegen.geometry import apply_transform, project_pinhole
+from facegen.labels import label_keypoints
 from facegen.sampling import draw_samples
-from facegen.store import Dataset, column_array, keypoint_schema, keypoint_table, shard_samples
+from facegen.store import Dataset, column_array, keypoint_table, shard_samples
 from facegen.validation.agreement import differing_rows
 from facegen.validation.finding import Finding
 from facegen.validation.ranges import impossible
@@ -37,8 +37,7 @@ def check_shard(dataset: Dataset, number: int) -> Iterator[Finding]:
         kind = "checksum" if "crc" in str(error).lower() else "unreadable"
         yield finding(f"cannot be read as Parquet ({error})", kind)
         return
-    contour = dataset.spec.landmarks.sliding_contour
-    if not _has_columns(table.schema, keypoint_schema(dataset.rig.components, sliding_contour=contour)):
+    if not _has_columns(table.schema, dataset.keypoint_schema):
         yield finding("has other columns than this version of facegen writes", "label")
         return
     expected = shard_samples(number, total=dataset.plan.samples)
@@ -88,8 +87,7 @@ def _labels(dataset: Dataset, table: pa.Table) -> Iterator[tuple[int, str, str]]
         stored = table.slice(start, BLOCK)
         block = draw_samples(dataset.plan, dataset.rig, (first + start) // BLOCK)
         samples = block.rows(slice(0, len(stored)))
-        size = spec.camera.width_px, spec.camera.height_px
-        made = keypoint_table(samples, label_keypoints(spec, dataset.rig, samples), image_size=size)
+        made = keypoint_table(spec, samples, label_keypoints(spec, dataset.rig, samples))
         for name in stored.column_names:
             rows = np.flatnonzero(differing_rows(column_array(stored, name), column_array(made, name)))
             if len(rows):

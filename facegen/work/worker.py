@@ -68,8 +68,7 @@ class Worker:
             # a block is drawn whole; a row's labels follow from the row alone, so only real rows get them
             samples = self._samples(block).rows(slice(0, min(BLOCK, rows.stop - block * BLOCK)))
             keypoints = label_keypoints(spec, dataset.rig, samples)
-            image_size = spec.camera.width_px, spec.camera.height_px
-            tables.append(keypoint_table(samples, keypoints, image_size=image_size))
+            tables.append(keypoint_table(spec, samples, keypoints))
         with staging(dataset.folder, f"shard-{number}") as stage:
             path = stage / "shard.parquet"
             write_shard(pa.concat_tables(tables).combine_chunks(), path)

@@ -71,11 +71,11 @@ def test_is_the_landmark_where_seen_and_on_the_outline_elsewhere(anny: Rig, head
     _, samples, labels = labelled(anny, head)
     fixed = labels.points_2d[:, JAW]
     seen = labels.visibility[:, JAW] == Visibility.VISIBLE
-    np.testing.assert_array_equal(labels.contour_2d[seen], fixed[seen])
-    np.testing.assert_array_equal(labels.contour_3d[seen], labels.points_3d[:, JAW][seen])
-    moved = (labels.contour_2d != fixed).any(axis=-1)
+    np.testing.assert_array_equal(labels.further["contour_2d"][seen], fixed[seen])
+    np.testing.assert_array_equal(labels.further["contour_3d"][seen], labels.points_3d[:, JAW][seen])
+    moved = (labels.further["contour_2d"] != fixed).any(axis=-1)
     assert moved[~seen].mean() > 0.95  # no point of the others' paths is in sight
-    distance = outline_distance_mm(anny, samples, labels.contour_2d)
+    distance = outline_distance_mm(anny, samples, labels.further["contour_2d"])
     # the cage, on which the points lie, is up to a millimetre within the rendered skin
     assert np.mean(distance[moved] < 1.0) > 0.98
     assert np.mean(outline_distance_mm(anny, samples, fixed)[moved] < 1.0) < 0.7
@@ -83,7 +83,10 @@ def test_is_the_landmark_where_seen_and_on_the_outline_elsewhere(anny: Rig, head
 
 def test_stays_near_the_landmarks_of_frontal_heads(anny: Rig) -> None:
     _, _, labels = labelled(anny, FRONTAL)
-    moved = np.linalg.norm(labels.contour_2d - labels.points_2d[:, JAW], axis=-1) / labels.face_width[:, None]
+    moved = (
+        np.linalg.norm(labels.further["contour_2d"] - labels.points_2d[:, JAW], axis=-1)
+        / labels.face_width[:, None]
+    )
     assert np.median(moved) < 0.02  # what the cheekbones hide from a camera at 0.7 m
     assert moved.max() < 0.12
 
@@ -103,9 +106,11 @@ def test_is_written_checked_and_packed_where_the_spec_asks(anny: Rig, tmp_path: 
     assert list(check_shard(dataset, 0)) == []
     write_pack(plan_pack(dataset, "keypoints", Options(columns=("contour_2d",))), tmp_path / "pack")
     packed = pq.read_table(tmp_path / "pack" / "shard-000000.parquet")
-    np.testing.assert_array_equal(column_array(packed, "contour_2d"), labels.contour_2d.astype(np.float32))
+    np.testing.assert_array_equal(
+        column_array(packed, "contour_2d"), labels.further["contour_2d"].astype(np.float32)
+    )
     headset = load_headset("tracking3")
     sample = draw_sample_scene(spec, anny, headset, samples.rows(slice(3, 4)))
     record = sample_record(label_rendered(spec, anny, sample), dataset_hash="", rig="anny")
     contour_3d = np.asarray(record["keypoints"]["contour_3d"], np.float32)
-    np.testing.assert_array_equal(contour_3d, labels.contour_3d[3].astype(np.float32))
+    np.testing.assert_array_equal(contour_3d, labels.further["contour_3d"][3].astype(np.float32))

@@ -84,12 +84,12 @@ def test_keypoints_of_a_head_without_identities_are_written_and_read(glb: Rig, t
     table = {"version": 1, "kind": "still", "seed": 2, "people": 500, "rig": "glb"}
     spec = parse_spec(table | {"still": {"neutral": 1, "faces": 1}}, where="here")
     samples = draw_samples(plan_dataset(spec), glb, 0).rows(slice(0, 40))
-    made = keypoint_table(samples, label_keypoints(spec, glb, samples), image_size=(640, 480))
+    made = keypoint_table(spec, samples, label_keypoints(spec, glb, samples))
     write_shard(made, tmp_path / "shard.parquet")
     read = pq.read_table(tmp_path / "shard.parquet")
     assert column_array(read, "identity").shape == (40, 0)
     assert column_array(read, "points_3d").shape == (40, 68, 3)
-    assert read.schema.equals(keypoint_schema(0))
+    assert read.schema.equals(keypoint_schema(spec, 0))
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ def test_rounding_in_a_very_large_picture_is_no_damage_but_a_pixel_is(anny, tmp_
     spec = parse_spec(table | {"still": {"neutral": 0, "faces": 10}}, where="test")
     dataset = resolve(spec, tmp_path)
     samples = draw_samples(dataset.plan, dataset.rig, 0).rows(slice(0, dataset.plan.samples))
-    made = keypoint_table(samples, label_keypoints(spec, dataset.rig, samples), image_size=(16384, 16384))
+    made = keypoint_table(spec, samples, label_keypoints(spec, dataset.rig, samples))
     path = dataset.folder.shard(0)
     path.parent.mkdir(parents=True)
     write_shard(made, path)
