@@ -1,16 +1,19 @@
 """``facegen farm submit | status | logs | resume | cancel``."""
 
-import json
 import sys
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from facegen.cli.tables import print_table
 from facegen.console import say
-from facegen.conventions import ExitCode
 from facegen.errors import InputError
+
+if TYPE_CHECKING:
+    from facegen.farm import Job
+    from facegen.store import Dataset as OpenDataset
 
 farm_app = typer.Typer(
     help="Datasets made on many machines, by Slurm or an OpenJD render farm.", no_args_is_help=True
@@ -29,7 +32,9 @@ Wait = Annotated[
 def submit(
     spec: Annotated[Path, typer.Argument(help="What to make, for example datasets/default.toml.")],
     out: Annotated[Path, typer.Option("--out", help="Folder of the dataset, on a disk that the farm sees.")],
-    engine: Annotated[str, typer.Option("--engine", help="slurm or openjd.")],
+    engine: Annotated[
+        str, typer.Option("--engine", help="Scheduler: slurm, openjd; a wrong name lists all.")
+    ],
     samples: Annotated[
         str | None, typer.Option("--samples", help="Pictures of these samples only: 0-99,140.")
     ] = None,
@@ -91,14 +96,13 @@ def submit(
         env_setup=env_setup,
         python=python,
         sbatch_args=tuple(sbatch_args),
-        path_map=tuple(_pair(text) for text in maps),
+        path_map=tuple(farm.parse_path_pair(text) for text in maps),
     )
-    _check(resources)
     job = farm.prepare(
         dataset,
         farm.remaining(dataset, samples),
         engine=engine,
-        steps=_steps(steps),
+        steps=farm.parse_steps(steps),
         samples=samples,
         resources=resources,
         chunk=chunk,
@@ -125,45 +129,22 @@ def resume(
 
     Example: facegen farm resume /shared/faces
     """
-    import shutil
-
     from facegen import farm
     from facegen.store import open_dataset
 
     opened = open_dataset(dataset)
-    jobs = _jobs(opened)
-    last = jobs[-1]
-    state = farm.farm_state(opened)
-    what = farm.remaining(
-        opened, last.samples, shards=last.shards, busy=state.busy, retry_quarantined=retry_quarantined
-    )
-    by_name = {job.name: job for job in jobs}
-    to_do = {step.step: by_name[step.job] for step in state.steps if step.state == "to do"}
-    if to_do and state.busy:
-        say(f"facegen: {', '.join(to_do)} must wait for tasks that are not done; resume again after them")
-        to_do = {}
-    if (what.shards or what.samples) and any("generate" in job.steps for job in jobs):
-        to_do["generate"] = last
-    steps = tuple(step for step in farm.STEPS if step in to_do)
-    if not steps:
-        say(f"facegen: nothing to submit; {state.missing} things are missing and all have tasks")
-        _print({"job": None, "tasks": 0}, as_json=as_json)
+    resumption = farm.plan_resumption(opened, retry_quarantined=retry_quarantined)
+    if resumption.postponed:
+        names = ", ".join(resumption.postponed)
+        say(f"facegen: {names} must wait for tasks that are not done; resume again after them")
+    if not resumption.steps:
+        missing = resumption.state.missing
+        say(f"facegen: nothing to submit; {missing} things are missing and all have tasks")
+        print_table({"job": None, "tasks": 0}, as_json=as_json)
         return
     if retry_quarantined and not dry_run:
-        for name in state.quarantined:
-            shutil.rmtree(opened.folder.quarantine(name), ignore_errors=True)
-    job = farm.prepare(
-        opened,
-        what,
-        engine=last.engine,
-        steps=steps,
-        samples=last.samples,
-        shards=last.shards,
-        resources=last.resources,
-        chunk=chunk,
-        packed=to_do.get("pack", last).packed,
-        model=to_do.get("train", to_do.get("export", last)).model,
-    )
+        farm.forget_quarantined(opened, resumption)
+    job = farm.prepare_resumption(opened, resumption, chunk=chunk)
     _hand_over(opened, job, dry_run=dry_run, wait=wait, as_json=as_json)
 
 
@@ -223,14 +204,16 @@ def cancel(dataset: Dataset) -> None:
     print(f"cancelled: {', '.join(names) or 'nothing, no job is running'}")
 
 
-def _hand_over(dataset: object, job: object, *, dry_run: bool, wait: bool, as_json: bool) -> None:
+def _hand_over(dataset: "OpenDataset", job: "Job", *, dry_run: bool, wait: bool, as_json: bool) -> None:
+    """Submit a job and print what became of it; after a dry run print what would be submitted."""
     from facegen import farm
 
     engine = farm.ENGINES[job.engine]
-    told = {"job": job.name, "folder": str(job.folder), "tasks": len(job.chunks), "steps": list(job.steps)}
+    table = {"job": job.name, "folder": str(job.folder), "tasks": len(job.chunks), "steps": list(job.steps)}
     if dry_run:
         if as_json:
-            _print(told | {"files": engine.files(job), "commands": engine.instructions(job)}, as_json=True)
+            table |= {"files": engine.files(job), "commands": engine.instructions(job)}
+            print_table(table, as_json=True)
             return
         for name, text in engine.files(job).items():
             print(f"==> {job.folder / name} <==\n{text}")
@@ -238,86 +221,30 @@ def _hand_over(dataset: object, job: object, *, dry_run: bool, wait: bool, as_js
         return
     submission = farm.submit(job)
     if not wait:
-        _print(
-            told | {"ids": submission.ids, "commands": [] if submission.ids else engine.instructions(job)},
-            as_json=as_json,
-        )
+        table |= {"ids": submission.ids, "commands": [] if submission.ids else engine.instructions(job)}
+        print_table(table, as_json=as_json)
         return
     engine.wait(job, submission)
     raise typer.Exit(_show_state(dataset, as_json=as_json))
 
 
-def _show_state(dataset: object, *, as_json: bool) -> int:
+def _show_state(dataset: "OpenDataset", *, as_json: bool) -> int:
+    """Print how far a dataset is; returns the exit code."""
     from facegen import farm
 
     state = farm.farm_state(dataset)
     table = {name: value for name, value in asdict(state).items() if name != "busy"}
-    if as_json:
-        print(json.dumps(table))
-    else:
-        table |= {
-            "quarantined": ", ".join(state.quarantined) or "none",
-            "core_hours": f"{state.core_hours:.3g}",
-        }
-        table["reasons"] = (
-            ", ".join(f"{reason} ({count})" for reason, count in state.reasons.items()) or "none"
+    if not as_json:
+        unknown = {name: "unknown" for name in ("running", "waiting", "seconds_left") if table[name] is None}
+        seconds_left = {} if state.seconds_left is None else {"seconds_left": f"{state.seconds_left:.0f}"}
+        table |= (
+            seconds_left
+            | unknown
+            | {
+                "core_hours": f"{state.core_hours:.3g}",
+                "reasons": [f"{reason} ({count})" for reason, count in state.reasons.items()],
+                "steps": [f"{step.step} {step.state}" for step in state.steps],
+            }
         )
-        table["steps"] = ", ".join(f"{step.step} {step.state}" for step in state.steps) or "none"
-        table["seconds_left"] = "unknown" if state.seconds_left is None else f"{state.seconds_left:.0f}"
-        for name in ("running", "waiting"):
-            table[name] = "unknown" if table[name] is None else table[name]
-        _print(table, as_json=False)
-    if state.missing:
-        return int(ExitCode.DRAINED)
-    return int(ExitCode.INVALID if state.quarantined else ExitCode.OK)
-
-
-def _jobs(dataset: object) -> list:
-    from facegen import farm
-
-    jobs = farm.asked_jobs(dataset.folder)
-    if not jobs:
-        raise InputError(
-            f"{dataset.folder.path}: was never submitted to a farm; begin with: facegen farm submit"
-        )
-    return jobs
-
-
-def _pair(text: str) -> tuple[str, str]:
-    source, equals, target = text.partition("=")
-    if not (source.startswith("/") and equals and target.startswith("/")):
-        raise InputError(f"--map {text!r}: write FROM=TO, both beginning with a slash")
-    return source, target
-
-
-def _steps(text: str) -> tuple[str, ...]:
-    from facegen.farm import STEPS
-
-    asked = [step.strip() for step in text.split(",") if step.strip()]
-    unknown = [step for step in asked if step not in STEPS]
-    if unknown or not asked:
-        raise InputError(
-            f"--steps {text!r}: {unknown[0] if unknown else 'nothing'} is none of {', '.join(STEPS)}"
-        )
-    return tuple(step for step in STEPS if step in asked)
-
-
-def _check(resources: object) -> None:
-    """Refuse what cannot be read before anything is written."""
-    if resources.time_s is not None and resources.time_s < 60:
-        raise InputError(f"--time {resources.time}: is less than a minute")
-    _ = resources.mem_mib
-
-
-def _print(table: dict, *, as_json: bool) -> None:
-    if as_json:
-        print(json.dumps(table))
-        return
-    for key, value in table.items():
-        text = ", ".join(map(str, value)) if isinstance(value, list) else value
-        text = (
-            ", ".join(f"{name} {number}" for name, number in value.items())
-            if isinstance(value, dict)
-            else text
-        )
-        print(f"{key.replace('_', ' ')}: {text if text not in ('', None) else 'none'}")
+    print_table(table, as_json=as_json)
+    return int(state.exit_code)

@@ -1,6 +1,5 @@
 """``facegen generate``."""
 
-import json
 import signal
 import sys
 from pathlib import Path
@@ -8,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from facegen.cli.tables import print_table
 from facegen.console import progress, say
 from facegen.conventions import ExitCode
 
@@ -72,7 +72,7 @@ def generate(
     work = plan_work(dataset, samples, shards=shards, retry_quarantined=retry_quarantined)
     if dry_run:
         missing_shards = sum(task.kind == "shard" for task in work.missing)
-        _print(
+        print_table(
             {
                 "out": str(out),
                 "spec_hash": dataset.hash,
@@ -101,7 +101,7 @@ def generate(
             on_progress=show_done,
         )
     names = [task.name for task in summary.quarantined]
-    _print(
+    print_table(
         {
             "out": str(out),
             "spec_hash": dataset.hash,
@@ -122,15 +122,3 @@ def generate(
 
 def _stop_early(_signal: int, _frame: object) -> None:
     sys.exit(int(ExitCode.DRAINED))
-
-
-def _print(summary: dict, *, as_json: bool) -> None:
-    if as_json:
-        print(json.dumps(summary))
-    else:
-        print(
-            "\n".join(
-                f"{key.replace('_', ' ')}: {value if value != [] else 'none'}"
-                for key, value in summary.items()
-            )
-        )

@@ -1,9 +1,11 @@
-"""Datasets made on many machines: an existing engine schedules, the folder on disk says what is there."""
+"""Makes datasets on many machines: an existing engine schedules, the folder on disk says what is there."""
 
 from facegen.farm.chunks import Chunk, cut_chunks
 from facegen.farm.engine import Activity, Engine
 from facegen.farm.engines import ENGINES
-from facegen.farm.job import STEPS, Job, Resources, Submission, asked_jobs
+from facegen.farm.job import STEPS, Job, Submission, parse_steps
+from facegen.farm.resources import Resources, parse_path_pair
+from facegen.farm.resumption import Resumption, forget_quarantined, plan_resumption, prepare_resumption
 from facegen.farm.state import FarmState, StepState, farm_state
 from facegen.farm.submission import cancel, engine_logs, prepare, remaining, submit
 
@@ -16,14 +18,19 @@ __all__ = [
     "FarmState",
     "Job",
     "Resources",
+    "Resumption",
     "StepState",
     "Submission",
-    "asked_jobs",
     "cancel",
     "cut_chunks",
     "engine_logs",
     "farm_state",
+    "forget_quarantined",
+    "parse_path_pair",
+    "parse_steps",
+    "plan_resumption",
     "prepare",
+    "prepare_resumption",
     "remaining",
     "submit",
 ]

@@ -1,4 +1,4 @@
-"""What every engine can do; a new engine is one module with these and one line in `facegen.farm.ENGINES`."""
+"""Defines what a scheduler can do; a new one is a module with these methods and a line in `facegen.farm.engines`."""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -13,22 +13,23 @@ class Activity:
 
     Attributes
     ----------
-    chunks
-        State (``RUNNING``, ``PENDING`` and others of the engine) of each chunk that it has, by index.
+    running, waiting
+        Indices of the chunks that it is at, and of those that it has not begun.
     steps
-        State of each later step that it has.
+        State of each later step that it has, a word for people: ``"pending"``.
     reasons
         Why things wait, and how many do.
     """
 
-    chunks: dict[int, str] = field(default_factory=dict)
+    running: frozenset[int] = frozenset()
+    waiting: frozenset[int] = frozenset()
     steps: dict[str, str] = field(default_factory=dict)
     reasons: Counter[str] = field(default_factory=Counter)
 
     @property
     def anything(self) -> bool:
         """Whether the engine has any of the job."""
-        return bool(self.chunks or self.steps)
+        return bool(self.running or self.waiting or self.steps)
 
 
 class Engine(Protocol):

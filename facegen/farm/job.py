@@ -1,6 +1,5 @@
-"""A farm job's record in ``OUT/farm/job-001/``: what was asked for, and the numbers that the engine gave."""
+"""Reads and writes the records of farm jobs in ``OUT/farm/job-001/``: what was asked for, and the engine's numbers."""
 
-import os
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,7 +8,8 @@ from pydantic import TypeAdapter, ValidationError
 
 from facegen.errors import InputError
 from facegen.farm.chunks import Chunk
-from facegen.files import output_errors
+from facegen.farm.resources import Resources
+from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
 from facegen.store import DatasetFolder
 
@@ -18,64 +18,8 @@ STEPS = ("generate", "validate", "pack", "train", "export")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Resources:
-    """What each task gets, and how it is started.
-
-    Attributes
-    ----------
-    cpus
-        Processors a task.
-    mem
-        Memory a task, as Slurm writes it: ``"4G"``, ``"900M"``.
-    time
-        Longest time of a task, as Slurm writes it: minutes, ``"HH:MM:SS"`` or ``"D-HH:MM:SS"``.
-    max_parallel
-        Tasks at a time.
-    grace_s
-        Time that running samples get to end after a request to stop.
-    env_setup
-        Shell command before the task's own, for example ``"module load python/3.11"``.
-    python
-        The Python with facegen in it, on the farm.
-    sbatch_args
-        Further arguments for sbatch.
-    path_map
-        Pairs (from, to): folders that have another name on the farm.
-    """
-
-    cpus: int = 1
-    mem: str | None = None
-    time: str | None = None
-    max_parallel: int | None = None
-    grace_s: float = 30.0
-    env_setup: str | None = None
-    python: str = "python3.11"
-    sbatch_args: tuple[str, ...] = ()
-    path_map: tuple[tuple[str, str], ...] = ()
-
-    @property
-    def time_s(self) -> int | None:
-        """`time` in seconds."""
-        return None if self.time is None else _seconds(self.time)
-
-    @property
-    def mem_mib(self) -> int | None:
-        """`mem` in MiB."""
-        return None if self.mem is None else _mebibytes(self.mem)
-
-    def on_farm(self, path: str | Path) -> str:
-        """A path as the farm's machines see it."""
-        text = str(path)
-        for source, target in self.path_map:
-            source = source.rstrip("/")
-            if text == source or text.startswith(f"{source}/"):
-                return target.rstrip("/") + text[len(source) :]
-        return text
-
-
-@dataclass(frozen=True, kw_only=True)
 class Job:
-    """A submission's record.
+    """What was asked for, and what was missing then.
 
     Attributes
     ----------
@@ -117,6 +61,23 @@ class Submission:
     ids: dict[str, str] = field(default_factory=dict)
 
 
+def parse_steps(text: str) -> tuple[str, ...]:
+    """Steps of ``--steps``, ``"generate,pack"``, in their order.
+
+    Raises
+    ------
+    InputError
+        If one is none of `STEPS`, or there is none.
+    """
+    asked = [step.strip() for step in text.split(",") if step.strip()]
+    unknown = [step for step in asked if step not in STEPS]
+    if unknown or not asked:
+        raise InputError(
+            f"--steps {text!r}: {unknown[0] if unknown else 'nothing'} is none of {', '.join(STEPS)}"
+        )
+    return tuple(step for step in STEPS if step in asked)
+
+
 def new_job_name(folder: DatasetFolder) -> str:
     """Make the folder of a new job, whose name nobody else can get."""
     farm = folder.path / "farm"
@@ -135,11 +96,7 @@ def new_job_name(folder: DatasetFolder) -> str:
 
 def write_record(path: Path, record: Job | Submission) -> None:
     """Write a record so that it appears whole."""
-    content = TypeAdapter(type(record)).dump_json(record, indent=1)
-    part = path.with_name(f"{path.name}.{os.getpid()}.part")
-    with output_errors(path):
-        part.write_bytes(content + b"\n")
-        os.replace(part, path)
+    write_whole(path, TypeAdapter(type(record)).dump_json(record, indent=1) + b"\n")
 
 
 def list_jobs(folder: DatasetFolder) -> list[tuple[Job, Submission | None]]:
@@ -170,26 +127,3 @@ def _read(path: Path, kind: type):
         raise InputError(f"{path}: cannot be read as the record of a farm job ({error})") from None
     except ValidationError as error:
         raise InputError(f"{path}: is not the record of a farm job ({refusal(error, kind)})") from None
-
-
-def _seconds(text: str) -> int:
-    match = re.fullmatch(r"(?:(\d+)-)?(\d+)(?::(\d+))?(?::(\d+))?", text)
-    if match is None:
-        raise InputError(f"--time {text!r}: write minutes, HH:MM:SS or D-HH:MM:SS, as Slurm does")
-    days, *parts = match.groups()
-    numbers = [int(part) for part in parts if part is not None]
-    if days is not None:  # D-HH, D-HH:MM, D-HH:MM:SS
-        hours, minutes, seconds = (*numbers, 0, 0)[:3]
-        return ((int(days) * 24 + hours) * 60 + minutes) * 60 + seconds
-    if len(numbers) == 3:
-        return (numbers[0] * 60 + numbers[1]) * 60 + numbers[2]
-    return numbers[0] * 60 + (numbers[1] if len(numbers) == 2 else 0)
-
-
-def _mebibytes(text: str) -> int:
-    match = re.fullmatch(r"(\d+)([KMGT]?)B?", text, re.IGNORECASE)
-    if match is None:
-        raise InputError(f"--mem {text!r}: write a whole number with K, M, G or T, for example 4G")
-    return max(
-        1, int(int(match[1]) * {"K": 1 / 1024, "": 1, "M": 1, "G": 1024, "T": 1 << 20}[match[2].upper()])
-    )

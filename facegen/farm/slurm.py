@@ -27,6 +27,9 @@ MAX_RESTARTS = 20
 
 _ASK_TIMEOUT_S = 60
 
+_AT_WORK = ("RUNNING", "COMPLETING", "CONFIGURING")
+"""States in which squeue lists a task that has its processors; all others wait for some."""
+
 _SCRIPT = """\
 #!/bin/bash
 {directives}
@@ -193,18 +196,20 @@ class Slurm:
 def read_squeue(listing: str, submission: Submission) -> Activity:
     """What squeue says of a submission, as ``%F|%K|%T|%r``: array or job number, index, state, reason."""
     steps = {number: step for step, number in submission.ids.items()}
-    chunks, others, reasons = {}, {}, Counter()
+    running, waiting, later_steps, reasons = set(), set(), {}, Counter()
     for line in listing.splitlines():
         number, index, state, reason = line.split("|", 3)
         if number not in steps:
             continue
         if re.fullmatch(r"\d+", index):
-            chunks[int(index)] = state
+            (running if state in _AT_WORK else waiting).add(int(index))
         else:
-            others[steps[number]] = state
+            later_steps[steps[number]] = state.lower()
         if state == "PENDING":
             reasons[reason] += 1
-    return Activity(chunks=chunks, steps=others, reasons=reasons)
+    return Activity(
+        running=frozenset(running), waiting=frozenset(waiting), steps=later_steps, reasons=reasons
+    )
 
 
 def _run(command: list[str]) -> str:

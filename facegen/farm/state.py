@@ -1,15 +1,15 @@
-"""How a dataset on a farm stands: what is on disk, and what the engines say they do about the rest."""
+"""Says how far a dataset on a farm is: what is on disk, and what the engines do about the rest."""
 
 from collections import Counter
 from dataclasses import dataclass
 
+from facegen.conventions import ExitCode
+from facegen.farm.engine import Activity
 from facegen.farm.job import Job, asked_jobs
 from facegen.farm.submission import activities
 from facegen.spec import sample_numbers
 from facegen.store import Dataset
-from facegen.work import Task, done_tasks, quarantined_tasks, read_journals, wanted_tasks
-
-_AT_WORK = ("RUNNING", "COMPLETING", "CONFIGURING")
+from facegen.work import Attempt, Task, done_tasks, quarantined_tasks, read_journals, wanted_tasks
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,6 +60,13 @@ class FarmState:
     steps: tuple[StepState, ...]
     busy: frozenset[Task]
 
+    @property
+    def exit_code(self) -> ExitCode:
+        """Of `farm status`: all there, work remains, or some failed for good."""
+        if self.missing:
+            return ExitCode.DRAINED
+        return ExitCode.INVALID if self.quarantined else ExitCode.OK
+
 
 def farm_state(dataset: Dataset) -> FarmState:
     """Look at the disk, and ask the engines."""
@@ -71,12 +78,8 @@ def farm_state(dataset: Dataset) -> FarmState:
     missing = wanted - done - quarantined
     asked = activities(dataset.folder)
     known = [(job, activity) for job, activity in asked if activity is not None]
-    chunk_states = [
-        (job, index, state) for job, activity in known for index, state in activity.chunks.items()
-    ]
-    at_work = [(job, state) for job, _, state in chunk_states if state in _AT_WORK]
     attempts = list(read_journals(dataset.folder))
-    cores = sum(job.resources.cpus for job, _ in at_work)
+    cores = sum(job.resources.cpus * len(activity.running) for job, activity in known)
     by_name = {job.name: activity for job, activity in known}
     steps = {
         step: StepState(job=job.name, step=step, state=_step_state(job, step, by_name.get(job.name)))
@@ -89,8 +92,8 @@ def farm_state(dataset: Dataset) -> FarmState:
         done=len(done),
         missing=len(missing),
         quarantined=tuple(sorted(task.name for task in quarantined)),
-        running=len(at_work) if known else None,
-        waiting=len(chunk_states) - len(at_work) if known else None,
+        running=sum(len(activity.running) for _, activity in known) if known else None,
+        waiting=sum(len(activity.waiting) for _, activity in known) if known else None,
         reasons=dict(sum((activity.reasons for _, activity in known), Counter())),
         retries=sum(attempt.outcome == "failed" for attempt in attempts),
         core_hours=sum(attempt.cpu_seconds for attempt in attempts) / 3600,
@@ -98,18 +101,19 @@ def farm_state(dataset: Dataset) -> FarmState:
         steps=tuple(steps.values()),
         busy=frozenset(
             task
-            for job, index, _ in chunk_states
+            for job, activity in known
+            for index in activity.running | activity.waiting
             if index < len(job.chunks)
             for task in _tasks(dataset, job, index)
         ),
     )
 
 
-def _step_state(job: Job, step: str, activity: object) -> str:
+def _step_state(job: Job, step: str, activity: Activity | None) -> str:
     if (job.folder / f"{step}.done").is_file():
         return "done"
     if activity is not None and step in activity.steps:
-        return activity.steps[step].lower()
+        return activity.steps[step]
     return "to do"
 
 
@@ -120,7 +124,7 @@ def _tasks(dataset: Dataset, job: Job, index: int) -> list[Task]:
     return [Task("shard", number) for number in shards] + [Task("sample", number) for number in samples]
 
 
-def _seconds_left(missing: set[Task], attempts: list, cores: int) -> float | None:
+def _seconds_left(missing: set[Task], attempts: list[Attempt], cores: int) -> float | None:
     seconds = 0.0
     for kind in ("shard", "sample"):
         count = sum(task.kind == kind for task in missing)

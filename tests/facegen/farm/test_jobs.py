@@ -8,7 +8,8 @@ from typer.testing import CliRunner, Result
 
 from facegen.cli import app
 from facegen.errors import InputError
-from facegen.farm import ENGINES, Activity, Job, Submission, asked_jobs
+from facegen.farm import ENGINES, Activity, Job, Submission
+from facegen.farm.job import asked_jobs
 from facegen.store import DatasetFolder, open_dataset
 from facegen.work import generate
 
@@ -75,9 +76,9 @@ def resume(out: Path, *options: str) -> tuple[str, ...]:
 def test_later_steps_of_an_older_job_are_not_lost(engine, tmp_path):
     out = submit(tmp_path, "--steps", "generate,validate,pack", "--packed", str(tmp_path / "p"))
     # the chunk has failed, and Slurm has not yet cancelled what needs it
-    engine.doing["job-001"] = Activity(steps={"validate": "PENDING", "pack": "PENDING"})
+    engine.doing["job-001"] = Activity(steps={"validate": "pending", "pack": "pending"})
     assert resume(out) == ("generate",)
-    engine.doing = {"job-002": Activity(chunks={0: "RUNNING"})}
+    engine.doing = {"job-002": Activity(running=frozenset({0}))}
     assert resume(out) == (), "they would fail for want of what is being made"
     generate(open_dataset(out), workers=1)
     engine.doing = {}
@@ -100,7 +101,7 @@ def test_a_bundle_that_cannot_be_cancelled_keeps_no_other_job_from_it(engine, tm
     submit(tmp_path, engine="openjd")
     out = submit(tmp_path)
     submit(tmp_path)  # has ended
-    engine.doing = dict.fromkeys(("job-001", "job-003"), Activity(chunks={0: "RUNNING"}))
+    engine.doing = dict.fromkeys(("job-001", "job-003"), Activity(running=frozenset({0})))
     refusal = farm("cancel", out).exception
     assert isinstance(refusal, InputError)
     assert "job-002 is an OpenJD bundle" in str(refusal)

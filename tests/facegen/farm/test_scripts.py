@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from facegen.errors import InputError
-from facegen.farm import ENGINES, Chunk, Job, Resources, Submission, cut_chunks
+from facegen.farm import Chunk, Job, Resources, Submission, cut_chunks
 from facegen.farm.openjd import deadline_values, job_template, path_mapping
 from facegen.farm.slurm import read_squeue, sbatch_script
 
@@ -56,13 +56,6 @@ def test_the_template_is_as_read_over(request):
     check_golden("template.json", json.dumps(job_template(JOB), indent=2) + "\n", request)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-def test_files_are_the_same_every_time_and_say_how_to_start(engine):
-    job = dataclasses.replace(JOB, engine=engine)
-    assert ENGINES[engine].files(job) == ENGINES[engine].files(job)
-    assert ENGINES[engine].instructions(job)
-
-
 @pytest.mark.parametrize("step", JOB.steps)
 def test_bash_reads_the_scripts(step):
     assert subprocess.run(["bash", "-n"], input=sbatch_script(JOB, step), text=True).returncode == 0
@@ -97,8 +90,8 @@ def test_an_array_and_its_steps_are_found_in_the_queue():
         ["41|0|RUNNING|None", "41|3|PENDING|Resources", "42|N/A|PENDING|Dependency", "7|0|RUNNING|None", ""]
     )
     activity = read_squeue(listing, Submission(ids={"generate": "41", "validate": "42"}))
-    assert activity.chunks == {0: "RUNNING", 3: "PENDING"}
-    assert activity.steps == {"validate": "PENDING"}
+    assert (activity.running, activity.waiting) == ({0}, {3})
+    assert activity.steps == {"validate": "pending"}
     assert activity.reasons == Counter(Resources=1, Dependency=1)
     assert not read_squeue("", Submission(ids={"generate": "41"})).anything
 
@@ -115,10 +108,26 @@ def test_memory_is_slurms(text, mebibytes):
     assert Resources(mem=text).mem_mib == mebibytes
 
 
-@pytest.mark.parametrize("resources", [Resources(time="soon"), Resources(mem="much")])
-def test_what_cannot_be_read_is_refused(resources):
-    with pytest.raises(InputError, match="write"):
-        _ = (resources.time_s, resources.mem_mib)
+@pytest.mark.parametrize(
+    ("resources", "words"),
+    [
+        ({"time": "soon"}, "--time 'soon': write minutes"),
+        ({"time": "0:30"}, "--time 0:30: is less than a minute"),
+        ({"mem": "much"}, "--mem 'much': write a whole number"),
+    ],
+)
+def test_what_cannot_be_read_is_refused(resources, words):
+    with pytest.raises(InputError, match=words):
+        Resources(**resources)
+
+
+@pytest.mark.parametrize(
+    "state", ["RUNNING", "COMPLETING", "CONFIGURING", "PENDING", "SUSPENDED", "REQUEUED"]
+)
+def test_a_task_of_slurm_is_at_work_or_waits(state):
+    activity = read_squeue(f"41|7|{state}|None", Submission(ids={"generate": "41"}))
+    at_work = state in ("RUNNING", "COMPLETING", "CONFIGURING")
+    assert (activity.running, activity.waiting) == (({7}, set()) if at_work else (set(), {7}))
 
 
 def test_folders_are_mapped_by_whole_names():

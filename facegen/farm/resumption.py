@@ -1,0 +1,91 @@
+"""Resuming: the missing things that no engine is at become a new job, as the newest one was submitted."""
+
+import shutil
+from dataclasses import dataclass
+
+from facegen.errors import InputError
+from facegen.farm.job import STEPS, Job, asked_jobs
+from facegen.farm.state import FarmState, farm_state
+from facegen.farm.submission import Remaining, prepare, remaining
+from facegen.store import Dataset
+
+
+@dataclass(frozen=True, kw_only=True)
+class Resumption:
+    """What a new job would do.
+
+    Attributes
+    ----------
+    newest
+        The job whose engine, resources and samples the new one takes over.
+    state
+        How far the dataset is.
+    remaining
+        What the tasks would make.
+    steps
+        The job that left each step undone, by step, in the order of `STEPS`; empty where nothing is to submit.
+    postponed
+        Steps that were left undone and must wait for tasks that an engine is at.
+    """
+
+    newest: Job
+    state: FarmState
+    remaining: Remaining
+    steps: dict[str, Job]
+    postponed: tuple[str, ...]
+
+
+def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Resumption:
+    """Look for what is missing, and for steps that any job left undone; writes nothing.
+
+    Raises
+    ------
+    InputError
+        If the dataset was never submitted.
+    """
+    jobs = {job.name: job for job in asked_jobs(dataset.folder)}
+    if not jobs:
+        raise InputError(
+            f"{dataset.folder.path}: was never submitted to a farm; begin with: facegen farm submit"
+        )
+    newest = list(jobs.values())[-1]
+    state = farm_state(dataset)
+    left = remaining(
+        dataset, newest.samples, shards=newest.shards, busy=state.busy, retry_quarantined=retry_quarantined
+    )
+    undone = {step.step: jobs[step.job] for step in state.steps if step.state == "to do"}
+    postponed = tuple(undone) if state.busy else ()
+    if postponed:
+        undone = {}
+    if (left.shards or left.samples) and any("generate" in job.steps for job in jobs.values()):
+        undone["generate"] = newest
+    return Resumption(
+        newest=newest,
+        state=state,
+        remaining=left,
+        steps={step: undone[step] for step in STEPS if step in undone},
+        postponed=postponed,
+    )
+
+
+def prepare_resumption(dataset: Dataset, resumption: Resumption, *, chunk: int | None = None) -> Job:
+    """Write the new job as `facegen.farm.prepare` does; ``chunk`` is the number of samples a task."""
+    newest, steps = resumption.newest, resumption.steps
+    return prepare(
+        dataset,
+        resumption.remaining,
+        engine=newest.engine,
+        steps=tuple(steps),
+        samples=newest.samples,
+        shards=newest.shards,
+        resources=newest.resources,
+        chunk=chunk,
+        packed=steps.get("pack", newest).packed,
+        model=steps.get("train", steps.get("export", newest)).model,
+    )
+
+
+def forget_quarantined(dataset: Dataset, resumption: Resumption) -> None:
+    """Remove the records of what failed three times, so that it is tried again."""
+    for name in resumption.state.quarantined:
+        shutil.rmtree(dataset.folder.quarantine(name), ignore_errors=True)
