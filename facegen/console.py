@@ -48,9 +48,7 @@ def versions(*distributions: str) -> str:
     return ", ".join([*installed, f"Python {sys.version.split()[0]}"])
 
 
-def run(
-    app: "typer.Typer", *, extras: tuple[Extra, ...], errors: tuple[type[Exception], ...] = (FacegenError,)
-) -> None:
+def run(app: "typer.Typer", *, extras: tuple[Extra, ...]) -> None:
     """Run a program to its exit code, with one sentence for every error on purpose.
 
     Parameters
@@ -59,13 +57,11 @@ def run(
         The commands.
     extras
         Optional parts of the installation that commands may need: an absent one ends with exit code 2.
-    errors
-        Kinds of errors on purpose; each has an ``exit_code``.
     """
     code: int | str | None = 0
     try:
         app()
-    except errors as error:
+    except FacegenError as error:
         say(f"{app.info.name}: {error}")
         code = int(error.exit_code)
     except ModuleNotFoundError as error:

@@ -158,16 +158,6 @@ class Part(IntEnum):
     LENS = 17
 
 
-class ExitCode(IntEnum):
-    """Exit codes of both programs."""
-
-    OK = 0
-    INVALID = 1
-    BAD_INPUT = 2
-    NOT_WRITABLE = 74
-    DRAINED = 75
-
-
 SPLITS = ("train", "validation", "test")
 BLOCK = 1000
 """Samples that are drawn and computed together; a block is always computed whole, then cut."""

@@ -1,4 +1,4 @@
-"""Errors that a user of facegen can meet, each with the exit code of the worker contract.
+"""Errors that a user of facegen or regress can meet, each with the exit code of the worker contract.
 
 ::
 
@@ -15,17 +15,29 @@ A message says what was found, where, what is allowed and what to do, in one sen
 prints.
 """
 
+from enum import IntEnum
+
+
+class ExitCode(IntEnum):
+    """Exit codes of both programs."""
+
+    OK = 0
+    INVALID = 1
+    BAD_INPUT = 2
+    NOT_WRITABLE = 74
+    DRAINED = 75
+
 
 class FacegenError(Exception):
     """Base of all errors raised on purpose."""
 
-    exit_code = 1
+    exit_code = ExitCode.INVALID
 
 
 class InputError(FacegenError):
     """A spec, a rig, a headset or a file that cannot be used; nothing was written."""
 
-    exit_code = 2
+    exit_code = ExitCode.BAD_INPUT
 
 
 class FormatError(InputError):
@@ -39,22 +51,18 @@ class MissingAsset(InputError):
 class InvalidData(FacegenError):
     """Data on disk that does not agree with itself."""
 
-    exit_code = 1
-
 
 class WorkersFailed(FacegenError):
     """Worker processes that cannot start, or fail at nearly everything: not the fault of one sample."""
-
-    exit_code = 1
 
 
 class OutputError(FacegenError):
     """No space left, or a place that cannot be written."""
 
-    exit_code = 74
+    exit_code = ExitCode.NOT_WRITABLE
 
 
 class Drained(FacegenError):
     """Stopped on request; work remains."""
 
-    exit_code = 75
+    exit_code = ExitCode.DRAINED

@@ -61,8 +61,15 @@ def write_whole(path: Path, content: bytes | str) -> Path:
     r"""Write a file so that its name never stands for half of it; returns the name.
 
     Text is written as UTF-8 with ``\n`` line ends on every system, so that the bytes are the same everywhere.
-    Errors are those of `whole_file`.
+
+    Raises
+    ------
+    OutputError
+        If the file cannot be written, or ``path`` is a folder.
     """
+    with output_errors(path):
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
     with whole_file(path) as part:
         part.write_bytes(content.encode() if isinstance(content, str) else content)
     return path

@@ -9,7 +9,7 @@ import typer
 
 from facegen.cli.tables import print_table
 from facegen.console import progress, say
-from facegen.conventions import ExitCode
+from facegen.errors import ExitCode
 
 
 def generate(

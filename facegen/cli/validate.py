@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from facegen.console import progress, say
-from facegen.conventions import ExitCode
+from facegen.errors import ExitCode
 
 
 def validate(

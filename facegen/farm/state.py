@@ -3,7 +3,7 @@
 from collections import Counter
 from dataclasses import dataclass
 
-from facegen.conventions import ExitCode
+from facegen.errors import ExitCode
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, asked_jobs
 from facegen.farm.submission import activities

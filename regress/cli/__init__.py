@@ -9,7 +9,6 @@ import typer
 
 from facegen.console import run, versions
 from facegen.extras import HEADSET, LEARN
-from facegen.formats import FormatError
 from regress import __version__
 from regress.cli.bench import bench
 from regress.cli.edges import edges
@@ -19,7 +18,6 @@ from regress.cli.headset import headset
 from regress.cli.predict import predict
 from regress.cli.report import report
 from regress.cli.train import train
-from regress.errors import RegressError
 
 app = typer.Typer(
     name="regress",
@@ -59,4 +57,4 @@ def _options(
 
 def main() -> None:
     """Entry point of the console script."""
-    run(app, extras=(HEADSET, LEARN), errors=(RegressError, FormatError))
+    run(app, extras=(HEADSET, LEARN))

@@ -8,8 +8,8 @@ import numpy as np
 import typer
 
 from facegen.console import say
-from regress.errors import InputError, OutputError
-from regress.files import write_whole
+from facegen.files import write_whole
+from regress.errors import InputError
 
 
 def edges(
@@ -29,10 +29,7 @@ def edges(
 
     tilt_deg = TILT_DEG if tilt_deg is None else tilt_deg
     shape = make_reference_shape(_read(points), name=name, source=source, tilt_deg=tilt_deg)
-    try:
-        write_whole(out, reference_shape_json(shape))
-    except OSError as error:
-        raise OutputError(f"{out} cannot be written: {error.strerror or error}") from error
+    write_whole(out, reference_shape_json(shape))
     say(f"{len(shape.edges)} edges of {shape.name}, SHA-256 {shape.sha256[:12]}, in {out}")
 
 

@@ -6,8 +6,7 @@ from typing import Annotated
 
 import typer
 
-from regress.errors import OutputError
-from regress.files import write_whole
+from facegen.files import output_errors, write_whole
 
 
 def export(
@@ -26,10 +25,8 @@ def export(
     predictor = load_headset_predictor(model)
     graph = (model / "network.onnx").read_bytes()
     text = json.dumps(interface_of(predictor.model, graph=f"{name}.onnx"), indent=1) + "\n"
-    try:
+    with output_errors(out):
         out.mkdir(parents=True, exist_ok=True)
-        paths = [write_whole(out / f"{name}.onnx", graph), write_whole(out / f"{name}.json", text)]
-    except OSError as error:
-        raise OutputError(f"the export cannot be written to {out}: {error.strerror or error}") from error
+    paths = [write_whole(out / f"{name}.onnx", graph), write_whole(out / f"{name}.json", text)]
     for path in paths:
         typer.echo(f"{path} ({path.stat().st_size:,} bytes)")

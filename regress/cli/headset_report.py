@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from facegen.console import say
+from facegen.files import write_whole
 from regress.cli.evaluate import SplitOption
-from regress.errors import InputError, ModelError, OutputError
-from regress.files import write_whole
+from regress.errors import InputError, ModelError
 
 if TYPE_CHECKING:
     from regress.report.headset_page import Judged
@@ -111,8 +111,5 @@ def _write_figures(
         ],
         "microseconds": dict(timings),
     }
-    try:
-        write_whole(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
-    except OSError as error:
-        raise OutputError(f"the figures cannot be written to {path}: {error.strerror or error}") from error
+    write_whole(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
     say(f"figures in {path}")

@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 from facegen.console import say
-from regress.errors import InputError, OutputError
-from regress.files import write_whole
+from facegen.files import write_whole
+from regress.errors import InputError
 
 
 def report(
@@ -40,10 +40,5 @@ def report(
     measured = None if data is None else measure(trained, data)
     typer.echo(write_report(trained, out, measured))
     if figures is not None:
-        try:
-            write_whole(figures, json.dumps(figures_of(measured), indent=1, allow_nan=False) + "\n")
-        except OSError as error:
-            raise OutputError(
-                f"the figures cannot be written to {figures}: {error.strerror or error}"
-            ) from error
+        write_whole(figures, json.dumps(figures_of(measured), indent=1, allow_nan=False) + "\n")
         say(f"figures in {figures}")

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from facegen.console import say
+from facegen.files import write_whole
 from facegen.formats import live_link_csv
 from facegen.formats.gltf_animation import animate_avatar
-from regress.errors import InputError, OutputError
-from regress.files import write_whole
+from regress.errors import InputError
 from regress.runtime.predict import Prediction, prediction_csv
 
 
@@ -33,17 +33,17 @@ def write_table(
         sys.stdout.write(text)
         sys.stdout.flush()
     else:
-        _write(out, text)
+        write_whole(out, text)
 
 
 def write_confidence(prediction: Prediction, trust: np.ndarray, out: Path) -> None:
     """Write a table (n, 52) of how far each ARKit weight can be trusted, row by row that of the weights."""
-    _write(out, prediction_csv(Prediction(weights=trust, frames=prediction.frames)))
+    write_whole(out, prediction_csv(Prediction(weights=trust, frames=prediction.frames)))
 
 
 def write_points(table: str, out: Path) -> None:
     """Write a table of traced points."""
-    _write(out, table)
+    write_whole(out, table)
 
 
 def write_avatar(prediction: Prediction, avatar: Path, out: Path) -> None:
@@ -53,7 +53,7 @@ def write_avatar(prediction: Prediction, avatar: Path, out: Path) -> None:
     if made.missing:
         count = f"{len(made.missing)} of {len(prediction.names)} shapes"
         say(f"{avatar} has no morph target for {count}: {', '.join(made.missing)}")
-    _write(out, made.content)
+    write_whole(out, made.content)
 
 
 def _known_times(prediction: Prediction) -> np.ndarray:
@@ -64,10 +64,3 @@ def _known_times(prediction: Prediction) -> np.ndarray:
     known = np.flatnonzero(np.isfinite(time_s))
     last = np.searchsorted(known, np.arange(len(time_s)), side="right") - 1
     return time_s[known[np.maximum(last, 0)]] if len(known) else np.zeros(len(time_s))
-
-
-def _write(path: Path, content: str | bytes) -> None:
-    try:
-        write_whole(path, content)
-    except OSError as error:
-        raise OutputError(f"{path} cannot be written: {error.strerror or error}") from error

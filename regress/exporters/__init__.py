@@ -9,9 +9,9 @@ import importlib
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from regress.errors import InputError, OutputError
+from facegen.files import output_errors, write_whole
+from regress.errors import InputError
 from regress.exporters.formula import Formula, formula_of
-from regress.files import write_whole
 from regress.runtime.model import Model
 
 __all__ = ["EXPORTERS", "Formula", "export_model", "formula_of"]
@@ -66,11 +66,9 @@ def export_model(
     files = {}
     for chosen in formats:
         files |= _exporter(chosen)(formula, name)
-    try:
+    with output_errors(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        return tuple(write_whole(folder / file_name, content) for file_name, content in files.items())
-    except OSError as error:
-        raise OutputError(f"cannot write the export into {folder}: {error.strerror or error}") from error
+    return tuple(write_whole(folder / file_name, content) for file_name, content in files.items())
 
 
 def _exporter(chosen: str) -> Exporter:

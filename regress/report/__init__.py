@@ -2,8 +2,7 @@
 
 from pathlib import Path
 
-from regress.errors import OutputError
-from regress.files import write_whole
+from facegen.files import output_errors, write_whole
 from regress.learning.probes import Measured
 from regress.report.page import render_page
 from regress.report.probed import probed_of
@@ -24,8 +23,6 @@ def write_report(model: Model, path: Path, measured: Measured | None = None) -> 
         The file cannot be written.
     """
     page = render_page(content_of(model), measured and probed_of(measured))
-    try:
+    with output_errors(path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        return write_whole(path, page)
-    except OSError as error:
-        raise OutputError(f"the report cannot be written to {path}: {error.strerror or error}") from error
+    return write_whole(path, page)

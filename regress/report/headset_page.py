@@ -12,8 +12,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from facegen.conventions import BLENDSHAPES
-from regress.errors import ModelError, OutputError
-from regress.files import write_whole
+from facegen.files import output_errors, write_whole
+from regress.errors import ModelError
 from regress.learning.headset.worst import WorstFrame
 from regress.report.axes import figure
 from regress.report.content import PARTLY_R2, SEEN_R2, Headline
@@ -127,11 +127,9 @@ def write_headset_report(
         partly_r2=PARTLY_R2,
         figure=figure,
     )
-    try:
+    with output_errors(path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        return write_whole(path, page)
-    except OSError as error:
-        raise OutputError(f"the report cannot be written to {path}: {error.strerror or error}") from error
+    return write_whole(path, page)
 
 
 def _section(judged: Judged, name: str) -> Section:

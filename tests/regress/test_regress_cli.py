@@ -161,7 +161,7 @@ def test_edges_keeps_the_old_file_where_a_new_one_finds_no_room(run, monkeypatch
 
     monkeypatch.setattr(os, "fsync", full)
     code, _, err = run("edges", tmp_path / "points.json", "--out", tmp_path / "shape.json")
-    assert (code, "No space left" in err) == (74, True)
+    assert (code, "no space left" in err) == (74, True)
     assert (tmp_path / "shape.json").read_text() == "old"
 
 

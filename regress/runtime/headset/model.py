@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from facegen.conventions import BLENDSHAPES
-from regress.errors import ModelError, OutputError
-from regress.files import write_whole
+from facegen.files import write_whole
+from regress.errors import ModelError
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS
 from regress.runtime.headset.typical import read_typical
 from regress.runtime.model import HEADSET, KEYPOINTS, write_folder
@@ -162,10 +162,7 @@ def describe_headset_model(model: HeadsetModel, folder: str | os.PathLike[str]) 
         Where it cannot be written.
     """
     path = Path(folder) / "model.json"
-    try:
-        write_whole(path, _text(model))
-    except OSError as error:
-        raise OutputError(f"{path} cannot be written: {error.strerror or error}") from error
+    write_whole(path, _text(model))
     return read_headset_model(folder)
 
 

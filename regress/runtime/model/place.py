@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from facegen.files import output_errors, write_whole
 from regress.errors import OutputError
 
 
@@ -87,14 +88,14 @@ def write_folder(folder: Path, kind: ModelKind, files: Mapping[str, bytes]) -> N
         Where the place cannot be written, or holds anything that would be lost.
     """
     check_place(folder, kind)
-    try:
+    with output_errors(folder):
         folder.parent.mkdir(parents=True, exist_ok=True)
         # The temporary folder holds the new model and later the old one; it goes, whatever happens.
         with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
             new, old = Path(temporary, "new"), Path(temporary, "old")
             new.mkdir()
             for name, content in files.items():
-                _write_synced(new / name, content)
+                write_whole(new / name, content)
             replaced = folder.exists()
             if replaced:
                 folder.rename(old)  # a folder cannot be renamed over a full one
@@ -104,8 +105,6 @@ def write_folder(folder: Path, kind: ModelKind, files: Mapping[str, bytes]) -> N
                 if replaced:
                     old.rename(folder)
                 raise
-    except OSError as error:
-        raise OutputError(f"the model cannot be written to {folder}: {error.strerror or error}") from error
 
 
 def _check_old(folder: Path, kind: ModelKind) -> None:
@@ -144,10 +143,3 @@ def _kind_of(path: Path) -> ModelKind | None:
     return next(
         (kind for kind in (KEYPOINTS, HEADSET) if kind.name == name and kind.keys <= document.keys()), None
     )
-
-
-def _write_synced(path: Path, content: bytes) -> None:
-    with open(path, "wb") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())

@@ -208,5 +208,5 @@ def test_unknown_formats_and_names_with_folders_are_refused(model, tmp_path):
     with pytest.raises(InputError, match="without a folder"):
         export_model(model, tmp_path, name="a/b")
     (tmp_path / "file").write_text("")
-    with pytest.raises(OutputError, match="cannot write"):
+    with pytest.raises(OutputError, match="cannot be written"):
         export_model(model, tmp_path / "file", name="face", formats=["json"])

@@ -13,8 +13,8 @@ import numpy as np
 import torch
 
 from facegen.conventions import VIEW_POINTS
-from regress.errors import InputError, Interrupted, OutputError
-from regress.files import write_whole
+from facegen.files import output_errors, write_whole
+from regress.errors import InputError, Interrupted
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.batches import Batch, Frames
@@ -207,13 +207,9 @@ class Training:
         }
         content = io.BytesIO()  # which torch.save fills without errors of its own kind where a disk is full
         torch.save(state, content)
-        try:
+        with output_errors(path):
             path.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(path, content.getvalue())
-        except OSError as error:
-            raise OutputError(
-                f"the training's state cannot be written to {path}: {error.strerror or error}"
-            ) from error
+        write_whole(path, content.getvalue())
 
     def _resume(self, path: Path) -> None:
         try:
