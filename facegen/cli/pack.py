@@ -18,7 +18,7 @@ def pack(
         typer.Option(
             "--format",
             help="webdataset (default if there are pictures), parquet, keypoints (default if not), arrays (for memory "
-            "maps), coco or livelink (one recording a clip).",
+            "maps), coco, livelink (one recording a clip) or openface (detected landmarks).",
         ),
     ] = None,
     samples: Annotated[
@@ -37,7 +37,7 @@ def pack(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """Pack a dataset for training, as webdataset (tar shards), parquet, arrays, keypoints, coco or livelink.
+    """Pack a dataset for training, as webdataset (tar shards), parquet, arrays, keypoints, coco, livelink or openface.
 
     Run it again after a stop and it goes on; equal datasets give equal bytes.
 

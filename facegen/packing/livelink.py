@@ -26,13 +26,10 @@ def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> l
     InvalidData
         If a shard is damaged.
     """
-    if dataset.spec.kind == "still":
-        raise InputError(
-            f"{dataset.folder.path}: holds stills; the format 'livelink' packs the clips of sequences and playbacks"
-        )
+    check_clips(dataset, "livelink")
     numbers = np.asarray(samples, np.int64)
     columns = ["person", "session", "clip", "component"]
-    table = _rows(dataset, numbers, columns)
+    table = clip_rows(dataset, numbers, columns)
     clip = table.column("clip").to_numpy()
     first = np.flatnonzero(np.diff(clip, prepend=-1))
     parts = []
@@ -45,12 +42,20 @@ def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> l
 
 def write_clip(dataset: Dataset, part: Part, _options: Options, path: Path) -> None:
     """Write one clip."""
-    table = _rows(dataset, np.asarray(part.samples, np.int64), ["weights", "time_s"])
+    table = clip_rows(dataset, np.asarray(part.samples, np.int64), ["weights", "time_s"])
     text = live_link_csv(column_array(table, "weights"), table.column("time_s").to_numpy())
     path.write_text(text, encoding="utf-8", newline="")
 
 
-def _rows(dataset: Dataset, numbers: np.ndarray, columns: list[str]) -> pa.Table:
+def check_clips(dataset: Dataset, name: str) -> None:
+    """Refuse a dataset of stills for a format that packs clips."""
+    if dataset.spec.kind == "still":
+        raise InputError(
+            f"{dataset.folder.path}: holds stills; the format {name!r} packs the clips of sequences and playbacks"
+        )
+
+
+def clip_rows(dataset: Dataset, numbers: np.ndarray, columns: list[str]) -> pa.Table:
     """Columns of samples by number, in order; one shard in memory at a time."""
     tables = []
     for shard in np.unique(numbers // SHARD_ROWS):

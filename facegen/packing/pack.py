@@ -12,6 +12,7 @@ from facegen.packing.arrays import ARRAYS
 from facegen.packing.coco import COCO
 from facegen.packing.keypoints import KEYPOINTS
 from facegen.packing.livelink import LIVELINK
+from facegen.packing.openface import OPENFACE
 from facegen.packing.parquet import PARQUET
 from facegen.packing.plan import Format, Options, Part, chosen_samples
 from facegen.packing.webdataset import WEBDATASET
@@ -32,6 +33,7 @@ FORMATS: dict[str, Format] = {
     "keypoints": KEYPOINTS,
     "coco": COCO,
     "livelink": LIVELINK,
+    "openface": OPENFACE,
     "arrays": ARRAYS,
 }
 """Every format there is; a new one is a module and a line here."""

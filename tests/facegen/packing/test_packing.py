@@ -44,7 +44,7 @@ def make(rendered, out: Path, name: str, **options) -> Path:
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_equal_input_gives_equal_bytes_and_the_licence_goes_along(request, tmp_path, name):
-    rendered = request.getfixturevalue("recorded" if name == "livelink" else "rendered")
+    rendered = request.getfixturevalue("recorded" if name in ("livelink", "openface") else "rendered")
     one, two = (make(rendered, tmp_path / part, name) for part in "ab")
     assert files(one) == files(two)
     about = json.loads((one / "pack.json").read_text())

@@ -1,0 +1,76 @@
+"""CSV files as OpenFace writes them, one a session: what a detector says of a face, to try programs on.
+
+Points are whole pixels, as most detectors report them. Clips of a session follow one another as in one recording.
+"""
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import LANDMARK_COUNT
+from facegen.packing.livelink import check_clips, clip_rows
+from facegen.packing.plan import Format, Options, Part
+from facegen.store import Dataset, column_array
+
+COLUMNS = (
+    *("frame", "timestamp", "confidence", "success"),
+    *(f"{axis}_{point}" for axis in "xy" for point in range(LANDMARK_COUNT)),
+)
+
+
+def session_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> list[Part]:
+    """One file a session, named by person and session.
+
+    Raises
+    ------
+    InputError
+        If the dataset has no clips but stills.
+    InvalidData
+        If a shard is damaged.
+    """
+    check_clips(dataset, "openface")
+    numbers = np.asarray(samples, np.int64)
+    table = clip_rows(dataset, numbers, ["person", "session"])
+    person, session = (table.column(name).to_numpy() for name in ("person", "session"))
+    first = np.flatnonzero(np.diff(session, prepend=-1))
+    return [
+        Part(
+            name=f"person-{person[start]:05d}-session-{session[start]:05d}.csv",
+            samples=numbers[start:stop].tolist(),
+        )
+        for start, stop in zip(first, [*first[1:], len(session)], strict=True)
+    ]
+
+
+def write_session(dataset: Dataset, part: Part, _options: Options, path: Path) -> None:
+    """Write one session; a frame without a face has success 0 and zeros for points."""
+    table = clip_rows(dataset, np.asarray(part.samples, np.int64), ["detected_2d", "time_s", "clip"])
+    points = column_array(table, "detected_2d")
+    times = _running(table.column("time_s").to_numpy(), table.column("clip").to_numpy())
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for frame, (time_s, face) in enumerate(zip(times, points, strict=True), start=1):
+            seen = int(np.isfinite(face).all())
+            pixels = np.rint(face.T.ravel()).astype(int) if seen else [0] * 2 * LANDMARK_COUNT
+            writer.writerow([frame, f"{time_s:.3f}", seen, seen, *pixels])
+
+
+def _running(time_s: np.ndarray, clip: np.ndarray) -> np.ndarray:
+    """Seconds from the start of the recording: a clip begins one frame after the one before it ends."""
+    step = np.diff(time_s)
+    usual = np.median(step[step > 0]) if (step > 0).any() else 0.0
+    step[np.diff(clip) != 0] = usual
+    return np.concatenate([[0.0], np.cumsum(step)])
+
+
+OPENFACE = Format(
+    description="OpenFace CSV of detected landmarks, one file a session, of sequences and playbacks",
+    rendered=False,
+    options=frozenset(),
+    shard_size=0,
+    parts=session_parts,
+    write=write_session,
+)
