@@ -22,9 +22,10 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLOCK
+from facegen.expression import restrain
 from facegen.formats import read_live_link
 from facegen.randomness import stream
-from facegen.sampling.expression import draw_faces, restrain
+from facegen.sampling.faces import draw_faces
 from facegen.spec import parse_spec
 
 SEED = 1

@@ -15,6 +15,8 @@ linings covered 23 in rig anny and none in rig ict.
 """
 
 import argparse
+import sys
+from pathlib import Path
 
 import numpy as np
 
@@ -22,8 +24,11 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.geometry import direction_from_angles
 from facegen.headsets import Headset, load_headset
 from facegen.rigs import Rig, evaluate, load_rig
+from facegen.rigs.building import RIGS
 from facegen.sampling.gaze import weights_from_axes
-from facegen.validation.eye_views import before_pupils, eyeball_pixels, scene_of
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from tests.facegen.rigs.eye_views import before_pupils, eyeball_pixels, scene_of
 
 HEADSETS = ("training9", "mouth1")
 """tracking3's cameras are among training9's."""
@@ -39,7 +44,7 @@ def main() -> None:
         "| rig | headset | camera | shut: views that show an eye | most px | pupils free | covered | defects |"
     )
     print("|---|---|---|---|---|---|---|---|")
-    for rig in arguments.rig or ["anny", "ict"]:
+    for rig in arguments.rig or RIGS:
         for headset in HEADSETS:
             print_table(load_rig(rig), load_headset(headset), arguments.people)
 

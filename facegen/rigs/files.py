@@ -102,7 +102,7 @@ def load_rig(name: str, folder: Path | None = None) -> Rig:
     Parameters
     ----------
     name
-        Name of the rig, ``"anny"`` or ``"ict"`` for those that facegen builds.
+        Name of the rig: one of `facegen.rigs.building.RIGS`, or of a head that was added.
     folder
         Where it lies; default `rigs_folder`.
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.errors import InputError
+from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.files import assets_folder
 from facegen.rigs.identity import fit_sphere
 from facegen.rigs.marking import lid_neighbourhood, lip_faces
@@ -168,3 +169,12 @@ def _mark_tongue(part: np.ndarray, vertices: np.ndarray, faces: np.ndarray, jaw_
     front = middle[gums, 2].max()
     inside = (np.abs(middle[:, 0]) < 0.019) & (middle[:, 2] < front - 0.014)
     part[gums & with_jaw & inside] = Part.TONGUE
+
+
+def _build(sources: RigSources) -> Rig:
+    if sources.path is None:
+        raise InputError("Rig 'ict' is built from a clone of ICT-FaceKit; say where it lies with --path DIR")
+    return build_ict(sources.path)
+
+
+ICT = RigBuilder(version=VERSION, licence=LICENCE, origin="from --path, a clone of ICT-FaceKit", build=_build)

@@ -6,20 +6,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from facegen.conventions import BLOCK
+from facegen.expression import COMPONENTS, UNMIXED
 from facegen.geometry import rotation_from_angles
 from facegen.randomness import stream
 from facegen.rigs import Rig, eye_centers
 from facegen.sampling.cameras import draw_head_rotation, draw_keypoint_camera
 from facegen.sampling.detector import RUN, draw_dropped
-from facegen.sampling.expression import COMPONENT_NAMES as STILL_COMPONENTS
-from facegen.sampling.expression import draw_faces
+from facegen.sampling.faces import draw_faces
 from facegen.sampling.gaze import AHEAD, axes_from_weights
 from facegen.sampling.motion import KINDS, draw_takes
 from facegen.sampling.plan import Places, Plan
 from facegen.spec import Spec, draw
 
 COMPONENT_NAMES: tuple[str, ...] = (
-    *STILL_COMPONENTS,
+    *UNMIXED,
+    *COMPONENTS,
     *(name for name, kind in KINDS.items() if not kind.neutral),
 )
 """What ``component`` labels count: neutral faces, frames of a recording, the mixture of stills, kinds of clips."""

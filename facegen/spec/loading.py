@@ -14,6 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import is_pydantic_dataclass
 
 from facegen.errors import InputError
+from facegen.expression import COMPONENTS
 from facegen.refusals import refusal
 from facegen.spec.distribution import as_data
 from facegen.spec.sample_ranges import parse_ranges
@@ -29,7 +30,7 @@ _LATE_KEYS: dict[str, Any] = {
     "sensor.slip": 1.0,
     "render.subsurface": True,
     "render.truth": True,
-    **{f"expression.mixture.{name}": 0.0 for name in ("upper_face", "lower_face", "combined")},
+    **{f"expression.mixture.{name}": 0.0 for name, component in COMPONENTS.items() if not component.first},
 }
 """Keys that are younger than some datasets, and values that change nothing: with these they stay out of the hash."""
 

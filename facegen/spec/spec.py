@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass
 
+from facegen.expression import COMPONENTS
 from facegen.spec.distribution import Distribution, parse, quantity
 
 _STRICT = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True)
@@ -92,39 +93,18 @@ class Identity:
     """Factor on how much people differ beyond sex, age and ancestry; 0 gives one face for each of these."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
-class Mixture:
-    """How often each component of the expression model makes a face: relative weights; their sum counts as 1.
+_MIXTURE = """How often each component of the expression model makes a face: relative weights; their sum counts as 1.
 
     Where the table stands in a spec, components that it does not name are left out.
     """
-
-    rest: Weight = 0.0
-    """A resting face: little but ``resting`` activity."""
-    single: Weight = 0.0
-    """One shape, or a pair, through its whole range; mouthClose and tongueOut bring the jaw along."""
-    emotion: Weight = 0.0
-    """One of 23 emotions as FACS action units, from faint to full."""
-    speech: Weight = 0.0
-    """Between two of 15 visemes, with what brows, lids and feelings do meanwhile."""
-    movement: Weight = 0.0
-    """Voluntary movements of mouth, jaw, cheeks, brows and lids, as in range-of-motion takes."""
-    one_sided: Weight = 0.0
-    """Winks, smirks and every other movement on one side."""
-    sparse: Weight = 0.0
-    """One to six shapes, independent of each other, through their whole range."""
-    dense: Weight = 0.0
-    """About a third of all shapes, independent of each other, up to 0.7."""
-    extreme: Weight = 0.0
-    """Three shapes at 0.75 or more, the eyes turned as far now and then."""
-    divergent: Weight = 0.0
-    """A sparse face whose eyes do not look the same way."""
-    upper_face: Weight = 0.0
-    """About a third of the shapes of brows, lids, nose and cheekSquint, and any gaze; all else rests."""
-    lower_face: Weight = 0.0
-    """About a third of the shapes of jaw, mouth, cheekPuff and tongue; the eyes are open and look ahead."""
-    combined: Weight = 0.0
-    """jawOpen above 0.35 with both eyes 0.3 to 0.8 closed, in a dense face: made to be withheld from training."""
+_MIXTURE_KEYS = {
+    name: Annotated[Weight, Field(description=component.meaning)] for name, component in COMPONENTS.items()
+}
+_MIXTURE_NAMESPACE = {"__doc__": _MIXTURE, "__module__": __name__, "__annotations__": _MIXTURE_KEYS}
+Mixture = dataclass(frozen=True, kw_only=True, config=ConfigDict(extra="forbid", strict=True))(
+    type("Mixture", (), _MIXTURE_NAMESPACE | dict.fromkeys(COMPONENTS, 0.0))
+)
+"""Its keys are those of `facegen.expression.COMPONENTS`."""
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)
@@ -139,18 +119,7 @@ class Expression:
     """Share of faces that are scaled down, log-uniformly to between 2 and 100 %."""
     resting: Share = 0.2
     """Largest weight that each shape has at rest, in rest, emotion, speech, movement and one_sided faces."""
-    mixture: Mixture = Mixture(
-        rest=0.04,
-        single=0.10,
-        emotion=0.10,
-        speech=0.30,
-        movement=0.30,
-        one_sided=0.05,
-        sparse=0.05,
-        dense=0.02,
-        extreme=0.03,
-        divergent=0.01,
-    )
+    mixture: Mixture = Mixture(**{name: component.share for name, component in COMPONENTS.items()})
 
 
 @dataclass(frozen=True, kw_only=True, config=_STRICT)

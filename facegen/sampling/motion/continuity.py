@@ -3,7 +3,7 @@
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
-from facegen.sampling.expression.couplings import EXCLUSIVE, TONGUE_NEEDS_JAW
+from facegen.expression.couplings import EXCLUSIVE, TONGUE_NEEDS_JAW
 
 TONGUE_OUT_WITHIN = 0.3
 """Beyond the least jawOpen, the tongue comes out over this much more of it."""
@@ -12,7 +12,7 @@ _JAW, _TONGUE = BLENDSHAPE_INDEX["jawOpen"], BLENDSHAPE_INDEX["tongueOut"]
 
 
 def ease(weights: np.ndarray) -> np.ndarray:
-    """Weights (n, 52) on which `facegen.sampling.expression.restrain` has no jump left to make; a copy.
+    """Weights (n, 52) on which `facegen.expression.restrain` has no jump left to make; a copy.
 
     Of two shapes that exclude each other `restrain` drops the weaker one, so that both jump where they cross. Here each
     pair becomes one signed number: their difference, or for lids the way from wide open (-eyeWide) to closed (1).

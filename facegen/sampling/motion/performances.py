@@ -1,6 +1,6 @@
 """What people do in a clip: show one expression, speak, go through all movements, converse.
 
-Courses here hold the *closing* in the column of mouthClose (see `facegen.sampling.expression.templates`).
+Courses here hold the *closing* in the column of mouthClose (see `facegen.expression.templates`).
 """
 
 from dataclasses import dataclass
@@ -9,10 +9,10 @@ from functools import cache
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from facegen.sampling.expression.acted import SOMETIMES, draw_emotion, draw_lips, draw_uneven, together
-from facegen.sampling.expression.couplings import TONGUE_NEEDS_JAW
-from facegen.sampling.expression.sides import draw_sides
-from facegen.sampling.expression.templates import CLOSING, Templates, load_emotions, load_templates
+from facegen.expression.acted import SOMETIMES, draw_emotion, draw_lips, draw_uneven, together
+from facegen.expression.couplings import TONGUE_NEEDS_JAW
+from facegen.expression.sides import draw_sides
+from facegen.expression.templates import CLOSING, Templates, load_emotions, load_templates
 from facegen.sampling.motion.continuity import TONGUE_OUT_WITHIN
 from facegen.sampling.motion.envelopes import blend, draw_edges, memberships, wander
 from facegen.sampling.motion.speech import draw_utterance, draw_visemes, speech_course

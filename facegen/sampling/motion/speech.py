@@ -11,9 +11,9 @@ from functools import cache
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from facegen.sampling.expression.acted import draw_uneven
-from facegen.sampling.expression.sides import draw_sides
-from facegen.sampling.expression.templates import CLOSING, columns, load_templates
+from facegen.expression.acted import draw_uneven
+from facegen.expression.sides import draw_sides
+from facegen.expression.templates import CLOSING, columns, load_templates
 from facegen.sampling.motion.envelopes import memberships
 
 SYLLABLES_PER_S = (4.0, 5.0)

@@ -5,18 +5,18 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
-from facegen.geometry import direction_from_angles
-from facegen.randomness import stream
-from facegen.sampling.detector import RUN, draw_dropped
-from facegen.sampling.expression.acted import together
-from facegen.sampling.expression.couplings import (
+from facegen.expression.acted import together
+from facegen.expression.couplings import (
     CLOSE_BEYOND_JAW,
     close_lips,
     fade,
     follow_gaze,
     restrain,
 )
-from facegen.sampling.expression.mixture import LIDS_FOLLOW_DOWN, LIDS_FOLLOW_UP, draw_resting
+from facegen.geometry import direction_from_angles
+from facegen.randomness import stream
+from facegen.sampling.detector import RUN, draw_dropped
+from facegen.sampling.faces import LIDS_FOLLOW_DOWN, LIDS_FOLLOW_UP, draw_resting
 from facegen.sampling.gaze import axes_from_target, weights_from_axes
 from facegen.sampling.motion.blinks import draw_blinks, lid_closure
 from facegen.sampling.motion.continuity import ease
@@ -182,7 +182,7 @@ def _draw_living(
 ) -> np.ndarray:
     """Weights (n, 52) with resting activity, faded antagonists, closed lips, and lids that follow the gaze.
 
-    What `facegen.sampling.expression.draw_faces` does for single living faces; its draws hold for the whole clip.
+    What `facegen.sampling.faces.draw_faces` does for single living faces; its draws hold for the whole clip.
     """
     edges = draw_edges(rng, time_s[-1], DRIFT_GAP_S)
     resting = draw_resting(spec.expression, rng, len(edges) + 1)

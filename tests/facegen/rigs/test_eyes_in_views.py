@@ -8,7 +8,7 @@ from facegen.geometry import direction_from_angles
 from facegen.headsets import list_headsets, load_headset
 from facegen.rigs import Rig, evaluate
 from facegen.sampling.gaze import weights_from_axes
-from facegen.validation.eye_views import before_pupils, eyeball_pixels, scene_of
+from tests.facegen.rigs.eye_views import before_pupils, eyeball_pixels, scene_of
 from tests.facegen.rigs.people import people, weights
 
 GAZE_DEG = np.array([[0.0, 0.0], [25.0, 25.0], [-25.0, -25.0]])

@@ -7,7 +7,7 @@ from facegen.geometry import direction_from_angles
 from facegen.rigs import Rig, evaluate
 from facegen.rigs.eyes import lid_support_radius
 from facegen.rigs.lids import CONTACT_LANDMARKS
-from facegen.validation.lids import eyeball_seen
+from tests.facegen.rigs.eyeball_area import eyeball_seen
 from tests.facegen.rigs.people import PEOPLE, people, straight, weights
 
 

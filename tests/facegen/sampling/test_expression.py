@@ -10,18 +10,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
+from facegen.expression import COMPONENTS, UNMIXED, load_emotions, load_templates, restrain
+from facegen.expression.couplings import CLOSE_BEYOND_JAW, EXCLUSIVE, MEETING, TONGUE_NEEDS_JAW
+from facegen.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
 from facegen.randomness import stream
-from facegen.sampling.expression import (
-    COMPONENT_NAMES,
-    COMPONENTS,
-    Faces,
-    draw_faces,
-    load_emotions,
-    load_templates,
-    restrain,
-)
-from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, EXCLUSIVE, MEETING, TONGUE_NEEDS_JAW
-from facegen.sampling.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
+from facegen.sampling import COMPONENT_NAMES
+from facegen.sampling.faces import Faces, draw_faces
 from facegen.sampling.gaze import axes_from_weights
 from facegen.spec import Spec, load_spec, parse_spec
 
@@ -153,7 +147,7 @@ def test_subtle_faces_keep_their_lips_closed():
 
 def test_the_mixture_is_what_the_spec_says(faces):
     shares = np.array(list(asdict(spec().expression.mixture).values()))
-    counts = np.bincount(faces.component, minlength=len(COMPONENT_NAMES))[-len(shares) :]
+    counts = np.bincount(faces.component, minlength=len(UNMIXED) + len(shares))[len(UNMIXED) :]
     expected = shares / shares.sum() * len(faces.component)
     assert (np.abs(counts - expected) <= 4 * np.sqrt(expected)).all()
     some = drawn(spec(mixture={"speech": 3, "single": 1}), 4)

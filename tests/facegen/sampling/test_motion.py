@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLOCK
+from facegen.expression import load_templates, restrain
 from facegen.rigs import eye_centers
 from facegen.sampling import COMPONENT_NAMES, draw_samples, plan_dataset
-from facegen.sampling.expression import load_templates, restrain
 from facegen.sampling.motion import KINDS, draw_take, write_script
 from facegen.sampling.motion.blinks import CLOSING_S, draw_blinks, lid_closure
 from facegen.sampling.motion.continuity import ease

@@ -6,9 +6,9 @@ Where a draw sets eyeLook* weights, they are a wish: the gaze turns both eyes th
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
-from facegen.sampling.expression.couplings import TONGUE_NEEDS_JAW
-from facegen.sampling.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
-from facegen.sampling.expression.templates import CLOSING
+from facegen.expression.couplings import TONGUE_NEEDS_JAW
+from facegen.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
+from facegen.expression.templates import CLOSING
 
 SPARSE_SHAPES = (1, 6)
 """Fewest and most shapes of a sparse face; a pair counts once."""

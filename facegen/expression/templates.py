@@ -1,6 +1,6 @@
 """Faces as data: emotions, visemes and voluntary movements, each as weights at full strength (``templates/*.toml``).
 
-In a template, and in every draw before `facegen.sampling.expression.couplings.close_lips`, the column of
+In a template, and in every draw before `facegen.expression.couplings.close_lips`, the column of
 mouthClose holds the *closing*: the share of jawOpen over which the lips stay closed, so that a template can be
 made weaker without its lips parting.
 """

@@ -7,7 +7,7 @@ bench_expressions.py says by how much frames of any take would be changed), and 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
-from facegen.sampling.expression.templates import CLOSING, columns
+from facegen.expression.templates import CLOSING, columns
 
 EXCLUSIVE: tuple[tuple[str, str], ...] = (
     ("jawLeft", "jawRight"),

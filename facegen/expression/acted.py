@@ -3,8 +3,8 @@
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from facegen.sampling.expression.sides import draw_shapes, draw_sides, over_shapes
-from facegen.sampling.expression.templates import CLOSING, Templates, columns, load_emotions, load_templates
+from facegen.expression.sides import draw_shapes, draw_sides, over_shapes
+from facegen.expression.templates import CLOSING, Templates, columns, load_emotions, load_templates
 
 SOMETIMES = 0.4
 """Chance of an action unit that some people show with an emotion (20 to 67 % in the table's source)."""

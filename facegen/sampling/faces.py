@@ -1,4 +1,4 @@
-"""The expression model, version 1: which component makes a face, and what all faces share."""
+"""Draws faces by the expression model, version 1: a component for each, and what all faces share."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from facegen.sampling.expression.acted import draw_lips
-from facegen.sampling.expression.components import COMPONENT_NAMES, COMPONENTS
-from facegen.sampling.expression.couplings import CLOSE_BEYOND_JAW, close_lips, fade, follow_gaze, restrain
-from facegen.sampling.expression.sides import draw_shapes
-from facegen.sampling.expression.templates import CLOSING
+from facegen.expression.acted import draw_lips
+from facegen.expression.components import COMPONENTS, UNMIXED
+from facegen.expression.couplings import CLOSE_BEYOND_JAW, close_lips, fade, follow_gaze, restrain
+from facegen.expression.sides import draw_shapes
+from facegen.expression.templates import CLOSING
 from facegen.sampling.gaze import (
     AHEAD,
     axes_from_target,
@@ -46,7 +46,7 @@ class Faces:
     gaze
         (n, 2, 3) unit optical axes in the head frame, subject's left eye first.
     component
-        (n,) int8, index into `COMPONENT_NAMES`.
+        (n,) int8, index into `facegen.sampling.COMPONENT_NAMES`.
     """
 
     weights: np.ndarray
@@ -97,8 +97,7 @@ def draw_faces(spec: Spec, streams: Callable[[str], np.random.Generator], eye_ce
         weights[:, column] = value
     down, up = rng.random((2, size)) * living
     follow_gaze(weights, down=LIDS_FOLLOW_DOWN * down, up=LIDS_FOLLOW_UP * up)
-    first = len(COMPONENT_NAMES) - len(COMPONENTS)
-    return Faces(weights=restrain(weights), gaze=gaze, component=(component + first).astype(np.int8))
+    return Faces(weights=restrain(weights), gaze=gaze, component=(component + len(UNMIXED)).astype(np.int8))
 
 
 def draw_components(settings: Expression, rng: np.random.Generator, size: int) -> np.ndarray:

@@ -1,0 +1,48 @@
+"""Says what a rig that facegen builds is: where it comes from, and the function that builds it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from facegen.rigs.rig import Rig
+
+
+@dataclass(frozen=True, kw_only=True)
+class RigSources:
+    """Where builders find their sources.
+
+    Attributes
+    ----------
+    path
+        Folder that the user named.
+    wheel
+        Wheel of a Python package that the user named.
+    downloads
+        Folder for what is downloaded.
+    """
+
+    path: Path | None
+    wheel: Path | None
+    downloads: Path
+
+
+@dataclass(frozen=True, kw_only=True)
+class RigBuilder:
+    """A rig that facegen builds: a module, and a line in `facegen.rigs.building.RIGS`.
+
+    Attributes
+    ----------
+    version
+        Of sources and builder; a build of another version is built anew.
+    licence
+        Of the shapes.
+    origin
+        A few words for ``facegen rig list``.
+    build
+        Builds it; raises `facegen.errors.InputError` where the sources are missing or unusable.
+    """
+
+    version: str
+    licence: str
+    origin: str
+    build: Callable[[RigSources], Rig]
