@@ -139,10 +139,10 @@ def print_fixed(spec: Spec, count: int) -> None:
     made = [label_sample(dataset, number, block).sample for number in range(count)]
     labels = (time.process_time() - start) / count
     renderer = open_renderer(threads=1, subsurface=spec.render.subsurface)
-    renderer._load(made[-1].scene)
+    renderer._contents.load(made[-1].scene)
     start = time.process_time()
     for one in made:
-        renderer._load(one.scene)
+        renderer._contents.load(one.scene)
     load = (time.process_time() - start) / count
     start = time.process_time()
     for view in made[-1].scene.views:

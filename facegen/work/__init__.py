@@ -5,7 +5,7 @@ from facegen.work.blend import save_blend
 from facegen.work.developing import Settings, develop_dataset, develop_sample
 from facegen.work.generate import DEFAULT_GRACE_S, Summary, Work, generate, plan_work
 from facegen.work.journal import Attempt, attempt_logs, read_journals
-from facegen.work.supervisor import Limits
+from facegen.work.limits import Limits
 from facegen.work.tasks import Task, done_tasks, quarantined_tasks, wanted_tasks
 
 __all__ = [

@@ -4,6 +4,7 @@ import contextlib
 import ctypes
 import errno
 import os
+import shutil
 import signal
 import sys
 import tempfile
@@ -167,8 +168,7 @@ def place_at_fault(error: BaseException, out: Path) -> str | None:
         if isinstance(cause, OSError) and cause.errno in _PLACE_ERRORS:
             return f"{cause.filename or out}: {os.strerror(cause.errno)}"
         cause = cause.__cause__ or cause.__context__
-    state = os.statvfs(out)
-    if state.f_bavail * state.f_frsize < _NO_ROOM_BYTES:
+    if shutil.disk_usage(out).free < _NO_ROOM_BYTES:
         return f"{out}: no space left; free some and run the same command again"
     return None
 

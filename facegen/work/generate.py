@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 from facegen.store import Dataset, begin, staging, sweep
 from facegen.work.allocation import available_cpus, available_memory
-from facegen.work.supervisor import Limits, Supervisor
+from facegen.work.limits import Limits
+from facegen.work.supervisor import Supervisor
 from facegen.work.tasks import Task, done_tasks, quarantined_tasks, wanted_tasks
 
 DEFAULT_GRACE_S = 30.0
