@@ -22,16 +22,17 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_GROUPS, MIRRORED_BLENDSHAPES, MIRRORED_LANDMARKS
-from regress import confidence
 from regress.learning.training import read_dataset
 from regress.learning.training.noise import DetectorNoise
 from regress.learning.training.preparation import Faces, as_detected, faces_of
 from regress.learning.training.record import DETECTOR
 from regress.learning.training.scores import score_faces
 from regress.runtime.features import align_similarity
+from regress.runtime.inputs import Frames
 from regress.runtime.model import Model, load_model, symmetrised
 from regress.runtime.networks import evaluate
-from regress.runtime.smoothing import OneEuro, moving_average, one_euro, smooth_landmarks
+from regress.runtime.predict import predict_frames
+from regress.runtime.stages import OneEuro, Output, confidence
 from regress.targets import VISIBLE_SHAPES
 
 VISIBLE = [BLENDSHAPE_INDEX[name] for name in VISIBLE_SHAPES]
@@ -57,35 +58,38 @@ def smoothing(model: Model, faces: Faces) -> Iterator[str]:
     }
     noise = rng.standard_normal(clips["still"].shape) * eyes
 
-    def weights(points: np.ndarray) -> np.ndarray:
-        return np.array([each.predict(clip) for each, clip in zip(models, points, strict=True)])
+    def weights(points: np.ndarray, output: Output) -> np.ndarray:
+        takes = [
+            Frames(points=clip, labels=tuple(map(str, range(FRAMES))), time_s=TIME_S, source="clip")
+            for clip in points
+        ]
+        return np.array(
+            [
+                predict_frames(each, take, output=output).weights
+                for each, take in zip(models, takes, strict=True)
+            ]
+        )
 
-    def each(call: Callable[[np.ndarray], np.ndarray], values: np.ndarray) -> np.ndarray:
-        return np.array([call(value) for value in values])
-
-    def euro(values: np.ndarray) -> np.ndarray:
-        return each(lambda w: one_euro(w, TIME_S, OneEuro()), values)
-
-    def landmarks(points: np.ndarray, hz: float) -> np.ndarray:
-        return each(lambda clip: smooth_landmarks(clip, TIME_S, hz, mean), points)
-
-    ways: dict[str, Callable[[np.ndarray], np.ndarray]] = {
-        "none": weights,
-        "`--smooth 10` (the paper)": lambda p: each(lambda w: moving_average(w, 10), weights(p)),
-        "`--one-euro 1`": lambda p: euro(weights(p)),
-        "`--smooth-landmarks 1`": lambda p: weights(landmarks(p, 1.0)),
-        "`--smooth-landmarks 2`": lambda p: weights(landmarks(p, 2.0)),
-        "`--smooth-landmarks 1 --one-euro 1`": lambda p: euro(weights(landmarks(p, 1.0))),
+    ways = {
+        "none": Output(),
+        "`--smooth 10` (the paper)": Output(smooth=10),
+        "`--one-euro 1`": Output(one_euro=OneEuro()),
+        "`--smooth-landmarks 1`": Output(smooth_landmarks_hz=1.0),
+        "`--smooth-landmarks 2`": Output(smooth_landmarks_hz=2.0),
+        "`--smooth-landmarks 1 --one-euro 1`": Output(smooth_landmarks_hz=1.0, one_euro=OneEuro()),
     }
-    true = {name: weights(clip)[..., VISIBLE] for name, clip in clips.items()}
+    true = {name: weights(clip, Output())[..., VISIBLE] for name, clip in clips.items()}
     moved = np.argwhere(true["step"][:, -1] > 0.3)
     yield "| smoothing | jitter at 0.5 % | at 1 % | lag | peak | error of a step | of a short move |"
     yield "|---|---|---|---|---|---|---|"
-    for name, way in ways.items():
+    for name, output in ways.items():
         still = [
-            way(clips["still"] + share * noise)[:, 30:, VISIBLE].std(axis=1).mean() for share in (0.005, 0.01)
+            weights(clips["still"] + share * noise, output)[:, 30:, VISIBLE].std(axis=1).mean()
+            for share in (0.005, 0.01)
         ]
-        step, short = (way(clips[kind] + 0.005 * noise)[..., VISIBLE] for kind in ("step", "short"))
+        step, short = (
+            weights(clips[kind] + 0.005 * noise, output)[..., VISIBLE] for kind in ("step", "short")
+        )
         peak = [
             short[clip, 30:45, k].max() / true["short"][clip, :, k].max()
             for clip, k in np.argwhere(true["short"].max(axis=1) > 0.3)

@@ -1,15 +1,13 @@
 """``regress headset predict``: the pictures of a headset's cameras in, a table of weights out."""
 
-import dataclasses
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 
 from facegen.console import say
-from facegen.conventions import LANDMARK_COUNT
+from facegen.files import write_whole
 from regress.cli.headset_input import camera_paths, check_stills, read_footage, read_neutrals
 from regress.cli.options import (
     AvatarOption,
@@ -23,23 +21,20 @@ from regress.cli.options import (
     SmoothOption,
     TrustOption,
 )
-from regress.cli.results import Format, write_avatar, write_confidence, write_points, write_table
+from regress.cli.results import TableFormat, check_targets, needs_times, write_prediction
 from regress.errors import InputError
-from regress.runtime.adjustment import read_adjustments
 from regress.runtime.headset.film import check_film_name, write_film
 from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.networks import ASSUMED_FPS
 from regress.runtime.headset.orientation import told_orientation
-from regress.runtime.headset.performance import ASSUMED_FPS, Performance, perform
 from regress.runtime.headset.points import check_points, points_csv
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.predict import predict_footage
+from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.headset.temporal import TAPS
-from regress.runtime.inputs import Frames
-from regress.runtime.predict import Output, Prediction, prediction_csv
-from regress.runtime.retargeting import read_retargeting
-from regress.runtime.smoothing import OneEuro
-
-GAZE_COLUMNS = ("left_eye_yaw_deg", "left_eye_pitch_deg", "right_eye_yaw_deg", "right_eye_pitch_deg")
-"""Of the CSV, behind the weights: yaw to the subject's left, pitch upwards, in the head frame."""
+from regress.runtime.stages import OneEuro, Output
+from regress.runtime.stages.adjustment import read_adjustments
+from regress.runtime.stages.retargeting import read_retargeting
+from regress.runtime.writers import confidence_csv, weights_csv
 
 _SAME_RATE = 0.05
 """Relative difference of frame rates that --temporal does not speak of: 29.97 are 30."""
@@ -79,7 +74,7 @@ def predict(
         ),
     ] = None,
     out: OutOption = None,
-    table_format: FormatOption = Format.csv,
+    table_format: FormatOption = TableFormat.csv,
     retarget: RetargetOption = None,
     gltf: AvatarOption = None,
     trust: TrustOption = None,
@@ -152,20 +147,20 @@ def predict(
     output = Output(
         smooth=smooth,
         one_euro=None if cutoff_hz is None else OneEuro(cutoff_hz=cutoff_hz, beta=beta),
+        amplify_eyes=amplify_eyes,
         adjustments={} if adjust is None else read_adjustments(adjust),
         left_right_blend=left_right_blend,
         mirror=mirror,
         retargeting=None if retarget is None else read_retargeting(retarget),
     )
-    _check_tables(table_format, out, gltf, video, retarget)
+    check_targets(table_format, out=out, gltf=gltf, retargeted=retarget is not None)
+    if video is not None and retarget is not None:
+        raise InputError("--video takes ARKit's shapes: leave out --retarget")
     if dataset is not None:
         check_stills(
             temporal=temporal, smooth=smooth > 1, one_euro=cutoff_hz is not None, bits=bits is not None
         )
-    if trust is not None and not predictor.model.scores:
-        raise InputError(f"{model} has no scores on a test split, from which confidence is made")
-    if points is not None:
-        check_points(predictor)
+    _check_model(predictor, model, trust=trust, points=points)
     if video is not None:
         check_film_name(video)
     short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
@@ -173,109 +168,55 @@ def predict(
         predictor, camera or [], {name: path for name, path in short.items() if path is not None}
     )
     footage = read_footage(predictor, dataset, paths, from_start=from_start, fps=fps, bits=bits)
-    needed = output.one_euro is not None or table_format is Format.livelink or gltf is not None
-    if needed and footage.time_s is None:
+    if footage.time_s is None and (output.needs_times or needs_times(table_format, gltf)):
         raise InputError(f"{footage.source} does not say when its frames were taken; give --fps")
+    _tell_of(footage, predictor, strict=strict)
+    neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None, bits=bits)
+    prediction, reseated = predict_footage(
+        predictor, footage, neutrals, output=output, keep_neutral=keep_neutral, temporal=temporal
+    )
+    rate_note = _rate_note(predictor.model.temporal.fps, footage.fps) if temporal else ()
+    for note in (*_seat_notes(reseated, keep_neutral=keep_neutral), *rate_note):
+        say(note)
+    if points is not None:
+        write_whole(points, points_csv(predictor, footage))
+    if trust is not None:
+        write_whole(trust, confidence_csv(prediction))
+    write_prediction(prediction, table_format, out=out, gltf=gltf)
+    if video is not None:
+        rate = fps or footage.fps or ASSUMED_FPS
+        write_film(video, footage, weights_csv(prediction), rig=rig, fps=rate)
+        say(f"film in {video}")
+
+
+def _check_model(
+    predictor: HeadsetPredictor, folder: Path, *, trust: Path | None, points: Path | None
+) -> None:
+    if trust is not None and not predictor.model.scores:
+        raise InputError(f"{folder} has no scores on a test split, from which confidence is made")
+    if points is not None:
+        check_points(predictor)
+
+
+def _tell_of(footage: Footage, predictor: HeadsetPredictor, *, strict: bool) -> None:
     if strict and not footage.present[:, footage.recorded].all():
         raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
     for note in (*footage.notes, *told_orientation(footage, predictor.typical)):
         say(note)
-    neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None, bits=bits)
-    performance = perform(
-        predictor,
-        footage,
-        neutrals,
-        output=output,
-        amplify_eyes=amplify_eyes,
-        keep_neutral=keep_neutral,
-        temporal=temporal,
-    )
-    for note in _notes(performance, footage, keep_neutral=keep_neutral):
-        say(note)
-    if points is not None:
-        write_points(points_csv(predictor, footage), points)
-    _write(performance, footage, table_format, out, gltf, trust)
-    if video is not None:
-        rate = fps or (ASSUMED_FPS if footage.time_s is None else _rate(footage.time_s))
-        text = prediction_csv(_prediction(performance, footage, gaze=False))
-        write_film(video, footage, text, rig=rig, fps=rate)
-        say(f"film in {video}")
 
 
-def _check_tables(
-    table_format: Format, out: Path | None, gltf: Path | None, video: Path | None, retarget: Path | None
-) -> None:
-    if (table_format is Format.livelink or video is not None) and retarget is not None:
-        raise InputError("--format livelink and --video take ARKit's shapes: leave out --retarget")
-    if table_format is Format.livelink and gltf is not None:
-        raise InputError("--format livelink has the app's own columns: leave out --gltf")
-    if gltf is not None and out is None:
-        raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
-
-
-def _notes(performance: Performance, footage: Footage, *, keep_neutral: bool) -> Iterator[str]:
-    """What a person should know of how the answers came about."""
+def _seat_notes(reseated: tuple[str, ...], *, keep_neutral: bool) -> Iterator[str]:
     worth = "less well calibrated" if keep_neutral else "not calibrated (--keep-neutral for the same person)"
-    for row in performance.reseated:
+    for frame in reseated:
         yield (
-            f"frame {footage.numbers[row]}: the headset does not sit as in the neutral pictures; weights are {worth} "
+            f"frame {frame}: the headset does not sit as in the neutral pictures; weights are {worth} "
             f"from here on, until a --neutral frame of the new seat"
         )
-    taps_fps = performance.taps_fps
-    if taps_fps is None or footage.time_s is None or len(footage.time_s) < 2:
-        return
-    found_fps = _rate(footage.time_s)
-    if abs(found_fps / taps_fps - 1) > _SAME_RATE:
+
+
+def _rate_note(taps_fps: float, footage_fps: float | None) -> Iterator[str]:
+    if footage_fps is not None and abs(footage_fps / taps_fps - 1) > _SAME_RATE:
         yield (
-            f"--temporal: the model's taps are for {taps_fps:g} frames a second and the take has {found_fps:.4g}; they "
-            f"reach {1000 * (TAPS - 1) / found_fps:.0f} ms back in place of {1000 * (TAPS - 1) / taps_fps:.0f}"
+            f"--temporal: the model's taps are for {taps_fps:g} frames a second and the take has {footage_fps:.4g}; "
+            f"they reach {1000 * (TAPS - 1) / footage_fps:.0f} ms back in place of {1000 * (TAPS - 1) / taps_fps:.0f}"
         )
-
-
-def _prediction(performance: Performance, footage: Footage, *, gaze: bool) -> Prediction:
-    """The performance as the tables take it; there are no landmarks behind it."""
-    frames = Frames(
-        points=np.full((len(footage.numbers), LANDMARK_COUNT, 2), np.nan),
-        labels=tuple(map(str, footage.numbers)),
-        time_s=footage.time_s,
-        source=footage.source,
-    )
-    prediction = Prediction(weights=performance.weights, frames=frames, names=performance.names)
-    if not gaze:
-        return prediction
-    columns = np.hstack([performance.weights, np.degrees(performance.gaze)])
-    return dataclasses.replace(prediction, weights=columns, names=(*performance.names, *GAZE_COLUMNS))
-
-
-def _write(
-    performance: Performance,
-    footage: Footage,
-    table_format: Format,
-    out: Path | None,
-    gltf: Path | None,
-    trust: Path | None,
-) -> None:
-    plain = _prediction(performance, footage, gaze=False)
-    if trust is not None:
-        write_confidence(plain, performance.confidence, trust)
-    if gltf is not None:
-        write_avatar(plain, gltf, out)
-    elif table_format is Format.livelink:
-        write_table(plain, table_format, out, rotations=_rotations(performance.gaze))
-    else:
-        write_table(_prediction(performance, footage, gaze=True), table_format, out)
-
-
-def _rotations(gaze: np.ndarray) -> np.ndarray:
-    """Live Link's nine angles (n, 9) in radians: none of the head, and the eyes' with the app's signs.
-
-    In its recordings an eye's yaw is -0.60 times lookOut less lookIn of the left eye, and pitch -0.56 times
-    lookUp less lookDown (4,030 frames of one take, correlations of .996 and more).
-    """
-    angles = np.zeros((len(gaze), 9))
-    angles[:, [3, 4, 6, 7]] = -gaze
-    return angles
-
-
-def _rate(time_s: np.ndarray) -> float:
-    return 1 / float(np.median(np.diff(time_s))) if len(time_s) > 1 else ASSUMED_FPS

@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from regress.cli.results import Format
-from regress.runtime.retargeting import shipped_targets
+from regress.cli.results import TableFormat
+from regress.runtime.stages.retargeting import shipped_targets
 
 OutOption = Annotated[
     Path | None,
@@ -14,7 +14,7 @@ OutOption = Annotated[
 ]
 
 FormatOption = Annotated[
-    Format, typer.Option("--format", help="csv, or livelink for the columns of the Live Link Face app.")
+    TableFormat, typer.Option("--format", help="csv, or livelink for the columns of the Live Link Face app.")
 ]
 
 RetargetOption = Annotated[

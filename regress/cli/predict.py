@@ -2,6 +2,7 @@
 
 import dataclasses
 import sys
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Annotated
 
@@ -9,6 +10,8 @@ import numpy as np
 import typer
 
 from facegen.console import say
+from facegen.files import write_whole
+from regress.cli.fault_runs import FaultRuns
 from regress.cli.options import (
     AvatarOption,
     BetaOption,
@@ -21,19 +24,18 @@ from regress.cli.options import (
     SmoothOption,
     TrustOption,
 )
-from regress.cli.results import Format, write_avatar, write_confidence, write_table
+from regress.cli.results import TableFormat, check_targets, needs_times, write_prediction
 from regress.cli.rows import sound_rows
 from regress.errors import InputError
-from regress.runtime.adjustment import mirror as exchanged
-from regress.runtime.adjustment import read_adjustments
-from regress.runtime.confidence import confidence
-from regress.runtime.inputs import Frames, read_frames
+from regress.runtime.inputs import Frames, read_frames, read_lines
 from regress.runtime.model import Model, load_model, symmetrised
-from regress.runtime.neutral import estimate_neutral
-from regress.runtime.predict import Output, predict_frames
-from regress.runtime.retargeting import read_retargeting
-from regress.runtime.smoothing import OneEuro
-from regress.runtime.stream import stream_csv
+from regress.runtime.predict import predict_frames, predict_stream
+from regress.runtime.sample import Sample
+from regress.runtime.stages import OneEuro, Output
+from regress.runtime.stages.adjustment import read_adjustments
+from regress.runtime.stages.neutral import estimate_neutral
+from regress.runtime.stages.retargeting import read_retargeting
+from regress.runtime.writers import confidence_csv, csv_lines
 
 
 def predict(
@@ -47,7 +49,7 @@ def predict(
         ),
     ],
     out: OutOption = None,
-    table_format: FormatOption = Format.csv,
+    table_format: FormatOption = TableFormat.csv,
     retarget: RetargetOption = None,
     gltf: AvatarOption = None,
     trust: TrustOption = None,
@@ -109,42 +111,49 @@ def predict(
         mirror=mirror,
         retargeting=None if retarget is None else read_retargeting(retarget),
     )
-    if table_format is Format.livelink and (retarget is not None or gltf is not None):
-        raise InputError("--format livelink has the app's own columns: leave out --retarget and --gltf")
-    if gltf is not None and out is None:
-        raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
+    check_targets(table_format, out=out, gltf=gltf, retargeted=retarget is not None)
     if str(landmarks) == "-":
-        if not (out is gltf is trust is None and table_format is Format.csv):
+        if not (out is gltf is trust is None and table_format is TableFormat.csv):
             raise InputError("weights of standard input leave as CSV on standard output alone: use > FILE")
-        _predict_stream(loaded, neutral, output, fps, strict)
+        _predict_stream(loaded, neutral, output, fps=fps, strict=strict)
         return
     frames = read_frames(landmarks)
     if fps is not None:
         frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
-    frames = sound_rows(frames, strictly=output.needs_times or gltf is not None, strict=strict)
+    timed = output.needs_times or needs_times(table_format, gltf)
+    frames = sound_rows(frames, needs_times=timed, strict=strict)
     calibrated = _calibrated(loaded, frames, neutral)
-    prediction = predict_frames(calibrated, frames, output=output)
+    prediction = predict_frames(calibrated, frames, output=output, confident=trust is not None)
     if trust is not None:
-        values = confidence(calibrated, frames.points)
-        write_confidence(prediction, exchanged(values) if mirror else values, trust)
-    if gltf is not None:
-        write_avatar(prediction, gltf, out)
-    else:
-        write_table(prediction, table_format, out)
+        write_whole(trust, confidence_csv(prediction))
+    write_prediction(prediction, table_format, out=out, gltf=gltf)
 
 
-def _predict_stream(model: Model, neutral: str, output: Output, fps: float | None, strict: bool) -> None:
+def _predict_stream(model: Model, neutral: str, output: Output, *, fps: float | None, strict: bool) -> None:
     if neutral not in ("auto", "none"):
         model = model.calibrate(_neutral_file(neutral, "standard input").points)
-    lines = stream_csv(sys.stdin, model, output, fps=fps, auto=neutral == "auto", strict=strict, say=say)
+    samples = read_lines(sys.stdin, fps=fps)
+    answers = predict_stream(samples, model, output, auto=neutral == "auto", say=say)
     try:
-        for line in lines:
+        for line in csv_lines(_told(answers, strict=strict), output.names):
             sys.stdout.write(line)
             sys.stdout.flush()  # the reader wants each frame as it comes
     except UnicodeDecodeError as error:
         raise InputError(
             f"standard input is not text ({error}); lines of 136 numbers are needed, and files are read by name"
         ) from error
+
+
+def _told(answers: Iterable[Sample], *, strict: bool) -> Iterator[Sample]:
+    """The answers, while runs of faulty lines are told; where ``strict``, the first one is an error."""
+    runs, number = FaultRuns(say), 0
+    for number, sample in enumerate(answers, start=1):
+        fault = sample.faults.get("points")
+        if fault is not None and strict:
+            raise InputError(f"line {number} has {fault.value}; without --strict its cells stay empty")
+        runs.step(number, fault)
+        yield sample
+    runs.step(number + 1, None)
 
 
 def _calibrated(model: Model, frames: Frames, neutral: str) -> Model:

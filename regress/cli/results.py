@@ -4,63 +4,53 @@ import sys
 from enum import Enum
 from pathlib import Path
 
-import numpy as np
-
 from facegen.console import say
 from facegen.files import write_whole
-from facegen.formats import live_link_csv
-from facegen.formats.gltf_animation import animate_avatar
 from regress.errors import InputError
-from regress.runtime.predict import Prediction, prediction_csv
+from regress.runtime.prediction import Prediction
+from regress.runtime.writers import TABLES, animated_avatar
+
+TableFormat = Enum("TableFormat", {name: name for name in TABLES}, type=str)
+"""Tables that ``--format`` knows."""
 
 
-class Format(str, Enum):
-    """Tables that `regress predict` writes."""
-
-    csv = "csv"
-    livelink = "livelink"
-
-
-def write_table(
-    prediction: Prediction, chosen: Format, out: Path | None, *, rotations: np.ndarray | None = None
+def check_targets(
+    table_format: TableFormat, *, out: Path | None, gltf: Path | None, retargeted: bool
 ) -> None:
-    """Write a table to a file, or to standard output; ``rotations`` (n, 9) are Live Link's angles."""
-    if chosen is Format.livelink:
-        text = live_link_csv(prediction.weights, _known_times(prediction), rotations=rotations)
-    else:
-        text = prediction_csv(prediction)
-    if out is None:
-        sys.stdout.write(text)
-        sys.stdout.flush()
-    else:
-        write_whole(out, text)
+    """Refuse options that cannot all be had.
+
+    Raises
+    ------
+    InputError
+        Where they cannot.
+    """
+    if TABLES[table_format.value].arkit_only and (retargeted or gltf is not None):
+        raise InputError(
+            f"--format {table_format.value} has the app's own columns: leave out --retarget and --gltf"
+        )
+    if gltf is not None and out is None:
+        raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
 
 
-def write_confidence(prediction: Prediction, trust: np.ndarray, out: Path) -> None:
-    """Write a table (n, 52) of how far each ARKit weight can be trusted, row by row that of the weights."""
-    write_whole(out, prediction_csv(Prediction(weights=trust, frames=prediction.frames)))
+def needs_times(table_format: TableFormat, gltf: Path | None) -> bool:
+    """Whether what is written has a time for every frame."""
+    return gltf is not None or TABLES[table_format.value].needs_times
 
 
-def write_points(table: str, out: Path) -> None:
-    """Write a table of traced points."""
-    write_whole(out, table)
-
-
-def write_avatar(prediction: Prediction, avatar: Path, out: Path) -> None:
-    """Write an avatar with the prediction as an animation more, and say which shapes it lacks."""
-    title = Path(prediction.frames.source).stem
-    made = animate_avatar(avatar, prediction.names, prediction.weights, _known_times(prediction), title=title)
-    if made.missing:
-        count = f"{len(made.missing)} of {len(prediction.names)} shapes"
-        say(f"{avatar} has no morph target for {count}: {', '.join(made.missing)}")
-    write_whole(out, made.content)
-
-
-def _known_times(prediction: Prediction) -> np.ndarray:
-    """Seconds of every row; a row without a time, which has no weights either, takes that of the row before."""
-    time_s = prediction.frames.time_s
-    if time_s is None:
-        raise InputError(f"{prediction.frames.source} does not say when its frames were taken; give --fps")
-    known = np.flatnonzero(np.isfinite(time_s))
-    last = np.searchsorted(known, np.arange(len(time_s)), side="right") - 1
-    return time_s[known[np.maximum(last, 0)]] if len(known) else np.zeros(len(time_s))
+def write_prediction(
+    prediction: Prediction, table_format: TableFormat, *, out: Path | None, gltf: Path | None
+) -> None:
+    """Write a table to a file or to standard output, or an animated avatar, and say which shapes that lacks."""
+    if gltf is None:
+        text = TABLES[table_format.value].text(prediction)
+        if out is None:
+            sys.stdout.write(text)
+            sys.stdout.flush()
+        else:
+            write_whole(out, text)
+        return
+    avatar = animated_avatar(prediction, gltf)
+    if avatar.missing:
+        count = f"{len(avatar.missing)} of {len(prediction.names)} shapes"
+        say(f"{gltf} has no morph target for {count}: {', '.join(avatar.missing)}")
+    write_whole(out, avatar.content)

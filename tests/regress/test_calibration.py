@@ -15,7 +15,7 @@ from regress.learning.training.preparation import faces_of, prepare
 from regress.runtime.features import extract
 from regress.runtime.model import Model, load_model, save_model
 from regress.runtime.networks import evaluate
-from regress.runtime.neutral import estimate_neutral
+from regress.runtime.stages.neutral import estimate_neutral
 from tests.regress.conftest import QUICK, write_dataset
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 from tests.regress.exporters.readers import READERS

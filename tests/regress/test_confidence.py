@@ -9,9 +9,9 @@ import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError
-from regress.runtime.adjustment import mirror
-from regress.runtime.confidence import confidence
 from regress.runtime.model import load_model
+from regress.runtime.stages.adjustment import mirror
+from regress.runtime.stages.confidence import confidence
 
 
 @pytest.fixture

@@ -13,16 +13,20 @@ from regress.runtime.inputs import (
     Fault,
     Frames,
     TimeOrder,
-    emptied,
     face_faults,
+    fault_sentences,
     read_frames,
-    row_faults,
-    told,
 )
-from regress.runtime.predict import Output, predict_frames
+from regress.runtime.predict import predict_frames
+from regress.runtime.sample import Sample
+from regress.runtime.stages import Output, Soundness
 from tests.regress.drawn import drawn_face, drawn_faces
 
 GOOD = drawn_faces(np.random.default_rng(8), 9)
+
+
+def _judged(frames: Frames) -> list[Sample]:
+    return Soundness(needs_times=False).run(frames.samples())
 
 
 def _exchanged(faces: np.ndarray) -> np.ndarray:
@@ -58,7 +62,7 @@ def test_faces_are_told_from_mirrored_ones_however_they_are_turned(seed: int, ro
 def test_the_real_recordings_have_no_faults(real):
     for name in ("pyfeat_clip_001.csv", "openface_sequence.csv", "dlib_faces.xml", "breakingbad.pts"):
         (path,) = real.rglob(name)
-        assert set(row_faults(read_frames(path), strictly=False)) == {None}
+        assert not any(sample.faults for sample in _judged(read_frames(path)))
 
 
 def test_times_must_go_on_and_smoothing_wants_each_to_be_later():
@@ -71,8 +75,8 @@ def test_times_must_go_on_and_smoothing_wants_each_to_be_later():
 
 def test_runs_of_rows_are_joined():
     faults = [None, Fault.MISSING, Fault.MISSING, None, Fault.MISSING, Fault.MIRRORED]
-    assert told(faults)[0] == "3 of 6 rows have no face: 2-3, 5"
-    assert told(faults)[1].endswith("y pointing up: 6")
+    assert fault_sentences(faults)[0] == "3 of 6 rows have no face: 2-3, 5"
+    assert fault_sentences(faults)[1].endswith("y pointing up: 6")
 
 
 @pytest.mark.parametrize("kind", BAD_FACES)
@@ -187,10 +191,11 @@ def test_a_line_without_a_face_keeps_the_columns_of_a_timed_pipe(run, quick_mode
     assert out.splitlines()[2] == "2" + "," * 53
 
 
-def test_emptying_leaves_the_rest():
-    frames = Frames(points=GOOD, labels=tuple("012345678"), time_s=None, source="here")
-    faults: list[Fault | None] = [None] * 9
-    faults[4] = Fault.MISSING
-    left = emptied(frames, faults)
-    assert np.isnan(left.points[4]).all()
-    np.testing.assert_array_equal(np.delete(left.points, 4, axis=0), np.delete(GOOD, 4, axis=0))
+def test_a_faulty_face_leaves_and_the_rest_stay():
+    points = GOOD.copy()
+    points[4, 30] = np.nan
+    judged = _judged(Frames(points=points, labels=tuple("012345678"), time_s=None, source="here"))
+    assert [sample.faults.get("points") for sample in judged] == [None] * 4 + [Fault.MISSING] + [None] * 4
+    left = np.array([sample.points for sample in judged])
+    assert np.isnan(left[4]).all()
+    np.testing.assert_array_equal(np.delete(left, 4, axis=0), np.delete(GOOD, 4, axis=0))

@@ -70,7 +70,7 @@ def _ck_plus(folder: Path) -> Path:
     return folder
 
 
-def _example(name: str, folder: Path) -> Path:
+def example_file(name: str, folder: Path) -> Path:
     """A file of three faces (one for ``pts``) in a format of the table."""
     if name == "pts_folder":
         (folder / "faces").mkdir()
@@ -96,7 +96,7 @@ def _example(name: str, folder: Path) -> Path:
 
 @pytest.mark.parametrize("name", READERS)
 def test_every_format_of_the_table_gives_the_points_back(name: str, tmp_path: Path):
-    frames = read_frames(_example(name, tmp_path))
+    frames = read_frames(example_file(name, tmp_path))
     expected = FACES[: len(frames.points)]
     assert len(frames.labels) == len(frames.points) > 0
     assert np.allclose(frames.points, expected, atol=1e-4)
@@ -105,7 +105,7 @@ def test_every_format_of_the_table_gives_the_points_back(name: str, tmp_path: Pa
 
 
 def test_a_folder_goes_by_number_not_by_letter(tmp_path: Path):
-    assert read_frames(_example("pts_folder", tmp_path)).labels == ("frame_2", "frame_10", "frame_100")
+    assert read_frames(example_file("pts_folder", tmp_path)).labels == ("frame_2", "frame_10", "frame_100")
 
 
 def test_300w_folders_are_read_below_the_folder(tmp_path: Path):

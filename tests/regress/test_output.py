@@ -4,22 +4,42 @@ import dataclasses
 import io
 import json
 import sys
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
-from regress.runtime.adjustment import ShapeAdjustment, adjust, blend_sides, mirror, read_adjustments
-from regress.runtime.inputs import Frames
+from regress.runtime.inputs import Frames, read_lines
 from regress.runtime.model import Model
-from regress.runtime.predict import Output, predict_frames
-from regress.runtime.smoothing import OneEuro, OneEuroStream, by_region, one_euro
-from regress.runtime.stream import stream_csv
+from regress.runtime.predict import predict_frames, predict_stream
+from regress.runtime.sample import Sample
+from regress.runtime.stages import OneEuro, Output
+from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror, read_adjustments
+from regress.runtime.stages.smoothing import OneEuroFilter, OneEuroSmoothing, by_region
+from regress.runtime.writers import csv_lines
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 
 WEIGHTS = np.random.default_rng(0).uniform(size=(20, 52))
 TIMES = np.arange(20) / 30
+
+
+def one_euro(weights: np.ndarray, time_s: np.ndarray, settings: OneEuro) -> np.ndarray:
+    """Weights (n, 52) after the stage; frames are called after their rows, counted from 1."""
+    samples = [
+        Sample(label=str(row), time_s=float(time), weights=weights[row - 1])
+        for row, time in enumerate(time_s, start=1)
+    ]
+    return np.array([sample.weights for sample in OneEuroSmoothing(settings).run(samples)])
+
+
+def stream_csv(
+    lines: Iterable[str], model: Model, output: Output, *, fps: float | None = None, **settings: Any
+) -> Iterator[str]:
+    """Lines in, lines out, each as soon as its frame is known."""
+    return csv_lines(predict_stream(read_lines(lines, fps=fps), model, output, **settings), output.names)
 
 
 def test_one_euro_calms_a_still_face_and_follows_a_quick_one():
@@ -55,9 +75,9 @@ def test_one_euro_knows_gaps_empty_rows_and_disorder():
     assert np.isfinite(np.delete(smooth, 5, axis=0)).all()
     assert np.array_equal(smooth[10], weights[10])  # two seconds later nothing is carried over
     times[12] = times[11]
-    with pytest.raises(InputError, match=r"row 13: .* in order"):
+    with pytest.raises(InputError, match=r"frame 13: .* in order"):
         one_euro(weights, times, OneEuro())
-    with pytest.raises(InputError, match="row 1 has no time"):
+    with pytest.raises(InputError, match="frame 1 has no time"):
         one_euro(weights, np.full(20, np.nan), OneEuro())
     times[12] = times[11] + 0.01
     expected = one_euro(weights, times, OneEuro())
@@ -66,7 +86,7 @@ def test_one_euro_knows_gaps_empty_rows_and_disorder():
 
 
 def test_one_euro_steps_as_it_runs():
-    stream = OneEuroStream(OneEuro())
+    stream = OneEuroFilter(OneEuro())
     rows = [stream.step(float(time), row) for time, row in zip(TIMES, WEIGHTS, strict=True)]
     assert np.array_equal(rows, one_euro(WEIGHTS, TIMES, OneEuro()))
     assert by_region(OneEuro(cutoff_hz=2))[BLENDSHAPE_INDEX["eyeBlinkLeft"]] == 6

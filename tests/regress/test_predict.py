@@ -12,7 +12,10 @@ from facegen.conventions import BLENDSHAPES
 from regress.learning.training import KeypointDataset
 from regress.runtime.inputs import Frames
 from regress.runtime.model import Model
-from regress.runtime.predict import moving_average, predict_frames, prediction_csv
+from regress.runtime.predict import predict_frames
+from regress.runtime.sample import Sample
+from regress.runtime.stages.smoothing import MovingAverage
+from regress.runtime.writers import weights_csv
 
 
 def _frames(points: np.ndarray, *, time_s: np.ndarray | None = None) -> Frames:
@@ -25,7 +28,8 @@ def test_smoothing_is_the_mean_of_the_last_frames(seed: int, rows: int, window: 
     rng = np.random.default_rng(seed)
     weights = rng.uniform(size=(rows, 3))
     weights[rng.random(rows) < 0.2] = np.nan
-    smooth = moving_average(weights.copy(), window)
+    samples = [Sample(weights=row) for row in weights]
+    smooth = [sample.weights for sample in MovingAverage(window).run(samples)]
     for row in range(rows):
         if np.isnan(weights[row]).any():
             assert np.isnan(smooth[row]).all()
@@ -40,11 +44,11 @@ def test_the_csv_reads_back_with_empty_cells_where_no_face_is(quick_model: Model
     points[2] = np.nan
     prediction = predict_frames(quick_model, _frames(points, time_s=np.arange(4) / 30))
     assert np.isnan(prediction.weights).all(axis=1).tolist() == [False, False, True, False]
-    rows = list(csv.DictReader(io.StringIO(prediction_csv(prediction))))
+    rows = list(csv.DictReader(io.StringIO(weights_csv(prediction))))
     assert list(rows[0]) == ["frame", "time_s", *BLENDSHAPES]
     assert [row["frame"] for row in rows] == ["0", "1", "2", "3"]
     assert all(rows[2][name] == "" for name in BLENDSHAPES)
     read = np.array([[float(rows[row][name]) for name in BLENDSHAPES] for row in (0, 1, 3)])
     assert np.allclose(read, prediction.weights[[0, 1, 3]], atol=5.1e-7)
-    without = prediction_csv(predict_frames(quick_model, _frames(points)))
+    without = weights_csv(predict_frames(quick_model, _frames(points)))
     assert without.startswith("frame,eyeBlinkLeft,")

@@ -11,14 +11,17 @@ from facegen.conventions import BLENDSHAPES
 from facegen.formats import read_live_link
 from regress.runtime.features import align_similarity, extract
 from regress.runtime.inputs import Frames
-from regress.runtime.predict import Output, predict_frames
-from regress.runtime.retargeting import read_retargeting, shipped_targets
-from regress.runtime.smoothing import smooth_landmarks
-from regress.runtime.stream import WeightStream
+from regress.runtime.stages.retargeting import read_retargeting, shipped_targets
+from regress.runtime.stages.smoothing import LandmarkSmoothing
 from tests.facegen.formats.test_gltf_animation import avatar
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 
 FACES = drawn_faces(np.random.default_rng(4), 12)
+
+
+def _smoothed(faces: np.ndarray, time_s: np.ndarray, cutoff_hz: float, mean: np.ndarray) -> np.ndarray:
+    frames = Frames(points=faces, labels=tuple(map(str, range(len(faces)))), time_s=time_s, source="here")
+    return np.array([sample.points for sample in LandmarkSmoothing(cutoff_hz, mean).run(frames.samples())])
 
 
 @pytest.fixture
@@ -102,28 +105,8 @@ def test_smooth_landmarks_calm_a_still_face_of_a_moving_head(quick_model):
     still = np.repeat(drawn_face()[None], 90, axis=0)
     time_s, mean = np.arange(90) / 30, quick_model.features.mean_shape
     moving = in_pictures(rng, still)  # another roll, size and place in every frame
-    calm = smooth_landmarks(moving, time_s, 1.0, mean)
+    calm = _smoothed(moving, time_s, 1.0, mean)
     np.testing.assert_allclose(calm, np.repeat(calm[:1], 90, axis=0), atol=1e-12)
-    noisy = smooth_landmarks(
-        in_pictures(rng, still + rng.normal(size=still.shape) * 0.004), time_s, 1.0, mean
-    )
+    noisy = _smoothed(in_pictures(rng, still + rng.normal(size=still.shape) * 0.004), time_s, 1.0, mean)
     raw = align_similarity(in_pictures(rng, still + rng.normal(size=still.shape) * 0.004), mean)
     assert noisy[30:].std(axis=0).mean() < raw[30:].std(axis=0).mean() / 2
-
-
-@pytest.mark.parametrize("target", [None, "mixamo50"])
-def test_a_stream_gives_what_a_recording_gives(target, quick_model):
-    output = Output(
-        smooth_landmarks_hz=1.5,
-        smooth=3,
-        mirror=True,
-        retargeting=None if target is None else read_retargeting(target),
-    )
-    faces = FACES.copy()
-    faces[4] = np.nan
-    frames = Frames(points=faces, labels=tuple("abcdefghijkl"), time_s=np.arange(12) / 30, source="here")
-    stream = WeightStream(quick_model, output)
-    streamed = [stream.step(time, face) for time, face in zip(frames.time_s, faces, strict=True)]
-    np.testing.assert_allclose(
-        streamed, predict_frames(quick_model, frames, output=output).weights, atol=1e-5
-    )

@@ -24,7 +24,10 @@ Sensor noise alone makes more than 1; a film's encoder leaves less than this bet
 """
 
 FROZEN_FRAMES = 8
-"""Repeats of a picture beyond which its camera is frozen if others go on: a quarter of a second at 30 a second."""
+"""Repeats of a picture beyond which its camera is frozen if others go on: a quarter of a second at 30 a second.
+
+What is read from a file is judged as it would be live, so the repeats before count as pictures.
+"""
 
 _TOLD_RUNS = 8
 """Runs of frames that a sentence lists; the count in front of them is of all."""
@@ -48,42 +51,45 @@ def picture_fault(picture: np.ndarray) -> Fault | None:
     return Fault.FLAT if picture.std() < FLAT else None
 
 
-def frozen_frames(
-    pictures: Mapping[str, np.ndarray], present: Mapping[str, np.ndarray]
-) -> dict[str, np.ndarray]:
-    """Frames in which each camera repeats a picture while another moves.
+class FrozenWatch:
+    """Watches cameras side by side for one that repeats a picture while another moves, as frames come.
 
-    A run of repeats counts, all of it but its first picture, where it is longer than `FROZEN_FRAMES` and another
-    camera has changed in its course. A recording of one camera has no others, and is never called frozen.
-
-    Parameters
-    ----------
-    pictures
-        (n, h, w) uint8 of each camera, in the order of time.
-    present
-        (n,) bool of each: whether there is a picture.
-
-    Returns
-    -------
-    dict of (n,) bool
+    A camera is frozen from the repeat after `FROZEN_FRAMES` on, if another camera has changed since the repeats began.
+    A recording of one camera has no others, and is never called frozen.
     """
-    repeats = {name: _repeats(pictures[name], present[name]) for name in pictures}
-    frozen = {}
-    for name, repeated in repeats.items():
-        others = [present[other] & ~repeats[other] for other in pictures if other != name]
-        moving = np.any(others, axis=0) if others else np.zeros(len(repeated), dtype=bool)
-        frozen[name] = np.zeros(len(repeated), dtype=bool)
-        for start, stop in _runs(repeated):
-            if stop - start > FROZEN_FRAMES and moving[start:stop].any():
-                frozen[name][start:stop] = True
-    return frozen
+
+    def __init__(self) -> None:
+        self._first: dict[str, np.ndarray] = {}
+        self._repeats: dict[str, int] = {}
+        self._moved: set[str] = set()
+
+    def step(self, pictures: Mapping[str, np.ndarray]) -> set[str]:
+        """Names of the cameras whose picture is frozen in the next frame.
+
+        Parameters
+        ----------
+        pictures
+            (h, w) uint8 by camera; a camera without a picture starts afresh.
+        """
+        self._first = {name: first for name, first in self._first.items() if name in pictures}
+        changed = set()
+        for name, picture in pictures.items():
+            # compared with the first of a run, so that slow drift is no repeat
+            if name in self._first and _same(self._first[name], picture):
+                self._repeats[name] += 1
+            else:
+                self._first[name], self._repeats[name] = picture, 0
+                self._moved.discard(name)
+                changed.add(name)
+        self._moved |= {name for name in pictures if name not in changed and changed}
+        return {name for name in pictures if self._repeats[name] > FROZEN_FRAMES and name in self._moved}
 
 
-def told_faults(camera: str, numbers: Sequence[int], faults: Sequence[Fault | None]) -> list[str]:
+def fault_sentences(camera: str, numbers: Sequence[int], faults: Sequence[Fault | None]) -> list[str]:
     """A sentence a kind of fault: how many of a camera's frames, and which, by their numbers."""
     lines = []
     for fault in Fault:
-        frames = [int(number) for number, found in zip(numbers, faults, strict=True) if found is fault]
+        frames = [int(number) for number, other in zip(numbers, faults, strict=True) if other is fault]
         if frames:
             which = "all of them" if len(frames) == len(faults) else _listed(frames)
             lines.append(f"{camera}: {len(frames)} of {len(faults)} frames have {fault.value}: {which}")
@@ -97,25 +103,5 @@ def _listed(frames: list[int]) -> str:
     return f"{', '.join(runs[:_TOLD_RUNS])} and {len(runs) - _TOLD_RUNS} more"
 
 
-def _repeats(pictures: np.ndarray, present: np.ndarray) -> np.ndarray:
-    """Whether each picture is the one before it; compared with the first of a run, so that slow drift is none."""
-    repeated = np.zeros(len(pictures), dtype=bool)
-    first = None
-    for row, there in enumerate(present):
-        if not there:
-            first = None
-        elif first is not None and _same(pictures[first], pictures[row]):
-            repeated[row] = True
-        else:
-            first = row
-    return repeated
-
-
 def _same(one: np.ndarray, other: np.ndarray) -> bool:
     return float(np.abs(one.astype(np.int16) - other).mean()) <= STILL
-
-
-def _runs(flags: np.ndarray) -> list[tuple[int, int]]:
-    """Starts and stops of runs of True."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(np.int8)))
-    return [(int(start), int(stop)) for start, stop in edges.reshape(-1, 2)]

@@ -1,22 +1,21 @@
 """The avatar beside the cameras' pictures, as a film."""
 
-import os
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import BinaryIO
 
 import cv2
 import numpy as np
 
+from facegen.files import output_errors, whole_file
 from facegen.formats.film import encode_film
+from facegen.formats.ppm import read_ppm_stream
 from regress.errors import InputError, OutputError
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.recordings import FILMS
-
-WRITTEN = tuple(suffix for suffix in FILMS if suffix != ".webm")
-"""Endings of films that can be written: WebM holds no MPEG-4."""
 
 _GREY = 40
 """Of what surrounds the pictures, and of a camera that has none."""
@@ -45,27 +44,18 @@ def write_film(
     OutputError
         Where the film cannot be written.
     """
-    part = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
-    try:
+    with output_errors(path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory() as folder:
-            table, face = Path(folder, "weights.csv"), Path(folder, "face.mp4")
-            table.write_text(weights_csv, encoding="utf-8")
-            _draw_face(table, face, rig=rig, fps=fps, height_px=height_px)
-            encode_film(part, _tiled(footage, face, height_px), fps=fps)
-        part.replace(path)
-    except OSError as error:
-        raise OutputError(f"the film cannot be written to {path}: {error.strerror or error}") from error
-    finally:
-        part.unlink(missing_ok=True)
+    with whole_file(path) as part, tempfile.TemporaryDirectory() as folder:
+        table = Path(folder, "weights.csv")
+        table.write_text(weights_csv, encoding="utf-8")
+        encode_film(part, _drawn(footage, table, rig=rig, fps=fps, height_px=height_px), fps=fps)
 
 
 def check_film_name(path: Path) -> None:
-    """Refuse a name whose ending is not one of ``WRITTEN``."""
-    if path.suffix.lower() not in WRITTEN:
-        raise InputError(
-            f"{path} is no name of a film that can be written; these end in {', '.join(WRITTEN)}"
-        )
+    """Refuse a name whose ending is not one of those that can be written."""
+    if path.suffix.lower() not in FILMS:
+        raise InputError(f"{path} is no name of a film that can be written; these end in {', '.join(FILMS)}")
 
 
 def tiles(footage: Footage, row: int, height_px: int) -> np.ndarray:
@@ -92,13 +82,16 @@ def tiles(footage: Footage, row: int, height_px: int) -> np.ndarray:
     return canvas
 
 
-def _draw_face(table: Path, out: Path, *, rig: str, fps: float, height_px: int) -> None:
-    # a program of its own: the packages meet in files, and its renderer belongs to facegen
-    options = [
+def _drawn(footage: Footage, table: Path, *, rig: str, fps: float, height_px: int) -> Iterator[np.ndarray]:
+    """Pictures (h, w, 3) RGB of the film: the face comes from a program of its own, as pictures on a pipe.
+
+    The packages meet in files and pipes, and the renderer belongs to facegen.
+    """
+    options = (
         "--weights",
         table,
         "--out",
-        out,
+        "-",
         "--rig",
         rig,
         "--fps",
@@ -106,25 +99,41 @@ def _draw_face(table: Path, out: Path, *, rig: str, fps: float, height_px: int) 
         "--size",
         height_px,
         "--no-landmarks",
-    ]
+    )
     command = [sys.executable, "-m", "facegen", "preview", *map(str, options)]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
-        said = (done.stderr.strip() or "no reason given").splitlines()[-1]
-        raise InputError(f"facegen preview cannot draw the face: {said}")
+    with (
+        tempfile.TemporaryFile() as talk,
+        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=talk) as facegen,
+    ):
+        try:
+            rows = 0
+            for rows, face in enumerate(read_ppm_stream(facegen.stdout), start=1):
+                yield _beside(footage, rows - 1, face)
+        finally:
+            facegen.stdout.close()
+            code = facegen.wait()
+        if code:
+            raise InputError(f"facegen preview cannot draw the face: {_last_line(talk)}")
+        if rows != len(footage.numbers):
+            raise OutputError(f"facegen preview drew {rows} frames; {len(footage.numbers)} are needed")
 
 
-def _tiled(footage: Footage, face: Path, height_px: int) -> Iterator[np.ndarray]:
-    film = cv2.VideoCapture(str(face))
-    try:
-        for row in range(len(footage.numbers)):
-            there, picture = film.read()
-            if not there:
-                raise OutputError(f"facegen preview drew {row} frames; {len(footage.numbers)} are needed")
-            beside = tiles(footage, row, picture.shape[0])
-            number = str(footage.numbers[row])
-            place = (8, picture.shape[0] - 10)
-            cv2.putText(picture, number, place, cv2.FONT_HERSHEY_SIMPLEX, 0.5, (90,) * 3, 1, cv2.LINE_AA)
-            yield cv2.cvtColor(np.hstack([beside, picture]), cv2.COLOR_BGR2RGB)
-    finally:
-        film.release()
+def _beside(footage: Footage, row: int, face: np.ndarray) -> np.ndarray:
+    """One picture of the film: the cameras' pictures at the left, the face with the frame's number at the right."""
+    face = face.copy()
+    cv2.putText(
+        face,
+        str(footage.numbers[row]),
+        (8, face.shape[0] - 10),
+        cv2.FONT_HERSHEY_SIMPLEX,
+        0.5,
+        (90,) * 3,
+        1,
+        cv2.LINE_AA,
+    )
+    return np.hstack([tiles(footage, row, face.shape[0]), face])
+
+
+def _last_line(talk: BinaryIO) -> str:
+    talk.seek(0)
+    return (talk.read().decode(errors="replace").strip() or "no reason given").splitlines()[-1]

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from regress.errors import InputError
-from regress.runtime.headset.faults import Fault, frozen_frames, told_faults
+from regress.runtime.headset.faults import Fault, FrozenWatch, fault_sentences
 from regress.runtime.headset.recordings import Recording
+from regress.runtime.sample import Sample
 
 _LONGEST_GRID = 4
 """Frames of an even count for each that is there; numbers farther apart, or not even, are clock times."""
@@ -60,6 +61,30 @@ class Footage:
         return np.array(
             [any(fault is not Fault.MISSING for fault in self.faults[name]) for name in self.cameras]
         )
+
+    def samples(self) -> list[Sample]:
+        """The frames one by one, as the stages take them."""
+        samples = []
+        for row, number in enumerate(self.numbers):
+            faults = {name: self.faults[name][row] for name in self.cameras}
+            samples.append(
+                Sample(
+                    label=str(number),
+                    time_s=None if self.time_s is None else float(self.time_s[row]),
+                    pictures={
+                        name: self.pictures[name][row] for name in self.cameras if faults[name] is None
+                    },
+                    faults={name: fault for name, fault in faults.items() if fault is not None},
+                )
+            )
+        return samples
+
+    @property
+    def fps(self) -> float | None:
+        """Frames a second, in the median; None where times are not known or there is one frame."""
+        if self.time_s is None or len(self.time_s) < 2:
+            return None
+        return 1 / float(np.median(np.diff(self.time_s)))
 
     @property
     def given(self) -> np.ndarray:
@@ -128,13 +153,10 @@ def line_up(
                 scaled_from[name][rows[name]] = recording.scaled_from[:count]
         faults[name] = found
     if not still:
-        present = {name: np.array([fault is None for fault in faults[name]]) for name in recordings}
-        for name, frozen in frozen_frames({name: pictures[name] for name in recordings}, present).items():
-            faults[name][frozen] = Fault.FROZEN
-            pictures[name][frozen] = 0
+        _mark_frozen({name: pictures[name] for name in recordings}, faults)
     for name in sizes:
         if name in recordings:
-            notes += told_faults(name, numbers, faults[name])
+            notes += fault_sentences(name, numbers, faults[name])
         else:
             notes.append(
                 f"{name}: not given; its shapes come from the other cameras as far as these know them"
@@ -152,6 +174,17 @@ def line_up(
         notes=tuple(notes),
         scaled_from=scaled_from,
     )
+
+
+def _mark_frozen(pictures: Mapping[str, np.ndarray], faults: Mapping[str, np.ndarray]) -> None:
+    """Find frozen pictures, as a live headset's are found, and blank them."""
+    watch = FrozenWatch()
+    for row in range(len(next(iter(pictures.values())))):
+        sound = {name: stack[row] for name, stack in pictures.items() if faults[name][row] is None}
+        for name in watch.step(sound):
+            faults[name][row] = Fault.FROZEN
+    for name, stack in pictures.items():
+        stack[faults[name] == Fault.FROZEN] = 0
 
 
 def _check_rates(recordings: Mapping[str, Recording]) -> None:

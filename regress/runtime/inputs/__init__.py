@@ -3,13 +3,12 @@
 from regress.runtime.inputs.faults import (
     Fault,
     TimeOrder,
-    emptied,
     face_faults,
+    fault_sentences,
     joined_runs,
-    row_faults,
-    told,
 )
 from regress.runtime.inputs.frames import Frames
+from regress.runtime.inputs.lines import read_lines
 from regress.runtime.inputs.readers import READERS, Reader, read_frames
 
 __all__ = [
@@ -18,10 +17,9 @@ __all__ = [
     "Frames",
     "Reader",
     "TimeOrder",
-    "emptied",
     "face_faults",
+    "fault_sentences",
     "joined_runs",
     "read_frames",
-    "row_faults",
-    "told",
+    "read_lines",
 ]

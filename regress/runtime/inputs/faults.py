@@ -1,6 +1,5 @@
 """Rows that cannot be used: no face, a face that has collapsed or is the wrong way round, times out of order."""
 
-import dataclasses
 import math
 from collections.abc import Sequence
 from enum import Enum
@@ -8,7 +7,6 @@ from enum import Enum
 import numpy as np
 
 from facegen.conventions import LANDMARK_GROUPS
-from regress.runtime.inputs.frames import Frames
 
 _OUTLINE = np.array(
     [
@@ -90,26 +88,11 @@ class TimeOrder:
         return Fault.DISORDER if late else None
 
 
-def row_faults(frames: Frames, *, strictly: bool) -> list[Fault | None]:
-    """What is wrong with each row of a recording, its face's fault before its time's."""
-    faces = face_faults(frames.points)
-    if frames.time_s is None:
-        return faces
-    order = TimeOrder(strictly=strictly)
-    return [face or order.step(float(time)) for face, time in zip(faces, frames.time_s, strict=True)]
-
-
-def emptied(frames: Frames, faults: list[Fault | None]) -> Frames:
-    """The frames with NaN for the points of faulty rows."""
-    sound = np.array([fault is None for fault in faults])
-    return dataclasses.replace(frames, points=np.where(sound[:, None, None], frames.points, np.nan))
-
-
-def told(faults: list[Fault | None]) -> list[str]:
+def fault_sentences(faults: list[Fault | None]) -> list[str]:
     """A line a kind: how many rows, and which, counted from 1."""
     lines = []
     for fault in Fault:
-        rows = [row for row, found in enumerate(faults, start=1) if found is fault]
+        rows = [row for row, other in enumerate(faults, start=1) if other is fault]
         if rows:
             lines.append(f"{len(rows)} of {len(faults)} rows have {fault.value}: {joined_runs(rows)}")
     return lines

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from regress.runtime.sample import Sample
+
 
 @dataclass(frozen=True, kw_only=True)
 class Frames:
@@ -30,3 +32,11 @@ class Frames:
     def usable(self) -> np.ndarray:
         """(n,) bool: frames whose every point is a number."""
         return np.isfinite(self.points).all(axis=(1, 2))
+
+    def samples(self) -> list[Sample]:
+        """The frames one by one, as the stages take them."""
+        times = [None] * len(self.labels) if self.time_s is None else self.time_s.tolist()
+        return [
+            Sample(label=label, time_s=time, points=points)
+            for label, time, points in zip(self.labels, times, self.points, strict=True)
+        ]

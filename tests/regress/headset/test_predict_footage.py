@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from regress.errors import InputError
-from regress.runtime.headset.faults import FROZEN_FRAMES, Fault, frozen_frames, picture_fault, told_faults
+from regress.runtime.headset.faults import FROZEN_FRAMES, Fault, FrozenWatch, fault_sentences, picture_fault
 from regress.runtime.headset.footage import Footage, line_up
 from regress.runtime.headset.recordings import Recording, read_recording, read_rendered
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
@@ -121,20 +121,20 @@ def test_a_camera_is_frozen_where_it_repeats_for_long_while_others_move(start: i
     rng = np.random.default_rng(seed)
     frozen, moving = (rng.integers(0, 255, (50, 6, 6), dtype=np.uint8) for _ in range(2))
     frozen[start : start + length] = frozen[start - 1]
-    there = np.ones(50, dtype=bool)
-    found = frozen_frames({"eye": frozen, "mouth": moving}, {"eye": there, "mouth": there})
-    expected = list(range(start, start + length)) if length > FROZEN_FRAMES else []
-    assert np.flatnonzero(found["eye"]).tolist() == expected
-    assert not found["mouth"].any()
+    watch = FrozenWatch()
+    steps = [watch.step({"eye": frozen[row], "mouth": moving[row]}) for row in range(50)]
+    assert [row for row in range(50) if "eye" in steps[row]] == list(
+        range(start + FROZEN_FRAMES, start + length)
+    )
+    assert not any("mouth" in step for step in steps)
 
 
 def test_a_scene_in_which_nothing_moves_is_not_frozen_nor_is_a_camera_alone():
     still = np.repeat(pictures([100]), 40, axis=0)
-    there = np.ones(40, dtype=bool)
-    assert not any(
-        f.any() for f in frozen_frames({"a": still, "b": still}, {"a": there, "b": there}).values()
-    )
-    assert not frozen_frames({"a": still}, {"a": there})["a"].any()
+    for cameras in (("a", "b"), ("a",)):
+        watch = FrozenWatch()
+        assert not any(watch.step(dict.fromkeys(cameras, picture)) for picture in still)
+    assert any(watch.step({"a": still[0], "b": picture}) for picture in pictures([100] * 40))
 
 
 def test_black_and_flat_pictures_are_told_from_dark_ones():
@@ -146,10 +146,10 @@ def test_black_and_flat_pictures_are_told_from_dark_ones():
 
 def test_sentences_list_runs_and_end():
     faults = [Fault.BLACK if number % 3 else None for number in range(60)]
-    (line,) = told_faults("mouth", range(60), faults)
+    (line,) = fault_sentences("mouth", range(60), faults)
     assert line.startswith("mouth: 40 of 60 frames have a black picture: 1-2, 4-5, ")
     assert line.endswith(" and 12 more")
-    assert told_faults("mouth", [1, 2], [Fault.BLACK] * 2) == [
+    assert fault_sentences("mouth", [1, 2], [Fault.BLACK] * 2) == [
         "mouth: 2 of 2 frames have a black picture: all of them"
     ]
 
@@ -283,7 +283,7 @@ def test_what_is_at_fault_leaves_no_picture():
     stacks = {name: pictures([100] * 30, seed=seed) for seed, name in enumerate(("left_eye", "mouth"))}
     stacks["mouth"][5:25] = stacks["mouth"][4]
     footage = line_up({name: recording(name, stack) for name, stack in stacks.items()}, SIZES)
-    assert footage.faults["mouth"][5:25] == (Fault.FROZEN,) * 20
+    assert footage.faults["mouth"][5:25] == (None,) * FROZEN_FRAMES + (Fault.FROZEN,) * (20 - FROZEN_FRAMES)
     for name, there in zip(footage.cameras, footage.present.T, strict=True):
         assert not footage.pictures[name][~there].any()
         assert (footage.pictures[name][there].max(axis=(1, 2)) > 0).all()

@@ -13,11 +13,12 @@ from regress.errors import InputError
 from regress.runtime.headset.confidence import confidence
 from regress.runtime.headset.footage import Footage, line_up
 from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
-from regress.runtime.headset.performance import AMPLIFIED, perform
+from regress.runtime.headset.predict import predict_footage
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.seats import seat_change
-from regress.runtime.predict import Output
-from regress.runtime.smoothing import OneEuro
+from regress.runtime.headset.seats import SeatWatch
+from regress.runtime.prediction import Prediction
+from regress.runtime.stages import OneEuro, Output
+from regress.runtime.stages.output import AMPLIFIED
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 from tests.regress.headset.tiny import NAMES, OWNER, R2, RMSE, write_tiny_model
 
@@ -34,9 +35,15 @@ def _footage(
     return line_up({name: recording(name, stack) for name, stack in stacks.items()}, predictor.sizes, fps=fps)
 
 
+def _predict(
+    predictor: HeadsetPredictor, footage: Footage, *inputs: object, **settings: object
+) -> Prediction:
+    return predict_footage(predictor, footage, *inputs, **settings)[0]
+
+
 def test_each_camera_drives_its_shapes_and_an_absent_one_lowers_confidence(predictor: HeadsetPredictor):
     footage = _footage(predictor, {"left_eye": [51, 102], "mouth": [153, 204]})
-    made = perform(predictor, footage)
+    made = _predict(predictor, footage)
     for name, values in {"left_eye": [0.2, 0.4], "right_eye": [0, 0], "mouth": [0.6, 0.8]}.items():
         columns = [OWNER[shape] == name for shape in BLENDSHAPES]
         assert made.weights[:, columns] == pytest.approx(
@@ -87,7 +94,7 @@ def test_calibrated_frames_have_their_own_scores(predictor: HeadsetPredictor):
 
 def test_frames_without_pictures_have_no_weights_and_no_confidence(predictor: HeadsetPredictor):
     both = {name: recording(name, pictures([99] * 4), numbers=[0, 1, 2, 4]) for name in NAMES}
-    made = perform(predictor, line_up(both, predictor.sizes))
+    made = _predict(predictor, line_up(both, predictor.sizes))
     assert np.isnan(made.weights).all(axis=1).tolist() == [False, False, False, True, False]
     assert np.isnan(made.gaze).any(axis=1).tolist() == [False, False, False, True, False]
     assert not made.confidence[3].any()
@@ -96,10 +103,11 @@ def test_frames_without_pictures_have_no_weights_and_no_confidence(predictor: He
 
 def test_calibration_is_the_difference_from_the_neutral_frame(predictor: HeadsetPredictor):
     footage = _footage(predictor, {name: [60, 90, 110] for name in NAMES})
-    made = perform(predictor, footage, [Neutral(row=0, pictures=neutral_of_frame(footage, 0))])
+    neutral = Neutral(row=0, pictures=neutral_of_frame(footage, 0))
+    made, reseated = predict_footage(predictor, footage, [neutral])
     expected = np.repeat(np.array([[0], [30], [50]]) / 255, 52, axis=1)
     assert made.weights == pytest.approx(expected, abs=0.005)
-    assert made.reseated == ()
+    assert reseated == ()
 
 
 def test_pictures_of_unknown_cameras_and_lacking_neutral_ones_are_refused(predictor: HeadsetPredictor):
@@ -125,32 +133,38 @@ def test_a_reseated_headset_is_seen_and_goes_on_uncalibrated(predictor: HeadsetP
     means = [60.0] * change + [160.0] * 40
     footage = _footage(predictor, {name: means for name in NAMES}, fps=fps)
     first, later = (Neutral(row=row, pictures=neutral_of_frame(footage, row)) for row in (0, change + 20))
-    made = perform(predictor, footage, [first])
-    (row,) = made.reseated
+    made, (label,) = predict_footage(predictor, footage, [first])
+    row = int(label)
     assert change <= row <= change + fps / 2
     assert made.weights[: change - 1] == pytest.approx(0, abs=0.005)
     assert made.weights[row:] == pytest.approx(160 / 255, abs=0.005)
-    kept = perform(predictor, footage, [first], keep_neutral=True)
-    assert kept.reseated == (row,)
+    kept, labels = predict_footage(predictor, footage, [first], keep_neutral=True)
+    assert labels == (label,)
     assert kept.weights[row:] == pytest.approx(100 / 255, abs=0.005)
-    again = perform(predictor, footage, [first, later])
-    assert again.reseated == (row,)
+    again, labels = predict_footage(predictor, footage, [first, later])
+    assert labels == (label,)
     assert np.array_equal(again.weights[: later.row], made.weights[: later.row])
     assert again.weights[later.row :] == pytest.approx(0, abs=0.005)
 
 
-def test_a_short_take_is_judged_as_a_whole_and_its_neutral_frame_stays_calibrated(
-    predictor: HeadsetPredictor,
-):
-    footage = _footage(predictor, {name: [60.0] * 7 + [160.0] * 11 for name in NAMES})
-    made = perform(predictor, footage, [Neutral(row=0, pictures=neutral_of_frame(footage, 0))])
-    assert made.reseated == (7,)
-    assert made.weights[:7] == pytest.approx(0, abs=0.005)
-    assert made.weights[7:] == pytest.approx(160 / 255, abs=0.005)
-    longer = _footage(predictor, {name: [60.0] * 3 + [160.0] * 60 for name in NAMES})
-    assert perform(predictor, longer, [Neutral(row=0, pictures=neutral_of_frame(longer, 0))]).reseated == (3,)
-    mostly = _footage(predictor, {name: [60.0] * 11 + [160.0] * 7 for name in NAMES})
-    assert perform(predictor, mostly, [Neutral(row=0, pictures=neutral_of_frame(mostly, 0))]).reseated == ()
+def test_a_neutral_picture_of_another_seat_counts_for_no_frame(predictor: HeadsetPredictor):
+    footage = _footage(predictor, {name: [160.0] * 40 for name in NAMES})
+    other = _footage(predictor, {name: [60.0] for name in NAMES})
+    made, reseated = predict_footage(
+        predictor, footage, [Neutral(row=0, pictures=neutral_of_frame(other, 0))]
+    )
+    assert reseated == ("0",)
+    assert made.weights == pytest.approx(160 / 255, abs=0.005)
+
+
+def test_a_doubt_that_passes_leaves_its_own_frames_alone_uncalibrated(predictor: HeadsetPredictor):
+    footage = _footage(predictor, {name: [60.0] * 30 + [160.0] * 12 + [60.0] * 30 for name in NAMES})
+    made, reseated = predict_footage(
+        predictor, footage, [Neutral(row=0, pictures=neutral_of_frame(footage, 0))]
+    )
+    assert reseated == ()
+    assert made.weights[[0, 29, 50, 71]] == pytest.approx(0, abs=0.005)
+    assert made.weights[41] == pytest.approx(160 / 255, abs=0.005)
 
 
 @given(low=st.integers(0, 60), length=st.integers(0, 40), fps=st.sampled_from([10, 30]))
@@ -158,18 +172,20 @@ def test_a_short_take_is_judged_as_a_whole_and_its_neutral_frame_stays_calibrate
 def test_a_seat_changes_only_where_it_stays_changed(low: int, length: int, fps: int):
     same = np.full(120, 0.95)
     same[low : low + length] = 0.02
-    found = seat_change(same, np.ones(120, dtype=bool), fps=fps)
+    watch = SeatWatch(fps=fps)
+    compared = []
+    for row, value in enumerate(same):
+        compared.append(watch.step(float(value)))
+        if row + 1 == low + length and length > 2 * fps * 0.5 + 1:
+            assert watch.changed  # before the old seat seems to be back
+    assert all(compared[:low])
     if length < fps / 2:
-        assert found is None
-    if length > fps:
-        assert abs(found - low) <= fps / 2
-    assert seat_change(same[: low + length][low:], np.ones(length, dtype=bool), fps=fps) == (
-        0 if length else None
-    )
-    # frames without pictures say nothing
-    usable = np.ones(120, dtype=bool)
-    usable[low : low + length] = False
-    assert seat_change(same, usable, fps=fps) is None
+        assert not watch.changed
+        assert all(compared[low + length + fps :])
+    if length > fps + 1:
+        began = compared.index(False)
+        assert low <= began <= low + fps / 2
+        assert not any(compared[began:])
 
 
 def test_the_calmest_frame_is_found_and_doubt_is_told():
@@ -210,7 +226,7 @@ def test_a_neutral_frame_needs_every_camera_in_use(predictor: HeadsetPredictor, 
 
 def test_amplified_lids_alone_change_and_stay_weights(predictor: HeadsetPredictor):
     footage = _footage(predictor, {name: [51, 153] for name in NAMES})
-    plain, strong = perform(predictor, footage), perform(predictor, footage, amplify_eyes=2)
+    plain, strong = _predict(predictor, footage), _predict(predictor, footage, output=Output(amplify_eyes=2))
     lids = [name in AMPLIFIED for name in BLENDSHAPES]
     assert sum(lids) == 6
     assert strong.weights[:, lids] == pytest.approx(np.minimum(2 * plain.weights[:, lids], 1))
@@ -219,7 +235,7 @@ def test_amplified_lids_alone_change_and_stay_weights(predictor: HeadsetPredicto
 
 def test_a_mirror_exchanges_weights_gaze_and_confidence(predictor: HeadsetPredictor):
     footage = _footage(predictor, {"left_eye": [51, 102], "mouth": [153, 204]})
-    plain, turned = perform(predictor, footage), perform(predictor, footage, output=Output(mirror=True))
+    plain, turned = _predict(predictor, footage), _predict(predictor, footage, output=Output(mirror=True))
     order = list(MIRRORED_BLENDSHAPES)
     assert np.array_equal(turned.weights, plain.weights[:, order])
     assert np.array_equal(turned.confidence, plain.confidence[:, order])
@@ -232,7 +248,7 @@ def test_smoothing_calms_weights_and_gaze_alike(predictor: HeadsetPredictor, out
     rng = np.random.default_rng(0)
     means = (128 + rng.normal(0, 12, 60)).tolist()
     footage = _footage(predictor, {name: means for name in NAMES})
-    plain, calm = perform(predictor, footage), perform(predictor, footage, output=output)
+    plain, calm = _predict(predictor, footage), _predict(predictor, footage, output=output)
     blink = BLENDSHAPE_INDEX["eyeBlinkLeft"]
     assert calm.weights[10:, blink].std() < 0.8 * plain.weights[10:, blink].std()
     assert calm.gaze[10:].std() < plain.gaze[10:].std()

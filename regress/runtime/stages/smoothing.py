@@ -1,13 +1,16 @@
 """Smoothing over time: the paper's moving average, and One-Euro by real timestamps, of weights or landmarks."""
 
+from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_COUNT
 from regress.errors import InputError
 from regress.runtime.features import align_similarity
+from regress.runtime.sample import Sample
+from regress.runtime.stages.stage import Stage
 from regress.targets import NETWORKS
 
 LONGEST_GAP_S = 0.5
@@ -47,8 +50,8 @@ def by_region(settings: OneEuro, faster: Mapping[str, float] | None = None) -> n
     return cutoffs
 
 
-class OneEuroStream:
-    """One-Euro over rows of weights as they come.
+class OneEuroFilter:
+    """One-Euro over rows of numbers as they come.
 
     Parameters
     ----------
@@ -92,7 +95,7 @@ faces (docs/real-recordings.md): 5 cuts blinks to 0.83 of their height, 20 leave
 """
 
 
-class LandmarkStream:
+class LandmarkSmoothing(Stage):
     """One-Euro over faces as they come, each laid upon the mean shape first.
 
     What the head does is gone then, and does not lag; features ignore place, size and roll, so the networks
@@ -108,64 +111,86 @@ class LandmarkStream:
 
     def __init__(self, cutoff_hz: float, mean_shape: np.ndarray) -> None:
         settings = OneEuro(cutoff_hz=cutoff_hz, beta=LANDMARK_BETA)
-        self._filter = OneEuroStream(settings, np.full(2 * LANDMARK_COUNT, cutoff_hz))
+        self._filter = OneEuroFilter(settings, np.full(2 * LANDMARK_COUNT, cutoff_hz))
         self._mean_shape = mean_shape
 
-    def step(self, time_s: float, points: np.ndarray) -> np.ndarray:
-        """Smoothed face (68, 2) in face widths at a time later than the last; NaN where points are missing."""
-        laid = align_similarity(points[None], self._mean_shape).reshape(-1)
-        return self._filter.step(time_s, laid).reshape(LANDMARK_COUNT, 2)
+    def step(self, sample: Sample) -> Sample:
+        """The sample with its face (68, 2) smoothed, in face widths; NaN where points are missing."""
+        if np.isnan(sample.points).any():
+            return sample
+        laid = align_similarity(sample.points[None], self._mean_shape).reshape(-1)
+        return replace(sample, points=self._filter.step(sample.time_s, laid).reshape(LANDMARK_COUNT, 2))
 
 
-def smooth_landmarks(
-    points: np.ndarray, time_s: np.ndarray, cutoff_hz: float, mean_shape: np.ndarray
-) -> np.ndarray:
-    """Faces (n, 68, 2) smoothed by `LandmarkStream`, in face widths; rows of NaN stay NaN."""
-    stream = LandmarkStream(cutoff_hz, mean_shape)
-    return np.array([stream.step(float(time), face) for time, face in zip(time_s, points, strict=True)])
+class MovingAverage(Stage):
+    """Mean of each frame's weights and gaze and those before it, fewer at the start: what a live stream has.
 
-
-def one_euro(weights: np.ndarray, time_s: np.ndarray, settings: OneEuro) -> np.ndarray:
-    """Rows (n, 52) smoothed by One-Euro; rows of NaN stay NaN.
-
-    Raises
-    ------
-    InputError
-        Where the time of a row with weights is missing or no later than the one before; the message has its number.
-    """
-    stream = OneEuroStream(settings)
-    rows = []
-    for number, (time, row) in enumerate(zip(time_s, weights, strict=True), start=1):
-        if not (np.isfinite(time) or np.isnan(row).any()):
-            raise InputError(f"row {number} has no time, which One-Euro smoothing needs")
-        try:
-            rows.append(stream.step(float(time), row))
-        except InputError as error:
-            raise InputError(f"row {number}: {error}") from error
-    return np.array(rows)
-
-
-def moving_average(weights: np.ndarray, frames: int) -> np.ndarray:
-    """Mean of each row and those before it, ``frames`` in all, fewer at the start: what a live stream has.
-
-    Rows of NaN stay NaN, and other rows' means leave them out.
+    Frames without weights keep none, and the means of others leave them out.
 
     Parameters
     ----------
-    weights : (n, k) float64
     frames
-        1 or more.
+        How many, 1 or more.
     """
-    if frames <= 1:
-        return weights
-    known = ~np.isnan(weights)
-    sums = np.cumsum(np.where(known, weights, 0), axis=0)
-    counts = np.cumsum(known, axis=0)
-    sums[frames:] -= sums[:-frames].copy()
-    counts[frames:] -= counts[:-frames].copy()
-    # The running sum leaves rounding of 1e-16 a frame behind: back into the range that its terms had.
-    mean = np.clip(sums / np.maximum(counts, 1), 0, 1)
-    return np.where(known, mean, np.nan)
+
+    def __init__(self, frames: int) -> None:
+        self._recent: deque[np.ndarray] = deque(maxlen=frames)
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with the mean weights and gaze."""
+        row = _joined(sample)
+        self._recent.append(row)
+        return sample if np.isnan(row).any() else _with(sample, np.nanmean(self._recent, axis=0))
+
+
+class OneEuroSmoothing(Stage):
+    """One-Euro over weights and gaze by the frames' times; a gaze is as quick as the shapes of the eyes.
+
+    Parameters
+    ----------
+    settings
+        Of the filter.
+    """
+
+    def __init__(self, settings: OneEuro) -> None:
+        self._settings = settings
+        self._filter: OneEuroFilter | None = None
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with smoothed weights and gaze.
+
+        Raises
+        ------
+        InputError
+            Where a frame with weights has no time, or one no later than the frame before; the message has its label.
+        """
+        row = _joined(sample)
+        if np.isnan(row).any():
+            return sample
+        if sample.time_s is None or not np.isfinite(sample.time_s):
+            raise InputError(f"frame {sample.label} has no time, which One-Euro smoothing needs")
+        if self._filter is None:
+            gaze_hz = EYES_FASTER * self._settings.cutoff_hz
+            cutoffs_hz = np.append(
+                by_region(self._settings), np.full(len(row) - len(sample.weights), gaze_hz)
+            )
+            self._filter = OneEuroFilter(self._settings, cutoffs_hz)
+        try:
+            return _with(sample, self._filter.step(sample.time_s, row))
+        except InputError as error:
+            raise InputError(f"frame {sample.label}: {error}") from error
+
+
+def _joined(sample: Sample) -> np.ndarray:
+    """Weights, and the gaze behind them where there is one."""
+    return sample.weights if sample.gaze is None else np.concatenate([sample.weights, sample.gaze])
+
+
+def _with(sample: Sample, row: np.ndarray) -> Sample:
+    """The sample with weights and gaze of a row as `_joined` makes it."""
+    if sample.gaze is None:
+        return replace(sample, weights=row)
+    return replace(sample, weights=row[: len(sample.weights)], gaze=row[len(sample.weights) :])
 
 
 def _share(cutoff_hz: float | np.ndarray, seconds: float) -> float | np.ndarray:

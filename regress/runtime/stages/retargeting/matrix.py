@@ -107,7 +107,7 @@ def read_retargeting(name: str) -> Retargeting:
 
 
 def _shipped() -> Any:
-    return resources.files("regress.runtime.retargeting") / "targets"
+    return resources.files("regress.runtime.stages.retargeting") / "targets"
 
 
 def _table(document: dict[str, Any], section: str, place: Path) -> dict[str, Any]:

@@ -1,0 +1,130 @@
+"""From a headset's pictures to weights, gaze and confidence, frame by frame."""
+
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES
+from regress.errors import InputError
+from regress.runtime.headset.confidence import confidence
+from regress.runtime.headset.estimates import Estimates
+from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.seats import SeatWatch
+from regress.runtime.headset.temporal import TAPS
+from regress.runtime.sample import Sample
+from regress.runtime.stages import Stage
+
+ASSUMED_FPS = 30.0
+"""Frames a second where nobody says: only the patience with a changed seat depends on it."""
+
+
+class HeadsetNetworks(Stage):
+    """Runs the network on each frame, calibrated as long as the headset stays in the seat of the neutral pictures.
+
+    Parameters
+    ----------
+    predictor
+        The model.
+    fps
+        Frames a second of the cameras.
+    keep_neutral
+        Stay calibrated after a change of seat: another seat's neutral picture of the same person is worth more than
+        none, another person's is not.
+    """
+
+    def __init__(
+        self, predictor: HeadsetPredictor, *, fps: float = ASSUMED_FPS, keep_neutral: bool = False
+    ) -> None:
+        self._predictor, self._fps, self._keep = predictor, fps, keep_neutral
+        self._neutral: Mapping[str, np.ndarray] | None = None
+        self._seat: SeatWatch | None = None
+        self._labels: deque[str] = deque(maxlen=SeatWatch(fps=fps).patience_frames)
+        self.reseated: list[str] = []
+        """Labels of the frames from which the seat was no longer that of the neutral pictures."""
+
+    def use_neutral(self, pictures: Mapping[str, np.ndarray] | None) -> None:
+        """Compare frames with these neutral pictures (h, w) uint8 by camera from now on; None: with none."""
+        self._neutral = pictures
+        self._seat = None if pictures is None else SeatWatch(fps=self._fps)
+        self._labels.clear()
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with weights (52,) in [0, 1], gaze (4,) and, for a model with scores, confidence (52,).
+
+        Raises
+        ------
+        InputError
+            Where a camera is not the model's, or has no neutral picture while others have.
+        """
+        scored = bool(self._predictor.model.scores)
+        if not sample.pictures:
+            nothing = np.full(len(BLENDSHAPES), np.nan)
+            trust = np.zeros(len(BLENDSHAPES)) if scored else None
+            return replace(sample, weights=nothing, gaze=np.full(4, np.nan), confidence=trust)
+        estimates, calibrated = self._estimate(sample)
+        trust = None
+        if scored:
+            present = np.array([[name in sample.pictures for name in self._predictor.sizes]])
+            trust = confidence(self._predictor.model, estimates.deviation, present, np.array([calibrated]))[0]
+        return replace(
+            sample,
+            weights=np.clip(estimates.weights[0].astype(np.float64), 0, 1),
+            gaze=estimates.gaze[0].astype(np.float64).reshape(4),
+            confidence=trust,
+        )
+
+    def _estimate(self, sample: Sample) -> tuple[Estimates, bool]:
+        """What the network says, and whether it compared the frame with neutral pictures."""
+        pictures = {name: picture[None] for name, picture in sample.pictures.items()}
+        if self._seat is None:
+            return self._predictor.predict(pictures), False
+        if self._seat.changed and not self._keep:
+            return self._predictor.predict(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
+        estimates = self._predictor.predict(pictures, neutral=self._neutral)
+        if not self._seat.changed:
+            self._labels.append(sample.label)
+            compared = self._seat.step(float(estimates.same_seat[0]))
+            if self._seat.changed:
+                self.reseated.append(self._labels[0])
+            if not (compared or self._keep):
+                return self._predictor.predict(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
+        return estimates, True
+
+
+class TemporalConvolution(Stage):
+    """Weights and gaze as the model's taps weigh them and those of the four frames before.
+
+    Parameters
+    ----------
+    predictor
+        Whose model has taps.
+
+    Raises
+    ------
+    InputError
+        Where it has none.
+    """
+
+    def __init__(self, predictor: HeadsetPredictor) -> None:
+        temporal = predictor.model.temporal
+        if temporal is None:
+            raise InputError(
+                "the model does not know what the frames before are worth; `regress headset temporal` finds it on clips"
+            )
+        self._taps = np.array(temporal.taps)
+        self._recent: deque[np.ndarray] = deque(maxlen=TAPS)
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with convolved weights and gaze; one without pictures ends what is remembered."""
+        if np.isnan(sample.weights).any():
+            self._recent.clear()
+            return sample
+        row = np.concatenate([sample.weights, sample.gaze])
+        self._recent.appendleft(row)
+        # before a take's first frame there is nothing, and the first stands in for it
+        history = [*self._recent, *[self._recent[-1]] * (TAPS - len(self._recent))]
+        values = np.einsum("lk,kl->k", np.array(history), self._taps)
+        columns = len(sample.weights)
+        return replace(sample, weights=np.clip(values[:columns], 0, 1), gaze=values[columns:])

@@ -1,0 +1,100 @@
+"""A headset's pictures through the stages: a recording's frames, or frames as cameras give them."""
+
+from collections.abc import Sequence
+
+from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.networks import ASSUMED_FPS, HeadsetNetworks, TemporalConvolution
+from regress.runtime.headset.neutral import Neutral
+from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.soundness import PictureSoundness
+from regress.runtime.prediction import Prediction
+from regress.runtime.sample import Sample
+from regress.runtime.stages import Chain, Output, Stage
+
+
+class HeadsetStream(Stage):
+    """The stages of a headset's live cameras, from their pictures to finished weights and gaze.
+
+    Parameters
+    ----------
+    predictor
+        The model.
+    output
+        What happens after the network; nothing by default. Smoothing of landmarks has no meaning here.
+    fps
+        Frames a second of the cameras.
+    keep_neutral
+        Stay calibrated after a change of seat (``HeadsetNetworks``).
+    temporal
+        Let the frames before count, as the model's taps say.
+
+    Raises
+    ------
+    InputError
+        Where the model has no taps and they are asked for.
+    """
+
+    def __init__(
+        self,
+        predictor: HeadsetPredictor,
+        output: Output | None = None,
+        *,
+        fps: float = ASSUMED_FPS,
+        keep_neutral: bool = False,
+        temporal: bool = False,
+    ) -> None:
+        self.soundness = PictureSoundness(predictor.sizes)
+        self.networks = HeadsetNetworks(predictor, fps=fps, keep_neutral=keep_neutral)
+        taps = [TemporalConvolution(predictor)] if temporal else []
+        self.after = Chain([*taps, *(output or Output()).stages()])
+
+    def step(self, sample: Sample) -> Sample:
+        """Weights, gaze and confidence of the next frame's pictures, grey (h, w) uint8 by camera."""
+        return self.after.step(self.networks.step(self.soundness.step(sample)))
+
+
+def predict_footage(
+    predictor: HeadsetPredictor,
+    footage: Footage,
+    neutrals: Sequence[Neutral] = (),
+    *,
+    output: Output | None = None,
+    keep_neutral: bool = False,
+    temporal: bool = False,
+) -> tuple[Prediction, tuple[str, ...]]:
+    """Weights, gaze and confidence of a recording: each frame as `HeadsetStream` steps it.
+
+    Parameters
+    ----------
+    footage
+        Its pictures are at the network's size, and those at fault are marked.
+    neutrals
+        Each counts from its row to the next one's; the first from the beginning, wherever it was taken.
+    output, keep_neutral, temporal
+        As `HeadsetStream` takes them.
+
+    Returns
+    -------
+    prediction
+    reseated
+        Labels of frames from which neutral pictures were no longer of the headset's seat.
+
+    Raises
+    ------
+    InputError
+        Where the model has no taps and they are asked for; where One-Euro smoothing is, and times are not known.
+    """
+    output = output or Output()
+    stream = HeadsetStream(
+        predictor, output, fps=footage.fps or ASSUMED_FPS, keep_neutral=keep_neutral, temporal=temporal
+    )
+    starts = {neutral.row: neutral.pictures for neutral in neutrals[1:]}
+    if neutrals:
+        starts[0] = neutrals[0].pictures
+    samples = []
+    for row, sample in enumerate(footage.samples()):
+        if row in starts:
+            stream.networks.use_neutral(starts[row])
+        samples.append(stream.after.step(stream.networks.step(sample)))
+    prediction = Prediction(samples=samples, names=output.names, source=footage.source)
+    return prediction, tuple(stream.networks.reseated)

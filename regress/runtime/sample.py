@@ -1,0 +1,44 @@
+"""One frame on its way through the stages: what was seen, and what has been made of it so far."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+import numpy as np
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sample:
+    """One frame, from a file or as it comes; stages take one and give one, writers take what comes out.
+
+    Parameters
+    ----------
+    label
+        What the frame is called: its number, or a file's name.
+    time_s
+        Seconds from the start; NaN where this frame's time is not known, None where no frame's is.
+    points : (68, 2) float64 or None
+        Landmarks in pixels, y down, iBUG order; NaN where there is no face.
+    pictures : mapping of (h, w) uint8, or None
+        By headset camera; a camera without a usable picture is left out.
+    weights : (k,) float64 or None
+        Of the 52 ARKit shapes, or of a retarget's; NaN where nothing could be said.
+    gaze : (4,) float64 or None
+        Yaw and pitch of the left eye, then of the right eye; radians, yaw to the subject's left, pitch upwards.
+    head : (6,) float64 or None
+        Position in metres, then yaw, pitch and roll in radians.
+    confidence : (52,) float64 or None
+        Trust in each ARKit weight, 0 to 1.
+    faults
+        What is wrong, by ``"points"`` or the camera's name.
+    """
+
+    label: str = ""
+    time_s: float | None = None
+    points: np.ndarray | None = None
+    pictures: Mapping[str, np.ndarray] | None = None
+    weights: np.ndarray | None = None
+    gaze: np.ndarray | None = None
+    head: np.ndarray | None = None
+    confidence: np.ndarray | None = None
+    faults: Mapping[str, Enum] = field(default_factory=dict)

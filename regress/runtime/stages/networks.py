@@ -1,0 +1,111 @@
+"""From landmarks to weights: the networks, and a neutral face that is looked for while frames come."""
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from regress.errors import InputError
+from regress.runtime.model import Model
+from regress.runtime.sample import Sample
+from regress.runtime.stages.confidence import confidence
+from regress.runtime.stages.neutral import estimate_neutral
+from regress.runtime.stages.stage import Stage
+
+ESTIMATE_EVERY = 30
+"""Frames between two estimates of the neutral face: a second of video."""
+
+_REMEMBERED = 900
+"""Frames that an estimate looks back on: half a minute of video."""
+
+
+class LandmarkNetworks(Stage):
+    """Weights of each frame's landmarks by a model.
+
+    Parameters
+    ----------
+    model
+        Calibrated where a neutral face is known.
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with weights (52,); NaN where a point is missing."""
+        return self.run([sample])[0]
+
+    def run(self, samples: Sequence[Sample]) -> list[Sample]:
+        """All at once: products of many rows differ from those of one in the last bits only (5e-15)."""
+        if not samples:
+            return []
+        weights = self.model.predict(np.stack([sample.points for sample in samples]))
+        return [replace(sample, weights=row) for sample, row in zip(samples, weights, strict=True)]
+
+
+class LandmarkConfidence(Stage):
+    """Trust in each weight of a frame, by its landmarks as the detector gave them.
+
+    Parameters
+    ----------
+    model
+        The one that predicts.
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with confidence (52,)."""
+        return self.run([sample])[0]
+
+    def run(self, samples: Sequence[Sample]) -> list[Sample]:
+        """All at once."""
+        if not samples:
+            return []
+        trust = confidence(self.model, np.stack([sample.points for sample in samples]))
+        return [replace(sample, confidence=row) for sample, row in zip(samples, trust, strict=True)]
+
+
+class AutomaticCalibration(Stage):
+    """Looks for the neutral face while frames come, until it is sure; then calibrates the networks for good.
+
+    Parameters
+    ----------
+    networks
+        Serve without a neutral frame until one is found.
+    say
+        Told when it is sure, and why.
+
+    Raises
+    ------
+    InputError
+        Where the model has no calibrated networks.
+    """
+
+    def __init__(self, networks: LandmarkNetworks, say: Callable[[str], None]) -> None:
+        if networks.model.calibrated is None:
+            raise InputError("the model has no calibrated networks, so a neutral frame is of no use to it")
+        self._networks = networks
+        self._say = say
+        self._recent: deque[np.ndarray] = deque(maxlen=_REMEMBERED)
+        self._count = 0
+        self._searching = True
+
+    def step(self, sample: Sample) -> Sample:
+        """Take a frame into account; frames with missing points are left out."""
+        if self._searching and np.isfinite(sample.points).all():
+            self._recent.append(sample.points)
+            self._count += 1
+            if self._count % ESTIMATE_EVERY == 0:
+                self._estimate()
+        return sample
+
+    def _estimate(self) -> None:
+        points = np.array(self._recent)
+        estimate = estimate_neutral(self._networks.model, points)
+        if estimate.sure:
+            self._networks.model = self._networks.model.calibrate(points[estimate.frames])
+            self._searching = False
+            self._say(f"frame {self._count}: neutral face found ({estimate.reason}); calibrated from here on")

@@ -1,0 +1,114 @@
+"""What a person asked for after the networks: smoothing, taste, a mirror, another avatar's shapes."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES, SIDES
+from regress.runtime.sample import Sample
+from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
+from regress.runtime.stages.retargeting import Retargeting
+from regress.runtime.stages.smoothing import MovingAverage, OneEuro, OneEuroSmoothing
+from regress.runtime.stages.stage import Stage
+
+AMPLIFIED = tuple(f"{stem}{side.title()}" for side in SIDES for stem in ("eyeBlink", "eyeWide", "eyeSquint"))
+"""Shapes of the lids, which the second paper lets people exaggerate."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Output:
+    """What happens before and after the networks, in this order.
+
+    Parameters
+    ----------
+    smooth_landmarks_hz
+        Cutoff of a landmark at rest, of One-Euro smoothing before the networks; None for none.
+    smooth
+        Frames of the moving average; 1 leaves weights as they are.
+    one_euro
+        One-Euro smoothing by the frames' times; None for none.
+    amplify_eyes
+        Factor on blink, wide and squint of each eye.
+    adjustments
+        Gain, offset, dead zone and limits by shape.
+    left_right_blend
+        0 leaves left and right, 1 gives both their mean.
+    mirror
+        Exchange left and right.
+    retargeting
+        To other shapes than ARKit's, at the end.
+    """
+
+    smooth_landmarks_hz: float | None = None
+    smooth: int = 1
+    one_euro: OneEuro | None = None
+    amplify_eyes: float = 1.0
+    adjustments: dict[str, ShapeAdjustment] = field(default_factory=dict)
+    left_right_blend: float = 0.0
+    mirror: bool = False
+    retargeting: Retargeting | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What the columns that leave are called."""
+        return BLENDSHAPES if self.retargeting is None else self.retargeting.names
+
+    @property
+    def needs_times(self) -> bool:
+        """Whether every frame must have a time."""
+        return self.one_euro is not None or self.smooth_landmarks_hz is not None
+
+    def stages(self) -> list[Stage]:
+        """Stages behind the networks, new ones for each take; only those that were asked for."""
+        made: list[Stage] = []
+        if self.smooth > 1:
+            made.append(MovingAverage(self.smooth))
+        if self.one_euro is not None:
+            made.append(OneEuroSmoothing(self.one_euro))
+        if self.amplify_eyes != 1:
+            lids = dict.fromkeys(AMPLIFIED, ShapeAdjustment(gain=self.amplify_eyes))
+            made.append(WeightMap(partial(adjust, adjustments=lids)))
+        if self.adjustments:
+            made.append(WeightMap(partial(adjust, adjustments=self.adjustments)))
+        if self.left_right_blend > 0:
+            made.append(WeightMap(partial(blend_sides, share=self.left_right_blend)))
+        if self.mirror:
+            made.append(Mirror())
+        if self.retargeting is not None:
+            made.append(WeightMap(self.retargeting.apply))
+        return made
+
+
+class WeightMap(Stage):
+    """Weights of each frame by themselves, by a function of (n, k) arrays."""
+
+    def __init__(self, change: Callable[[np.ndarray], np.ndarray]) -> None:
+        self._change = change
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with changed weights."""
+        return self.run([sample])[0]
+
+    def run(self, samples: Sequence[Sample]) -> list[Sample]:
+        """All at once."""
+        if not samples:
+            return []
+        weights = self._change(np.stack([sample.weights for sample in samples]))
+        return [replace(sample, weights=row) for sample, row in zip(samples, weights, strict=True)]
+
+
+class Mirror(Stage):
+    """What a mirror shows: left and right of weights, gaze, head and confidence exchanged."""
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample of the mirrored face."""
+        gaze, head, trust = sample.gaze, sample.head, sample.confidence
+        return replace(
+            sample,
+            weights=mirror(sample.weights[None])[0],
+            gaze=None if gaze is None else gaze[[2, 3, 0, 1]] * [-1, 1, -1, 1],
+            head=None if head is None else head * [-1, 1, 1, -1, 1, -1],
+            confidence=None if trust is None else mirror(trust[None])[0],
+        )

@@ -1,0 +1,53 @@
+"""Faces that cannot be right leave the way: missing, collapsed, mirrored, or out of the order of time."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from regress.errors import InputError
+from regress.runtime.inputs import Fault, TimeOrder, face_faults
+from regress.runtime.sample import Sample
+from regress.runtime.stages.stage import Stage
+
+
+class Soundness(Stage):
+    """Finds what is wrong with each face, and takes its points away.
+
+    Parameters
+    ----------
+    needs_times
+        Whether a later stage smooths over time: each time must then be known and later than those before.
+    unit
+        What a frame of the source is called in a sentence, for example ``"line"``.
+    """
+
+    def __init__(self, *, needs_times: bool, unit: str = "row") -> None:
+        self._needs_times, self._unit = needs_times, unit
+        self._order = TimeOrder(strictly=needs_times)
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample, with NaN for its points and a fault where it cannot be used.
+
+        Raises
+        ------
+        InputError
+            Where a sound face has no time at all and one is needed.
+        """
+        return self.run([sample])[0]
+
+    def run(self, samples: Sequence[Sample]) -> list[Sample]:
+        """All at once."""
+        if not samples:
+            return []
+        faults = face_faults(np.stack([sample.points for sample in samples]))
+        return [self._judged(sample, fault) for sample, fault in zip(samples, faults, strict=True)]
+
+    def _judged(self, sample: Sample, fault: Fault | None) -> Sample:
+        if fault is None and sample.time_s is None and self._needs_times:
+            raise InputError(f"{self._unit} {sample.label} has no time, which smoothing needs; give --fps")
+        if fault is None and sample.time_s is not None:
+            fault = self._order.step(sample.time_s)
+        if fault is None:
+            return sample
+        return replace(sample, points=np.full_like(sample.points, np.nan), faults={"points": fault})

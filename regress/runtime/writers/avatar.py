@@ -1,0 +1,18 @@
+"""An avatar (.glb, .vrm) with the answers as an animation of its morph targets."""
+
+from pathlib import Path
+
+from facegen.formats.gltf_animation import AnimatedAvatar, animate_avatar
+from regress.runtime.prediction import Prediction
+
+
+def animated_avatar(prediction: Prediction, avatar: Path) -> AnimatedAvatar:
+    """The avatar's file with one animation more, named after the source, and the shapes that it lacks.
+
+    Raises
+    ------
+    InputError, facegen.formats.FormatError
+        Where no frame has a time, or the avatar cannot be read.
+    """
+    title = Path(prediction.source).stem
+    return animate_avatar(avatar, prediction.names, prediction.weights, prediction.known_times_s, title=title)

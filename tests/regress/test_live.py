@@ -1,0 +1,141 @@
+"""What a file gives is what its frames give as they come: over all readers, stages and writers."""
+
+import io
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from regress.runtime.inputs import READERS, read_frames
+from regress.runtime.model import Model
+from regress.runtime.predict import landmark_chain
+from regress.runtime.prediction import Prediction
+from regress.runtime.sample import Sample
+from regress.runtime.stages import Chain, OneEuro, Output, Soundness
+from regress.runtime.stages.adjustment import ShapeAdjustment, read_adjustments
+from regress.runtime.stages.retargeting import read_retargeting
+from regress.runtime.writers import TABLES, animated_avatar, confidence_csv
+from tests.facegen.formats.test_gltf_animation import avatar
+from tests.regress.drawn import drawn_faces
+from tests.regress.test_inputs import example_file
+
+ADJUSTMENTS = (
+    '{"format": "regress-adjustment", "shapes": {"jawOpen": {"gain": 2.0}, "*": {"dead_zone": 0.1}}}'
+)
+
+STAGES: dict[str, tuple[tuple[str, ...], Output]] = {
+    "nothing": ((), Output()),
+    "landmarks smoothed": (("--smooth-landmarks", "1.5"), Output(smooth_landmarks_hz=1.5)),
+    "moving average": (("--smooth", "3"), Output(smooth=3)),
+    "one euro": (("--one-euro", "2"), Output(one_euro=OneEuro(cutoff_hz=2.0))),
+    "adjusted": (
+        ("--adjust", "mine.json"),
+        Output(adjustments={"jawOpen": ShapeAdjustment(gain=2.0), "*": ShapeAdjustment(dead_zone=0.1)}),
+    ),
+    "sides blended": (("--left-right-blend", "0.7"), Output(left_right_blend=0.7)),
+    "mirrored": (("--mirror",), Output(mirror=True)),
+    "retargeted": (("--retarget", "vrm1"), Output(retargeting=read_retargeting("vrm1"))),
+    "all": (
+        (
+            *("--smooth-landmarks", "1.5", "--smooth", "3", "--one-euro", "2", "--adjust", "mine.json"),
+            *("--left-right-blend", "0.7", "--mirror", "--retarget", "mixamo50"),
+        ),
+        Output(
+            smooth_landmarks_hz=1.5,
+            smooth=3,
+            one_euro=OneEuro(cutoff_hz=2.0),
+            adjustments={"jawOpen": ShapeAdjustment(gain=2.0), "*": ShapeAdjustment(dead_zone=0.1)},
+            left_right_blend=0.7,
+            mirror=True,
+            retargeting=read_retargeting("mixamo50"),
+        ),
+    ),
+}
+
+
+def _stepped(model: Model, path: Path, output: Output, *, confident: bool = False) -> Prediction:
+    """The frames of a file, one at a time; 25 a second."""
+    frames = read_frames(path)
+    chain = Chain([Soundness(needs_times=True), landmark_chain(model, output, confident=confident)])
+    samples = [
+        chain.step(Sample(label=label, time_s=row / 25, points=points))
+        for row, (label, points) in enumerate(zip(frames.labels, frames.points, strict=True))
+    ]
+    return Prediction(samples=samples, names=output.names, source=str(path))
+
+
+@pytest.fixture
+def take(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Twelve faces, of which one is not there and one the wrong way round; beside it an adjustment file."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.json").write_text(ADJUSTMENTS)
+    faces = drawn_faces(np.random.default_rng(4), 12)
+    faces[5] = np.nan
+    faces[9] *= [1, -1]
+    np.save(tmp_path / "take.npy", faces)
+    return tmp_path / "take.npy"
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_every_reader(reader: str, run, quick_model: Model, quick_model_folder: Path, tmp_path: Path):
+    path = example_file(reader, tmp_path)
+    code, out, err = run("predict", quick_model_folder, path, "--fps", 25)
+    assert code == 0, err
+    assert out == TABLES["csv"].text(_stepped(quick_model, path, Output()))
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_every_stage(stage: str, run, quick_model: Model, quick_model_folder: Path, take: Path):
+    options, output = STAGES[stage]
+    code, out, err = run("predict", quick_model_folder, take, "--fps", 25, *options)
+    assert code == 0, err
+    assert out == TABLES["csv"].text(_stepped(quick_model, take, output))
+    assert len(out.splitlines()) == 13
+
+
+def test_the_table_of_stages_is_whole():
+    """Each thing that an `Output` can ask for is tried, alone and with the others."""
+    changed = {name for _, output in STAGES.values() for name in vars(output) if _differs(output, name)}
+    assert changed == set(vars(Output())) - {
+        "amplify_eyes"
+    }  # of headsets: tests/regress/headset/test_live_cameras.py
+    assert read_adjustments.__module__ == ShapeAdjustment.__module__
+
+
+def _differs(output: Output, name: str) -> bool:
+    return getattr(output, name) != getattr(Output(), name)
+
+
+@pytest.mark.parametrize("writer", TABLES)
+def test_every_table(writer: str, run, quick_model: Model, quick_model_folder: Path, take: Path):
+    code, out, err = run("predict", quick_model_folder, take, "--fps", 25, "--format", writer, "--smooth", 2)
+    assert code == 0, err
+    assert out == TABLES[writer].text(_stepped(quick_model, take, Output(smooth=2)))
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_an_avatar_and_the_confidence(
+    mirrored: bool, run, quick_model: Model, quick_model_folder: Path, take: Path
+):
+    avatar(take.with_name("a.glb"))
+    options = ("--gltf", "a.glb", "--out", "b.glb", "--confidence", "trust.csv", "--fps", 25)
+    code, _, err = run("predict", quick_model_folder, take, *options, *(["--mirror"] if mirrored else []))
+    assert code == 0, err
+    stepped = _stepped(quick_model, take, Output(mirror=mirrored), confident=True)
+    assert take.with_name("b.glb").read_bytes() == animated_avatar(stepped, Path("a.glb")).content
+    assert take.with_name("trust.csv").read_text() == confidence_csv(stepped)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_pipe(stage: str, run, quick_model_folder: Path, take: Path, monkeypatch: pytest.MonkeyPatch):
+    options, _ = STAGES[stage]
+    _, out, _ = run("predict", quick_model_folder, take, "--fps", 25, *options)
+    lines = [" ".join(map(repr, face.ravel().tolist())) for face in np.load(take)]
+    monkeypatch.setattr(sys, "stdin", io.StringIO("\n".join(lines) + "\n"))
+    code, piped, err = run("predict", quick_model_folder, "-", "--fps", 25, *options)
+    assert code == 0, err
+    # an array's rows are called 0, 1, ... and lines 1, 2, ...
+    assert [line.partition(",")[2] for line in piped.splitlines()] == [
+        line.partition(",")[2] for line in out.splitlines()
+    ]
