@@ -84,6 +84,15 @@ MIRRORED_LANDMARKS: tuple[int, ...] = (
 )
 """``points[..., MIRRORED_LANDMARKS, :]`` are the landmarks of the mirrored face, once x is mirrored too."""
 
+DETECTOR_DISAGREEMENT: dict[str, float] = {
+    **{"jaw": 0.083, "right_brow": 0.060, "left_brow": 0.060, "nose_bridge": 0.031, "nose_base": 0.031},
+    **{"right_eye": 0.024, "left_eye": 0.024, "outer_lip": 0.032, "inner_lip": 0.032},
+}
+"""How far apart two detectors put the points of each group, in outer-eye distances (measured on a tracked face)."""
+BIAS_TOGETHER, BIAS_SMOOTH, BIAS_ALONE, BIAS_BENDS = 0.5, 0.35, 0.15, 3
+"""Shares of a detector bias's variance: the group as a whole, bends along its contour (half waves at most), each point
+alone."""
+
 FACE_WIDTH_LANDMARKS = (0, 16)
 """The face's width in a picture is the distance between these two landmarks (ear to ear along the jaw)."""
 

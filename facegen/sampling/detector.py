@@ -1,4 +1,4 @@
-"""How a landmark detector errs: bias that stays on a person, jitter, parts found elsewhere, no face at all.
+"""Draws how a landmark detector errs: bias that stays on a person, jitter, parts found elsewhere, no face at all.
 
 Bias and jitter are measured apart (two detectors and one tracked face): two detectors disagree by a constant of 2.4 %
 of the outer-eye distance at the eyes, 3.1 % at the nose, 3.2 % at the lips, 6.0 % at the brows and 8.3 % at the jaw,
@@ -7,21 +7,22 @@ because they mean different points; the frame-to-frame jitter of either is about
 
 import numpy as np
 
-from facegen.conventions import BLOCK, LANDMARK_COUNT, LANDMARK_GROUPS
+from facegen.conventions import (
+    BIAS_ALONE,
+    BIAS_BENDS,
+    BIAS_SMOOTH,
+    BIAS_TOGETHER,
+    BLOCK,
+    DETECTOR_DISAGREEMENT,
+    LANDMARK_COUNT,
+    LANDMARK_GROUPS,
+)
 from facegen.randomness import stream
+from facegen.sampling.blocks import blocks_of
 from facegen.spec import Landmarks
 
 OUTER_EYES_FACE_WIDTHS = 0.62
 """Distance of landmarks 36 and 45 as a share of that of 0 and 16, on the default rig's mean face."""
-
-DISAGREEMENT = {
-    **{"jaw": 0.083, "right_brow": 0.060, "left_brow": 0.060, "nose_bridge": 0.031, "nose_base": 0.031},
-    **{"right_eye": 0.024, "left_eye": 0.024, "outer_lip": 0.032, "inner_lip": 0.032},
-}
-"""How far apart two detectors put a point, in outer-eye distances."""
-
-TOGETHER, SMOOTH, ALONE, BENDS = 0.5, 0.35, 0.15, 3
-"""Shares of a bias's variance: the part as a whole, bends along its contour (half waves at most), each point alone."""
 
 OUTLIER_FACE_WIDTHS = 0.05
 """Standard deviation of how far off a part is found: a brow's other edge, the collar for the jaw."""
@@ -70,13 +71,13 @@ def draw_bias(rng: np.random.Generator, size: int) -> np.ndarray:
     bias = np.empty((size, LANDMARK_COUNT, 2))
     for group, numbers in LANDMARK_GROUPS.items():
         along = (np.arange(len(numbers)) + 0.5) / len(numbers)
-        bends = np.sqrt(2) * np.cos(np.pi * np.outer(np.arange(1, BENDS + 1), along))
-        shape = np.sqrt(TOGETHER) * rng.standard_normal((size, 1, 2))
-        shape = shape + np.sqrt(ALONE) * rng.standard_normal((size, len(numbers), 2))
-        shape += np.sqrt(SMOOTH / BENDS) * np.einsum(
-            "cbd,bn->cnd", rng.standard_normal((size, BENDS, 2)), bends
+        bends = np.sqrt(2) * np.cos(np.pi * np.outer(np.arange(1, BIAS_BENDS + 1), along))
+        shape = np.sqrt(BIAS_TOGETHER) * rng.standard_normal((size, 1, 2))
+        shape = shape + np.sqrt(BIAS_ALONE) * rng.standard_normal((size, len(numbers), 2))
+        shape += np.sqrt(BIAS_SMOOTH / BIAS_BENDS) * np.einsum(
+            "cbd,bn->cnd", rng.standard_normal((size, BIAS_BENDS, 2)), bends
         )
-        bias[:, list(numbers)] = shape * (DISAGREEMENT[group] * OUTER_EYES_FACE_WIDTHS / np.sqrt(2))
+        bias[:, list(numbers)] = shape * (DETECTOR_DISAGREEMENT[group] * OUTER_EYES_FACE_WIDTHS / np.sqrt(2))
     return bias
 
 
@@ -103,6 +104,5 @@ def draw_dropped(rng: np.random.Generator, size: int, *, share: float, run: floa
 
 def _bias_of(seed: int, person: np.ndarray) -> np.ndarray:
     """Bias (n, 68, 2) of people by number (n,); whole blocks of people are drawn, then picked from."""
-    blocks = np.unique(person // BLOCK)
-    drawn = np.concatenate([draw_bias(stream(seed, "detector bias", int(b)), BLOCK) for b in blocks])
-    return drawn[np.searchsorted(blocks, person // BLOCK) * BLOCK + person % BLOCK]
+    blocks, row = blocks_of(person)
+    return np.concatenate([draw_bias(stream(seed, "detector bias", b), BLOCK) for b in blocks])[row]

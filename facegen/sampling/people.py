@@ -1,4 +1,4 @@
-"""Who the people are: traits that the rig knows, and the coefficients of its identity basis."""
+"""Draws people: traits that the rig knows, and the coefficients of its identity basis."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -10,6 +10,7 @@ from facegen.conventions import BLOCK, SPLITS
 from facegen.randomness import stream
 from facegen.rigs import Rig
 from facegen.rigs.threads import one_blas_thread
+from facegen.sampling.blocks import blocks_of
 from facegen.spec import Spec, draw
 
 LARGEST_SCORE = 2.5
@@ -66,9 +67,8 @@ def draw_people(spec: Spec, rig: Rig, block: int) -> People:
 
 def people_of(spec: Spec, rig: Rig, person: np.ndarray) -> People:
     """People by number (n,); whole blocks of people are drawn, then picked from."""
-    blocks = np.unique(person // BLOCK)
-    drawn = [draw_people(spec, rig, int(block)) for block in blocks]
-    row = np.searchsorted(blocks, person // BLOCK) * BLOCK + person % BLOCK
+    blocks, row = blocks_of(person)
+    drawn = [draw_people(spec, rig, block) for block in blocks]
 
     def pick(name: str) -> np.ndarray:
         return np.concatenate([getattr(people, name) for people in drawn])[row]

@@ -7,6 +7,7 @@ import numpy as np
 from facegen.conventions import BLOCK
 from facegen.randomness import stream
 from facegen.rigs import Rig
+from facegen.sampling.blocks import blocks_of
 from facegen.sampling.cameras import camera_from_head
 from facegen.sampling.detector import draw_detector_noise
 from facegen.sampling.frames import FIT_AXES, draw_clip_frames, draw_played_frames, draw_single_frames
@@ -78,9 +79,8 @@ class Samples:
 
 
 def _by_session(seed: int, component: str, session: np.ndarray, width: int) -> np.ndarray:
-    blocks = np.unique(session // BLOCK)
-    drawn = np.concatenate([stream(seed, component, int(b)).standard_normal((BLOCK, width)) for b in blocks])
-    return drawn[np.searchsorted(blocks, session // BLOCK) * BLOCK + session % BLOCK]
+    blocks, row = blocks_of(session)
+    return np.concatenate([stream(seed, component, b).standard_normal((BLOCK, width)) for b in blocks])[row]
 
 
 def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:

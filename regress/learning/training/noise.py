@@ -9,29 +9,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.conventions import LANDMARK_COUNT, LANDMARK_GROUPS
+from facegen.conventions import (
+    BIAS_ALONE,
+    BIAS_BENDS,
+    BIAS_SMOOTH,
+    BIAS_TOGETHER,
+    DETECTOR_DISAGREEMENT,
+    LANDMARK_COUNT,
+    LANDMARK_GROUPS,
+)
 
 OUTER_EYES = (36, 45)
 """Landmarks whose distance is the unit of noise, and whose direction is a face's x axis."""
-
-_DISAGREEMENT = {
-    "jaw": 0.083,
-    "right_brow": 0.060,
-    "left_brow": 0.060,
-    "nose_bridge": 0.031,
-    "nose_base": 0.031,
-    "right_eye": 0.024,
-    "left_eye": 0.024,
-    "outer_lip": 0.032,
-    "inner_lip": 0.032,
-}
-"""How far apart two detectors put a point, in outer-eye distances (measured on a tracked face)."""
-
-_TOGETHER, _SMOOTH, _ALONE = 0.5, 0.35, 0.15
-"""Shares of a bias's variance: the group as a whole, bends along the contour, each point for itself."""
-
-_BENDS = 3
-"""Half waves along a contour at most."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,12 +66,12 @@ def draw_bias(rng: np.random.Generator, count: int) -> np.ndarray:
     offsets = np.empty((count, LANDMARK_COUNT, 2))
     for group, numbers in LANDMARK_GROUPS.items():
         along = (np.arange(len(numbers)) + 0.5) / len(numbers)  # with ends, short groups bend by more
-        bends = np.sqrt(2) * np.cos(np.pi * np.outer(np.arange(1, _BENDS + 1), along))
-        together = rng.standard_normal((count, 1, 2)) * np.sqrt(_TOGETHER)
-        smooth = np.einsum("ckd,kn->cnd", rng.standard_normal((count, _BENDS, 2)), bends)
-        alone = rng.standard_normal((count, len(numbers), 2)) * np.sqrt(_ALONE)
-        shape = together + smooth * np.sqrt(_SMOOTH / _BENDS) + alone
-        offsets[:, list(numbers)] = shape * (_DISAGREEMENT[group] / np.sqrt(2))
+        bends = np.sqrt(2) * np.cos(np.pi * np.outer(np.arange(1, BIAS_BENDS + 1), along))
+        together = rng.standard_normal((count, 1, 2)) * np.sqrt(BIAS_TOGETHER)
+        smooth = np.einsum("ckd,kn->cnd", rng.standard_normal((count, BIAS_BENDS, 2)), bends)
+        alone = rng.standard_normal((count, len(numbers), 2)) * np.sqrt(BIAS_ALONE)
+        shape = together + smooth * np.sqrt(BIAS_SMOOTH / BIAS_BENDS) + alone
+        offsets[:, list(numbers)] = shape * (DETECTOR_DISAGREEMENT[group] / np.sqrt(2))
     return offsets
 
 

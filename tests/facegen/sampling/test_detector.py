@@ -5,12 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from facegen.conventions import BLOCK, LANDMARK_GROUPS
+from facegen.conventions import BLOCK, DETECTOR_DISAGREEMENT, LANDMARK_GROUPS
 from facegen.geometry import rotation_from_angles
 from facegen.randomness import stream
 from facegen.sampling import draw_samples, plan_dataset
 from facegen.sampling.detector import (
-    DISAGREEMENT,
     OUTER_EYES_FACE_WIDTHS,
     along_face,
     draw_bias,
@@ -41,7 +40,7 @@ def test_bias_is_as_large_as_two_detectors_disagree_and_moves_parts_as_a_whole()
     for group, numbers in LANDMARK_GROUPS.items():
         part = bias[:, list(numbers)]
         rms = np.sqrt((part**2).sum(axis=-1).mean())
-        assert rms == pytest.approx(DISAGREEMENT[group] * OUTER_EYES_FACE_WIDTHS, rel=0.05), group
+        assert rms == pytest.approx(DETECTOR_DISAGREEMENT[group] * OUTER_EYES_FACE_WIDTHS, rel=0.05), group
         # neighbours err together: half of the variance is the part's
         assert np.corrcoef(part[:, 0, 0], part[:, 1, 0])[0, 1] > 0.4, group
 
