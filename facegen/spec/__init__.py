@@ -1,9 +1,9 @@
 """Specs: what a dataset is, in TOML."""
 
+from facegen.number_ranges import format_ranges, sample_numbers
 from facegen.spec.distribution import Distribution, draw
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
 from facegen.spec.reference import spec_reference
-from facegen.spec.sample_ranges import format_ranges, sample_numbers
 from facegen.spec.spec import Expression, Gaze, Landmarks, Looks, Playback, Spec
 
 __all__ = [

@@ -15,9 +15,9 @@ from pydantic.dataclasses import is_pydantic_dataclass
 
 from facegen.errors import InputError
 from facegen.expression import COMPONENTS
+from facegen.number_ranges import parse_ranges
 from facegen.refusals import refusal
 from facegen.spec.distribution import as_data
-from facegen.spec.sample_ranges import parse_ranges
 from facegen.spec.spec import Clips, Spec
 
 LABEL_VERSION = 3

@@ -5,7 +5,7 @@ from enum import Enum
 
 import numpy as np
 
-from regress.runtime.inputs import joined_runs
+from facegen.number_ranges import format_ranges
 
 DARK = 24
 """Grey level that the brightest fiftieth of a black picture stays below.
@@ -97,7 +97,7 @@ def fault_sentences(camera: str, numbers: Sequence[int], faults: Sequence[Fault 
 
 
 def _listed(frames: list[int]) -> str:
-    runs = joined_runs(frames).split(", ")
+    runs = format_ranges(frames).split(",")
     if len(runs) <= _TOLD_RUNS:
         return ", ".join(runs)
     return f"{', '.join(runs[:_TOLD_RUNS])} and {len(runs) - _TOLD_RUNS} more"

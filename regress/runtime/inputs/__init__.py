@@ -5,7 +5,6 @@ from regress.runtime.inputs.faults import (
     TimeOrder,
     face_faults,
     fault_sentences,
-    joined_runs,
 )
 from regress.runtime.inputs.frames import Frames
 from regress.runtime.inputs.lines import read_lines
@@ -19,7 +18,6 @@ __all__ = [
     "TimeOrder",
     "face_faults",
     "fault_sentences",
-    "joined_runs",
     "read_frames",
     "read_lines",
 ]

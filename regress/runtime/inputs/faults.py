@@ -1,12 +1,12 @@
 """Rows that cannot be used: no face, a face that has collapsed or is the wrong way round, times out of order."""
 
 import math
-from collections.abc import Sequence
 from enum import Enum
 
 import numpy as np
 
 from facegen.conventions import LANDMARK_GROUPS
+from facegen.number_ranges import format_ranges
 
 _OUTLINE = np.array(
     [
@@ -94,16 +94,7 @@ def fault_sentences(faults: list[Fault | None]) -> list[str]:
     for fault in Fault:
         rows = [row for row, other in enumerate(faults, start=1) if other is fault]
         if rows:
-            lines.append(f"{len(rows)} of {len(faults)} rows have {fault.value}: {joined_runs(rows)}")
+            lines.append(
+                f"{len(rows)} of {len(faults)} rows have {fault.value}: {format_ranges(rows, separator=', ')}"
+            )
     return lines
-
-
-def joined_runs(rows: Sequence[int]) -> str:
-    """Ascending numbers with runs joined: ``3, 7-9``."""
-    runs: list[list[int]] = []
-    for row in rows:
-        if runs and row == runs[-1][1] + 1:
-            runs[-1][1] = row
-        else:
-            runs.append([row, row])
-    return ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)

@@ -1,6 +1,7 @@
-"""Sample numbers as people write them: ``0-99,140,200-240:10``."""
+"""Reads and writes numbers as people write them: ``0-99,140,200-240:10``."""
 
 import re
+from collections.abc import Sequence
 
 from facegen.errors import InputError
 
@@ -49,12 +50,12 @@ def sample_numbers(text: str, *, total: int, where: str, what: str = "sample") -
     return sorted(numbers)
 
 
-def format_ranges(numbers: list[int]) -> str:
-    """Sorted numbers as people write them: ``[0, 1, 2, 7]`` gives ``"0-2,7"``, which `sample_numbers` reads."""
+def format_ranges(numbers: Sequence[int], *, separator: str = ",") -> str:
+    """Ascending numbers as people write them: ``[0, 1, 2, 7]`` gives ``"0-2,7"``, which `sample_numbers` reads."""
     pieces: list[list[int]] = []
     for number in numbers:
         if pieces and number == pieces[-1][1] + 1:
             pieces[-1][1] = number
         else:
             pieces.append([number, number])
-    return ",".join(f"{first}-{last}" if last > first else str(first) for first, last in pieces)
+    return separator.join(f"{first}-{last}" if last > first else str(first) for first, last in pieces)
