@@ -4,19 +4,21 @@ Each line on standard input is a face, 136 numbers x y x y ...; the first is tak
 """
 
 import sys
+import time
 
-import numpy as np
-
-import regress
 from facegen.conventions import BLENDSHAPES
-from regress.runtime.model import FastPredictor
+from regress import load_model
+from regress.runtime.inputs import read_lines
+from regress.runtime.predict import landmark_chain
+from regress.runtime.stages import OneEuro, Output, Soundness
 
-model = regress.load_model(sys.argv[1])
-predictor = None
-for line in sys.stdin:
-    points = np.array(line.split(), dtype=float).reshape(68, 2)
-    if predictor is None:
-        predictor = FastPredictor(model.calibrate(points[None]))  # made once, and for one thread
-    weights = predictor.predict_frame(points)  # about 30 microseconds
-    shown = {name: round(float(weight), 2) for name, weight in zip(BLENDSHAPES, weights, strict=True)}
-    print({name: weight for name, weight in shown.items() if weight > 0.05}, flush=True)
+model = load_model(sys.argv[1])
+output = Output(one_euro=OneEuro(cutoff_hz=1.0))
+started = time.monotonic()
+soundness, chain = Soundness(needs_times=True), None
+for sample in read_lines(f"{time.monotonic() - started} {line}" for line in sys.stdin):
+    if chain is None:
+        chain = landmark_chain(model.calibrate(sample.points[None]), output)
+    answer = chain.step(soundness.step(sample))
+    shown = zip(BLENDSHAPES, answer.weights.round(2).tolist(), strict=True)
+    print({name: weight for name, weight in shown if weight > 0.05}, flush=True)
