@@ -4,21 +4,19 @@ Each line on standard input is a face, 136 numbers x y x y ...; the first is tak
 """
 
 import sys
-import time
 
 from facegen.conventions import BLENDSHAPES
 from regress import load_model
 from regress.runtime.inputs import read_lines
 from regress.runtime.predict import landmark_chain
-from regress.runtime.stages import OneEuro, Output, Soundness
 
-model = load_model(sys.argv[1])
-output = Output(one_euro=OneEuro(cutoff_hz=1.0))
-started = time.monotonic()
-soundness, chain = Soundness(needs_times=True), None
-for sample in read_lines(f"{time.monotonic() - started} {line}" for line in sys.stdin):
+model, chain = load_model(sys.argv[1]), None
+for sample in read_lines(sys.stdin):
     if chain is None:
-        chain = landmark_chain(model.calibrate(sample.points[None]), output)
-    answer = chain.step(soundness.step(sample))
-    shown = zip(BLENDSHAPES, answer.weights.round(2).tolist(), strict=True)
-    print({name: weight for name, weight in shown if weight > 0.05}, flush=True)
+        chain = landmark_chain(
+            model.calibrate(sample.points[None])
+        )  # an Output() besides smooths, mirrors, ...
+    weights = chain.step(sample).weights.round(2).tolist()
+    print(
+        {name: weight for name, weight in zip(BLENDSHAPES, weights, strict=True) if weight > 0.05}, flush=True
+    )
