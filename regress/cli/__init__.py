@@ -15,6 +15,7 @@ from regress.cli.edges import edges
 from regress.cli.evaluate import evaluate
 from regress.cli.export import export
 from regress.cli.headset import headset
+from regress.cli.models import models
 from regress.cli.predict import predict
 from regress.cli.report import report
 from regress.cli.train import train
@@ -30,6 +31,7 @@ app = typer.Typer(
 app.command()(train)
 app.command()(evaluate)
 app.command()(predict)
+app.command()(models)
 app.command()(export)
 app.command()(report)
 app.command()(bench)

@@ -21,9 +21,10 @@ def export(
     """
     from regress.exporters.headset_interface import interface_of
     from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.ready_made import model_folder
 
     predictor = load_headset_predictor(model)
-    graph = (model / "network.onnx").read_bytes()
+    graph = (model_folder(model) / "network.onnx").read_bytes()
     text = json.dumps(interface_of(predictor.model, graph=f"{name}.onnx"), indent=1) + "\n"
     with output_errors(out):
         out.mkdir(parents=True, exist_ok=True)

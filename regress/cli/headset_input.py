@@ -11,6 +11,38 @@ from regress.runtime.headset.footage import Footage, line_up
 from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.recordings import read_recording, read_rendered
+from regress.runtime.ready_made import HEADSET, ready_made_models
+
+
+def model_and_dataset(
+    arguments: Sequence[Path], chosen: str | None, *, cameras: bool
+) -> tuple[str | Path, Path | None]:
+    """Which model sees what: of two arguments the model comes first, one is the dataset if it has pictures.
+
+    Parameters
+    ----------
+    arguments, chosen
+        Of the command line, and of ``--model``.
+    cameras
+        Whether paths of cameras are given as well; a single argument is then the model.
+
+    Raises
+    ------
+    InputError
+        Where there are more arguments, or the model is given twice.
+    """
+    rest = list(arguments)
+    if chosen is not None:
+        rest.insert(0, chosen)
+    elif not rest or (len(rest) == 1 and not cameras and (rest[0] / "renders").is_dir()):
+        if HEADSET not in ready_made_models():
+            raise InputError("no model of headset pictures comes with this installation; name one's folder")
+        rest.insert(0, HEADSET)
+    if len(rest) > 2:
+        raise InputError(
+            f"one model and one dataset at most are needed; {', '.join(map(str, rest))} are given"
+        )
+    return rest[0], rest[1] if len(rest) == 2 else None
 
 
 def camera_paths(

@@ -8,13 +8,20 @@ import typer
 
 from facegen.console import say
 from facegen.files import write_whole
-from regress.cli.headset_input import camera_paths, check_stills, read_footage, read_neutrals
+from regress.cli.headset_input import (
+    camera_paths,
+    check_stills,
+    model_and_dataset,
+    read_footage,
+    read_neutrals,
+)
 from regress.cli.options import (
     AvatarOption,
     BetaOption,
     BlendOption,
     FormatOption,
     MirrorOption,
+    ModelOption,
     OneEuroOption,
     OutOption,
     RetargetOption,
@@ -41,13 +48,15 @@ _SAME_RATE = 0.05
 
 
 def predict(
-    model: Annotated[Path, typer.Argument(help="Model folder of `regress headset train`.")],
-    dataset: Annotated[
-        Path | None,
+    arguments: Annotated[
+        list[Path] | None,
         typer.Argument(
-            help="A facegen dataset: the pictures under its renders/. Otherwise name the cameras' paths."
+            metavar="[MODEL] [DATASET]",
+            help="The model, as --model takes it, and a facegen dataset: the pictures under its renders/. Without a "
+            "dataset name the cameras' paths.",
         ),
     ] = None,
+    chosen: ModelOption = None,
     camera: Annotated[
         list[str] | None,
         typer.Option(
@@ -140,9 +149,11 @@ def predict(
     empty cells. A neutral frame makes weights far better as long as the headset stays where it sits; the network sees
     when it does not, and goes on without.
 
-    Example: regress headset predict models/headset --left-eye take/left --right-eye take/right --mouth take/mouth
+    Example: regress headset predict --left-eye take/left --right-eye take/right --mouth take/mouth
     --neutral 0 --out weights.csv
     """
+    cameras = bool(camera or left_eye or right_eye or mouth)
+    model, dataset = model_and_dataset(arguments or [], chosen, cameras=cameras)
     predictor = load_headset_predictor(model)
     output = Output(
         smooth=smooth,

@@ -8,6 +8,13 @@ import typer
 from regress.cli.results import TableFormat
 from regress.runtime.stages.retargeting import shipped_targets
 
+ModelOption = Annotated[
+    str | None,
+    typer.Option(
+        "--model", metavar="NAME|FOLDER", help="Ready-made model (`regress models`) or model folder."
+    ),
+]
+
 OutOption = Annotated[
     Path | None,
     typer.Option("--out", help="File to write, with --gltf the animated .glb; standard output without."),

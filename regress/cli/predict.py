@@ -18,6 +18,7 @@ from regress.cli.options import (
     BlendOption,
     FormatOption,
     MirrorOption,
+    ModelOption,
     OneEuroOption,
     OutOption,
     RetargetOption,
@@ -30,6 +31,7 @@ from regress.errors import InputError
 from regress.runtime.inputs import Frames, read_frames, read_lines
 from regress.runtime.model import Model, load_model, symmetrised
 from regress.runtime.predict import predict_frames, predict_stream
+from regress.runtime.ready_made import LANDMARKS
 from regress.runtime.sample import Sample
 from regress.runtime.stages import OneEuro, Output
 from regress.runtime.stages.adjustment import read_adjustments
@@ -39,15 +41,15 @@ from regress.runtime.writers import confidence_csv, csv_lines
 
 
 def predict(
-    model: Annotated[Path, typer.Argument(help="Model folder.")],
-    landmarks: Annotated[
-        Path,
+    arguments: Annotated[
+        list[Path],
         typer.Argument(
-            metavar="INPUT",
+            metavar="[MODEL] INPUT",
             help="Landmarks: .pts files and folders, .npy, OpenFace or py-feat .csv, dlib .xml, COCO .json, "
-            "CK+ folders, or - for lines of 136 numbers on standard input.",
+            "CK+ folders, or - for lines of 136 numbers on standard input. Before them the model, as --model takes it.",
         ),
     ],
+    chosen: ModelOption = None,
     out: OutOption = None,
     table_format: FormatOption = TableFormat.csv,
     retarget: RetargetOption = None,
@@ -99,8 +101,9 @@ def predict(
     time is out of order; their row numbers are said. A neutral frame makes weights far better on real faces: it
     shows what the person is like, and where the detector puts its points.
 
-    Example: regress predict models/default take.csv --neutral 1 --one-euro 1 --out weights.csv
+    Example: regress predict take.csv --neutral 1 --one-euro 1 --out weights.csv
     """
+    model, landmarks = model_and_input(arguments, chosen)
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     output = Output(
         smooth_landmarks_hz=smooth_landmarks_hz,
@@ -127,6 +130,23 @@ def predict(
     if trust is not None:
         write_whole(trust, confidence_csv(prediction))
     write_prediction(prediction, table_format, out=out, gltf=gltf)
+
+
+def model_and_input(arguments: list[Path], chosen: str | None) -> tuple[str | Path, Path]:
+    """Which model sees which file: of two arguments the model comes first, one is the file.
+
+    Raises
+    ------
+    InputError
+        Where there are more, or the model is given twice.
+    """
+    *models, landmarks = arguments
+    if len(models) + (chosen is not None) > 1:
+        given = [str(model) for model in models] + ([f"--model {chosen}"] if chosen else [])
+        raise InputError(
+            f"one model and one INPUT are needed; before {landmarks} there are {', '.join(given)}"
+        )
+    return (models or [chosen or LANDMARKS])[0], landmarks
 
 
 def _predict_stream(model: Model, neutral: str, output: Output, *, fps: float | None, strict: bool) -> None:

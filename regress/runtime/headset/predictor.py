@@ -4,7 +4,6 @@ import json
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from regress.runtime.headset.estimates import Estimates
 from regress.runtime.headset.graph import HeadsetGraph
 from regress.runtime.headset.model import HeadsetModel, read_headset_model
 from regress.runtime.model import HEADSET
+from regress.runtime.ready_made import model_folder
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -77,18 +77,19 @@ class HeadsetPredictor:
 def is_headset_model(folder: str | os.PathLike[str]) -> bool:
     """Whether a folder says of itself that it is a headset network's; False as well where it says nothing."""
     try:
-        return json.loads((Path(folder) / "model.json").read_bytes()).get("kind") == HEADSET.name
+        return json.loads((model_folder(folder) / "model.json").read_bytes()).get("kind") == HEADSET.name
     except (OSError, ValueError, AttributeError):
         return False
 
 
 def load_headset_predictor(folder: str | os.PathLike[str]) -> HeadsetPredictor:
-    """Load a model folder of ``regress headset train``.
+    """Load a model folder of ``regress headset train``, or the ready-made model of that name.
 
     Raises
     ------
     ModelError
         Where it is none, or damaged.
     """
+    folder = model_folder(folder)
     model = read_headset_model(folder)
-    return HeadsetPredictor(model=model, graph=HeadsetGraph(Path(folder) / "network.onnx", model.cameras))
+    return HeadsetPredictor(model=model, graph=HeadsetGraph(folder / "network.onnx", model.cameras))

@@ -16,6 +16,7 @@ from regress.runtime.features import Features
 from regress.runtime.model.model import Calibrated, Model, Normalisation
 from regress.runtime.model.place import KEYPOINTS, write_folder
 from regress.runtime.networks import Denoising, FoldedNetworks
+from regress.runtime.ready_made import model_folder
 from regress.targets import Network, observability
 
 SCHEMAS = (1, 2, 3, 4)
@@ -53,14 +54,14 @@ def save_model(model: Model, folder: str | os.PathLike[str]) -> None:
 
 
 def load_model(folder: str | os.PathLike[str]) -> Model:
-    """Read a model folder.
+    """Read a model folder, or the ready-made model of that name.
 
     Raises
     ------
     ModelError
         Where model.json or weights.npz is missing, damaged or does not belong to the other.
     """
-    folder = Path(folder)
+    folder = model_folder(folder)
     document_path, weights_path = folder / "model.json", folder / "weights.npz"
     for path in (document_path, weights_path):
         if path.is_file():

@@ -1,0 +1,25 @@
+"""Finds the trained models that come with the package, by name."""
+
+import os
+from importlib import resources
+from pathlib import Path
+
+FOLDER = Path(str(resources.files("regress") / "models"))
+"""A folder for each: model.json, weights.npz or network.onnx, and CARD.md for people."""
+
+LANDMARKS = "landmarks-default"
+"""What `regress predict` takes where no model is given: the networks of `make train`."""
+
+HEADSET = "headset-tracking3"
+"""What `regress headset predict` takes where no model is given: the networks of `make headset`."""
+
+
+def ready_made_models() -> dict[str, Path]:
+    """Folders of the models that this installation has, by name."""
+    return {path.parent.name: path.parent for path in sorted(FOLDER.glob("*/model.json"))}
+
+
+def model_folder(model: str | os.PathLike[str]) -> Path:
+    """The folder itself where it exists, else that of the ready-made model of this name."""
+    folder = Path(model)
+    return folder if folder.exists() else ready_made_models().get(os.fspath(model), folder)
