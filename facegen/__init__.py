@@ -1,4 +1,4 @@
-"""A factory of synthetic people: labelled face keypoints by the million, and pictures for VR headsets."""
+"""Makes synthetic people: labelled face keypoints by the million, and pictures for VR headsets."""
 
 import importlib
 

@@ -1,4 +1,4 @@
-"""``python -m facegen`` is the ``facegen`` command."""
+"""Runs the ``facegen`` command as ``python -m facegen``."""
 
 from facegen.cli import main
 

@@ -1,4 +1,4 @@
-"""Speaks with the person at the terminal, for both programs: lines, progress, and an exit code for every error."""
+"""Shows a person at the terminal lines and progress, and ends a program with an exit code for every error."""
 
 import os
 import sys

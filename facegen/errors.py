@@ -1,4 +1,4 @@
-"""Errors that a user of facegen or regress can meet, each with the exit code of the worker contract.
+"""Defines the errors that a user of facegen or regress can meet, each with the exit code of the worker contract.
 
 ::
 

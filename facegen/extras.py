@@ -1,4 +1,4 @@
-"""Optional parts of the installation: which module comes with which extra, and how to get one that is absent."""
+"""Lists which module comes with which extra of the installation, and says how to get one that is absent."""
 
 from dataclasses import dataclass
 

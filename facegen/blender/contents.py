@@ -1,4 +1,4 @@
-"""What Blender's scene holds: objects, lamps, cameras and materials, brought in line with a `Scene` and a view."""
+"""Brings what Blender's scene holds in line with a `Scene` and a view: objects, lamps, cameras, materials."""
 
 import bpy
 import numpy as np
@@ -45,8 +45,8 @@ class SceneContents:
     def paint(self, scene: Scene, view: View) -> None:
         """Give the loaded materials the parameters that they have in a view."""
         for name, material in self._materials.items():
-            given = scene.materials.get(name, {}) | view.materials.get(name, {})
-            set_parameters(material, material_values(name, given))
+            changed = scene.materials.get(name, {}) | view.materials.get(name, {})
+            set_parameters(material, material_values(name, changed))
 
     def load(self, scene: Scene) -> None:
         """Make Blender hold a scene's meshes, strands and lamps and no others; nothing to do for the one it holds."""

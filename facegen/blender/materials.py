@@ -73,13 +73,14 @@ SHADERS: dict[str, Callable[[Graph, bool], Socket]] = {
 
 
 def build_material(name: str, *, subsurface: bool) -> bpy.types.Material:
-    """A new Blender material with default parameters; without ``subsurface`` it is a third cheaper."""
+    """Build a Blender material with default parameters; without ``subsurface`` it is a third cheaper."""
     graph = Graph(name, MATERIALS[name])
     return graph.finish(SHADERS[name](graph, subsurface))
 
 
 def build_truth_material() -> bpy.types.Material:
-    """The one material of truth passes: emits (part, u, v) as a colour, and lets rays through where eyes do.
+    """Build the one material of truth passes: it emits (part, u, v) as a colour, and
+    lets rays through where eyes do.
 
     Parts come from a face attribute, so they are exact integers; Cycles traces the refraction, so they are
     what appears.

@@ -1,4 +1,4 @@
-"""Pixels of a render without files, taken from the engine itself: in background mode Blender keeps none.
+"""Takes the pixels of a render from the engine itself, without files: in background mode Blender keeps none.
 
 Blender's own EXR and PNG writers put times into their headers, and its Viewer node stays black without a
 window. The engine's result is there right after its ``render`` returns, bit-equal to what a file would hold,

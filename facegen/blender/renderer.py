@@ -43,7 +43,7 @@ class Renderer:
     def render(
         self, scene: Scene, view_name: str, *, samples: int, seed: int, denoise: bool = True
     ) -> Layers:
-        """Radiance with ``samples`` paths a pixel, and what is true at each pixel's centre.
+        """Render radiance with ``samples`` paths a pixel, and what is true at each pixel's centre.
 
         Parameters
         ----------
@@ -70,7 +70,7 @@ class Renderer:
     def glimpse(
         self, scene: Scene, view_name: str, *, samples: int, seed: int, denoise: bool = True
     ) -> Glimpse:
-        """The radiance of `render`, bit for bit, and the denoiser's guides instead of the truth: one render, not two.
+        """Render the radiance of `render`, bit for bit, and the denoiser's guides instead of the truth: once, not twice.
 
         Parameters are those of `render`.
         """

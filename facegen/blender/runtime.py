@@ -1,4 +1,4 @@
-"""Blender as a Python module: importing it, keeping it quiet, compiling its lens, choosing its device."""
+"""Imports Blender as a Python module, keeps it quiet, compiles its lens, and chooses its device."""
 
 import contextlib
 import hashlib
@@ -36,7 +36,7 @@ GPU_BACKENDS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")
 
 
 def import_bpy() -> ModuleType:
-    """The ``bpy`` module.
+    """Import the ``bpy`` module.
 
     Raises
     ------
@@ -53,7 +53,7 @@ def import_bpy() -> ModuleType:
 
 
 def without_blender_scripts(paths: list[str]) -> list[str]:
-    """Import paths without those that a running Blender added.
+    """List import paths without those that a running Blender added.
 
     A process spawned by one with Blender in it inherits them, and finds the half of ``bpy`` that lies in
     ``bpy/4.5/scripts/modules`` before the whole one ("No module named '_bpy'").
@@ -62,10 +62,10 @@ def without_blender_scripts(paths: list[str]) -> list[str]:
 
 
 def missing_library_sentence(error: ImportError) -> str:
-    """What is missing for Blender and how to get it, from the loader's message."""
-    found = re.search(r"(lib[\w.+-]+?\.so)[\w.]*: cannot open shared object file", str(error))
-    if found:
-        library = found.group(1)
+    """Say what is missing for Blender and how to get it, from the loader's message."""
+    missing = re.search(r"(lib[\w.+-]+?\.so)[\w.]*: cannot open shared object file", str(error))
+    if missing:
+        library = missing.group(1)
         package = DEBIAN_PACKAGES.get(library)
         remedy = (
             f"install it, on Debian and Ubuntu with `apt-get install --no-install-recommends {package}`"
@@ -93,7 +93,7 @@ def quiet_stdout() -> Iterator[None]:
 
 
 def compile_lens() -> tuple[str, str]:
-    """Bytecode of ``lens.osl`` and its MD5, as a custom camera wants them (25 to 45 ms, once a process)."""
+    """Compile ``lens.osl``: its bytecode and MD5, as a custom camera wants them (25 to 45 ms, once a process)."""
     import_bpy()
     import _cycles
 
@@ -131,8 +131,8 @@ def choose_device(want: str = "cpu") -> str:
     if want.lower() not in names:
         raise InputError(f"device is {want!r}, but must be one of {', '.join(names)}")
     preferences = bpy.context.preferences.addons["cycles"].preferences
-    wanted = {"cpu": (), "auto": ("OPTIX",)}.get(want.lower(), (want.upper(),))
-    for backend in wanted:
+    backends = {"cpu": (), "auto": ("OPTIX",)}.get(want.lower(), (want.upper(),))
+    for backend in backends:
         try:
             preferences.compute_device_type = backend
         except TypeError:  # not built for this system
@@ -145,6 +145,6 @@ def choose_device(want: str = "cpu") -> str:
             return backend
     preferences.compute_device_type = "NONE"
     bpy.context.scene.cycles.device = "CPU"
-    if wanted and want.lower() != "auto":
+    if backends and want.lower() != "auto":
         raise InputError(f"device is {want!r}, but no such device was found; use cpu or auto")
     return "CPU"

@@ -1,4 +1,4 @@
-"""Settings of Cycles that all pictures share, each with the measurement that chose it."""
+"""Sets up Cycles as all pictures need it, each setting with the measurement that chose it."""
 
 import bpy
 

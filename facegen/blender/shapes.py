@@ -1,4 +1,4 @@
-"""Meshes and strands of a scene as Blender's data."""
+"""Makes Blender's meshes and hair curves of a scene's."""
 
 import bpy
 import numpy as np

@@ -36,7 +36,7 @@ def skin(graph: Graph, subsurface: bool) -> Socket:
 
 
 def _grain(graph: Graph, place: Socket) -> Socket:
-    """What skin lacks of light in pores and in the fine lines between them: 0 beside them, down to -3 or so.
+    """Darkness of pores and of the fine lines between them: 0 beside them, down to -3 or so.
 
     In the albedo, for light that scatters below the skin fills what changes only its normals.
     """

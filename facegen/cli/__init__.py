@@ -1,4 +1,4 @@
-"""The ``facegen`` command. Only this package prints: results to stdout, talk to stderr.
+"""Defines the ``facegen`` command. Only this package prints: results to stdout, talk to stderr.
 
 A command imports what it needs when it is called, so that ``--help`` is quick and needs none of the extras.
 """

@@ -1,4 +1,4 @@
-"""``facegen blend``."""
+"""Defines ``facegen blend``."""
 
 from pathlib import Path
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""``facegen develop``."""
+"""Defines ``facegen develop``."""
 
 from pathlib import Path
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""``facegen farm submit | status | logs | resume | cancel``."""
+"""Defines ``facegen farm submit | status | logs | resume | cancel``."""
 
 import sys
 from dataclasses import asdict
@@ -13,13 +13,13 @@ from facegen.errors import InputError
 
 if TYPE_CHECKING:
     from facegen.farm import Job
-    from facegen.store import Dataset as OpenDataset
+    from facegen.store import Dataset
 
 farm_app = typer.Typer(
     help="Datasets made on many machines, by Slurm or an OpenJD render farm.", no_args_is_help=True
 )
 
-Dataset = Annotated[Path, typer.Argument(help="Folder of a dataset that was submitted.")]
+Folder = Annotated[Path, typer.Argument(help="Folder of a dataset that was submitted.")]
 Json = Annotated[bool, typer.Option("--json", help="As JSON, for programs.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Write and print scripts or bundle; submit nothing.")]
 Wait = Annotated[
@@ -114,7 +114,7 @@ def submit(
 
 @farm_app.command()
 def resume(
-    dataset: Dataset,
+    dataset: Folder,
     retry_quarantined: Annotated[
         bool, typer.Option("--retry-quarantined", help="Also what failed three times.")
     ] = False,
@@ -149,7 +149,7 @@ def resume(
 
 
 @farm_app.command()
-def status(dataset: Dataset, as_json: Json = False) -> None:
+def status(dataset: Folder, as_json: Json = False) -> None:
     """Say how far a dataset is, from what is on disk; engines are asked only what they are doing.
 
     Exit code 0: all there; 1: some failed for good; 75: work remains.
@@ -163,7 +163,7 @@ def status(dataset: Dataset, as_json: Json = False) -> None:
 
 @farm_app.command()
 def logs(
-    dataset: Dataset,
+    dataset: Folder,
     task: Annotated[
         str | None, typer.Argument(help="sample-000123 or shard-000001; without, engine and quarantine.")
     ] = None,
@@ -192,7 +192,7 @@ def logs(
 
 
 @farm_app.command()
-def cancel(dataset: Dataset) -> None:
+def cancel(dataset: Folder) -> None:
     """Cancel all of a dataset's jobs; running samples get their grace, what is done stays.
 
     Example: facegen farm cancel /shared/faces
@@ -204,7 +204,7 @@ def cancel(dataset: Dataset) -> None:
     print(f"cancelled: {', '.join(names) or 'nothing, no job is running'}")
 
 
-def _hand_over(dataset: "OpenDataset", job: "Job", *, dry_run: bool, wait: bool, as_json: bool) -> None:
+def _hand_over(dataset: "Dataset", job: "Job", *, dry_run: bool, wait: bool, as_json: bool) -> None:
     """Submit a job and print what became of it; after a dry run print what would be submitted."""
     from facegen import farm
 
@@ -228,7 +228,7 @@ def _hand_over(dataset: "OpenDataset", job: "Job", *, dry_run: bool, wait: bool,
     raise typer.Exit(_show_state(dataset, as_json=as_json))
 
 
-def _show_state(dataset: "OpenDataset", *, as_json: bool) -> int:
+def _show_state(dataset: "Dataset", *, as_json: bool) -> int:
     """Print how far a dataset is; returns the exit code."""
     from facegen import farm
 

@@ -1,4 +1,4 @@
-"""``facegen generate``."""
+"""Defines ``facegen generate``."""
 
 import signal
 import sys

@@ -1,4 +1,4 @@
-"""``facegen headset``: which headsets there are, what is in one, and how it looks."""
+"""Defines ``facegen headset list | show | preview``."""
 
 import dataclasses
 import json

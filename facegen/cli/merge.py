@@ -1,4 +1,4 @@
-"""``facegen merge``."""
+"""Defines ``facegen merge``."""
 
 import json
 from dataclasses import asdict

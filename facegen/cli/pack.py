@@ -1,4 +1,4 @@
-"""``facegen pack``."""
+"""Defines ``facegen pack``."""
 
 import json
 from dataclasses import asdict

@@ -1,4 +1,4 @@
-"""``facegen preview``."""
+"""Defines ``facegen preview``."""
 
 import sys
 from pathlib import Path
@@ -145,12 +145,12 @@ def _sheet(dataset: Path, out: Path, samples: str | None, columns: int, landmark
             f"--out: {out} ends in none of {', '.join((*SHEETS, PAGE))}; for a film name a clip with --clip"
         )
     opened = open_dataset(dataset)
-    there = {int(number) for number in opened.keypoints()["sample"].to_numpy()}
+    made = {int(number) for number in opened.keypoints()["sample"].to_numpy()}
     if samples is not None:
         numbers = sample_numbers(samples, total=opened.plan.samples, where="--samples")
     else:
-        numbers = opened.folder.rendered()[:8] or sorted(there)[:8]
-    missing = sorted(set(numbers) - there)
+        numbers = opened.folder.rendered()[:8] or sorted(made)[:8]
+    missing = sorted(set(numbers) - made)
     if missing or not numbers:
         raise InputError(
             f"{dataset}: sample {missing[0] if missing else 0} has not been made; run facegen generate first"

@@ -1,4 +1,4 @@
-"""``facegen rig``: build the heads, say what they hold, draw them."""
+"""Defines ``facegen rig build | add | info | preview | landmarks``."""
 
 import json
 from pathlib import Path

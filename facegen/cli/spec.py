@@ -1,4 +1,4 @@
-"""``facegen spec check | show | schema | reference | labels``."""
+"""Defines ``facegen spec check | show | schema | reference | labels``."""
 
 import json
 import sys

@@ -1,14 +1,17 @@
-"""``facegen validate``."""
+"""Defines ``facegen validate``."""
 
 import json
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from facegen.console import progress, say
 from facegen.errors import ExitCode
+
+if TYPE_CHECKING:
+    from facegen.validation import Repair, Verdict
 
 
 def validate(
@@ -39,13 +42,13 @@ def validate(
 
     opened = open_dataset(dataset)
     listing = list_dataset(opened)
-    things = len(listing.shards) + len(listing.renders)
+    total = len(listing.shards) + len(listing.renders)
     with progress() as show:
         verdict = check(
             opened,
             workers=workers or available_cpus(),
             listing=listing,
-            on_progress=lambda done: show("shards and rendered samples checked", done, things),
+            on_progress=lambda done: show("shards and rendered samples checked", done, total),
         )
     if not as_json:
         for finding in verdict.findings:
@@ -54,10 +57,12 @@ def validate(
     if as_json:
         print(json.dumps(asdict(verdict) | {"repair": None if repaired is None else asdict(repaired)}))
     else:
-        for place in repaired.removed if repaired else ():
-            print(f"removed {place}")
-        wrong = sum(verdict.wrong.values())
-        print(f"{verdict.shards} shards and {verdict.renders} rendered samples checked, {wrong} things wrong")
+        for name in repaired.removed if repaired else ():
+            print(f"removed {name}")
+        faults = sum(verdict.wrong.values())
+        print(
+            f"{verdict.shards} shards and {verdict.renders} rendered samples checked, {faults} things wrong"
+        )
         if verdict.renders and not opened.spec.render.truth:
             say(
                 f"facegen: {dataset} has no EXR files (render.truth = false), so no label was held against depths"
@@ -69,21 +74,23 @@ def validate(
         raise typer.Exit(ExitCode.OK if partial and repaired is None else ExitCode.DRAINED)
 
 
-def _only_extras(verdict: object) -> bool:
+def _only_extras(verdict: "Verdict") -> bool:
+    """Whether all that is wrong is in excess, so that nothing is missing once it is removed."""
     return all(kind.startswith("extra-") for kind in verdict.wrong)
 
 
-def _missing(verdict: object, repaired: object) -> str:
-    said = []
+def _missing(verdict: "Verdict", repaired: "Repair | None") -> str:
+    """What generate has to make, and why."""
+    reasons = []
     if verdict.missing_shards:
-        said.append(f"keypoint shards {_short(verdict.missing_shards)} are missing")
+        reasons.append(f"keypoint shards {_short(verdict.missing_shards)} are missing")
     if verdict.missing_renders:
-        said.append(f"rendered samples {_short(verdict.missing_renders)} are missing")
+        reasons.append(f"rendered samples {_short(verdict.missing_renders)} are missing")
     if repaired is not None and repaired.samples:
-        said.append(f"rendered samples were removed (generate --samples {_short(repaired.samples)})")
+        reasons.append(f"rendered samples were removed (generate --samples {_short(repaired.samples)})")
     elif repaired is not None and repaired.removed:
-        said.append("keypoint shards were removed")
-    return ", ".join(said)
+        reasons.append("keypoint shards were removed")
+    return ", ".join(reasons)
 
 
 def _short(ranges: str) -> str:

@@ -1,4 +1,4 @@
-"""What one task of a farm makes: some shards of keypoints, or some pictures."""
+"""Cuts what is missing into chunks, one for each task of a farm: some shards of keypoints, or some pictures."""
 
 from dataclasses import dataclass
 

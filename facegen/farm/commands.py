@@ -1,4 +1,4 @@
-"""The command line of each step: what a task runs, and what anyone can paste to run it by hand."""
+"""Writes the command line of each step: tasks run it, and anyone can paste it to run the step by hand."""
 
 from collections.abc import Callable
 
@@ -16,7 +16,7 @@ def generate_command(job: Job, *, spec: str, out: str, what: tuple[str, ...]) ->
 
 
 def later_command(job: Job, step: str, *, out: str, packed: str, model: str) -> list[str]:
-    """The command of a step after ``generate``; a job may have been asked for a slice, which is no fault."""
+    """Write the command of a step after ``generate``; a job may have been asked for a slice, which is no fault."""
     python = job.resources.on_farm(job.resources.python)
     commands: dict[str, Callable[[], list[str]]] = {
         "validate": lambda: ["facegen", "validate", out, "--partial"],

@@ -1,4 +1,4 @@
-"""The table of engines."""
+"""Lists the engines by the name that ``--engine`` takes."""
 
 from facegen.farm.engine import Engine
 from facegen.farm.openjd import OpenJD

@@ -19,7 +19,7 @@ STEPS = ("generate", "validate", "pack", "train", "export")
 
 @dataclass(frozen=True, kw_only=True)
 class Job:
-    """What was asked for, and what was missing then.
+    """Record of a job: what was asked for, and what was missing then.
 
     Attributes
     ----------
@@ -50,13 +50,13 @@ class Job:
 
     @property
     def folder(self) -> Path:
-        """The record's folder, as the submitting machine sees it."""
+        """Folder of the record, as the submitting machine sees it."""
         return Path(self.out) / "farm" / self.name
 
 
 @dataclass(frozen=True, kw_only=True)
 class Submission:
-    """The engine's numbers of a job's steps; empty where the engine gives none."""
+    """Record of a submission: the engine's numbers of the job's steps, none where the engine gives none."""
 
     ids: dict[str, str] = field(default_factory=dict)
 
@@ -69,13 +69,13 @@ def parse_steps(text: str) -> tuple[str, ...]:
     InputError
         If one is none of `STEPS`, or there is none.
     """
-    asked = [step.strip() for step in text.split(",") if step.strip()]
-    unknown = [step for step in asked if step not in STEPS]
-    if unknown or not asked:
+    names = [step.strip() for step in text.split(",") if step.strip()]
+    unknown = [step for step in names if step not in STEPS]
+    if unknown or not names:
         raise InputError(
             f"--steps {text!r}: {unknown[0] if unknown else 'nothing'} is none of {', '.join(STEPS)}"
         )
-    return tuple(step for step in STEPS if step in asked)
+    return tuple(step for step in STEPS if step in names)
 
 
 def new_job_name(folder: DatasetFolder) -> str:

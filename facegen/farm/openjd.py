@@ -1,4 +1,4 @@
-"""OpenJD: a bundle with a job template, for `openjd run` and for AWS Deadline Cloud and other farms.
+"""Writes a job as an OpenJD bundle, for `openjd run` and for AWS Deadline Cloud and other farms.
 
 The bundle is JSON, which the specification allows beside YAML and needs no further library.
 """
@@ -28,7 +28,7 @@ _PICTURES, _KEYPOINTS = "Pictures", "Keypoints"
 
 
 def job_template(job: Job) -> dict[str, Any]:
-    """The job template of a job, ``jobtemplate-2023-09``."""
+    """Make the job template of a job, ``jobtemplate-2023-09``."""
     parameters, steps, before = _parameters(job), [], []
     if "generate" in job.steps:
         for name, kind in ((_KEYPOINTS, "shards"), (_PICTURES, "samples")):
@@ -88,7 +88,7 @@ def _parameters(job: Job) -> list[dict[str, Any]]:
             "description": text,
         }
 
-    found = [
+    parameters = [
         {
             **{"name": "SpecFile", "type": "PATH", "objectType": "FILE", "dataFlow": "IN"},
             **{"default": "spec.toml", "description": "The spec, in this bundle"},
@@ -96,19 +96,21 @@ def _parameters(job: Job) -> list[dict[str, Any]]:
         folder("OutDir", "INOUT", "The dataset"),
     ]
     if "pack" in job.steps:
-        found.append(folder("PackedDir", "OUT", "Packed shards"))
+        parameters.append(folder("PackedDir", "OUT", "Packed shards"))
     if {"train", "export"} & set(job.steps):
-        found.append(folder("ModelDir", "INOUT", "The model"))
-    found.append({"name": "Python", "type": "STRING", "description": "Python with facegen, on the workers"})
+        parameters.append(folder("ModelDir", "INOUT", "The model"))
+    parameters.append(
+        {"name": "Python", "type": "STRING", "description": "Python with facegen, on the workers"}
+    )
     if any(chunk.samples for chunk in job.chunks):
-        found += [
+        parameters += [
             {"name": "ChunkSize", "type": "INT", "minValue": 1, "default": _chunk_size(job)},
             {
                 **{"name": "ChunkSeconds", "type": "INT", "minValue": 0, "default": 0},
                 "description": "Let the scheduler adapt the chunks to this time; 0 keeps ChunkSize",
             },
         ]
-    return found
+    return parameters
 
 
 def _chunk_size(job: Job) -> int:
@@ -201,7 +203,7 @@ class OpenJD:
     """A job bundle; run here one task after another with ``openjd run``, or submitted to a farm."""
 
     def files(self, job: Job) -> dict[str, str]:
-        """The bundle, and parameters and path mapping for ``openjd run``, which reads no bundles."""
+        """Write the bundle, and parameters and path mapping for ``openjd run``, which reads no bundles."""
         described = {
             "bundle/template.json": job_template(job),
             "bundle/parameter_values.json": deadline_values(job),

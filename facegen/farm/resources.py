@@ -1,4 +1,4 @@
-"""Resources of a farm's tasks: processors, memory and time as Slurm writes them, and names of folders on the farm."""
+"""Reads what each task of a farm gets: processors, memory and time as Slurm writes them, names of folders there."""
 
 import re
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from facegen.errors import InputError
 
 @dataclass(frozen=True, kw_only=True)
 class Resources:
-    """What each task gets, and how it is started.
+    """Resources of a task, and how it is started.
 
     Attributes
     ----------

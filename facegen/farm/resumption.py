@@ -1,4 +1,4 @@
-"""Resuming: the missing things that no engine is at become a new job, as the newest one was submitted."""
+"""Resumes a dataset: the missing things that no engine is at become a new job, as the newest was submitted."""
 
 import shutil
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from facegen.store import Dataset
 
 @dataclass(frozen=True, kw_only=True)
 class Resumption:
-    """What a new job would do.
+    """Plan of a job that goes on with a dataset.
 
     Attributes
     ----------

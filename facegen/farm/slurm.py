@@ -1,4 +1,4 @@
-"""Slurm: an array job for the samples, one job for each later step.
+"""Submits a job to Slurm: an array job for the samples, one job for each later step.
 
 Needs the client commands only: no accounting, no rights to slurm.conf, no shared files but the dataset's.
 """
@@ -67,7 +67,7 @@ what=$(sed -n "$((SLURM_ARRAY_TASK_ID + 1))p" {chunks})
 
 
 def sbatch_script(job: Job, step: str) -> str:
-    """The batch script of a step.
+    """Write the batch script of a step.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ class Slurm:
         return ({"chunks.txt": chunk_lines(job.chunks)} if job.chunks else {}) | scripts
 
     def instructions(self, job: Job) -> list[str]:
-        """The sbatch commands, with names for the numbers that Slurm will give."""
+        """Write the sbatch commands, with names for the numbers that Slurm will give."""
         commands, before = [], None
         for step in self._steps(job):
             command = shlex.join(self._sbatch(job, step, None))
@@ -168,7 +168,7 @@ class Slurm:
             time.sleep(2.0)
 
     def activity(self, job: Job, submission: Submission) -> Activity | None:
-        """What squeue lists; jobs that have ended are not in it."""
+        """Read what squeue lists; jobs that have ended are not in it."""
         command = ["squeue", "-h", "-r", "-u", str(os.getuid()), "-o", "%F|%K|%T|%r"]
         try:
             listing = _run(command)
@@ -194,7 +194,7 @@ class Slurm:
 
 
 def read_squeue(listing: str, submission: Submission) -> Activity:
-    """What squeue says of a submission, as ``%F|%K|%T|%r``: array or job number, index, state, reason."""
+    """Read what squeue says of a submission, as ``%F|%K|%T|%r``: array or job number, index, state, reason."""
     steps = {number: step for step, number in submission.ids.items()}
     running, waiting, later_steps, reasons = set(), set(), {}, Counter()
     for line in listing.splitlines():

@@ -72,12 +72,11 @@ def farm_state(dataset: Dataset) -> FarmState:
     """Look at the disk, and ask the engines."""
     jobs = asked_jobs(dataset.folder)
     requests = {(job.samples, job.shards) for job in jobs} or {(None, None)}
-    wanted = {task for request in requests for task in wanted_tasks(dataset, *request)}
-    done = done_tasks(dataset, wanted)
-    quarantined = quarantined_tasks(dataset, wanted - done)
-    missing = wanted - done - quarantined
-    asked = activities(dataset.folder)
-    known = [(job, activity) for job, activity in asked if activity is not None]
+    requested = {task for request in requests for task in wanted_tasks(dataset, *request)}
+    done = done_tasks(dataset, requested)
+    quarantined = quarantined_tasks(dataset, requested - done)
+    missing = requested - done - quarantined
+    known = [(job, activity) for job, activity in activities(dataset.folder) if activity is not None]
     attempts = list(read_journals(dataset.folder))
     cores = sum(job.resources.cpus * len(activity.running) for job, activity in known)
     by_name = {job.name: activity for job, activity in known}
@@ -88,7 +87,7 @@ def farm_state(dataset: Dataset) -> FarmState:
         if step != "generate"
     }
     return FarmState(
-        wanted=len(wanted),
+        wanted=len(requested),
         done=len(done),
         missing=len(missing),
         quarantined=tuple(sorted(task.name for task in quarantined)),

@@ -1,4 +1,4 @@
-"""Submitting a job: what is missing, cut into tasks, written as scripts or a bundle, handed to the engine."""
+"""Submits a job: cuts what is missing into tasks, writes them as scripts or a bundle, hands them to the engine."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +16,7 @@ from facegen.work import Task, plan_work
 
 @dataclass(frozen=True, kw_only=True)
 class Remaining:
-    """What a job would make: missing shards and samples that no engine is at."""
+    """Numbers of what a job would make: missing shards and samples that no engine is at."""
 
     shards: list[int]
     samples: list[int]
@@ -30,7 +30,7 @@ def remaining(
     busy: frozenset[Task] = frozenset(),
     retry_quarantined: bool = False,
 ) -> Remaining:
-    """What is missing of `facegen.work.wanted_tasks`, and is neither quarantined nor among ``busy``."""
+    """List what is missing of `facegen.work.wanted_tasks`, and is neither quarantined nor among ``busy``."""
     missing = plan_work(dataset, samples, shards=shards, retry_quarantined=retry_quarantined).missing
     free = [task for task in missing if task not in busy]
     return Remaining(
@@ -143,7 +143,7 @@ def cancel(folder: DatasetFolder) -> list[str]:
 
 
 def engine_logs(folder: DatasetFolder) -> list[Path]:
-    """What the engine's tasks printed, newest job last."""
+    """List the files of what the engine's tasks printed, newest job last."""
     return sorted((folder.path / "farm").glob("job-*/logs/*.out"))
 
 

@@ -1,4 +1,4 @@
-"""Making datasets: tasks, workers, and the supervisor that owns them."""
+"""Makes datasets: tasks, workers, and the supervisor that owns them."""
 
 from facegen.work.allocation import available_cpus, available_memory
 from facegen.work.blend import save_blend

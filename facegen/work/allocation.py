@@ -1,4 +1,4 @@
-"""What this process may use of its machine: a scheduler's allocation, not the whole of it."""
+"""Finds how many processors and how much memory this process may use: its scheduler's or container's share."""
 
 import os
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ _MIB = 1 << 20
 
 
 def available_cpus(environ: Mapping[str, str] = os.environ, cgroups: Path = Path("/sys/fs/cgroup")) -> int:
-    """Processors that this process may use, at least 1.
+    """Count the processors that this process may use, at least 1.
 
     The least of the processors it is bound to, its control groups' quota (what ``docker run --cpus`` sets),
     and in a Slurm job the processors of the task: a cluster that binds no processes says these only in the
@@ -27,7 +27,7 @@ def available_cpus(environ: Mapping[str, str] = os.environ, cgroups: Path = Path
 
 
 def available_memory(environ: Mapping[str, str] = os.environ, cgroups: Path = Path("/sys/fs/cgroup")) -> int:
-    """Bytes of memory that this process and its children may use."""
+    """Find how many bytes of memory this process and its children may use."""
     limits = [psutil.virtual_memory().total]
     if "SLURM_JOB_ID" in environ:
         limits += [size * _MIB for size in _numbers(environ, "SLURM_MEM_PER_NODE") if size]

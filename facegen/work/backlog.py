@@ -1,4 +1,4 @@
-"""The backlog of a run: tasks that wait, how those that ended went, and what is tried again or quarantined."""
+"""Keeps the backlog of a run: tasks that wait, how those that ended went, what is tried again or quarantined."""
 
 from collections import Counter, deque
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""One sample as a .blend file, for artists and for looking closer at what was rendered."""
+"""Writes one sample as a .blend file, for artists and for looking closer at what was rendered."""
 
 from pathlib import Path
 
@@ -44,12 +44,12 @@ def save_blend(dataset: Dataset, number: int, path: Path, *, view: str | None = 
     from facegen.blender import open_renderer
 
     spec, render = dataset.spec, dataset.spec.render
-    made = label_sample(dataset, number, draw_samples(dataset.plan, dataset.rig, number // BLOCK))
+    labelled = label_sample(dataset, number, draw_samples(dataset.plan, dataset.rig, number // BLOCK))
     seed = draw_render_seed(spec.seed, view, number)
     with whole_file(path, suffix=".blend") as part:
         path.parent.mkdir(parents=True, exist_ok=True)
         open_renderer(subsurface=render.subsurface).save(
-            made.sample.scene,
+            labelled.sample.scene,
             view,
             part.absolute(),
             samples=render.samples_per_pixel,

@@ -1,4 +1,4 @@
-"""The child process of one worker: takes tasks from its supervisor's pipe, makes them, says how it went."""
+"""Runs in a worker's process: takes tasks from its supervisor's pipe, makes them, reports how it went."""
 
 import contextlib
 import ctypes
@@ -60,7 +60,7 @@ class Report:
 
 
 class Maker(Protocol):
-    """What makes tasks: `facegen.work.worker.Worker`."""
+    """Maker of tasks: `facegen.work.worker.Worker`, or a test's."""
 
     def make(self, task: Task, on_phase: object) -> int:
         """Make one task; returns the bytes written."""
@@ -106,7 +106,7 @@ def serve(pipe: Connection, out: str, log: str, threads: int, parent: int) -> No
 
 
 def serve_with(maker: Maker, pipe: Connection, out: Path, log: Path) -> None:
-    """The loop of `serve`, for any maker of tasks."""
+    """Run the loop of `serve` with any maker of tasks."""
     try:
         pipe.send(Ready())
         while (assignment := pipe.recv()) is not None:
@@ -152,8 +152,8 @@ def _attempt(maker: Maker, assignment: Assignment, pipe: Connection, out: Path) 
         reason = place_at_fault(error, out)
         if reason is not None:
             return Report(task, "unwritable", reason)
-        told = f"{error}\n\n" if isinstance(error, FacegenError) else ""
-        return Report(task, "failed", f"{told}{traceback.format_exc()}")
+        sentence = f"{error}\n\n" if isinstance(error, FacegenError) else ""
+        return Report(task, "failed", f"{sentence}{traceback.format_exc()}")
     _say(f"[{time.monotonic() - started:.1f} s] done, {size} bytes")
     return Report(task, "done", size=size)
 

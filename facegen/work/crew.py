@@ -1,4 +1,4 @@
-"""The crew of a run: its worker processes, started, listened to, watched and ended."""
+"""Keeps the crew of a run: starts its worker processes, listens to them, kills those that hang, ends them."""
 
 import contextlib
 import time

@@ -1,4 +1,4 @@
-"""``develop``: pictures made anew from the radiance of a rendered dataset, with another sensor or other draws."""
+"""Makes pictures anew from the radiance of a rendered dataset, with another sensor or other draws (``develop``)."""
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
@@ -30,7 +30,7 @@ SETTINGS_FILE = "develop.json"
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
-    """What differs from the dataset's own pictures; None leaves it as it is.
+    """Differences from the dataset's own pictures; None leaves a value as it is.
 
     Attributes
     ----------
@@ -105,10 +105,10 @@ def develop_sample(
     With the plain settings the pictures are the dataset's own. LEDs stay as they were rendered.
     """
     spec, record = dataset.spec, dataset.sample(number)
-    given = {
+    changes = {
         key: getattr(settings, key) for key in ("exposure", "gain") if getattr(settings, key) is not None
     }
-    headset = replace(dataset.headset, sensor=replace(dataset.headset.sensor, **given))
+    headset = replace(dataset.headset, sensor=replace(dataset.headset.sensor, **changes))
     unit = draw_unit_of_session(spec, headset, record["session"])
     pictures, shots = {}, {}
     for camera in unit.cameras:

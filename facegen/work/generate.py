@@ -1,4 +1,4 @@
-"""``generate``: makes what a dataset is missing, and nothing else."""
+"""Makes what a dataset is missing, and nothing else (``generate``)."""
 
 import shutil
 from collections.abc import Callable
@@ -17,7 +17,7 @@ MEMORY_SHARE = 0.8
 
 @dataclass(frozen=True, kw_only=True)
 class Work:
-    """What a run has to do: tasks that are missing, and how many were there already."""
+    """Tasks that a run has to make, and how many were there already."""
 
     missing: tuple[Task, ...]
     done: int
@@ -26,7 +26,7 @@ class Work:
 
 @dataclass(frozen=True, kw_only=True)
 class Summary:
-    """What a run did: tasks made now, found made, quarantined before or now, and left by a stop."""
+    """Counts of a run: tasks made now, found made, quarantined before or now, and left by a stop."""
 
     made: int
     found: int
@@ -37,10 +37,10 @@ class Summary:
 def plan_work(
     dataset: Dataset, ranges: str | None, *, shards: str | None = None, retry_quarantined: bool = False
 ) -> Work:
-    """What `generate` would do; reads the folder, writes nothing."""
-    wanted = wanted_tasks(dataset, ranges, shards)
-    done = done_tasks(dataset, wanted)
-    missing = [task for task in wanted if task not in done]
+    """List what `generate` would do; reads the folder, writes nothing."""
+    tasks = wanted_tasks(dataset, ranges, shards)
+    done = done_tasks(dataset, tasks)
+    missing = [task for task in tasks if task not in done]
     quarantined = set() if retry_quarantined else quarantined_tasks(dataset, missing)
     return Work(
         missing=tuple(task for task in missing if task not in quarantined),

@@ -1,4 +1,4 @@
-"""What happened in a run, for `status` and for people: a line per attempt, and a log per attempt.
+"""Records what happened in a run, for `status` and for people: a line per attempt, and a log per attempt.
 
 Nothing reads these files to decide what to make. Each is written by one process only, since appends of
 several machines to one file of a file server get lost.
@@ -45,7 +45,7 @@ class Attempt:
 
 
 class Journal:
-    """The run's own file ``logs/run-….jsonl``; begun by its first line."""
+    """File of one run, ``logs/run-….jsonl``; begun by its first line."""
 
     def __init__(self, folder: DatasetFolder) -> None:
         self.path = folder.path / "logs" / f"run-{place()}-{os.getpid()}-{time.time_ns()}.jsonl"
@@ -85,5 +85,5 @@ def attempt_log(folder: DatasetFolder, task: Task) -> Path:
 
 def attempt_logs(folder: DatasetFolder, task: Task) -> list[Path]:
     """Logs of all attempts at a task, oldest first."""
-    found = (folder.path / "logs" / f"{task.number // LOGS_PER_FOLDER:03d}").glob(f"{task.name}-*.log")
-    return sorted(found, key=lambda path: path.stem.rsplit("-", 1)[-1])
+    logs = (folder.path / "logs" / f"{task.number // LOGS_PER_FOLDER:03d}").glob(f"{task.name}-*.log")
+    return sorted(logs, key=lambda path: path.stem.rsplit("-", 1)[-1])

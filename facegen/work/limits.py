@@ -1,4 +1,4 @@
-"""Limits of a run: when a worker is replaced, and when all is given up."""
+"""Defines the limits of a run: when a worker is replaced, and when all is given up."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""A worker process as its supervisor sees it: what it does, whether it lives, how much it takes."""
+"""Holds one worker process for its supervisor: hands it tasks, measures its silence, processor time and memory."""
 
 import multiprocessing
 import os

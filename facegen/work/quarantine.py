@@ -1,4 +1,4 @@
-"""Failed attempts: their logs get the reason, and what failed for good is recorded with all of them."""
+"""Writes why attempts failed into their logs, and puts the logs of what failed for good into the quarantine."""
 
 import shutil
 from pathlib import Path

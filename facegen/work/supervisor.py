@@ -1,4 +1,4 @@
-"""The supervisor: hands a run's tasks to its worker processes, and drains on request."""
+"""Supervises a run: hands tasks to the worker processes, and drains on request."""
 
 import contextlib
 import shutil

@@ -1,4 +1,4 @@
-"""What there is to make, and what of it is missing: the folder's listing is the only state."""
+"""Lists the tasks of a run and those that are missing: the folder's listing is the only state."""
 
 import os
 from collections.abc import Iterable
@@ -35,12 +35,12 @@ def wanted_tasks(dataset: Dataset, ranges: str | None, shards: str | None = None
     """
     numbers = [] if shards is not None and ranges is None else dataset.samples_to_render(ranges)
     if shards is not None:
-        wanted = sample_numbers(shards, total=dataset.shards, where="--shards", what="shard")
+        shard_numbers = sample_numbers(shards, total=dataset.shards, where="--shards", what="shard")
     else:
-        wanted = (
+        shard_numbers = (
             range(dataset.shards) if ranges is None else sorted({number // SHARD_ROWS for number in numbers})
         )
-    return [Task("shard", shard) for shard in wanted] + [Task("sample", number) for number in numbers]
+    return [Task("shard", shard) for shard in shard_numbers] + [Task("sample", number) for number in numbers]
 
 
 def task_path(dataset: Dataset, task: Task) -> Path:

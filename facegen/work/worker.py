@@ -1,4 +1,4 @@
-"""One worker: makes shards and rendered samples, each committed by one rename."""
+"""Makes shards and rendered samples, each committed by one rename."""
 
 import dataclasses
 import hashlib
