@@ -70,7 +70,7 @@ class Renderer:
     def glimpse(
         self, scene: Scene, view_name: str, *, samples: int, seed: int, denoise: bool = True
     ) -> Glimpse:
-        """Render the radiance of `render`, bit for bit, and the denoiser's guides instead of the truth: once, not twice.
+        """Render the radiance of `render`, bit for bit, and the denoiser's guides instead of the truth, in one pass.
 
         Parameters are those of `render`.
         """

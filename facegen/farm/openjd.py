@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from facegen.errors import InputError
-from facegen.farm.chunks import DEFAULT_SAMPLES
 from facegen.farm.commands import generate_command, later_command
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, Submission
@@ -82,78 +81,57 @@ def path_mapping(job: Job) -> dict[str, Any]:
 
 
 def _parameters(job: Job) -> list[dict[str, Any]]:
-    def folder(name: str, flow: str, text: str) -> dict[str, Any]:
-        return {
-            **{"name": name, "type": "PATH", "objectType": "DIRECTORY", "dataFlow": flow},
-            "description": text,
-        }
+    def parameter(name: str, kind: str, description: str, **details: object) -> dict[str, Any]:
+        return {"name": name, "type": kind, **details, "description": description}
 
+    def folder(name: str, flow: str, description: str) -> dict[str, Any]:
+        return parameter(name, "PATH", description, objectType="DIRECTORY", dataFlow=flow)
+
+    spec = {"objectType": "FILE", "dataFlow": "IN", "default": "spec.toml"}
     parameters = [
-        {
-            **{"name": "SpecFile", "type": "PATH", "objectType": "FILE", "dataFlow": "IN"},
-            **{"default": "spec.toml", "description": "The spec, in this bundle"},
-        },
+        parameter("SpecFile", "PATH", "The spec, in this bundle", **spec),
         folder("OutDir", "INOUT", "The dataset"),
     ]
     if "pack" in job.steps:
         parameters.append(folder("PackedDir", "OUT", "Packed shards"))
     if {"train", "export"} & set(job.steps):
         parameters.append(folder("ModelDir", "INOUT", "The model"))
-    parameters.append(
-        {"name": "Python", "type": "STRING", "description": "Python with facegen, on the workers"}
-    )
-    if any(chunk.samples for chunk in job.chunks):
+    parameters.append(parameter("Python", "STRING", "Python with facegen, on the workers"))
+    sizes = [len(_numbers(chunk.samples)) for chunk in job.chunks if chunk.samples]
+    if sizes:
+        seconds = "Let the scheduler adapt the chunks to this time; 0 keeps ChunkSize"
         parameters += [
-            {"name": "ChunkSize", "type": "INT", "minValue": 1, "default": _chunk_size(job)},
-            {
-                **{"name": "ChunkSeconds", "type": "INT", "minValue": 0, "default": 0},
-                "description": "Let the scheduler adapt the chunks to this time; 0 keeps ChunkSize",
-            },
+            {"name": "ChunkSize", "type": "INT", "minValue": 1, "default": max(sizes)},
+            parameter("ChunkSeconds", "INT", seconds, minValue=0, default=0),
         ]
     return parameters
 
 
-def _chunk_size(job: Job) -> int:
-    sizes = [_count(chunk.samples) for chunk in job.chunks if chunk.samples]
-    return max(sizes, default=DEFAULT_SAMPLES)
-
-
-def _count(ranges: str) -> int:
-    return len(sample_numbers(ranges, total=sys.maxsize, where="chunk"))
-
-
-def _numbers(job: Job, kind: str) -> str:
-    texts = [getattr(chunk, kind) for chunk in job.chunks]
-    return format_ranges(sample_numbers(",".join(filter(None, texts)), total=sys.maxsize, where="chunk"))
+def _numbers(ranges: str) -> list[int]:
+    return sample_numbers(ranges, total=sys.maxsize, where="chunk")
 
 
 def _chunked_step(job: Job, name: str, kind: str) -> dict[str, Any]:
-    option = (
-        ("--samples", "{{Task.Param.Ids}}", "--shards", "none")
-        if kind == "samples"
-        else ("--shards", "{{Task.Param.Ids}}")
-    )
-    sizes = (
-        {"defaultTaskCount": 1}
-        if kind == "shards"
-        else {
+    """Make the step of all chunks of a kind, ``"shards"`` or ``"samples"``."""
+    arguments: tuple[str, ...] = (f"--{kind}", "{{Task.Param.Ids}}")
+    sizes: dict[str, Any] = {"defaultTaskCount": 1}
+    if kind == "samples":
+        arguments += ("--shards", "none")
+        sizes = {
             "defaultTaskCount": "{{Param.ChunkSize}}",
             "targetRuntimeSeconds": "{{Param.ChunkSeconds}}",
         }
-    )
-    command = generate_command(job, spec="{{Param.SpecFile}}", out="{{Param.OutDir}}", what=option)
+    command = generate_command(job, spec="{{Param.SpecFile}}", out="{{Param.OutDir}}", what=arguments)
+    ranges = ",".join(filter(None, (getattr(chunk, kind) for chunk in job.chunks)))
+    numbers = {
+        "name": "Ids",
+        "type": "CHUNK[INT]",
+        "range": format_ranges(_numbers(ranges)),
+        "chunks": sizes | {"rangeConstraint": "CONTIGUOUS"},
+    }
     return {
         "name": name,
-        "parameterSpace": {
-            "taskParameterDefinitions": [
-                {
-                    "name": "Ids",
-                    "type": "CHUNK[INT]",
-                    "range": _numbers(job, kind),
-                    "chunks": sizes | {"rangeConstraint": "CONTIGUOUS"},
-                }
-            ]
-        },
+        "parameterSpace": {"taskParameterDefinitions": [numbers]},
         "hostRequirements": _host(job),
         "script": _script(job, [*command, "--progress", "openjd"]),
     }
