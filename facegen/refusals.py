@@ -5,7 +5,7 @@ import difflib
 import json
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, get_args, get_type_hints
+from typing import TYPE_CHECKING, Any, get_args, get_origin, get_type_hints
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
@@ -67,19 +67,22 @@ def _as_text(value: object) -> str:
 
 def _known_keys(place: Place, record: type) -> list[str]:
     """Fields of the record in which the last key of ``place`` stands; none where that is no record."""
+    key_of_mapping = False
     for key in place[:-1]:
-        if isinstance(key, int):
+        if isinstance(key, int) or key_of_mapping:
+            key_of_mapping = False
             continue
-        inner = [kind for kind in _records_in(_fields(record).get(key)) if _fields(kind)]
+        annotation = _fields(record).get(key)
+        inner = [kind for kind in _records_in(annotation) if _fields(kind)]
         if not inner:
             return []
-        record = inner[0]
+        record, key_of_mapping = inner[0], get_origin(annotation) is dict
     return list(_fields(record))
 
 
 def _fields(record: type) -> dict[str, Any]:
     """Types of a pydantic dataclass's or model's fields, by name."""
-    if dataclasses.is_dataclass(record):
+    if isinstance(record, type) and dataclasses.is_dataclass(record):
         types = get_type_hints(record)
         return {field.name: types[field.name] for field in dataclasses.fields(record)}
     return {name: field.annotation for name, field in getattr(record, "model_fields", {}).items()}

@@ -39,8 +39,8 @@ from regress.runtime.headset.predict import predict_footage
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.headset.temporal import TAPS
 from regress.runtime.stages import OneEuro, Output
-from regress.runtime.stages.adjustment import read_adjustments
-from regress.runtime.stages.retargeting import read_retargeting
+from regress.runtime.stages.adjustment_file import read_adjustments
+from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.writers import confidence_csv, weights_csv
 
 _SAME_RATE = 0.05

@@ -34,9 +34,9 @@ from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.ready_made import LANDMARKS
 from regress.runtime.sample import Sample
 from regress.runtime.stages import OneEuro, Output
-from regress.runtime.stages.adjustment import read_adjustments
+from regress.runtime.stages.adjustment_file import read_adjustments
 from regress.runtime.stages.neutral import estimate_neutral
-from regress.runtime.stages.retargeting import read_retargeting
+from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.writers import confidence_csv, csv_lines
 
 

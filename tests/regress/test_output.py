@@ -17,7 +17,8 @@ from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.sample import Sample
 from regress.runtime.stages import OneEuro, Output
-from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror, read_adjustments
+from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
+from regress.runtime.stages.adjustment_file import read_adjustments
 from regress.runtime.stages.smoothing import OneEuroFilter, OneEuroSmoothing, by_region
 from regress.runtime.writers import csv_lines
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
@@ -123,13 +124,20 @@ def test_adjusting_goes_offset_dead_zone_gain_limits():
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("{", "not a readable JSON"),
-        ("[]", '"format" must be'),
+        ("{", "Invalid JSON"),
+        ("[]", "must be a table"),
+        ('{"format": "other"}', "format = \"other\": must be 'regress-adjustment'"),
         ('{"format": "regress-adjustment", "shapes": {"jawOpened": {}}}', "not one of the 52"),
-        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"gian": 1}}}', "known are gain, offset"),
-        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"gain": "1"}}}', "a number is needed"),
-        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"dead_zone": 1}}}', "0 to below 1"),
-        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"low": 2}}}', "above high"),
+        (
+            '{"format": "regress-adjustment", "shapes": {"jawOpen": {"gian": 1}}}',
+            "did you mean 'gain'?",
+        ),
+        (
+            '{"format": "regress-adjustment", "shapes": {"jawOpen": {"gain": "1"}}}',
+            'gain = "1": must be a number',
+        ),
+        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"dead_zone": 1}}}', "must be less than 1"),
+        ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"low": 2}}}', "low 2.0 is above high 1.0"),
     ],
 )
 def test_a_bad_adjustment_file_is_refused(content: str, said: str, tmp_path):

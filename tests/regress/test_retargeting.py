@@ -5,7 +5,8 @@ import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES, mirrored_name
 from regress.errors import InputError
-from regress.runtime.stages.retargeting import read_retargeting, shipped_targets
+from regress.runtime.stages.retargeting import shipped_targets
+from regress.runtime.stages.retargeting.target_file import read_retargeting
 
 COUNTS = {"mixamo50": 50, "perfect_sync": 52, "vrm0": 17, "vrm1": 18}
 """How many shapes a target has, where its makers give a number."""
@@ -68,16 +69,20 @@ def test_a_file_of_ones_own_mixes_limits_and_leaves_empty_rows(tmp_path):
     ("content", "said"),
     [
         ("[shapes", "not a readable TOML"),
-        ("", "names no shape"),
-        ("shapes = 3", "a table [shapes] is needed"),
-        ("[shape]\nA = {}", "shape is not known; known are title, source"),
-        ("[shapes]\nA = 1", "a table like"),
-        ("[shapes]\nA = { jawOpened = 1 }", "shapes.A.jawOpened is not one of the 52"),
-        ("[shapes]\nA = { jawOpen = nan }", "a finite number"),
-        ("[shapes]\nA = { jawOpen = true }", "a finite number"),
+        ("", "key 'shapes' is missing"),
+        ("[shapes]", "shapes = {}: "),
+        ("shapes = 3", "shapes = 3: must be a"),
+        ("[shape]\nA = {}", "unknown key 'shape'; did you mean 'shapes'? Known keys here: title, source"),
+        ("[shapes]\nA = 1", "shapes.A = 1: must be a"),
+        ("[shapes]\nA = { jawOpened = 1 }", "is not one of the 52 ARKit names"),
+        ("[shapes]\nA = { jawOpen = nan }", "must be a finite number"),
+        ("[shapes]\nA = { jawOpen = true }", "shapes.A.jawOpen = true: must be a number"),
         ("[shapes]\nA = {}\n[limits]\nB = [0, 1]", "limits.B is not among the shapes"),
-        ("[shapes]\nA = {}\n[limits]\nA = [0.1, 1]", "[low, high] about 0"),
-        ("[shapes]\nA = {}\n[limits]\nA = [0]", "[low, high] about 0"),
+        (
+            "[shapes]\nA = {}\n[limits]\nA = [0.1, 1]",
+            "limits.A = [0.1, 1]: must be two numbers [low, high] about 0",
+        ),
+        ("[shapes]\nA = {}\n[limits]\nA = [0]", "limits.A"),
     ],
 )
 def test_a_bad_file_is_refused(content: str, said: str, tmp_path):

@@ -15,7 +15,7 @@ from regress.runtime.headset.temporal import TAPS
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
 from regress.runtime.stages import OneEuro, Output
-from regress.runtime.stages.retargeting import read_retargeting
+from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.writers import TABLES, confidence_csv
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, write_take
 from tests.regress.headset.tiny import NAMES, write_tiny_model
