@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLOCK, Part
-from facegen.headsets import Sensor
+from facegen.headsets import HeadsetSensor
 from facegen.labels import RenderedSample, label_rendered, with_glints
 from facegen.sampling import draw_samples
 from facegen.sensor import develop
@@ -84,7 +84,7 @@ def eye_figures(grey: np.ndarray, part: np.ndarray, view: dict, side: str) -> di
     }
 
 
-def glint_area(wide: RenderedSample, name: str, sensor: Sensor) -> float:
+def glint_area(wide: RenderedSample, name: str, sensor: HeadsetSensor) -> float:
     """Mean number of saturated pixels of a view's corneal glints, before an iris as bright as the average one."""
     glints, camera = wide.views[name].glints, wide.sample.session.unit.camera(name)
     seen = [

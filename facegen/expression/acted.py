@@ -1,4 +1,4 @@
-"""Components that do what faces do: rest, feel, speak, move on purpose, on both sides or on one."""
+"""Draws faces that do what people do: rest, feel, speak, move on purpose, on both sides or on one."""
 
 import numpy as np
 

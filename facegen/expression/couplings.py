@@ -1,4 +1,4 @@
-"""What a face cannot do: shapes that exclude, limit or carry one another.
+"""Couples shapes that exclude, limit or carry one another: what a face cannot do.
 
 The limits hold on every frame of a recorded range-of-motion take (4,030 frames of one person; benchmarks/
 bench_expressions.py says by how much frames of any take would be changed), and are what FACS and anatomy say.

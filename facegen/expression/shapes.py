@@ -1,4 +1,4 @@
-"""Components that combine shapes blindly, whatever faces do: every combination is shown some time.
+"""Draws faces that combine shapes blindly: every combination is shown some time.
 
 Where a draw sets eyeLook* weights, they are a wish: the gaze turns both eyes there (see `mixture`).
 """

@@ -1,4 +1,4 @@
-"""Left and right: random numbers whose two sides go together as much as the spec says."""
+"""Draws random numbers whose left and right sides correlate as much as the spec says."""
 
 import numpy as np
 from scipy.special import ndtr, ndtri

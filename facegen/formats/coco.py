@@ -1,4 +1,4 @@
-"""COCO keypoints JSON, written as a stream: one category, its names and skeleton, one annotation an image.
+"""Writes COCO keypoints JSON as a stream: one category, its names and skeleton, one annotation an image.
 
 References
 ----------

@@ -1,4 +1,4 @@
-"""Meshes with morph targets out of glTF 2.0 files (.glb, .gltf), as they stand in the file's scene.
+"""Reads meshes with morph targets out of glTF 2.0 files (.glb, .gltf), as they stand in the file's scene.
 
 Not among the names of `facegen.formats`, because it imports pygltflib, which few runs need.
 
@@ -83,8 +83,8 @@ def read_gltf(path: Path) -> tuple[GltfPart, ...]:
         raise
     # what pygltflib and NumPy raise on damage, by where it lies
     except (OSError, ValueError, LookupError, TypeError, AttributeError, UserWarning, struct.error) as error:
-        said = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
-        raise FormatError(f"{path} cannot be read as a glTF 2.0 file ({said})") from error
+        reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+        raise FormatError(f"{path} cannot be read as a glTF 2.0 file ({reason})") from error
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,4 +1,4 @@
-"""Morph-target animations into an avatar's .glb file, of which nothing else changes.
+"""Writes morph-target animations into an avatar's .glb file, of which nothing else changes.
 
 The file's JSON is edited as it stands and its binary chunk is only added to: a library with a class for each
 part of the format drops what its classes do not know, and avatars (VRM) are full of extensions.
@@ -75,14 +75,14 @@ def animate_avatar(
     animation: dict[str, Any] = {"name": title, "channels": [], "samplers": []}
     file = _Additions(document)
     clock = file.accessor(times, min=[float(times[0])], max=[float(times[-1])])
-    found: set[str] = set()
+    matched: set[str] = set()
     for index, node in enumerate(document.get("nodes", [])):
         mesh = document["meshes"][node["mesh"]] if "mesh" in node else {}
         keys = [_key(name) for name in _target_names(mesh)]
         moved = columns.keys() & set(keys)
         if not moved:
             continue
-        found |= moved
+        matched |= moved
         rest = node.get("weights") or mesh.get("weights") or [0.0] * len(keys)
         values = np.stack(
             [columns.get(key, np.full(len(times), at)) for key, at in zip(keys, rest, strict=True)], axis=1
@@ -93,7 +93,7 @@ def animate_avatar(
         animation["samplers"].append(
             {"input": clock, "output": file.accessor(values.astype("<f4")), "interpolation": "LINEAR"}
         )
-    if not found:
+    if not matched:
         raise FormatError(
             f"{path} has no morph target called {names[0]}, {names[1]} or like any other of the {len(names)} "
             "shapes; a retargeting to its own names may help"
@@ -102,7 +102,7 @@ def animate_avatar(
     chunks = file.stored(chunks)
     return AnimatedAvatar(
         content=_closed(document, chunks),
-        missing=tuple(name for name in names if _key(name) not in found),
+        missing=tuple(name for name in names if _key(name) not in matched),
     )
 
 

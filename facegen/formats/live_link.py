@@ -1,4 +1,4 @@
-"""Recordings of the Live Link Face app: one row a frame, 52 blendshapes and nine angles, read by name.
+"""Reads and writes recordings of the Live Link Face app: one row a frame, 52 blendshapes and nine angles, by name.
 
 The header's second column is ``BlendShapeCount`` or ``BlendshapeCount``; JawRight and MouthRight stand before
 their left partners, which is why columns are never read by number.
@@ -134,10 +134,10 @@ def _timecode(time_s: float) -> str:
 def _timecode_seconds(timecodes: tuple[str, ...], path: Path) -> np.ndarray:
     seconds = np.empty(len(timecodes))
     for row, timecode in enumerate(timecodes):
-        found = _TIMECODE.fullmatch(timecode)
-        if found is None:
+        match = _TIMECODE.fullmatch(timecode)
+        if match is None:
             raise FormatError(f"{path}: row {row + 2} has timecode {timecode!r}; HH:MM:SS:FF.mmm is needed")
-        hours, minutes, whole, frames = (float(group) for group in found.groups())
+        hours, minutes, whole, frames = (float(group) for group in match.groups())
         seconds[row] = hours * 3600 + minutes * 60 + whole + frames / TIMECODE_RATE
     day = 24 * 3600
     # A take across midnight starts again at 00:00:00.

@@ -1,4 +1,4 @@
-"""iBUG ``.pts`` files: one face's points, counted from 1 in the file and from 0 here.
+"""Reads and writes iBUG ``.pts`` files: one face's points, counted from 1 in the file and from 0 here.
 
 ::
 
@@ -44,12 +44,12 @@ def read_pts(path: str | os.PathLike[str]) -> np.ndarray:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         raise FormatError(f"{path} is not text; a .pts file starts with 'version: 1'") from error
-    found = _HEADER.fullmatch(text)
-    if found is None:
+    match = _HEADER.fullmatch(text)
+    if match is None:
         raise FormatError(
             f"{path} is not a .pts file: 'version: 1', 'n_points: N' and points in braces are needed"
         )
-    count, body = int(found[1]), found[2]
+    count, body = int(match[1]), match[2]
     rows = [line.split() for line in body.splitlines() if line.strip()]
     if len(rows) != count:
         raise FormatError(f"{path} says n_points: {count} and holds {len(rows)} points")

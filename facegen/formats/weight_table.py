@@ -1,4 +1,4 @@
-"""Tables of blendshape weights over time: Live Link Face recordings, or any CSV with the 52 ARKit columns."""
+"""Reads blendshape weights over time: Live Link Face recordings, or any CSV with the 52 ARKit columns."""
 
 import csv
 import os

@@ -1,4 +1,4 @@
-"""Reflection in convex mirrors, spheres and threads: where a source is seen, how bright, and how large.
+"""Solves reflections in convex mirrors, spheres and threads: where a source is seen, how bright, and how large.
 
 References
 ----------
@@ -89,12 +89,14 @@ def reflect_in_thread(
         (3,) metres.
     """
     step = np.linspace(0.0, len(line) - 1.0, THREAD_PLACES)
-    places = np.stack([np.interp(step, np.arange(len(line)), line[:, axis]) for axis in range(3)], axis=-1)
-    s, t = (np.linalg.norm(places - end, axis=-1) for end in (source, observer))
+    line_points = np.stack(
+        [np.interp(step, np.arange(len(line)), line[:, axis]) for axis in range(3)], axis=-1
+    )
+    s, t = (np.linalg.norm(line_points - end, axis=-1) for end in (source, observer))
     best = int((s + t).argmin())
     if best in (0, THREAD_PLACES - 1):
         return Reflection(point=np.full(3, np.nan), cosine=np.nan, gain=np.nan, shrinking=np.nan)
-    point, s, t = places[best], s[best], t[best]
+    point, s, t = line_points[best], s[best], t[best]
     # the surface faces the middle between both rays
     cosine = np.sqrt(0.5 * (1.0 + (source - point) @ (observer - point) / (s * t)))
     return _reflection(point, cosine, s, np.prod([1.0 + t * (1.0 / s + 2.0 / radius) for radius in radii]))

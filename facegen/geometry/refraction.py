@@ -1,4 +1,4 @@
-"""Refraction at a sphere: where the light of a point inside leaves towards an observer outside.
+"""Solves refraction at a sphere: where the light of a point inside leaves towards an observer outside.
 
 References
 ----------

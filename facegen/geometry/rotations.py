@@ -39,8 +39,8 @@ def angles_from_rotation(rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray, 
     For a pitch within +-90 degrees; at these two only the sum of yaw and roll is known.
     """
     rotation = np.asarray(rotation, np.float64)
-    places = ((0, 2), (2, 2), (1, 2), (1, 0), (1, 1))
-    r02, r22, r12, r10, r11 = _compact(*(rotation[..., row, column] for row, column in places))
+    entries = ((0, 2), (2, 2), (1, 2), (1, 0), (1, 1))
+    r02, r22, r12, r10, r11 = _compact(*(rotation[..., row, column] for row, column in entries))
     return np.arctan2(r02, r22), np.arcsin(np.clip(r12, -1.0, 1.0)), np.arctan2(-r10, r11)
 
 

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from facegen.geometry import Camera, look_at, project, transform, unproject
 from facegen.geometry.cameras import DISTORTION_TERMS
 from facegen.headsets.lens_shader import rendered_rays
-from facegen.headsets.quantities import MM, Name, Pair, Positive, Share, Vector, record
+from facegen.headsets.quantities import MM, Fraction, Name, Pair, Positive, Vector, record
 
 SPARE = 0.005
 """A picture ends by this share before its distortion turns back. There the renderer's iteration (lens.osl) converges
@@ -40,7 +40,7 @@ class Lens:
     the eyecup that the camera looks through.
     """
 
-    vignette: Share = 0.0
+    vignette: Fraction = 0.0
     aperture_radius: Positive | None = None
     aperture_offset: Pair = (0.0, 0.0)
 
@@ -117,8 +117,8 @@ class HeadsetCamera:
         x, y = (np.linspace(-0.5, side - 0.5, 33) for side in (self.width, self.height))
         pixels = np.stack(np.meshgrid(x, y), axis=-1)
         with np.errstate(all="ignore"):
-            found = project(self.camera, rendered_rays(self.camera, pixels))
-        off_px = np.linalg.norm(found - pixels, axis=-1).max()
+            rendered_px = project(self.camera, rendered_rays(self.camera, pixels))
+        off_px = np.linalg.norm(rendered_px - pixels, axis=-1).max()
         return float(off_px) if np.isfinite(off_px) else np.inf
 
     @property

@@ -13,7 +13,7 @@ from pydantic import Field, model_validator
 
 from facegen.geometry import rotation_from_angles, transform
 from facegen.headsets.cameras import HeadsetCamera
-from facegen.headsets.occluders import Occluder
+from facegen.headsets.occluders import HeadsetOccluder
 from facegen.headsets.quantities import MM, Name, NotNegative, Positive, Spread, Vector, record
 
 
@@ -49,7 +49,7 @@ class Led:
 
 
 @record()
-class Sensor:
+class HeadsetSensor:
     """How linear radiance becomes grey levels: one setting for all people (see `facegen.sensor`).
 
     ``exposure`` times ``gain`` is the number of full scales (levels above black) that a radiance of 1 W sr-1 m-2
@@ -69,7 +69,7 @@ class Sensor:
 
 
 @record()
-class Fit:
+class HeadsetFit:
     """Where the headset sits: the wearer's nose bridge and eye line, in the headset's frame.
 
     Only depth (z) and the middle (x) follow the nose bridge (landmark index 27); height follows the eyes.
@@ -108,9 +108,9 @@ class Headset:
     description: str = ""
     cameras: Annotated[tuple[HeadsetCamera, ...], Field(min_length=1)]
     leds: tuple[Led, ...] = ()
-    occluders: tuple[Occluder, ...] = ()
-    sensor: Sensor
-    fit: Fit
+    occluders: tuple[HeadsetOccluder, ...] = ()
+    sensor: HeadsetSensor
+    fit: HeadsetFit
     tolerances: Tolerances = Tolerances()
 
     @model_validator(mode="after")

@@ -1,4 +1,4 @@
-"""The iterations of the renderer's lens shader (``facegen/blender/lens.osl``), repeated in NumPy.
+"""Repeats the iterations of the renderer's lens shader (``facegen/blender/lens.osl``) in NumPy.
 
 They have a fixed number of steps and do not converge for every distortion that labels can follow.
 """

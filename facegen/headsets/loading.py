@@ -1,4 +1,4 @@
-"""Headset files: finding them by name, reading them, and saying in one sentence what is wrong with one."""
+"""Finds headset files by name and reads them; says in one sentence what is wrong with one."""
 
 import tomllib
 from pathlib import Path

@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from facegen.geometry import rotation_from_angles
-from facegen.headsets.quantities import MM, Name, Share, Vector, record
+from facegen.headsets.quantities import MM, Fraction, Name, Vector, record
 
 SEGMENTS = 72
 """Corners of a round outline: 0.1 mm inside the circle at a radius of 100 mm."""
@@ -19,7 +19,7 @@ Length = Annotated[float, Field(gt=0, le=MAX_SIZE_MM)]
 
 
 @record()
-class Occluder:
+class HeadsetOccluder:
     """A solid with its middle at ``position_mm``, turned by ``turn_deg`` (yaw, pitch, roll) about it.
 
     Before turning, a ``ring`` and a ``cylinder`` lie in the plane of x and y: an ellipse with the outer radii
@@ -35,10 +35,10 @@ class Occluder:
     rim_mm: Length | None = None
     depth_mm: Length | None = None
     size_mm: tuple[Length, Length, Length] | None = None
-    albedo: Share = 0.04
+    albedo: Fraction = 0.04
 
     @model_validator(mode="after")
-    def _check(self) -> "Occluder":
+    def _check(self) -> "HeadsetOccluder":
         keys = KEYS_OF_SHAPE[self.shape]
         for key in ("radii_mm", "rim_mm", "depth_mm", "size_mm"):
             if (getattr(self, key) is not None) != (key in keys):

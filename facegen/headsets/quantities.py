@@ -13,7 +13,7 @@ record = partial(dataclass, frozen=True, kw_only=True, config=CONFIG)
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
-Share = Annotated[float, Field(ge=0, le=1)]
+Fraction = Annotated[float, Field(ge=0, le=1)]
 Pair = tuple[float, float]
 Vector = tuple[float, float, float]
 Spread = tuple[NotNegative, NotNegative, NotNegative]

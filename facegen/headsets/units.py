@@ -1,4 +1,4 @@
-"""Single units of a headset: no two leave the factory with cameras and LEDs exactly where the drawing says."""
+"""Draws single units of a headset: no two leave the factory with cameras and LEDs exactly where the drawing says."""
 
 from dataclasses import replace
 

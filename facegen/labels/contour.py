@@ -155,6 +155,6 @@ SLIDING_CONTOUR = KeypointLabel(
             name="contour_3d", description=f"{_MEANING}, in the head frame", shape=(17, 3), unit="m"
         ),
     ),
-    wanted=lambda spec: spec.landmarks.sliding_contour,
+    asked_for=lambda spec: spec.landmarks.sliding_contour,
     make=_make,
 )

@@ -167,9 +167,9 @@ def label_glints(
         for side, lens in enumerate(lenses)
     }
     images = [
-        (lamp, side, surface, found[index])
+        (lamp, side, surface, reflections[index])
         for index, lamp in enumerate(lit)
-        for (side, surface), found in mirrors.items()
+        for (side, surface), reflections in mirrors.items()
     ]
     points = np.array([image.point for *_, image in images]).reshape(-1, 3)
     in_camera = apply_transform(view.camera_from_head, points)

@@ -56,12 +56,12 @@ class KeypointLabel:
     ----------
     columns
         What it adds to a row of the shards and, under the same names, to ``keypoints`` in ``sample.json``.
-    wanted
+    asked_for
         Whether a spec asks for it.
     make
         Values (n, ...) by column name.
     """
 
     columns: tuple[KeypointColumn, ...]
-    wanted: Callable[[Spec], bool]
+    asked_for: Callable[[Spec], bool]
     make: Callable[[FacesInView], dict[str, np.ndarray]]

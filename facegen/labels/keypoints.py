@@ -61,7 +61,7 @@ class Keypoints:
 
 def further_columns(spec: Spec) -> tuple[KeypointColumn, ...]:
     """Columns of those of `KEYPOINT_LABELS` that a spec asks for."""
-    return tuple(column for label in KEYPOINT_LABELS if label.wanted(spec) for column in label.columns)
+    return tuple(column for label in KEYPOINT_LABELS if label.asked_for(spec) for column in label.columns)
 
 
 def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFaces | None = None) -> Keypoints:
@@ -93,7 +93,7 @@ def label_keypoints(spec: Spec, rig: Rig, samples: Samples, faces: EvaluatedFace
     view = FacesInView(rig=rig, samples=samples, faces=faces, cage=mesh, points_2d=points_2d, hidden=covered)
     further = {}
     for label in KEYPOINT_LABELS:
-        if label.wanted(spec):
+        if label.asked_for(spec):
             further |= label.make(view)
     return Keypoints(
         points_3d=faces.landmarks,

@@ -80,11 +80,11 @@ def seats(
     """Teeth (those of one side, from the midline) side by side; the arrays (14,) count from the subject's right."""
     width = CONTACT * 1e-3 * size * np.array([tooth.width for tooth in teeth])
     middle = np.cumsum(width) - width / 2
-    found = []
+    placed = []
     for number in range(2 * len(teeth)):
         left = number >= len(teeth)
         order = number - len(teeth) if left else len(teeth) - 1 - number
-        found.append(
+        placed.append(
             Seat(
                 tooth=teeth[order],
                 left=left,
@@ -96,7 +96,7 @@ def seats(
                 missing=bool(missing[number]),
             )
         )
-    return tuple(found)
+    return tuple(placed)
 
 
 def half_length(teeth: tuple[Tooth, ...], size: float) -> float:
@@ -104,7 +104,7 @@ def half_length(teeth: tuple[Tooth, ...], size: float) -> float:
     return CONTACT * 1e-3 * size * sum(tooth.width for tooth in teeth)
 
 
-def crowns(line: Course, places: tuple[Seat, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def crowns(line: Course, arch_seats: tuple[Seat, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Crowns in the arch's frame.
 
     Returns
@@ -117,7 +117,7 @@ def crowns(line: Course, places: tuple[Seat, ...]) -> tuple[np.ndarray, np.ndarr
         (V,) number of each vertex's tooth, from the right.
     """
     vertices, faces, number, start = [], [], [], 0
-    for index, seat in enumerate(places):
+    for index, seat in enumerate(arch_seats):
         if seat.missing:
             continue
         points, quads = crown(seat.tooth)
@@ -140,10 +140,10 @@ def crowns(line: Course, places: tuple[Seat, ...]) -> tuple[np.ndarray, np.ndarr
     return np.concatenate(vertices), np.concatenate(faces).astype(np.int32), np.concatenate(number)
 
 
-def necks(places: tuple[Seat, ...]) -> np.ndarray:
+def necks(arch_seats: tuple[Seat, ...]) -> np.ndarray:
     """Where each tooth leaves the gum, (14, 4): arc length, outer and inner distance from the line, and h, metres."""
     rows = []
-    for seat in places:
+    for seat in arch_seats:
         outer, inner = neck(seat.tooth)
         h = 1e-3 * seat.tooth.length * seat.size
         lean = np.tan(np.radians(seat.tooth.inclination)) * h

@@ -102,9 +102,9 @@ def _edge(necks: np.ndarray, size: float, arch: str) -> tuple[np.ndarray, ...]:
         return PchipInterpolator(knots[order], np.concatenate(values)[order])(columns)
 
     def plain(values: np.ndarray, far: np.ndarray, near: np.ndarray) -> np.ndarray:
-        places = np.concatenate([s, knots[len(s) + len(between) :]])
-        sort = np.argsort(places)
-        return PchipInterpolator(places[sort], np.concatenate([values, far, near])[sort])(columns)
+        stations = np.concatenate([s, knots[len(s) + len(between) :]])
+        sort = np.argsort(stations)
+        return PchipInterpolator(stations[sort], np.concatenate([values, far, near])[sort])(columns)
 
     smooth_outer = plain(outer - 0.4 * mm, outers[2], outers[3])
     smooth_edge = plain(np.full(2 * teeth, h.mean()), edges[2], edges[3])

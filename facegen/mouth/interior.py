@@ -109,7 +109,7 @@ def _rest(rig: Rig, traits: MouthTraits, identity_bytes: bytes) -> _Rest:
         (("upper", UPPER, frame, 1.0), ("lower", LOWER, lower, -1.0))
     ):
         line = course(half_length(kinds, size), traits.ratio)
-        places = seats(
+        arch_seats = seats(
             kinds,
             size,
             turn_rad=traits.turn_rad[row],
@@ -117,9 +117,13 @@ def _rest(rig: Rig, traits: MouthTraits, identity_bytes: bytes) -> _Rest:
             down_m=size * traits.down_m[row],
             missing=traits.missing[row],
         )
-        points_of, faces, _ = crowns(line, places)
+        points_of, faces, _ = crowns(line, arch_seats)
         gum, quads = gum_surface(
-            line, necks(places), arch=arch, size=size, vault_m=scale * (traits.palate_m if row == 0 else 9e-3)
+            line,
+            necks(arch_seats),
+            arch=arch,
+            size=size,
+            vault_m=scale * (traits.palate_m if row == 0 else 9e-3),
         )
         flip = np.array([1.0, up, 1.0])
         teeth[arch] = apply_transform(pose, points_of * flip), _turned(faces, up)

@@ -1,4 +1,4 @@
-"""What differs between people's mouths: size and place of the arches, how teeth stand, and their reflectance.
+"""Draws what differs between people's mouths: size and place of the arches, how teeth stand, their reflectance.
 
 References
 ----------

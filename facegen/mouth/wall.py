@@ -49,8 +49,8 @@ class Wall:
         spread = angle[corners]
         front = (np.ptp(spread, axis=1) < 1.0) & (np.abs(spread).max(axis=1) < 2.0)
         pixels = np.stack([angle / ANGLE_STEP + ANGLES // 2, (height - self._low) / HEIGHT_STEP_M], axis=-1)
-        found = nearest_triangles(pixels, -distance, corners[front], shape=(rows, ANGLES))
-        self.distance = _least_around(-found.value)
+        nearest = nearest_triangles(pixels, -distance, corners[front], shape=(rows, ANGLES))
+        self.distance = _least_around(-nearest.value)
 
     def draw_back(self, points: np.ndarray, *, gap_m: float) -> np.ndarray:
         """By how much each point (n, 3) must near the axis to lie ``gap_m`` inside of the wall, (n,) metres."""

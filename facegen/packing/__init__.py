@@ -1,6 +1,15 @@
 """Datasets in the forms that training programs read."""
 
-from facegen.packing.pack import FORMATS, Packed, PackPlan, plan_pack, write_pack
-from facegen.packing.plan import Format, Options, Part
+from facegen.packing.pack import PACK_FORMATS, Packed, PackPlan, plan_pack, write_pack
+from facegen.packing.plan import Options, PackFile, PackFormat
 
-__all__ = ["FORMATS", "Format", "Options", "PackPlan", "Packed", "Part", "plan_pack", "write_pack"]
+__all__ = [
+    "PACK_FORMATS",
+    "Options",
+    "PackFile",
+    "PackFormat",
+    "PackPlan",
+    "Packed",
+    "plan_pack",
+    "write_pack",
+]

@@ -1,4 +1,4 @@
-"""Arrays that training programs map into memory: one array of pictures a camera, labels in Parquet, the face's basis.
+"""Packs arrays that training programs map into memory: pictures by camera, labels in Parquet, the face's basis.
 
 ``arrays.json`` says what the arrays are of: headset, cameras, rows, rig, dataset, licence. ``CAMERA.npy`` is
 (rows, h, w) uint8; ``labels.parquet`` has its rows in the same order; ``face.npz`` turns errors of weights into
@@ -13,11 +13,10 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, SIDES, VIEW_POINTS
-from facegen.conventions import Part as FacePart
+from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, SIDES, VIEW_POINTS, Part
 from facegen.errors import InvalidData
 from facegen.geometry import angles_from_direction
-from facegen.packing.plan import Format, Options, Part
+from facegen.packing.plan import Options, PackFile, PackFormat
 from facegen.packing.rendered import chosen_views, read_rendered
 from facegen.packing.view_points import view_points
 from facegen.rigs import Rig, evaluate
@@ -28,7 +27,7 @@ VERSION = 3
 ROW_GROUP = 1000
 """Rows of labels that are held in memory at a time, about 6 MB."""
 
-SKIN = (FacePart.SKIN, FacePart.LIPS, FacePart.BROWS)
+SKIN = (Part.SKIN, Part.LIPS, Part.BROWS)
 NOSE_BASE, CHIN = 33, 8
 BELOW_CHIN_M = 0.01
 """How far below the chin the face ends; the throat moves with the jaw, but nobody sees it."""
@@ -36,15 +35,15 @@ BELOW_CHIN_M = 0.01
 _FROM_SHARDS = ("sample", "person", "session", "clip", "frame", "time_s", "split", "neutral", "component")
 
 
-def array_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> list[Part]:
+def array_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> list[PackFile]:
     """One file a camera, and three of what goes with them."""
     pictures = [
-        Part(name=f"{view}.npy", samples=samples, view=view) for view in chosen_views(dataset, options)
+        PackFile(name=f"{view}.npy", samples=samples, view=view) for view in chosen_views(dataset, options)
     ]
-    return [*pictures, *(Part(name=name, samples=samples) for name in (LABELS, FACE, ABOUT))]
+    return [*pictures, *(PackFile(name=name, samples=samples) for name in (LABELS, FACE, ABOUT))]
 
 
-def write_part(dataset: Dataset, part: Part, options: Options, path: Path) -> None:
+def write_part(dataset: Dataset, part: PackFile, options: Options, path: Path) -> None:
     """Write one file; at most `ROW_GROUP` samples' labels or one picture are in memory at a time."""
     if part.view is not None:
         _write_pictures(dataset, part, path)
@@ -65,7 +64,7 @@ def array_schema(dataset: Dataset, views: Sequence[str]) -> pa.Schema:
         "description": "left yaw, left pitch, right yaw, right pitch of the optical axes",
         "unit": "rad",
     }
-    places = {
+    about_points = {
         "description": "VIEW_POINTS of facegen.conventions, NaN where its picture shows none",
         "unit": "px",
     }
@@ -78,7 +77,7 @@ def array_schema(dataset: Dataset, views: Sequence[str]) -> pa.Schema:
             pa.field("gaze", pa.list_(pa.float32(), 4), nullable=False, metadata=angles),
             pa.field("head_from_headset", pa.list_(pa.float32(), 16), nullable=False, metadata=pose),
             pa.field("slip", pa.list_(pa.float32(), 6), nullable=False, metadata=slip | {"unit": "m, rad"}),
-            *(pa.field(f"points_{view}", points, nullable=False, metadata=places) for view in views),
+            *(pa.field(f"points_{view}", points, nullable=False, metadata=about_points) for view in views),
         ],
         metadata={"licence": dataset.licence, "spec_hash": dataset.hash},
     )
@@ -112,7 +111,7 @@ def face_basis(rig: Rig) -> tuple[np.ndarray, np.ndarray]:
     return moved.astype(np.float32), rest[kept].astype(np.float32)
 
 
-def _write_pictures(dataset: Dataset, part: Part, path: Path) -> None:
+def _write_pictures(dataset: Dataset, part: PackFile, path: Path) -> None:
     camera = dataset.headset.camera(part.view).camera
     shape = (camera.height, camera.width)
     with open(path, "wb") as file:
@@ -130,7 +129,7 @@ def _write_pictures(dataset: Dataset, part: Part, path: Path) -> None:
             file.write(picture.tobytes())
 
 
-def _write_labels(dataset: Dataset, part: Part, views: Sequence[str], path: Path) -> None:
+def _write_labels(dataset: Dataset, part: PackFile, views: Sequence[str], path: Path) -> None:
     schema = array_schema(dataset, views)
     with pq.ParquetWriter(path, schema, compression="zstd", write_page_checksum=True) as writer:
         for start in range(0, len(part.samples), ROW_GROUP):
@@ -152,7 +151,7 @@ def _row(record: dict, views: Sequence[str]) -> dict:
     }
 
 
-def _about(dataset: Dataset, part: Part, options: Options) -> dict:
+def _about(dataset: Dataset, part: PackFile, options: Options) -> dict:
     cameras = [dataset.headset.camera(view).camera for view in chosen_views(dataset, options)]
     return {
         "version": VERSION,
@@ -169,7 +168,7 @@ def _about(dataset: Dataset, part: Part, options: Options) -> dict:
     }
 
 
-ARRAYS = Format(
+ARRAYS = PackFormat(
     description="arrays that training maps into memory: pictures (npy, one a camera), labels, the face's basis",
     rendered=True,
     options=frozenset({"views"}),

@@ -1,4 +1,4 @@
-"""COCO keypoints JSON, one file a view; images are the dataset's own PNG files, named below its folder."""
+"""Packs COCO keypoints JSON, one file a view; images are the dataset's own PNG files, named below its folder."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -6,18 +6,18 @@ from pathlib import Path
 import numpy as np
 
 from facegen.formats.coco import LabelledImage, write_coco
-from facegen.packing.plan import Format, Options, Part
+from facegen.packing.plan import Options, PackFile, PackFormat
 from facegen.packing.rendered import chosen_views, read_rendered
 from facegen.store import Dataset, read_json
 
 
-def view_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> list[Part]:
+def view_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> list[PackFile]:
     """One file a view."""
     views = chosen_views(dataset, options)
-    return [Part(name=f"keypoints-{view}.json", samples=samples, view=view) for view in views]
+    return [PackFile(name=f"keypoints-{view}.json", samples=samples, view=view) for view in views]
 
 
-def write_view(dataset: Dataset, part: Part, _options: Options, path: Path) -> None:
+def write_view(dataset: Dataset, part: PackFile, _options: Options, path: Path) -> None:
     """Write one view's file, one sample in memory at a time."""
 
     def images() -> Iterator[LabelledImage]:
@@ -41,7 +41,7 @@ def write_view(dataset: Dataset, part: Part, _options: Options, path: Path) -> N
     write_coco(path, images, info=info, licence=described["licence"])
 
 
-COCO = Format(
+COCO = PackFormat(
     description="COCO keypoints JSON, one file a view; images stay in the dataset",
     rendered=True,
     options=frozenset({"views"}),

@@ -1,4 +1,4 @@
-"""Parquet of keypoints alone: chosen columns of all samples, in larger files than the dataset's own."""
+"""Packs Parquet of keypoints alone: chosen columns of all samples, in larger files than the dataset's own."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ import pyarrow.parquet as pq
 
 from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
-from facegen.packing.plan import Format, Options, Part, shards
+from facegen.packing.plan import Options, PackFile, PackFormat, shards
 from facegen.store import Dataset, read_shard
 
 SHARD_SAMPLES = 100_000
@@ -30,7 +30,7 @@ def chosen_columns(dataset: Dataset, options: Options) -> list[str]:
     return [name for name in names if options.columns is None or name in options.columns or name == "sample"]
 
 
-def write_keypoints(dataset: Dataset, part: Part, options: Options, path: Path) -> None:
+def write_keypoints(dataset: Dataset, part: PackFile, options: Options, path: Path) -> None:
     """Write one file; one shard of the dataset is in memory at a time."""
     columns = chosen_columns(dataset, options)
     schema = dataset.keypoint_schema
@@ -44,7 +44,7 @@ def write_keypoints(dataset: Dataset, part: Part, options: Options, path: Path) 
             writer.write_table(rows.replace_schema_metadata(None).cast(schema), row_group_size=SHARD_ROWS)
 
 
-KEYPOINTS = Format(
+KEYPOINTS = PackFormat(
     description="Parquet of the keypoints of all samples, with the columns you choose",
     rendered=False,
     options=frozenset({"shard_size", "columns"}),

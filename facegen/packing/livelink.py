@@ -1,4 +1,4 @@
-"""Live Link Face CSV files, one a clip, so that engines play the motion.
+"""Packs Live Link Face CSV files, one a clip, so that engines play the motion.
 
 The angles of head and eyes are 0, as the app writes them where head rotation is off; eyes turn by eyeLook*.
 """
@@ -12,11 +12,11 @@ import pyarrow as pa
 from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
 from facegen.formats import live_link_csv
-from facegen.packing.plan import Format, Options, Part
+from facegen.packing.plan import Options, PackFile, PackFormat
 from facegen.store import Dataset, column_array, read_shard
 
 
-def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> list[Part]:
+def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> list[PackFile]:
     """One file a clip, named by person, session, clip and what is done in it.
 
     Raises
@@ -36,11 +36,11 @@ def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> l
     for start, stop in zip(first, [*first[1:], len(clip)], strict=True):
         person, session, number, kind = (table.column(name)[int(start)].as_py() for name in columns)
         name = f"person-{person:05d}-session-{session:05d}-clip-{number:06d}-{kind}.csv"
-        parts.append(Part(name=name, samples=numbers[start:stop].tolist()))
+        parts.append(PackFile(name=name, samples=numbers[start:stop].tolist()))
     return parts
 
 
-def write_clip(dataset: Dataset, part: Part, _options: Options, path: Path) -> None:
+def write_clip(dataset: Dataset, part: PackFile, _options: Options, path: Path) -> None:
     """Write one clip."""
     table = clip_rows(dataset, np.asarray(part.samples, np.int64), ["weights", "time_s"])
     text = live_link_csv(column_array(table, "weights"), table.column("time_s").to_numpy())
@@ -64,7 +64,7 @@ def clip_rows(dataset: Dataset, numbers: np.ndarray, columns: list[str]) -> pa.T
     return pa.concat_tables(tables)
 
 
-LIVELINK = Format(
+LIVELINK = PackFormat(
     description="Live Link Face CSV, one file a clip, of sequences and playbacks",
     rendered=False,
     options=frozenset(),

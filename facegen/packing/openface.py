@@ -1,4 +1,4 @@
-"""CSV files as OpenFace writes them, one a session: what a detector says of a face, to try programs on.
+"""Packs CSV files as OpenFace writes them, one a session: what a detector says of a face, to try programs on.
 
 Points are whole pixels, as most detectors report them. Clips of a session follow one another as in one recording.
 """
@@ -11,7 +11,7 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from facegen.packing.livelink import check_clips, clip_rows
-from facegen.packing.plan import Format, Options, Part
+from facegen.packing.plan import Options, PackFile, PackFormat
 from facegen.store import Dataset, column_array
 
 COLUMNS = (
@@ -20,7 +20,7 @@ COLUMNS = (
 )
 
 
-def session_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> list[Part]:
+def session_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> list[PackFile]:
     """One file a session, named by person and session.
 
     Raises
@@ -36,7 +36,7 @@ def session_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -
     person, session = (table.column(name).to_numpy() for name in ("person", "session"))
     first = np.flatnonzero(np.diff(session, prepend=-1))
     return [
-        Part(
+        PackFile(
             name=f"person-{person[start]:05d}-session-{session[start]:05d}.csv",
             samples=numbers[start:stop].tolist(),
         )
@@ -44,7 +44,7 @@ def session_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -
     ]
 
 
-def write_session(dataset: Dataset, part: Part, _options: Options, path: Path) -> None:
+def write_session(dataset: Dataset, part: PackFile, _options: Options, path: Path) -> None:
     """Write one session; a frame without a face has success 0 and zeros for points."""
     table = clip_rows(dataset, np.asarray(part.samples, np.int64), ["detected_2d", "time_s", "clip"])
     points = column_array(table, "detected_2d")
@@ -66,7 +66,7 @@ def _running(time_s: np.ndarray, clip: np.ndarray) -> np.ndarray:
     return np.concatenate([[0.0], np.cumsum(step)])
 
 
-OPENFACE = Format(
+OPENFACE = PackFormat(
     description="OpenFace CSV of detected landmarks, one file a session, of sequences and playbacks",
     rendered=False,
     options=frozenset(),

@@ -1,4 +1,4 @@
-"""``pack``: a dataset in another form, file by file, each of which appears whole or not at all."""
+"""Packs a dataset in another form, file by file, each of which appears whole or not at all."""
 
 import contextlib
 import hashlib
@@ -14,7 +14,7 @@ from facegen.packing.keypoints import KEYPOINTS
 from facegen.packing.livelink import LIVELINK
 from facegen.packing.openface import OPENFACE
 from facegen.packing.parquet import PARQUET
-from facegen.packing.plan import Format, Options, Part, chosen_samples
+from facegen.packing.plan import Options, PackFile, PackFormat, chosen_samples
 from facegen.packing.webdataset import WEBDATASET
 from facegen.spec import format_ranges
 from facegen.store import (
@@ -27,7 +27,7 @@ from facegen.store import (
     write_json,
 )
 
-FORMATS: dict[str, Format] = {
+PACK_FORMATS: dict[str, PackFormat] = {
     "webdataset": WEBDATASET,
     "parquet": PARQUET,
     "keypoints": KEYPOINTS,
@@ -49,7 +49,7 @@ class PackPlan:
     name: str
     options: Options
     samples: Sequence[int]
-    parts: tuple[Part, ...]
+    parts: tuple[PackFile, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,7 +69,7 @@ def plan_pack(dataset: Dataset, name: str, options: Options | None = None) -> Pa
     dataset
         From `facegen.store.open_dataset`.
     name
-        One of `FORMATS`.
+        One of `PACK_FORMATS`.
     options
         What goes in, and how.
 
@@ -80,9 +80,9 @@ def plan_pack(dataset: Dataset, name: str, options: Options | None = None) -> Pa
     InvalidData
         If a shard that is needed for it is damaged.
     """
-    if name not in FORMATS:
-        raise InputError(f"--format: {name!r} is none of {', '.join(FORMATS)}")
-    form = FORMATS[name]
+    if name not in PACK_FORMATS:
+        raise InputError(f"--format: {name!r} is none of {', '.join(PACK_FORMATS)}")
+    form = PACK_FORMATS[name]
     checked = _checked(form, name, options or Options())
     samples = chosen_samples(dataset, checked, rendered=form.rendered)
     parts = tuple(form.parts(dataset, samples, checked))
@@ -115,7 +115,7 @@ def write_pack(
     OutputError
         If the folder cannot be written.
     """
-    folder, form = DatasetFolder(Path(out)), FORMATS[plan.name]
+    folder, form = DatasetFolder(Path(out)), PACK_FORMATS[plan.name]
     _begin(folder, _description(plan))
     sweep(folder)
     written = 0
@@ -134,7 +134,7 @@ def write_pack(
     return Packed(samples=len(plan.samples), written=written, found=len(plan.parts) - written)
 
 
-def _checked(form: Format, name: str, options: Options) -> Options:
+def _checked(form: PackFormat, name: str, options: Options) -> Options:
     for key, value in asdict(options).items():
         if value is not None and key not in form.options | {"samples", "split"}:
             flag = "--" + key.replace("_", "-")
@@ -144,7 +144,7 @@ def _checked(form: Format, name: str, options: Options) -> Options:
     return options
 
 
-def _flags(form: Format) -> str:
+def _flags(form: PackFormat) -> str:
     return ", ".join("--" + key.replace("_", "-") for key in sorted(form.options | {"samples", "split"}))
 
 
@@ -175,7 +175,7 @@ def _begin(folder: DatasetFolder, description: dict) -> None:
         commit_file(stage / ABOUT, about)
 
 
-def _entry(folder: Path, part: Part) -> dict:
+def _entry(folder: Path, part: PackFile) -> dict:
     with open(folder / part.name, "rb") as file:
         sha256 = hashlib.file_digest(file, "sha256").hexdigest()
     size = (folder / part.name).stat().st_size

@@ -1,4 +1,4 @@
-"""Parquet of rendered samples: one row a sample, its labels and its PNG files.
+"""Packs Parquet of rendered samples: one row a sample, its labels and its PNG files.
 
 Pictures are structs of ``bytes`` and ``path``, which Hugging Face's datasets decode to images by themselves;
 other programs take the bytes. ``record`` is ``sample.json`` whole: what has no column stands there.
@@ -13,7 +13,7 @@ import pyarrow.parquet as pq
 
 from facegen.conventions import BLENDSHAPES
 from facegen.labels import VIEW_LABEL_KEYS, further_columns
-from facegen.packing.plan import Format, Options, Part, shards
+from facegen.packing.plan import Options, PackFile, PackFormat, shards
 from facegen.packing.rendered import RenderedFiles, chosen_views, read_rendered
 from facegen.store import Dataset
 
@@ -50,7 +50,7 @@ def row_schema(dataset: Dataset, views: tuple[str, ...]) -> pa.Schema:
     return pa.schema(fields, metadata=about)
 
 
-def write_rows(dataset: Dataset, part: Part, options: Options, path: Path) -> None:
+def write_rows(dataset: Dataset, part: PackFile, options: Options, path: Path) -> None:
     """Write one file, a row group in memory at a time."""
     views = chosen_views(dataset, options)
     schema = row_schema(dataset, views)
@@ -85,7 +85,7 @@ def _flat(values: list) -> list:
     return array.astype(np.float64).ravel().tolist() if array.dtype == object else array.ravel().tolist()
 
 
-PARQUET = Format(
+PARQUET = PackFormat(
     description="Parquet of rendered samples: labels and PNG files, one row a sample",
     rendered=True,
     options=frozenset({"shard_size", "views"}),

@@ -1,4 +1,4 @@
-"""What goes into a pack: which samples, in which files."""
+"""Plans a pack: which samples it holds, in which files."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -40,7 +40,7 @@ class Options:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
+class PackFile:
     """One file of a pack: its name, its samples and, where a format has a file a view, the view."""
 
     name: str
@@ -49,7 +49,7 @@ class Part:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Format:
+class PackFormat:
     """One way to pack.
 
     Attributes
@@ -72,18 +72,19 @@ class Format:
     rendered: bool
     options: frozenset[str]
     shard_size: int
-    parts: Callable[[Dataset, Sequence[int], Options], list[Part]]
-    write: Callable[[Dataset, Part, Options, Path], None]
+    parts: Callable[[Dataset, Sequence[int], Options], list[PackFile]]
+    write: Callable[[Dataset, PackFile, Options, Path], None]
 
 
-def shards(name: str) -> Callable[[Dataset, Sequence[int], Options], list[Part]]:
+def shards(name: str) -> Callable[[Dataset, Sequence[int], Options], list[PackFile]]:
     """Cuts samples into files of ``shard_size``, named by ``name`` (``"shard-{:06d}.tar"``)."""
 
-    def cut(_dataset: Dataset, samples: Sequence[int], options: Options) -> list[Part]:
+    def cut(_dataset: Dataset, samples: Sequence[int], options: Options) -> list[PackFile]:
         size = options.shard_size
         starts = range(0, len(samples), size)
         return [
-            Part(name=name.format(i), samples=samples[start : start + size]) for i, start in enumerate(starts)
+            PackFile(name=name.format(i), samples=samples[start : start + size])
+            for i, start in enumerate(starts)
         ]
 
     return cut
@@ -103,10 +104,10 @@ def chosen_samples(dataset: Dataset, options: Options, *, rendered: bool) -> Seq
         If a shard that tells the split is damaged.
     """
     if rendered:
-        there = dataset.folder.rendered()
+        rendered_samples = dataset.folder.rendered()
         asked = dataset.samples_to_render(options.samples)
-        numbers: Sequence[int] = asked if options.samples is not None else there
-        missing = sorted(set(asked) - set(there))
+        numbers: Sequence[int] = asked if options.samples is not None else rendered_samples
+        missing = sorted(set(asked) - set(rendered_samples))
         if missing:
             raise InputError(
                 f"{dataset.folder.path}: {len(missing)} of the rendered samples to pack are missing, the "
@@ -132,14 +133,14 @@ def _of_split(dataset: Dataset, numbers: Sequence[int], split: str) -> list[int]
     if split not in SPLITS:
         raise InputError(f"--split: {split!r} is none of {', '.join(SPLITS)}")
     kept: list[int] = []
-    wanted = np.asarray(numbers, np.int64)
-    for shard in np.unique(wanted // SHARD_ROWS):
+    chosen = np.asarray(numbers, np.int64)
+    for shard in np.unique(chosen // SHARD_ROWS):
         path = dataset.folder.shard(int(shard))
         if not path.is_file():
             raise InputError(
                 f"{path}: is missing, so the split of its samples is unknown; run facegen generate"
             )
         splits = read_shard(path, ["split"]).column("split").to_numpy(zero_copy_only=False)
-        inside = wanted[wanted // SHARD_ROWS == shard]
+        inside = chosen[chosen // SHARD_ROWS == shard]
         kept += inside[splits[inside % SHARD_ROWS] == split].tolist()
     return kept

@@ -1,4 +1,4 @@
-"""Rendered samples as packs read them: one after the other, each checked on the way."""
+"""Reads rendered samples for packs, one after the other, each checked on the way."""
 
 import hashlib
 import json

@@ -1,4 +1,4 @@
-"""The points of `VIEW_POINTS` that a headset view shows, from its labels."""
+"""Picks the points of `VIEW_POINTS` that a headset view shows, from its labels."""
 
 import cv2
 import numpy as np
@@ -65,5 +65,5 @@ def _outline(ellipse: dict) -> np.ndarray:
 def _along(line: np.ndarray) -> np.ndarray:
     """``LID_POINTS`` points (n, 2) along a line (m, 2), equally far apart."""
     way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
-    places = np.linspace(0.0, way[-1], LID_POINTS)
-    return np.stack([np.interp(places, way, column) for column in line.T], axis=-1)
+    distances = np.linspace(0.0, way[-1], LID_POINTS)
+    return np.stack([np.interp(distances, way, column) for column in line.T], axis=-1)

@@ -1,4 +1,4 @@
-"""WebDataset shards: tar files that training reads from end to end.
+"""Packs WebDataset shards: tar files that training reads from end to end.
 
 A key is a sample's number; its fields are ``json`` (``sample.json`` as it is), ``VIEW.exr`` and ``VIEW.png``,
 sorted. Owners and times are fixed, so that equal samples give equal bytes.
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from facegen.errors import InputError
-from facegen.packing.plan import Format, Options, Part, shards
+from facegen.packing.plan import Options, PackFile, PackFormat, shards
 from facegen.packing.rendered import chosen_views, read_rendered
 from facegen.store import Dataset
 
@@ -18,7 +18,7 @@ SHARD_SAMPLES = 1000
 """About 0.7 GB with EXR files and 60 MB without at 256 px: WebDataset's users keep shards below a few GB."""
 
 
-def tar_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> list[Part]:
+def tar_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> list[PackFile]:
     """Shards of samples.
 
     Raises
@@ -33,7 +33,7 @@ def tar_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> lis
     return shards("shard-{:06d}.tar")(dataset, samples, options)
 
 
-def write_tar(dataset: Dataset, part: Part, options: Options, path: Path) -> None:
+def write_tar(dataset: Dataset, part: PackFile, options: Options, path: Path) -> None:
     """Write one shard, one sample in memory at a time."""
     kinds = ("png",) if options.exr is False else dataset.picture_kinds
     names = [f"{view}.{kind}" for view in chosen_views(dataset, options) for kind in kinds]
@@ -53,7 +53,7 @@ def _entry(name: str, content: bytes) -> tarfile.TarInfo:
     return entry
 
 
-WEBDATASET = Format(
+WEBDATASET = PackFormat(
     description="tar shards of rendered samples for the WebDataset library: labels, PNG and EXR",
     rendered=True,
     options=frozenset({"shard_size", "views", "exr"}),

@@ -93,13 +93,13 @@ def _draw_side(
         corners = [[-0.5, -0.5], [camera.width - 0.5, -0.5], [camera.width - 0.5, camera.height - 0.5]]
         corners.append([-0.5, camera.height - 0.5])
         rays = unproject(camera.camera, np.array(corners)) * CORNER_M
-        there = (
+        corners_m = (
             apply_transform(fit @ camera.headset_from_camera, np.concatenate([np.zeros((1, 3)), rays])) @ turn
         )
         for k in range(4):
-            line = there[[0, 1 + k, 1 + (k + 1) % 4]]
+            line = corners_m[[0, 1 + k, 1 + (k + 1) % 4]]
             axes.plot(line[:, 0], line[:, 1], color=color_of[camera.name], lw=0.8)
-        axes.annotate(camera.name, there[0, :2], fontsize=6, color=color_of[camera.name])
+        axes.annotate(camera.name, corners_m[0, :2], fontsize=6, color=color_of[camera.name])
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
     axes.set_axis_off()
@@ -120,11 +120,11 @@ def _draw_view(
     picture = shade(vertices * (1.0, -1.0, -1.0), triangles, part, depth)
     axes.imshow(picture * transmission(camera)[..., None], interpolation="nearest")
     points = apply_transform(view.camera_from_head, landmarks)
-    places = project(camera.camera, points)
-    seen = camera.camera.contains(places) & (camera.inside_aperture_px(places) >= 0)
+    landmarks_px = project(camera.camera, points)
+    seen = camera.camera.contains(landmarks_px) & (camera.inside_aperture_px(landmarks_px) >= 0)
     seen &= ~hidden(points, vertices, triangles, tolerance_m=HIDDEN_M)
     for number in np.flatnonzero(seen):
-        x, y = places[number]
+        x, y = landmarks_px[number]
         axes.plot(x, y, ".", color="#0040ff", ms=3)
         axes.annotate(
             str(number), (x, y), (1.5, 1.5), textcoords="offset points", fontsize=5, color="#a00000"

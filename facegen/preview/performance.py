@@ -1,4 +1,4 @@
-"""A face that moves, and pictures of its frames by the NumPy renderer."""
+"""Plays weights on a rig, and draws its frames with the NumPy renderer."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

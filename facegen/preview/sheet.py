@@ -1,4 +1,4 @@
-"""Contact sheets: what each sample looks like, its landmarks drawn, its largest weights as bars."""
+"""Draws contact sheets: pictures of each sample, its landmarks over them, its largest weights as bars."""
 
 from collections.abc import Sequence
 

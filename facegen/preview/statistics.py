@@ -1,4 +1,4 @@
-"""What a dataset holds, in numbers: weights, how they go together, heads, poses, gaze, visibility."""
+"""Counts what a dataset holds: weights, their correlations, heads, poses, gaze, visibility."""
 
 from dataclasses import dataclass
 

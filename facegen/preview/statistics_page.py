@@ -1,4 +1,4 @@
-"""The statistics of a dataset as one HTML file, figures inside."""
+"""Writes the statistics of a dataset as one HTML file, figures inside."""
 
 import io
 

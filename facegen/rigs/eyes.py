@@ -1,4 +1,4 @@
-"""The eye's own shape: a scleral sphere with a corneal cap, the iris inside it, and the line of sight.
+"""Shapes the eye: a scleral sphere with a corneal cap, the iris inside it, and the line of sight.
 
 The sphere's radius belongs to the rig (MakeHuman's balls are oversized, 16.6 mm on average where people have
 12), the cornea, the iris and the pupil have human size on every rig, because pictures and pupil labels depend

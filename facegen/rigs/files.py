@@ -1,4 +1,4 @@
-"""Rigs on disk: NAME.npz with the arrays, NAME.json with what a person or a program wants to know about them.
+"""Writes and reads rigs: NAME.npz holds the arrays, NAME.json describes them to people and programs.
 
 Both are written byte for byte the same by every build from the same arrays: entries in a fixed order, no time
 stamps, no compression (its bytes depend on the version of zlib). Datasets name their rig by the SHA-256 kept
@@ -19,7 +19,7 @@ from facegen.errors import InputError, MissingAsset
 from facegen.files import output_errors, write_whole
 from facegen.rigs.rig import Rig
 
-FORMAT = 1
+RIG_FORMAT = 1
 """Version of the files. A reader refuses others: a rig is built anew in seconds."""
 
 _TEXTS = ("licence", "source", "version")
@@ -84,9 +84,9 @@ def read_record(name: str, folder: Path | None = None) -> dict:
         )
     try:
         record = json.loads(path.read_text())
-        if record["format"] != FORMAT:
+        if record["format"] != RIG_FORMAT:
             raise InputError(
-                f"{path} has format {record['format']}, this version reads {FORMAT}; "
+                f"{path} has format {record['format']}, this version reads {RIG_FORMAT}; "
                 f"build it again with: facegen rig build {name} --force"
             )
     except (ValueError, KeyError, TypeError) as error:
@@ -152,7 +152,7 @@ def _record(rig: Rig, content: bytes) -> dict:
     present = [int(value) for value in np.unique(rig.part)]
     return {
         "name": rig.name,
-        "format": FORMAT,
+        "format": RIG_FORMAT,
         "sha256": hashlib.sha256(content).hexdigest(),
         **{key: getattr(rig, key) for key in _TEXTS},
         "vertices": len(rig.vertices),

@@ -227,10 +227,10 @@ def _check_margins(vertices: np.ndarray, side: str, upper: Sequence[int], lower:
                 f"the middle of the face, but from the inner to the outer corner is outwards; turn lids.{side}.{name} "
                 "round, or see whether left (the subject's) and right are swapped"
             )
-    found = len(columns(upper, x))
-    if found < LEAST_COLUMNS:
+    count = len(columns(upper, x))
+    if count < LEAST_COLUMNS:
         raise InputError(
-            f"the upper lid margin of the {side} eye has only {found} vertices away from its corners that lie "
+            f"the upper lid margin of the {side} eye has only {count} vertices away from its corners that lie "
             f"{1e3 * COLUMN_SPACING_M:g} mm apart, at least {LEAST_COLUMNS} are needed; give more of them in "
             f"lids.{side}.upper, or a finer mesh"
         )

@@ -10,7 +10,7 @@ from facegen.conventions import BLENDSHAPES, Part
 from facegen.errors import InputError
 from facegen.formats.gltf import GltfPart
 from facegen.rigs.identity import fit_sphere
-from facegen.rigs.markup import Ball, Eyes, HeadMarkup
+from facegen.rigs.markup import Ball, EyeMarks, HeadMarkup
 
 BALL_RESIDUAL = 0.12
 """An eyeball's vertices lie this near its fitted sphere, root mean square, as a share of its radius."""
@@ -99,7 +99,7 @@ def join_parts(markup: HeadMarkup, parts: tuple[GltfPart, ...]) -> HeadMesh:
     )
 
 
-def eyeballs(eyes: Eyes, parts: tuple[GltfPart, ...]) -> tuple[np.ndarray, np.ndarray]:
+def eyeballs(eyes: EyeMarks, parts: tuple[GltfPart, ...]) -> tuple[np.ndarray, np.ndarray]:
     """Centres (2, 3) and radii (2,), the subject's left first, in the file's frame and unit.
 
     Raises
@@ -136,16 +136,16 @@ def blendshape_sources(names: Iterable[str]) -> dict[str, tuple[str, ...]]:
     and ``R``. Two halves of a shape that ARKit has as one, such as ``browInnerUp_L`` and ``_R``, make it together.
     """
     known = {re.sub("[^a-z0-9]", "", name.rsplit(".", 1)[-1].casefold()): name for name in names}
-    found = {}
+    targets = {}
     for shape in BLENDSHAPES:
         name = shape.casefold()
         short = re.sub("(l)eft$|(r)ight$", r"\1\2", name)
         halves = [[name + end for end in ends] for ends in (("left", "right"), ("l", "r"))]
         for spelling in ([name], [short], *halves):
             if all(part in known for part in spelling):
-                found[shape] = tuple(known[part] for part in spelling)
+                targets[shape] = tuple(known[part] for part in spelling)
                 break
-    return found
+    return targets
 
 
 def contents(parts: tuple[GltfPart, ...]) -> str:

@@ -17,7 +17,7 @@ from facegen.rigs.identity import fit_sphere
 from facegen.rigs.marking import lid_neighbourhood, lip_faces
 from facegen.rigs.rig import Rig
 
-COMPONENTS = 60
+MOST_COMPONENTS = 60
 """Modes taken at most; 60 hold 98.8 % of the variance."""
 CENTIMETRE_M = 0.01
 VERSION = "ICT-FaceKit light, build 2"
@@ -35,7 +35,7 @@ class _Obj:
     uv: np.ndarray
 
 
-def build_ict(clone: Path, *, components: int = COMPONENTS) -> Rig:
+def build_ict(clone: Path, *, components: int = MOST_COMPONENTS) -> Rig:
     """Build the rig ``ict`` from the clone, with as many identity modes as it holds up to ``components``.
 
     Raises

@@ -1,4 +1,4 @@
-"""The loop behind `facegen.rigs.lids`: closes one eye's lids, face by face, vertex by vertex."""
+"""Closes one eye's lids, face by face, vertex by vertex: the compiled loop of `facegen.rigs.lids`."""
 
 from typing import NamedTuple
 
@@ -173,13 +173,13 @@ def _rest_on_eye(
         length = _length(lid, i)
         support, cosine = _support(lid, i, length, radius, cornea_offset, gaze)
         if lids.skin[i]:
-            wanted = max(length, support + min(max(thickness[i], THICKNESS_M[0]), THICKNESS_M[1]))
+            target = max(length, support + min(max(thickness[i], THICKNESS_M[0]), THICKNESS_M[1]))
         elif cosine > near_cornea:
-            wanted = support + LINING_M
+            target = support + LINING_M
         else:
-            wanted = min(length, support + max(thickness[i], -BEHIND_M))
+            target = min(length, support + max(thickness[i], -BEHIND_M))
         for axis in range(3):
-            lid[i, axis] *= wanted / length
+            lid[i, axis] *= target / length
 
 
 @compiled
@@ -207,9 +207,9 @@ def _lay_in_front(lids: Lids, lid: np.ndarray, gap: np.ndarray, outwards: np.nda
     for i in range(len(lid)):
         along = outwards[lids.before[i]] * (1.0 - lids.share[i]) + outwards[lids.after[i]] * lids.share[i]
         length = _length(lid, i)
-        wanted = length + lids.follow[i] * along
+        target = length + lids.follow[i] * along
         for axis in range(3):
-            lid[i, axis] *= wanted / length
+            lid[i, axis] *= target / length
 
 
 @compiled
@@ -235,6 +235,6 @@ def _draw_linings(
         level = np.sqrt(max(length * length - y * y, 0.0) / (length * length - lid[i, 1] * lid[i, 1]))
         lid[i, 0], lid[i, 1], lid[i, 2] = level * lid[i, 0], y, level * lid[i, 2]
         support, _ = _support(lid, i, length, radius, cornea_offset, gaze)
-        wanted = length + closed * (support + CURTAIN_M - length)
+        target = length + closed * (support + CURTAIN_M - length)
         for axis in range(3):
-            lid[i, axis] *= wanted / length
+            lid[i, axis] *= target / length

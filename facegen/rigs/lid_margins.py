@@ -1,4 +1,4 @@
-"""The edges of the lids: where they run, and how far they stand apart."""
+"""Finds the margins of the lids on a rig, and measures how far they stand apart."""
 
 from functools import lru_cache
 

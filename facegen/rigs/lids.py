@@ -1,4 +1,4 @@
-"""Lids that close on the eye and stop where they touch: the rig's one part that is not linear.
+"""Closes lids on the eye and stops them where they touch: the rig's one part that is not linear.
 
 Along the upper lid's margin most vertices are *columns*. In each column the vertical gap between the margins
 has a goal: the gap without the blink, less the blink's share of the gap with nothing closing, and never below

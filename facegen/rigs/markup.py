@@ -1,4 +1,4 @@
-"""What a user says about their own head, because no file format does: landmarks, eyes, lids, parts (JSON)."""
+"""Reads the JSON file that marks up a user's own head: landmarks, eyes, lids and parts, which no 3D format names."""
 
 import json
 from pathlib import Path
@@ -27,7 +27,7 @@ class Ball(_Model):
     radius: Annotated[float, Field(gt=0)]
 
 
-class Eyes(_Model):
+class EyeMarks(_Model):
     """Eyeballs: a ball, or the name of what holds it; a name on both sides holds both, split at the middle."""
 
     left: str | Ball
@@ -41,7 +41,7 @@ class Margins(_Model):
     lower: Annotated[list[Vertex], Field(min_length=4)]
 
 
-class Lids(_Model):
+class LidMarks(_Model):
     """Lid margins of both eyes."""
 
     left: Margins
@@ -73,9 +73,9 @@ class HeadMarkup(_Model):
     """
 
     landmarks: Annotated[list[Point], Field(min_length=68, max_length=68)]
-    eyes: Eyes
+    eyes: EyeMarks
     head: str | None = None
-    lids: Lids | None = None
+    lids: LidMarks | None = None
     parts: dict[PartName, list[str]] = Field(default_factory=dict)
     metres_per_unit: Annotated[float, Field(gt=0)] = 1.0
     licence: str = "not stated"

@@ -1,4 +1,4 @@
-"""What follows from identity alone: eyeball centres and the landmarks of the neutral face."""
+"""Computes eyeball centres and neutral landmarks, which follow from identity alone."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The reduced mesh that hides keypoints: the rig's cage, eyes closed, and the rendered surface itself along the jaw."""
+"""Reduces a rig to the mesh that hides keypoints: its cage, eyes closed, and the rendered surface along the jaw."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -16,7 +16,7 @@ faces' flags equal those of the whole mesh (default rig), with 0, 276, 595 or 97
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Occluder:
+class FaceOccluder:
     """``faces`` (C, 4) int32, padded with -1, over the rig's vertices at ``vertices`` (m,), the cage's first."""
 
     vertices: np.ndarray
@@ -24,7 +24,7 @@ class Occluder:
 
 
 @lru_cache(maxsize=8)
-def occluder(rig: Rig) -> Occluder:
+def occluder(rig: Rig) -> FaceOccluder:
     """The mesh that stands for the head in occlusion tests of keypoints; the closed cage where nothing is subdivided.
 
     Where fine and coarse faces meet, their edges part by as much as the cage cuts off: rays that slip through there
@@ -43,7 +43,7 @@ def occluder(rig: Rig) -> Occluder:
     vertices = np.concatenate([cage, np.setdiff1d(faces, [*cage, -1])])
     row = np.full(len(rig.vertices) + 1, -1, np.int32)  # the last entry serves the padding
     row[vertices] = np.arange(len(vertices))
-    return Occluder(vertices=vertices, faces=row[faces])
+    return FaceOccluder(vertices=vertices, faces=row[faces])
 
 
 @lru_cache(maxsize=8)

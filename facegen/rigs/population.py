@@ -1,4 +1,4 @@
-"""The people that anny's identity basis fits: MakeHuman's sliders, drawn for adults of all origins."""
+"""Draws the people that anny's identity basis fits: MakeHuman's sliders for adults of all origins."""
 
 import zipfile
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""One BLAS thread: matrix products split over other numbers of threads end in other last bits."""
+"""Holds BLAS to one thread: matrix products split over other numbers of threads end in other last bits."""
 
 from contextlib import AbstractContextManager
 from functools import cache

@@ -1,4 +1,4 @@
-"""The keypoint camera, and how the head is turned before it."""
+"""Draws the keypoint camera, and how the head is turned before it."""
 
 import numpy as np
 

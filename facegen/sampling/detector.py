@@ -53,10 +53,10 @@ def draw_detector_noise(
         noise += along_face(landmarks.bias * _bias_of(seed, person), rotation)
     if landmarks.outliers > 0:
         rng = stream(seed, "detector outliers", block)
-        found = rng.random((BLOCK, len(LANDMARK_GROUPS))) < landmarks.outliers
+        is_outlier = rng.random((BLOCK, len(LANDMARK_GROUPS))) < landmarks.outliers
         shift = OUTLIER_FACE_WIDTHS * rng.standard_normal((BLOCK, len(LANDMARK_GROUPS), 2))
         for number, group in enumerate(LANDMARK_GROUPS.values()):
-            noise[:, list(group)] += (found[:, number, None] * shift[:, number])[:, None]
+            noise[:, list(group)] += (is_outlier[:, number, None] * shift[:, number])[:, None]
     return noise
 
 

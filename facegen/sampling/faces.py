@@ -36,7 +36,7 @@ _RESTLESS[[BLENDSHAPE_INDEX[n] for n in ("eyeWideLeft", "eyeWideRight")]] = 0.3
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Faces:
+class DrawnFaces:
     """Expressions of n faces.
 
     Attributes
@@ -54,7 +54,9 @@ class Faces:
     component: np.ndarray
 
 
-def draw_faces(spec: Spec, streams: Callable[[str], np.random.Generator], eye_center: np.ndarray) -> Faces:
+def draw_faces(
+    spec: Spec, streams: Callable[[str], np.random.Generator], eye_center: np.ndarray
+) -> DrawnFaces:
     """Expressions and gaze of n faces.
 
     Parameters
@@ -97,7 +99,9 @@ def draw_faces(spec: Spec, streams: Callable[[str], np.random.Generator], eye_ce
         weights[:, column] = value
     down, up = rng.random((2, size)) * living
     follow_gaze(weights, down=LIDS_FOLLOW_DOWN * down, up=LIDS_FOLLOW_UP * up)
-    return Faces(weights=restrain(weights), gaze=gaze, component=(component + len(UNMIXED)).astype(np.int8))
+    return DrawnFaces(
+        weights=restrain(weights), gaze=gaze, component=(component + len(UNMIXED)).astype(np.int8)
+    )
 
 
 def draw_components(settings: Expression, rng: np.random.Generator, size: int) -> np.ndarray:

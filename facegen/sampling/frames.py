@@ -1,4 +1,4 @@
-"""What differs from frame to frame, for each kind of dataset: faces, gaze, pose, camera, pupils, slip."""
+"""Draws what differs from frame to frame, for each kind of dataset: faces, gaze, pose, camera, pupils, slip."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,14 +14,14 @@ from facegen.sampling.cameras import draw_head_rotation, draw_keypoint_camera
 from facegen.sampling.detector import RUN, draw_dropped
 from facegen.sampling.faces import draw_faces
 from facegen.sampling.gaze import AHEAD, axes_from_weights
-from facegen.sampling.motion import KINDS, draw_takes
-from facegen.sampling.plan import Places, Plan
+from facegen.sampling.motion import CLIP_KINDS, draw_takes
+from facegen.sampling.plan import Plan, Positions
 from facegen.spec import Spec, draw
 
 COMPONENT_NAMES: tuple[str, ...] = (
     *UNMIXED,
     *COMPONENTS,
-    *(name for name, kind in KINDS.items() if not kind.neutral),
+    *(name for name, kind in CLIP_KINDS.items() if not kind.neutral),
 )
 """What ``component`` labels count: neutral faces, frames of a recording, the mixture of stills, kinds of clips."""
 
@@ -30,7 +30,7 @@ FIT_AXES = 6
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Frames:
+class DrawnFrames:
     """n frames; the rows of all arrays belong together.
 
     Attributes
@@ -66,7 +66,9 @@ class Frames:
     dropped: np.ndarray
 
 
-def draw_single_frames(plan: Plan, rig: Rig, block: int, places: Places, identity: np.ndarray) -> Frames:
+def draw_single_frames(
+    plan: Plan, rig: Rig, block: int, positions: Positions, identity: np.ndarray
+) -> DrawnFrames:
     """Frames of a block that are drawn each by itself."""
     spec = plan.spec
 
@@ -75,11 +77,11 @@ def draw_single_frames(plan: Plan, rig: Rig, block: int, places: Places, identit
 
     faces = draw_faces(spec, rng, eye_centers(rig, identity))
     weights, gaze, component = faces.weights, faces.gaze, faces.component
-    weights[places.neutral] = 0.0
-    gaze[places.neutral] = AHEAD
-    component[places.neutral] = COMPONENT_NAMES.index("neutral")
+    weights[positions.neutral] = 0.0
+    gaze[positions.neutral] = AHEAD
+    component[positions.neutral] = COMPONENT_NAMES.index("neutral")
     intrinsics, position = draw_keypoint_camera(spec, rng("camera"), BLOCK)
-    return Frames(
+    return DrawnFrames(
         weights=weights,
         gaze=gaze,
         component=component,
@@ -92,19 +94,19 @@ def draw_single_frames(plan: Plan, rig: Rig, block: int, places: Places, identit
     )
 
 
-def draw_played_frames(plan: Plan, block: int, places: Places) -> Frames:
+def draw_played_frames(plan: Plan, block: int, positions: Positions) -> DrawnFrames:
     """Frames of a block that play a recording; its weights apart, all is drawn once for each person's clip."""
     spec = plan.spec
-    people, of_person = np.unique(places.person, return_inverse=True)
+    people, of_person = np.unique(positions.person, return_inverse=True)
 
     def of_each(component: str, draw_one: Callable[[np.random.Generator], np.ndarray]) -> np.ndarray:
         drawn = [draw_one(stream(spec.seed, f"played {component}", int(person))) for person in people]
         return np.concatenate(drawn)[of_person]
 
     camera = of_each("camera", lambda rng: np.concatenate(draw_keypoint_camera(spec, rng, 1), axis=1))
-    weights = plan.recording[places.frame]
+    weights = plan.recording[positions.frame]
     dropped = stream(spec.seed, "detector dropped", block)
-    return Frames(
+    return DrawnFrames(
         weights=weights,
         gaze=axes_from_weights(weights),
         component=np.full(BLOCK, COMPONENT_NAMES.index("recording"), np.int8),
@@ -117,22 +119,22 @@ def draw_played_frames(plan: Plan, block: int, places: Places) -> Frames:
     )
 
 
-def draw_clip_frames(plan: Plan, rig: Rig, places: Places, identity: np.ndarray) -> Frames:
+def draw_clip_frames(plan: Plan, rig: Rig, positions: Positions, identity: np.ndarray) -> DrawnFrames:
     """Frames of a block cut from the clips that it touches; each clip is drawn whole, by its own number."""
     spec, script = plan.spec, plan.script
-    clips, first_row, of_clip = np.unique(places.clip, return_index=True, return_inverse=True)
+    clips, first_row, of_clip = np.unique(positions.clip, return_index=True, return_inverse=True)
     take = draw_takes(spec, script, clips, eye_centers(rig, identity[first_row]))
     frames = script.frames[clips % len(script.kind)]
-    row = (np.cumsum(frames) - frames)[of_clip] + places.frame
-    sessions, of_session = np.unique(places.session, return_inverse=True)
+    row = (np.cumsum(frames) - frames)[of_clip] + positions.frame
+    sessions, of_session = np.unique(positions.session, return_inverse=True)
     drawn = [draw_keypoint_camera(spec, stream(spec.seed, "session camera", int(s)), 1) for s in sessions]
     intrinsics, position = (np.concatenate(parts)[of_session] for parts in zip(*drawn, strict=True))
     radius_m = np.array([_draw_pupil_radius_m(spec, int(s)) for s in sessions])[of_session]
-    kinds = np.array([COMPONENT_NAMES.index(name) for name in KINDS], np.int8)
-    return Frames(
+    kinds = np.array([COMPONENT_NAMES.index(name) for name in CLIP_KINDS], np.int8)
+    return DrawnFrames(
         weights=take.weights[row],
         gaze=take.gaze[row],
-        component=kinds[script.kind[places.clip % len(script.kind)]],
+        component=kinds[script.kind[positions.clip % len(script.kind)]],
         rotation=rotation_from_angles(*np.radians(take.head_deg[row]).T),
         position_m=position + take.sway_m[row],
         intrinsics=intrinsics,

@@ -1,4 +1,4 @@
-"""Where the eyes look: both at one point or, rarely, apart, and the eyeLook* weights that say the same."""
+"""Draws where the eyes look, both at one point or, rarely, apart; converts gaze to eyeLook* weights and back."""
 
 import numpy as np
 

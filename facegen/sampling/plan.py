@@ -1,4 +1,4 @@
-"""Which person, session, clip and frame each sample of a dataset is."""
+"""Plans a dataset: which person, session, clip and frame each sample is."""
 
 from dataclasses import dataclass
 
@@ -44,7 +44,7 @@ class Plan:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Places:
+class Positions:
     """Where samples stand in people → sessions → clips → frames; all arrays (n,)."""
 
     sample: np.ndarray
@@ -111,15 +111,15 @@ def _frames(wrong: np.ndarray, playback: Playback) -> str:
     )
 
 
-def block_places(plan: Plan, block: int) -> Places:
-    """Places of the 1,000 samples of a block; the last block reaches past the dataset's end and is cut later."""
+def block_positions(plan: Plan, block: int) -> Positions:
+    """Positions of the 1,000 samples of a block; the last block reaches past the dataset's end and is cut later."""
     sample = np.arange(block * BLOCK, (block + 1) * BLOCK, dtype=np.int64)
     person, within = np.divmod(sample, plan.frames)
     nothing = np.zeros_like(sample)
     if plan.script is not None:
-        return _sequence_places(plan, plan.script, sample, person)
+        return _sequence_positions(plan, plan.script, sample, person)
     if plan.spec.kind == "playback":
-        return Places(
+        return Positions(
             sample=sample,
             person=person,
             session=person,
@@ -130,7 +130,7 @@ def block_places(plan: Plan, block: int) -> Places:
         )
     # a still is a clip of one frame
     session, face = np.divmod(sample, plan.frames // plan.spec.still.sessions)
-    return Places(
+    return Positions(
         sample=sample,
         person=person,
         session=session,
@@ -141,11 +141,11 @@ def block_places(plan: Plan, block: int) -> Places:
     )
 
 
-def _sequence_places(plan: Plan, script: Script, sample: np.ndarray, person: np.ndarray) -> Places:
+def _sequence_positions(plan: Plan, script: Script, sample: np.ndarray, person: np.ndarray) -> Positions:
     session, within = np.divmod(sample, script.session_frames)
     place = np.searchsorted(script.first, within, side="right") - 1
     frame = within - script.first[place]
-    return Places(
+    return Positions(
         sample=sample,
         person=person,
         session=session,

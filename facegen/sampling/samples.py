@@ -1,4 +1,4 @@
-"""A block of samples: every draw of 1,000 consecutive samples, gathered."""
+"""Draws blocks of 1,000 consecutive samples: everything that is drawn of them, gathered."""
 
 from dataclasses import dataclass, fields
 
@@ -12,7 +12,7 @@ from facegen.sampling.cameras import camera_from_head
 from facegen.sampling.detector import draw_detector_noise
 from facegen.sampling.frames import FIT_AXES, draw_clip_frames, draw_played_frames, draw_single_frames
 from facegen.sampling.people import people_of, split_of
-from facegen.sampling.plan import Plan, block_places
+from facegen.sampling.plan import Plan, block_positions
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -22,7 +22,7 @@ class Samples:
     Attributes
     ----------
     sample, person, session, clip, frame
-        (n,) int64, see `facegen.sampling.plan.Places`.
+        (n,) int64, see `facegen.sampling.plan.Positions`.
     time_s
         (n,) seconds from the start of the clip.
     neutral
@@ -85,27 +85,27 @@ def _by_session(seed: int, component: str, session: np.ndarray, width: int) -> n
 
 def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:
     """All draws of a block of 1,000 samples; rows past the dataset's end are there, and to be cut by the caller."""
-    spec, places = plan.spec, block_places(plan, block)
-    people = people_of(spec, rig, places.person)
+    spec, positions = plan.spec, block_positions(plan, block)
+    people = people_of(spec, rig, positions.person)
     if plan.script is not None:
-        frames = draw_clip_frames(plan, rig, places, people.identity)
+        frames = draw_clip_frames(plan, rig, positions, people.identity)
     elif plan.recording is not None:
-        frames = draw_played_frames(plan, block, places)
+        frames = draw_played_frames(plan, block, positions)
     else:
-        frames = draw_single_frames(plan, rig, block, places, people.identity)
+        frames = draw_single_frames(plan, rig, block, positions, people.identity)
     noise = draw_detector_noise(
-        spec.landmarks, spec.seed, block, person=places.person, rotation=frames.rotation
+        spec.landmarks, spec.seed, block, person=positions.person, rotation=frames.rotation
     )
     noise[frames.dropped] = np.nan
     return Samples(
-        sample=places.sample,
-        person=places.person,
-        session=places.session,
-        clip=places.clip,
-        frame=places.frame,
-        time_s=places.time_s,
-        neutral=places.neutral,
-        split=split_of(spec, places.session if spec.split == "session" else places.person),
+        sample=positions.sample,
+        person=positions.person,
+        session=positions.session,
+        clip=positions.clip,
+        frame=positions.frame,
+        time_s=positions.time_s,
+        neutral=positions.neutral,
+        split=split_of(spec, positions.session if spec.split == "session" else positions.person),
         female=people.female,
         age_years=people.age_years,
         ancestry=people.ancestry,
@@ -117,6 +117,6 @@ def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:
         intrinsics=frames.intrinsics,
         detector_noise=noise,
         pupil_radius_m=np.repeat(frames.pupil_radius_m[:, None], 2, axis=1),
-        donning=_by_session(spec.seed, "donning", places.session, FIT_AXES),
+        donning=_by_session(spec.seed, "donning", positions.session, FIT_AXES),
         slip=frames.slip,
     )

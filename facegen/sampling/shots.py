@@ -1,4 +1,4 @@
-"""Shots: what differs from picture to picture beside the scene, drawn once and kept as a label."""
+"""Draws shots: what differs from picture to picture beside the scene, kept as a label."""
 
 from dataclasses import dataclass
 

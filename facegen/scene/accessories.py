@@ -1,4 +1,4 @@
-"""What a person wears in a session beside the headset: a beard, glasses, make-up."""
+"""Draws and puts on what a person wears in a session beside the headset: a beard, glasses, make-up."""
 
 from dataclasses import dataclass
 

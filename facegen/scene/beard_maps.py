@@ -1,4 +1,4 @@
-"""Where beards may grow on a rig's mean face: regions that landmarks span, and how hair lies in them."""
+"""Maps a rig's mean face to regions where beards grow, which landmarks span, and to how hair lies in them."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -23,7 +23,7 @@ NEAR_M = 0.14
 LINING_M = 7e-3
 """What lies this much further in than its neighbours is the lining of a mouth or a nose."""
 
-REGIONS = {
+BEARD_REGIONS = {
     "stubble": ("moustache", "chin", "beside", "cheeks"),
     "moustache": ("moustache",),
     "goatee": ("moustache", "chin", "beside"),
@@ -60,10 +60,10 @@ def beard_map(rig: Rig) -> BeardMap:
     triangles, part = _outer_triangles(rig, landmarks)
     corners = rig.vertices[triangles]
     inside, _ = margins(landmarks, corners.mean(axis=1))
-    margin = np.maximum.reduce([inside[name] for name in REGIONS["full"]])
+    margin = np.maximum.reduce([inside[name] for name in BEARD_REGIONS["full"]])
     near, around = (part == Part.SKIN) & (margin > -8e-3), margin > -25e-3
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    dense = np.maximum.reduce([inside[name] for name in REGIONS["goatee"]]) > -EDGE_M
+    dense = np.maximum.reduce([inside[name] for name in BEARD_REGIONS["goatee"]]) > -EDGE_M
     share = np.linalg.norm(across, axis=-1) * np.where(dense, DENSER, 1.0)
     return BeardMap(triangles=triangles[near], share=share[near], skin=triangles[around], landmarks=landmarks)
 
@@ -88,14 +88,14 @@ def _outer_triangles(rig: Rig, landmarks: np.ndarray) -> tuple[np.ndarray, np.nd
     return triangles[outer], part[outer]
 
 
-def margins(landmarks: np.ndarray, places: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
+def margins(landmarks: np.ndarray, points: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """How far places (n, 3) of the mean face lie inside each region, metres (n,), and above the upper lip.
 
     Regions are bounded by lines that the landmarks span, as barbers know them: a moustache between nose, lip and the
     folds beside them; chin and soul patch below the lower lip; cheeks below a line from ear to mouth; a neck line
     2 cm under the jaw.
     """
-    aside, y, z = np.abs(places[:, 0]), places[:, 1], places[:, 2]
+    aside, y, z = np.abs(points[:, 0]), points[:, 1], points[:, 2]
     corner, wing, ear, chin = (landmarks[i] for i in (54, 35, 16, 8))
     upper, lower = landmarks[[51, 52, 53, 54]], landmarks[[57, 56, 55, 54]]
     lip_top = np.interp(aside, upper[:, 0], upper[:, 1])

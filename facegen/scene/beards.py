@@ -1,4 +1,4 @@
-"""Beards and stubble: single strands that grow where a rig's map lets them."""
+"""Draws beards and stubble as single strands that grow where a rig's map lets them."""
 
 from dataclasses import dataclass
 
@@ -7,10 +7,10 @@ from scipy.spatial import cKDTree
 
 from facegen.conventions import Part
 from facegen.rigs import Rig
-from facegen.scene.beard_maps import EDGE_M, REGIONS, BeardMap, beard_map, combed, margins
+from facegen.scene.beard_maps import BEARD_REGIONS, EDGE_M, BeardMap, beard_map, combed, margins
 from facegen.scene.scene import Strands
 
-KINDS = ("stubble", "moustache", "goatee", "full")
+BEARD_KINDS = ("stubble", "moustache", "goatee", "full")
 ROOTS = 11000
 """Places on the whole map; a full beard grows from some 8,000 of them (these strands stand for the 30 to 90
 hairs that men have on a square centimetre of cheek, lip and chin [1]_).
@@ -42,7 +42,7 @@ class Beard:
     Attributes
     ----------
     kind, length_m
-        One of `KINDS`, and the length of its longest strands.
+        One of `BEARD_KINDS`, and the length of its longest strands.
     triangle, weight
         (n, 3) vertices of the triangle each root lies in, and their weights.
     comb
@@ -77,7 +77,7 @@ def draw_beard(person: np.random.Generator, session: np.random.Generator, rig: R
     session
         A stream of the session's: how long the hair is.
     """
-    own = KINDS[int(person.choice(len(KINDS), p=(0.4, 0.12, 0.18, 0.3)))]
+    own = BEARD_KINDS[int(person.choice(len(BEARD_KINDS), p=(0.4, 0.12, 0.18, 0.3)))]
     kind, share = ("stubble" if session.random() < 0.2 else own), session.random()
     low, high = LENGTH_M[kind]
     length = low * (high / low) ** share  # short ones are the most frequent
@@ -91,7 +91,7 @@ def draw_beard(person: np.random.Generator, session: np.random.Generator, rig: R
     thickness = person.uniform(0.7, 1.25, ROOTS)
 
     inside, below_lip = margins(map_.landmarks, root)
-    margin = np.maximum.reduce([inside[name] for name in REGIONS[kind]])
+    margin = np.maximum.reduce([inside[name] for name in BEARD_REGIONS[kind]])
     grows = (margin + outline + fringe > 0.0) & (chance < density) & (inside["anything"] > 0.0)
     reach = length * (0.6 + 0.4 * age)
     # cut above the lip; what hangs from elsewhere has nothing to enter
@@ -160,8 +160,8 @@ def beard_strands(beard: Beard, rig: Rig, vertices: np.ndarray) -> Strands:
     )
 
 
-def _outside(places: np.ndarray, triangles: np.ndarray, vertices: np.ndarray) -> np.ndarray:
-    """Places (n, k, 3), moved along the normal of the nearest vertex to where they clear the skin."""
+def _outside(points: np.ndarray, triangles: np.ndarray, vertices: np.ndarray) -> np.ndarray:
+    """Points (n, k, 3), moved along the normal of the nearest vertex to where they clear the skin."""
     used, renumbered = np.unique(triangles, return_inverse=True)
     skin, corners = vertices[used], renumbered.reshape(triangles.shape)
     a, b, c = (skin[corners[:, i]] for i in range(3))
@@ -171,6 +171,6 @@ def _outside(places: np.ndarray, triangles: np.ndarray, vertices: np.ndarray) ->
         axis=-1,
     )
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    nearest = cKDTree(skin).query(places.reshape(-1, 3))[1].reshape(places.shape[:2])
-    above = ((places - skin[nearest]) * normal[nearest]).sum(axis=-1)
-    return places + np.maximum(CLEAR_M - above, 0.0)[..., None] * normal[nearest]
+    nearest = cKDTree(skin).query(points.reshape(-1, 3))[1].reshape(points.shape[:2])
+    above = ((points - skin[nearest]) * normal[nearest]).sum(axis=-1)
+    return points + np.maximum(CLEAR_M - above, 0.0)[..., None] * normal[nearest]

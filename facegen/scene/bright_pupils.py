@@ -1,4 +1,4 @@
-"""Bright pupils: what an LED beside the camera's axis adds to a pupil, which all others leave dark.
+"""Brightens pupils by LEDs beside the camera's axis; all others leave them dark.
 
 The lens of the eye focuses a lamp onto the retina, whose light goes back the way it came: a camera within about two
 degrees of the lamp, as the eye sees both, looks into that beam [1]_.

@@ -70,18 +70,18 @@ def draw_brows(rng: np.random.Generator, rig: Rig, *, density: float = 1.0, widt
         across = np.clip(rng.normal(0.0, 0.5, count), -1.0, 1.0)
         middle = np.stack([np.interp(course, COURSE, line[:, axis]) for axis in range(2)], axis=-1)
         middle[:, 1] += across * width * np.interp(course, COURSE, HALF_WIDTH_M)
-        triangle, weight, found = _on_skin(rig, middle, line)
+        triangle, weight, on_skin = _on_skin(rig, middle, line)
         lean = np.interp(course, COURSE, LEAN_RAD) - across * COMBING_RAD + rng.normal(0.0, 0.14, count)
         brows.append(
             Brows(
-                triangle=triangle[found],
-                weight=weight[found],
-                lean_rad=lean[found],
-                bend_rad=rng.normal(-0.35, 0.15, count)[found],
-                length_m=(np.interp(course, COURSE, LENGTH_M) * rng.uniform(0.6, 1.1, count))[found],
-                lift=rng.uniform(0.03, 0.09, count)[found],
-                outwards=np.full(found.sum(), outwards),
-                thickness=rng.uniform(0.7, 1.2, count)[found],
+                triangle=triangle[on_skin],
+                weight=weight[on_skin],
+                lean_rad=lean[on_skin],
+                bend_rad=rng.normal(-0.35, 0.15, count)[on_skin],
+                length_m=(np.interp(course, COURSE, LENGTH_M) * rng.uniform(0.6, 1.1, count))[on_skin],
+                lift=rng.uniform(0.03, 0.09, count)[on_skin],
+                outwards=np.full(on_skin.sum(), outwards),
+                thickness=rng.uniform(0.7, 1.2, count)[on_skin],
             )
         )
     return Brows(
@@ -89,7 +89,9 @@ def draw_brows(rng: np.random.Generator, rig: Rig, *, density: float = 1.0, widt
     )
 
 
-def _on_skin(rig: Rig, places: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _on_skin(
+    rig: Rig, line_points: np.ndarray, line: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Triangles (n, 3), weights (n, 3) and whether there is one, of places (n, 2) of the mean face from the front."""
     faces = rig.faces[np.isin(rig.part, (Part.SKIN, Part.BROWS))]
     triangles = np.concatenate([faces[:, :3], faces[faces[:, 3] >= 0][:, [0, 2, 3]]])
@@ -98,14 +100,14 @@ def _on_skin(rig: Rig, places: np.ndarray, line: np.ndarray) -> tuple[np.ndarray
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
     near = (away < NEAR_M) & (area > 0.0)  # and facing the front
     triangles, (a, b, c), area = triangles[near], np.moveaxis(corners[near, :, :2], 1, 0), area[near]
-    here = places[:, None]
+    here = line_points[:, None]
     weights = np.stack(
         [_cross(b - here, c - here), _cross(c - here, a - here), _cross(a - here, b - here)], axis=-1
     )
     weights /= area[:, None]
     smallest = weights.min(axis=-1)
     best = smallest.argmax(axis=1)
-    rows = np.arange(len(places))
+    rows = np.arange(len(line_points))
     return triangles[best], weights[rows, best], smallest[rows, best] >= 0.0
 
 

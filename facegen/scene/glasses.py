@@ -26,7 +26,7 @@ CLEAR_M = 0.6e-3
 """Least distance between frame and skin."""
 CORNEA_M = 12.5e-3
 """From an eyeball's centre to its cornea's apex."""
-SIDES = 8
+TUBE_SIDES = 8
 """Of a tube's cross-section."""
 
 
@@ -136,11 +136,11 @@ def _outline(lens: LensMirror, share: float = 1.0, count: int = 64) -> np.ndarra
     return lens.middle + np.stack([*flat, depth], axis=-1) @ lens.axes
 
 
-def _skin_before(rig: Rig, vertices: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _skin_before(rig: Rig, vertices: np.ndarray, rim_points: np.ndarray) -> np.ndarray:
     """How far forward (n,) the skin reaches about places (n, 3), metres along z."""
     skin = vertices[np.unique(rig.faces[np.isin(rig.part, (Part.SKIN, Part.BROWS)), :3])]
     skin = skin[(skin[:, 2] > -0.03) & (np.abs(skin[:, 1]) < 0.06)]
-    distance, nearest = cKDTree(skin[:, :2]).query(places[:, :2], k=6)
+    distance, nearest = cKDTree(skin[:, :2]).query(rim_points[:, :2], k=6)
     # on the temples, where the skin runs along z, the farthest of a wide ring would be far before the place itself
     return np.where(distance < 4e-3, skin[nearest, 2], -np.inf).max(axis=1)
 
@@ -156,7 +156,7 @@ def glasses_meshes(
         (t, None) for t in straight
     ]
     frame = [
-        strand_tubes(line[None], np.full((1, len(line)), glasses.rim_radius_m), sides=SIDES, axis=axis)
+        strand_tubes(line[None], np.full((1, len(line)), glasses.rim_radius_m), sides=TUBE_SIDES, axis=axis)
         for line, axis in tubes
     ]
     rings = [

@@ -1,4 +1,4 @@
-"""The headset itself in a scene: what it holds before the face, lenses' rims, gasket and nose piece."""
+"""Makes meshes of the headset's housing: lenses' rims, gasket and nose piece."""
 
 import numpy as np
 

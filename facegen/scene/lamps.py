@@ -1,4 +1,4 @@
-"""How LEDs shine: the same beam that Cycles gives its lamps, for what is computed beside it."""
+"""Computes the radiant intensity of LEDs: the same beam that Cycles gives its lamps."""
 
 import numpy as np
 

@@ -118,9 +118,9 @@ def lash_tubes(lashes: Lashes, vertices: np.ndarray) -> tuple[np.ndarray, np.nda
 
 def _sampled(grid: np.ndarray, at: np.ndarray) -> np.ndarray:
     """Values (s, p, 3) of a grid (m, n, 3) at places (s, p, 2) in steps, between them by straight lines."""
-    places = np.moveaxis(at, -1, 0)
+    coordinates = np.moveaxis(at, -1, 0)
     return np.stack(
-        [ndimage.map_coordinates(grid[..., axis], places, order=1, mode="nearest") for axis in range(3)],
+        [ndimage.map_coordinates(grid[..., axis], coordinates, order=1, mode="nearest") for axis in range(3)],
         axis=-1,
     )
 

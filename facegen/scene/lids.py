@@ -1,4 +1,4 @@
-"""What the lids' surroundings have besides their mesh: the lid crease, the caruncle, and the line of tears."""
+"""Makes the lid crease, the caruncle, and the line of tears, which no rig's mesh has."""
 
 from functools import lru_cache
 

@@ -1,4 +1,4 @@
-"""What differs between people besides shape: how skin, eyes and hair look in infra-red, and where hair grows."""
+"""Draws how people look in infra-red besides their shape: skin, eyes, hair, and where hair grows."""
 
 from dataclasses import dataclass, field
 

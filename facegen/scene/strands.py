@@ -2,12 +2,12 @@
 
 import numpy as np
 
-SIDES = 3
+TUBE_SIDES = 3
 """Of a strand's cross-section; at a fifth of a pixel it might as well be round."""
 
 
 def strand_tubes(
-    centres: np.ndarray, radius: np.ndarray, *, sides: int = SIDES, axis: np.ndarray | None = None
+    centres: np.ndarray, radius: np.ndarray, *, sides: int = TUBE_SIDES, axis: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Tubes around polylines.
 

@@ -1,11 +1,11 @@
-"""Developing: light on the sensor becomes grey levels."""
+"""Develops radiance: light on the sensor becomes grey levels."""
 
 import numpy as np
 
-from facegen.headsets import Sensor
+from facegen.headsets import HeadsetSensor
 
 
-def develop(radiance: np.ndarray, sensor: Sensor, *, noise: np.ndarray | None = None) -> np.ndarray:
+def develop(radiance: np.ndarray, sensor: HeadsetSensor, *, noise: np.ndarray | None = None) -> np.ndarray:
     """Grey picture of a radiance image: linear above the black level, rounded, cut at full scale.
 
     A share of the light does not reach its pixel but is scattered in the lens, evenly over the picture (veiling

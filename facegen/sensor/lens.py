@@ -1,4 +1,4 @@
-"""Lens shading: how much of the light gets through, across the picture."""
+"""Computes lens shading: the share of the light that gets through, across the picture."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Motion blur: the picture moves evenly along a short straight line while it is exposed."""
+"""Blurs pictures by motion, evenly along a short straight line while they are exposed."""
 
 import numpy as np
 

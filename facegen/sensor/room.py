@@ -1,4 +1,4 @@
-"""Light of the room that leaks into a headset."""
+"""Adds light of the room that leaks into a headset."""
 
 import numpy as np
 

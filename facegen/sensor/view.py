@@ -1,10 +1,10 @@
-"""Developing a whole view: room, motion, lens, exposure and noise in the order in which light meets them."""
+"""Develops a whole view: room, motion, lens, exposure and noise in the order in which light meets them."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from facegen.headsets import HeadsetCamera, Sensor
+from facegen.headsets import HeadsetCamera, HeadsetSensor
 from facegen.randomness import stream
 from facegen.sampling import Shot
 from facegen.scene import Glimpse, Layers
@@ -18,7 +18,7 @@ def develop_view(
     layers: Layers | Glimpse,
     camera: HeadsetCamera,
     camera_from_head: np.ndarray,
-    sensor: Sensor,
+    sensor: HeadsetSensor,
     shot: Shot,
 ) -> np.ndarray:
     """Grey picture (h, w) uint8 of a view's layers.

@@ -1,4 +1,4 @@
-"""From a TOML file to a checked `Spec`, and what makes two datasets the same: the hash."""
+"""Reads and checks a spec from TOML, and hashes all that decides a dataset."""
 
 import dataclasses
 import hashlib

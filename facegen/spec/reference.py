@@ -1,4 +1,4 @@
-"""Every key of a spec as a page of Markdown, written from the records themselves."""
+"""Writes docs/spec.md, every key of a spec, from the records themselves."""
 
 import json
 from typing import Any
@@ -60,8 +60,8 @@ def _section(schema: dict, record: dict, path: tuple[str, ...], default: Any, me
 def _record_of(schema: dict, entry: dict) -> dict | None:
     """The record that a key holds, if it holds one."""
     options = [entry, *entry.get("anyOf", ())]
-    found = [option["$ref"] for option in options if "$ref" in option]
-    return schema["$defs"][found[0].rsplit("/", 1)[-1]] if found else None
+    references = [option["$ref"] for option in options if "$ref" in option]
+    return schema["$defs"][references[0].rsplit("/", 1)[-1]] if references else None
 
 
 def _allowed(entry: dict) -> str:

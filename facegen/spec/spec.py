@@ -1,4 +1,4 @@
-"""What a dataset is: one frozen record, read from TOML, that together with a sample's number decides everything."""
+"""Defines the spec of a dataset: a frozen record, read from TOML, which decides everything with a sample's number."""
 
 from dataclasses import field
 from typing import Annotated, Literal

@@ -1,4 +1,4 @@
-"""A dataset opened or begun: its spec with everything the spec names, and the folder it lives in."""
+"""Opens and begins datasets: a spec with everything that it names, and the folder of its samples."""
 
 import hashlib
 import importlib.metadata
@@ -148,11 +148,11 @@ def begin(dataset: Dataset) -> None:
         others = folder.path.is_dir() and any(p.name not in _FIRST_THINGS for p in folder.path.iterdir())
     # looked at after the listing: another worker may be just beginning, and then this file is there by now
     if folder.dataset_json.is_file():
-        found = read_json(folder.dataset_json).get("spec_hash")
-        if found != dataset.hash:
+        stored_hash = read_json(folder.dataset_json).get("spec_hash")
+        if stored_hash != dataset.hash:
             raise InputError(
-                f"{folder.path}: holds a dataset of another spec (its hash is {str(found)[:12]}, this spec's with its "
-                f"rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
+                f"{folder.path}: holds a dataset of another spec (its hash is {str(stored_hash)[:12]}, this spec's "
+                f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
             )
         return
     if others:

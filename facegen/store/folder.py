@@ -1,4 +1,4 @@
-"""A dataset's folder: where everything lies, and how things appear in it complete or not at all."""
+"""Names the paths of a dataset's folder, and lets files appear in it complete or not at all."""
 
 import errno
 import json

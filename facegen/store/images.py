@@ -1,4 +1,4 @@
-"""Pictures as files: an 8-bit grey PNG as the sensor gives it, and one multi-part EXR with what is true.
+"""Writes and reads pictures: an 8-bit grey PNG as the sensor gives it, and one multi-part EXR with what is true.
 
 Both are made here rather than by Blender, whose files carry times: the same arrays always give the same
 bytes.
@@ -71,19 +71,19 @@ def read_exr(path: str | Path) -> Layers:
         raise FormatError(f"there is no file {path}")
     try:
         with OpenEXR.File(str(path), separate_channels=True) as file:
-            found = {
+            channels_of = {
                 part.name(): {name: c.pixels for name, c in part.channels.items()} for part in file.parts
             }
     except Exception as error:  # the library raises plain RuntimeErrors and its own types
         raise FormatError(f"{path} is not a readable EXR file: {error}") from error
     images = {}
     for name, channels in EXR_PARTS.items():
-        missing = [f"{name}.{channel}" for channel in channels if channel not in found.get(name, {})]
+        missing = [f"{name}.{channel}" for channel in channels if channel not in channels_of.get(name, {})]
         if missing:
             raise FormatError(
                 f"{path} has no {missing[0]}; a view's EXR has the parts {', '.join(EXR_PARTS)}"
             )
-        image = np.stack([found[name][channel] for channel in channels], axis=-1)
+        image = np.stack([channels_of[name][channel] for channel in channels], axis=-1)
         images[name] = image[..., 0] if len(channels) == 1 else image
     return Layers(
         radiance=images["radiance"].astype(np.float32),

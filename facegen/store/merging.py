@@ -1,4 +1,4 @@
-"""``merge``: runs of one spec that were made apart, on other disks or machines, joined to one dataset."""
+"""Joins runs of one spec that were made apart, on other disks or machines, to one dataset."""
 
 import filecmp
 import os

@@ -1,4 +1,4 @@
-"""``sample.json``: the labels of one rendered sample as JSON."""
+"""Makes ``sample.json``, the labels of one rendered sample."""
 
 from dataclasses import asdict
 from typing import Any

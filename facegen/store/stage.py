@@ -1,4 +1,4 @@
-"""Where half-made things lie until they are whole, and what is left of them when their maker was killed."""
+"""Stages half-made files in ``tmp/`` until they are whole, and sweeps those whose maker was killed."""
 
 import contextlib
 import hashlib

@@ -1,4 +1,4 @@
-"""Is a dataset what its spec says? Checks that compute labels anew and look at pixels."""
+"""Checks that a dataset is what its spec says: computes labels anew and looks at pixels."""
 
 from facegen.validation.finding import Finding
 from facegen.validation.keypoints import check_shard

@@ -1,4 +1,4 @@
-"""Do stored labels agree with labels made anew?"""
+"""Compares stored labels with labels made anew."""
 
 from collections.abc import Iterator
 
@@ -12,51 +12,51 @@ Labels are float32: their last bit is 6e-8 of their size, and another processor'
 """
 
 
-def differing_rows(found: np.ndarray, made: np.ndarray) -> np.ndarray:
+def differing_rows(stored: np.ndarray, made: np.ndarray) -> np.ndarray:
     """(n,) bool: rows of two arrays (n, ...) that differ by more than `TOLERANCE`; NaN equals NaN."""
-    if found.dtype.kind not in "fiub" or made.dtype.kind not in "fiub":
-        differs = found != made
+    if stored.dtype.kind not in "fiub" or made.dtype.kind not in "fiub":
+        differs = stored != made
     else:
-        found, made = found.astype(np.float64), made.astype(np.float64)
+        stored, made = stored.astype(np.float64), made.astype(np.float64)
         with np.errstate(invalid="ignore"):
-            near = np.abs(found - made) <= TOLERANCE * np.maximum(1.0, np.abs(made))
-        differs = ~(near | (found == made) | (np.isnan(found) & np.isnan(made)))
+            near = np.abs(stored - made) <= TOLERANCE * np.maximum(1.0, np.abs(made))
+        differs = ~(near | (stored == made) | (np.isnan(stored) & np.isnan(made)))
     return differs.reshape(len(differs), -1).any(axis=1)
 
 
-def disagreements(found: object, made: object, name: str = "") -> Iterator[tuple[str, str]]:
+def disagreements(stored: object, made: object, name: str = "") -> Iterator[tuple[str, str]]:
     """Name and description of every label of a record that differs from the record made anew.
 
     Lists are compared as arrays, so that one moved landmark is one disagreement that says which and how far.
     """
     if isinstance(made, dict):
-        if not isinstance(found, dict):
-            yield name, f"should be a table, and is {_short(found)}"
+        if not isinstance(stored, dict):
+            yield name, f"should be a table, and is {_short(stored)}"
             return
         for key, value in made.items():
             inner = f"{name}.{key}" if name else key
-            if key not in found:
+            if key not in stored:
                 yield inner, "is missing"
             else:
-                yield from disagreements(found[key], value, inner)
-        for key in sorted(found.keys() - made.keys()) if name else ():
+                yield from disagreements(stored[key], value, inner)
+        for key in sorted(stored.keys() - made.keys()) if name else ():
             yield f"{name}.{key}", "is no label of this version of facegen"
     elif isinstance(made, list):
-        yield from _list_disagreement(found, made, name)
-    elif not _same(found, made):
-        yield name, f"is {_short(found)}; the spec gives {_short(made)}"
+        yield from _list_disagreement(stored, made, name)
+    elif not _same(stored, made):
+        yield name, f"is {_short(stored)}; the spec gives {_short(made)}"
 
 
-def _list_disagreement(found: object, made: list, name: str) -> Iterator[tuple[str, str]]:
+def _list_disagreement(stored: object, made: list, name: str) -> Iterator[tuple[str, str]]:
     if made and isinstance(made[0], dict | str):
-        if not isinstance(found, list) or len(found) != len(made):
+        if not isinstance(stored, list) or len(stored) != len(made):
             yield name, f"should have {len(made)} entries"
             return
-        for index, (f, m) in enumerate(zip(found, made, strict=True)):
+        for index, (f, m) in enumerate(zip(stored, made, strict=True)):
             yield from disagreements(f, m, f"{name}[{index}]")
         return
     expected = _numbers(made)
-    actual = _numbers(found)
+    actual = _numbers(stored)
     if actual is None or actual.shape != expected.shape:
         yield name, f"should be numbers of shape {expected.shape}"
         return
@@ -80,12 +80,12 @@ def _numbers(values: object) -> np.ndarray | None:
         return None
 
 
-def _same(found: object, made: object) -> bool:
-    if isinstance(made, bool) or not isinstance(made, int | float) or isinstance(found, bool):
-        return type(found) is type(made) and found == made
-    if not isinstance(found, int | float):
+def _same(stored: object, made: object) -> bool:
+    if isinstance(made, bool) or not isinstance(made, int | float) or isinstance(stored, bool):
+        return type(stored) is type(made) and stored == made
+    if not isinstance(stored, int | float):
         return False
-    return not differing_rows(np.array([float(found)]), np.array([float(made)]))[0]
+    return not differing_rows(np.array([float(stored)]), np.array([float(made)]))[0]
 
 
 def _short(value: object) -> str:

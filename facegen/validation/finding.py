@@ -1,9 +1,9 @@
-"""What a check found wrong."""
+"""Describes one thing that a check found wrong."""
 
 from dataclasses import dataclass
 from typing import Literal
 
-Kind = Literal[
+FindingKind = Literal[
     "missing-file",
     "extra-file",
     "extra-sample",
@@ -47,14 +47,14 @@ class Finding:
     what
         What was found, and what should be there.
     kind
-        One of `Kind`.
+        One of `FindingKind`.
     remove
         What ``--repair`` removes, below the dataset's folder: a shard, a whole rendered sample, or an extra.
     """
 
     where: str
     what: str
-    kind: Kind
+    kind: FindingKind
     remove: str
 
     def __str__(self) -> str:

@@ -1,4 +1,4 @@
-"""Checks of keypoint shards: against themselves, and against labels made anew from (spec, sample number)."""
+"""Checks keypoint shards against themselves, and against labels made anew from (spec, sample number)."""
 
 from collections.abc import Iterator
 
@@ -50,10 +50,10 @@ def check_shard(dataset: Dataset, number: int) -> Iterator[Finding]:
             yield finding(what, kind, at=f", sample {sample}")
 
 
-def _has_columns(found: pa.Schema, expected: pa.Schema) -> bool:
+def _has_columns(schema: pa.Schema, expected: pa.Schema) -> bool:
     """Whether names, types and descriptions are as expected; reading adds metadata of its own."""
-    return found.equals(expected, check_metadata=False) and all(
-        field.metadata.items() <= (found.field(field.name).metadata or {}).items() for field in expected
+    return schema.equals(expected, check_metadata=False) and all(
+        field.metadata.items() <= (schema.field(field.name).metadata or {}).items() for field in expected
     )
 
 

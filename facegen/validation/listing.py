@@ -1,4 +1,4 @@
-"""What lies in a dataset's folder: shards and rendered samples of the spec, and what does not belong there.
+"""Lists a dataset's folder: shards and rendered samples of the spec, and files that do not belong there.
 
 ``keypoints/`` and ``renders/`` hold what facegen makes and nothing else, because readers list them; a user's
 own files may lie anywhere else in the folder.

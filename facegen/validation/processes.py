@@ -1,4 +1,4 @@
-"""Checks spread over processes, with findings in order and bounded memory."""
+"""Spreads checks over processes, with findings in order and bounded memory."""
 
 import collections
 import concurrent.futures
@@ -24,14 +24,14 @@ FINDINGS_PER_THING = 20
 
 
 @dataclass(frozen=True)
-class Batch:
+class CheckBatch:
     """Things that one process checks in one go: one shard, or rendered samples of one block."""
 
     kind: Literal["shard", "renders"]
     numbers: tuple[int, ...]
 
 
-def check_batch(dataset: Dataset, batch: Batch) -> list[Finding]:
+def check_batch(dataset: Dataset, batch: CheckBatch) -> list[Finding]:
     """Findings in one batch."""
     if batch.kind == "renders":
         return _limited(list(check_renders(dataset, batch.numbers)))
@@ -39,8 +39,8 @@ def check_batch(dataset: Dataset, batch: Batch) -> list[Finding]:
 
 
 def check_batches(
-    dataset: Dataset, batches: Iterable[Batch], *, workers: int
-) -> Iterator[tuple[Batch, list[Finding]]]:
+    dataset: Dataset, batches: Iterable[CheckBatch], *, workers: int
+) -> Iterator[tuple[CheckBatch, list[Finding]]]:
     """Each batch with its findings, in the batches' order.
 
     Raises
@@ -71,8 +71,8 @@ def check_batches(
 
 
 def _in_order(
-    batches: Iterable[Batch], submit: Callable[[Batch], concurrent.futures.Future], *, ahead: int
-) -> Iterator[tuple[Batch, list[Finding]]]:
+    batches: Iterable[CheckBatch], submit: Callable[[CheckBatch], concurrent.futures.Future], *, ahead: int
+) -> Iterator[tuple[CheckBatch, list[Finding]]]:
     waiting: collections.deque = collections.deque()
     for batch in batches:
         waiting.append((batch, submit(batch)))
@@ -112,5 +112,5 @@ def _end_with_parent() -> None:
     os._exit(1)
 
 
-def _check(batch: Batch) -> list[Finding]:
+def _check(batch: CheckBatch) -> list[Finding]:
     return check_batch(_dataset, batch)

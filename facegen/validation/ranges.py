@@ -1,4 +1,4 @@
-"""Values that labels can have, whatever the spec says."""
+"""Checks that labels have values that are possible, whatever the spec says."""
 
 from collections.abc import Iterator
 

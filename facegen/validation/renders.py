@@ -1,4 +1,4 @@
-"""Checks of rendered samples: files, labels, and labels against pixels."""
+"""Checks rendered samples: files, labels, and labels against pixels."""
 
 import hashlib
 import json
@@ -16,7 +16,7 @@ from facegen.scene.beards import LENGTH_M
 from facegen.sessions import draw_sample_scene
 from facegen.store import Dataset, read_exr, read_png, sample_record
 from facegen.validation.agreement import disagreements
-from facegen.validation.finding import Finding, Kind
+from facegen.validation.finding import Finding, FindingKind
 from facegen.validation.keypoints import FAR_SHARE, REPROJECTION_PX
 from facegen.validation.ranges import impossible
 
@@ -58,7 +58,7 @@ def check_render(dataset: Dataset, number: int, samples: Samples) -> Iterator[Fi
             yield Finding(f"{place}/{name}", what, kind, remove=place)
 
 
-_Wrong = Iterator[tuple[str, str, Kind]]
+_Wrong = Iterator[tuple[str, str, FindingKind]]
 """Name below the sample's folder, what is wrong, and its kind."""
 
 
@@ -90,11 +90,11 @@ def _check_sidecar(
         elif _sha256(folder / name) != checksums[name]:
             yield name, "its content is not what was written (SHA-256 differs)", "checksum"
     if record.get("spec_hash") != dataset.hash:
-        found = str(record.get("spec_hash"))[:12]
-        wanted = dataset.hash[:12]
+        stored_hash = str(record.get("spec_hash"))[:12]
+        own_hash = dataset.hash[:12]
         yield (
             SIDECAR,
-            f"was made from another spec (its hash is {found}, this dataset's {wanted})",
+            f"was made from another spec (its hash is {stored_hash}, this dataset's {own_hash})",
             "spec-hash",
         )
         return  # its labels are another spec's, every one of them
@@ -155,8 +155,8 @@ def _check_view(record: dict, name: str, grey: np.ndarray, layers: Layers | None
         return
     shapes = [grey.shape, *([layers.depth.shape] if layers else ())]
     if any(shape != (camera.height, camera.width) for shape in shapes):
-        said = " and ".join(map(str, shapes))
-        yield name, f"pictures are {said}, the camera says {camera.height, camera.width}", "pixels"
+        sizes = " and ".join(map(str, shapes))
+        yield name, f"pictures are {sizes}, the camera says {camera.height, camera.width}", "pixels"
         return
     allowed = REPROJECTION_PX + FAR_SHARE * np.linalg.norm(labelled, axis=-1)
     for landmark in np.flatnonzero(error > allowed):

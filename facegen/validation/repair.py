@@ -1,4 +1,4 @@
-"""``validate --repair``: removes what is invalid, so that `generate` makes it again, byte for byte."""
+"""Removes what is invalid (``validate --repair``), so that `generate` makes it again, byte for byte."""
 
 import re
 import shutil

@@ -1,4 +1,4 @@
-"""The verdict on a dataset: what was checked, what is missing, what is wrong."""
+"""Checks a whole dataset and sums up what was checked, what is missing, what is wrong."""
 
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -9,7 +9,7 @@ from facegen.spec import format_ranges
 from facegen.store import Dataset
 from facegen.validation.finding import Finding
 from facegen.validation.listing import Listing, list_dataset
-from facegen.validation.processes import Batch, check_batches
+from facegen.validation.processes import CheckBatch, check_batches
 
 BATCH = 20
 """Rendered samples that a process checks in one go: seconds of work, against milliseconds to hand it out."""
@@ -30,7 +30,7 @@ class Verdict:
     missing
         How many these are.
     wrong
-        Number of findings, by `facegen.validation.finding.Kind`.
+        Number of findings, by `facegen.validation.finding.FindingKind`.
     findings
         The findings, the first `FINDINGS_KEPT` of them.
     invalid
@@ -69,18 +69,18 @@ def validate(
     """
     listing = listing or list_dataset(dataset)
     batches = list(_batches(listing))
-    counts, places = Counter(), set()
+    counts, removable = Counter(), set()
     findings: list[Finding] = []
 
-    def take(found: tuple[Finding, ...] | list[Finding]) -> None:
-        counts.update(finding.kind for finding in found)
-        places.update(finding.remove for finding in found)
-        findings.extend(found[: FINDINGS_KEPT - len(findings)])
+    def take(batch_findings: tuple[Finding, ...] | list[Finding]) -> None:
+        counts.update(finding.kind for finding in batch_findings)
+        removable.update(finding.remove for finding in batch_findings)
+        findings.extend(batch_findings[: FINDINGS_KEPT - len(findings)])
 
     take(listing.extras)
     done = 0
-    for batch, found in check_batches(dataset, batches, workers=max(1, min(workers, len(batches)))):
-        take(found)
+    for batch, batch_findings in check_batches(dataset, batches, workers=max(1, min(workers, len(batches)))):
+        take(batch_findings)
         done += len(batch.numbers)
         on_progress(done)
     missing_shards = sorted(set(range(dataset.shards)) - set(listing.shards))
@@ -93,18 +93,18 @@ def validate(
         missing=len(missing_shards) + len(missing_renders),
         wrong=dict(sorted(counts.items())),
         findings=tuple(findings),
-        invalid=tuple(sorted(places)),
+        invalid=tuple(sorted(removable)),
     )
 
 
-def _batches(listing: Listing) -> Iterator[Batch]:
+def _batches(listing: Listing) -> Iterator[CheckBatch]:
     for number in listing.shards:
-        yield Batch("shard", (number,))
+        yield CheckBatch("shard", (number,))
     batch: list[int] = []
     for number in listing.renders:
         if batch and (len(batch) == BATCH or number // BLOCK != batch[0] // BLOCK):
-            yield Batch("renders", tuple(batch))
+            yield CheckBatch("renders", tuple(batch))
             batch = []
         batch.append(number)
     if batch:
-        yield Batch("renders", tuple(batch))
+        yield CheckBatch("renders", tuple(batch))

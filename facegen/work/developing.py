@@ -35,7 +35,7 @@ class Settings:
     Attributes
     ----------
     exposure, gain
-        Instead of the headset's (`facegen.headsets.Sensor`); units still differ by its tolerances.
+        Instead of the headset's (`facegen.headsets.HeadsetSensor`); units still differ by its tolerances.
     noise
         Factor on shot and read noise, instead of the spec's.
     seed

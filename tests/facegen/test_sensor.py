@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from facegen.conventions import Part
-from facegen.headsets import Lens, Sensor, load_headset
+from facegen.headsets import HeadsetSensor, Lens, load_headset
 from facegen.sampling import Shot
 from facegen.scene import Layers
 from facegen.sensor import develop, develop_view
 from facegen.sensor.lens import transmission
 from facegen.sensor.motion import blurred
 
-SENSOR = Sensor(exposure=0.5, black_level=15)
+SENSOR = HeadsetSensor(exposure=0.5, black_level=15)
 QUIET = Shot(
     exposure_factor=1.0,
     motion_rad_s=(0.0, 0.0),

@@ -1,4 +1,4 @@
-"""Blinks: when, how fast, how far."""
+"""Draws blinks: their times, speeds and depths."""
 
 from dataclasses import dataclass
 

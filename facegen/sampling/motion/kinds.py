@@ -1,4 +1,4 @@
-"""Kinds of clips: what is done in each, where the person looks, and how much the head moves meanwhile."""
+"""Lists the kinds of clips: what is done in each, where the person looks, how much the head moves meanwhile."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ Draw = Callable[[np.random.Generator, np.ndarray, Direction], np.ndarray]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Kind:
+class ClipKind:
     """A kind of clip.
 
     Attributes
@@ -46,18 +46,18 @@ class Kind:
     neutral: bool = False
 
 
-def _nothing(_rng: np.random.Generator, time_s: np.ndarray, _told: Direction) -> np.ndarray:
+def _nothing(_rng: np.random.Generator, time_s: np.ndarray, _direction: Direction) -> np.ndarray:
     return np.zeros((len(time_s), len(BLENDSHAPES)))
 
 
-KINDS: dict[str, Kind] = {
-    "neutral": Kind(draw=(_nothing,), head_share=0.1, neutral=True),
-    "peak": Kind(draw=(draw_peak,), head_share=0.15),
-    "sentence": Kind(draw=(draw_sentence,), head_gap_s=(0.4, 1.5)),
-    "range_of_motion": Kind(
+CLIP_KINDS: dict[str, ClipKind] = {
+    "neutral": ClipKind(draw=(_nothing,), head_share=0.1, neutral=True),
+    "peak": ClipKind(draw=(draw_peak,), head_share=0.15),
+    "sentence": ClipKind(draw=(draw_sentence,), head_gap_s=(0.4, 1.5)),
+    "range_of_motion": ClipKind(
         draw=(draw_mouth_range, draw_eye_range), look=(draw_glances, draw_sweep), head_share=0.15
     ),
-    "conversation": Kind(
+    "conversation": ClipKind(
         draw=(draw_conversation,), blinks_per_min=26.0, head_gap_s=(0.5, 2.0), head_share=0.5
     ),
 }

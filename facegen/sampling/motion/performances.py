@@ -1,4 +1,4 @@
-"""What people do in a clip: show one expression, speak, go through all movements, converse.
+"""Draws performances: one expression, speech, a walk through all movements, a conversation.
 
 Courses here hold the *closing* in the column of mouthClose (see `facegen.expression.templates`).
 """
@@ -63,9 +63,9 @@ def peak_expressions() -> tuple[tuple[str, str, str], ...]:
     return (*both, *one, ("all", "stretch", "both"))
 
 
-def draw_peak(rng: np.random.Generator, time_s: np.ndarray, told: Direction) -> np.ndarray:
+def draw_peak(rng: np.random.Generator, time_s: np.ndarray, direction: Direction) -> np.ndarray:
     """Rest, onset, apex, offset, rest: weights (n, 52) of one of `peak_expressions`."""
-    pose = _draw_peak_pose(rng, told)
+    pose = _draw_peak_pose(rng, direction)
     onset, offset, apex, before, after = (
         low + (high - low) * rng.random() for low, high in (ONSET_S, OFFSET_S, APEX_S, BEFORE_S, AFTER_S)
     )
@@ -78,35 +78,35 @@ def draw_peak(rng: np.random.Generator, time_s: np.ndarray, told: Direction) -> 
     return blend(memberships(time_s, edges, width), np.stack([_REST, pose, held, _REST]))
 
 
-def draw_sentence(rng: np.random.Generator, time_s: np.ndarray, told: Direction) -> np.ndarray:
+def draw_sentence(rng: np.random.Generator, time_s: np.ndarray, direction: Direction) -> np.ndarray:
     """A sentence: weights (n, 52)."""
     lead, tail = (low + (high - low) * rng.random() for low, high in (LEAD_S, TAIL_S))
-    return _draw_talk(rng, time_s, [(lead, time_s[-1] - tail)], told)
+    return _draw_talk(rng, time_s, [(lead, time_s[-1] - tail)], direction)
 
 
-def draw_conversation(rng: np.random.Generator, time_s: np.ndarray, told: Direction) -> np.ndarray:
+def draw_conversation(rng: np.random.Generator, time_s: np.ndarray, direction: Direction) -> np.ndarray:
     """Turns of talking and listening: weights (n, 52)."""
     spans, now = [], LISTEN_S[0] * rng.random()
     while now < time_s[-1]:
         talk, listen = (low + (high - low) * rng.random() for low, high in (TALK_S, LISTEN_S))
         spans.append((now, min(now + talk, time_s[-1])))
         now += talk + listen
-    return _draw_talk(rng, time_s, spans, told)
+    return _draw_talk(rng, time_s, spans, direction)
 
 
-def draw_mouth_range(rng: np.random.Generator, time_s: np.ndarray, told: Direction) -> np.ndarray:
+def draw_mouth_range(rng: np.random.Generator, time_s: np.ndarray, direction: Direction) -> np.ndarray:
     """All movements of mouth, jaw and cheeks one after the other: weights (n, 52)."""
-    return _draw_range(rng, time_s, load_templates("mouth"), told)
+    return _draw_range(rng, time_s, load_templates("mouth"), direction)
 
 
-def draw_eye_range(rng: np.random.Generator, time_s: np.ndarray, told: Direction) -> np.ndarray:
+def draw_eye_range(rng: np.random.Generator, time_s: np.ndarray, direction: Direction) -> np.ndarray:
     """All movements of brows, lids and nose one after the other: weights (n, 52)."""
-    return _draw_range(rng, time_s, load_templates("eyes"), told)
+    return _draw_range(rng, time_s, load_templates("eyes"), direction)
 
 
-def _draw_peak_pose(rng: np.random.Generator, told: Direction) -> np.ndarray:
+def _draw_peak_pose(rng: np.random.Generator, direction: Direction) -> np.ndarray:
     peaks = peak_expressions()
-    family, name, side = peaks[told.index % len(peaks)]
+    family, name, side = peaks[direction.index % len(peaks)]
     if family == "emotion":
         table = load_emotions()
         kind = table.names.index(name)
@@ -119,14 +119,14 @@ def _draw_peak_pose(rng: np.random.Generator, told: Direction) -> np.ndarray:
         full[CLOSING] = 0.0
     else:
         full = _template(family, name)
-    strength = STRONG[0] + (STRONG[1] - STRONG[0]) * draw_sides(rng, 1, correlation=told.correlation)
+    strength = STRONG[0] + (STRONG[1] - STRONG[0]) * draw_sides(rng, 1, correlation=direction.correlation)
     if side != "both":
         strength[:, 1 if side == "left" else 0] *= 0.1
-    return _draw_poses(rng, full[None], strength, told)[0]
+    return _draw_poses(rng, full[None], strength, direction)[0]
 
 
 def _draw_range(
-    rng: np.random.Generator, time_s: np.ndarray, family: Templates, told: Direction
+    rng: np.random.Generator, time_s: np.ndarray, family: Templates, direction: Direction
 ) -> np.ndarray:
     edges = draw_edges(rng, time_s[-1], RANGE_GAP_S)
     order = [_NOTHING]
@@ -134,38 +134,42 @@ def _draw_range(
         for movement in rng.permutation(len(family)):
             order += [movement, _NOTHING] if rng.random() < RANGE_REST else [movement]
     shown = np.array(order[: len(edges) + 1])
-    strength = 0.6 + 0.4 * draw_sides(rng, len(shown), correlation=told.correlation)
-    poses = _draw_poses(rng, family.weights[shown], strength, told)
+    strength = 0.6 + 0.4 * draw_sides(rng, len(shown), correlation=direction.correlation)
+    poses = _draw_poses(rng, family.weights[shown], strength, direction)
     poses[shown == _NOTHING] = _REST
     low, high = RANGE_PASSAGE_S
     return wander(time_s, edges, poses, low + (high - low) * rng.random(len(edges)))
 
 
-def _draw_poses(rng: np.random.Generator, full: np.ndarray, sides: np.ndarray, told: Direction) -> np.ndarray:
+def _draw_poses(
+    rng: np.random.Generator, full: np.ndarray, sides: np.ndarray, direction: Direction
+) -> np.ndarray:
     """Poses (k, 52) of templates (k, 52) as people show them; a jaw that lets the tongue out opens far enough."""
-    poses = draw_lips(rng, draw_uneven(rng, full, sides, correlation=told.correlation))
+    poses = draw_lips(rng, draw_uneven(rng, full, sides, correlation=direction.correlation))
     out = full[:, _TONGUE] > 0
     poses[out, _JAW] = np.maximum(poses[out, _JAW], TONGUE_NEEDS_JAW + TONGUE_OUT_WITHIN)
     return poses
 
 
 def _draw_talk(
-    rng: np.random.Generator, time_s: np.ndarray, spans_s: list[tuple[float, float]], told: Direction
+    rng: np.random.Generator, time_s: np.ndarray, spans_s: list[tuple[float, float]], direction: Direction
 ) -> np.ndarray:
-    visemes = draw_visemes(rng, correlation=told.correlation)
-    utterance = draw_utterance(rng, spans_s, syllables_per_s=told.syllables_per_s)
-    return together(speech_course(utterance, visemes, time_s), _draw_reactions(rng, time_s, told))
+    visemes = draw_visemes(rng, correlation=direction.correlation)
+    utterance = draw_utterance(rng, spans_s, syllables_per_s=direction.syllables_per_s)
+    return together(speech_course(utterance, visemes, time_s), _draw_reactions(rng, time_s, direction))
 
 
-def _draw_reactions(rng: np.random.Generator, time_s: np.ndarray, told: Direction) -> np.ndarray:
+def _draw_reactions(rng: np.random.Generator, time_s: np.ndarray, direction: Direction) -> np.ndarray:
     """Feelings and movements of brows and lids now and then; neither jaw nor closing."""
     edges = draw_edges(rng, time_s[-1], REACTION_GAP_S)
     size = len(edges) + 1
     table = load_templates("eyes").weights
-    sides = draw_sides(rng, size, correlation=told.correlation)
-    poses = draw_uneven(rng, table[rng.integers(0, len(table), size)], sides, correlation=told.correlation)
+    sides = draw_sides(rng, size, correlation=direction.correlation)
+    poses = draw_uneven(
+        rng, table[rng.integers(0, len(table), size)], sides, correlation=direction.correlation
+    )
     feels = rng.random(size) < 0.5
-    poses[feels] = 0.6 * draw_emotion(rng, size, correlation=told.correlation)[feels]
+    poses[feels] = 0.6 * draw_emotion(rng, size, correlation=direction.correlation)[feels]
     poses[rng.random(size) >= REACTIONS] = 0.0
     poses[0] = 0.0
     poses[:, (CLOSING, _JAW)] = 0.0

@@ -1,10 +1,10 @@
-"""What a session records: its clips, in order."""
+"""Lists the clips of a session, in order."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.sampling.motion.kinds import KINDS
+from facegen.sampling.motion.kinds import CLIP_KINDS
 from facegen.spec import Spec
 
 
@@ -15,7 +15,7 @@ class Script:
     Attributes
     ----------
     kind
-        Index into the names of `facegen.sampling.motion.KINDS`.
+        Index into the names of `facegen.sampling.motion.CLIP_KINDS`.
     index
         Number of the clip among those of its kind: which expression, which range of motion.
     frames
@@ -32,7 +32,7 @@ class Script:
     @property
     def neutral(self) -> np.ndarray:
         """(clips,) bool: clips of a neutral face."""
-        return np.array([kind.neutral for kind in KINDS.values()])[self.kind]
+        return np.array([kind.neutral for kind in CLIP_KINDS.values()])[self.kind]
 
     @property
     def session_frames(self) -> int:
@@ -43,7 +43,7 @@ class Script:
 def write_script(spec: Spec) -> Script:
     """Script of a spec's ``[sequence]``: neutral first, then kind by kind."""
     kind, index, frames = [], [], []
-    for number, name in enumerate(KINDS):
+    for number, name in enumerate(CLIP_KINDS):
         clips = getattr(spec.sequence, name)
         kind += [number] * clips.count
         index += range(clips.count)

@@ -1,4 +1,4 @@
-"""A clip from beginning to end: what was drawn for each of its frames."""
+"""Draws clips from beginning to end, all of their frames."""
 
 from dataclasses import dataclass, fields
 
@@ -22,7 +22,7 @@ from facegen.sampling.motion.blinks import draw_blinks, lid_closure
 from facegen.sampling.motion.continuity import ease
 from facegen.sampling.motion.envelopes import draw_edges, wander
 from facegen.sampling.motion.glances import gaze_course
-from facegen.sampling.motion.kinds import KINDS, Kind
+from facegen.sampling.motion.kinds import CLIP_KINDS, ClipKind
 from facegen.sampling.motion.performances import Direction
 from facegen.sampling.motion.script import Script
 from facegen.sampling.motion.speech import SYLLABLES_PER_S
@@ -96,9 +96,9 @@ def draw_take(spec: Spec, script: Script, clip: int, eye_center: np.ndarray) -> 
         (2, 3) centres of this person's eyeballs, head frame, metres, subject's left eye first.
     """
     session, place = divmod(clip, len(script.kind))
-    kind = list(KINDS.values())[script.kind[place]]
+    kind = list(CLIP_KINDS.values())[script.kind[place]]
     time_s = np.arange(script.frames[place]) / spec.sequence.fps
-    told, blinks_per_min = _draw_habits(
+    direction, blinks_per_min = _draw_habits(
         spec, kind, session // spec.sequence.sessions, int(script.index[place])
     )
 
@@ -114,8 +114,8 @@ def draw_take(spec: Spec, script: Script, clip: int, eye_center: np.ndarray) -> 
         weights = np.zeros((len(time_s), len(BLENDSHAPE_INDEX)))
         gaze = np.tile([0.0, 0.0, 1.0], (len(time_s), 2, 1))
     else:
-        gaze = _draw_gaze(spec, kind, told, rng("gaze"), time_s, head_deg, eye_center)
-        weights = kind.draw[told.index % len(kind.draw)](rng("expression"), time_s, told)
+        gaze = _draw_gaze(spec, kind, direction, rng("gaze"), time_s, head_deg, eye_center)
+        weights = kind.draw[direction.index % len(kind.draw)](rng("expression"), time_s, direction)
         weights = _draw_living(spec, rng("rest"), time_s, weights, gaze)
         closure = lid_closure(draw_blinks(rng("blinks"), time_s[-1], rate_per_min=blinks_per_min), time_s)
         weights[:, _LIDS] = together(weights[:, _LIDS], closure[:, None])
@@ -131,20 +131,20 @@ def draw_take(spec: Spec, script: Script, clip: int, eye_center: np.ndarray) -> 
     )
 
 
-def _draw_habits(spec: Spec, kind: Kind, person: int, index: int) -> tuple[Direction, float]:
+def _draw_habits(spec: Spec, kind: ClipKind, person: int, index: int) -> tuple[Direction, float]:
     """How a person speaks, and blinks in clips of a kind (blinks a minute)."""
     rng = stream(spec.seed, "habits", person)
     low, high = SYLLABLES_PER_S
-    told = Direction(
+    direction = Direction(
         index=index,
         correlation=spec.expression.left_right_correlation,
         syllables_per_s=low + (high - low) * rng.random(),
     )
-    return told, kind.blinks_per_min * float(np.exp(BLINKERS * np.clip(rng.standard_normal(), -2, 2)))
+    return direction, kind.blinks_per_min * float(np.exp(BLINKERS * np.clip(rng.standard_normal(), -2, 2)))
 
 
 def _draw_head(
-    spec: Spec, kind: Kind, session: int, rng: np.random.Generator, time_s: np.ndarray
+    spec: Spec, kind: ClipKind, session: int, rng: np.random.Generator, time_s: np.ndarray
 ) -> np.ndarray:
     """Yaw, pitch and roll (n, 3) in degrees, around the session's own pose and never beyond the spec's bounds."""
     ranges = (spec.head.yaw_deg, spec.head.pitch_deg, spec.head.roll_deg)
@@ -157,15 +157,15 @@ def _draw_head(
 
 def _draw_gaze(
     spec: Spec,
-    kind: Kind,
-    told: Direction,
+    kind: ClipKind,
+    direction: Direction,
     rng: np.random.Generator,
     time_s: np.ndarray,
     head_deg: np.ndarray,
     eye_center: np.ndarray,
 ) -> np.ndarray:
     """Unit optical axes (n, 2, 3): eyes that keep to what they look at while the head turns."""
-    fixations = kind.look[told.index % len(kind.look)](rng, spec.gaze, float(time_s[-1]))
+    fixations = kind.look[direction.index % len(kind.look)](rng, spec.gaze, float(time_s[-1]))
     yaw, pitch, distance = gaze_course(fixations, time_s)
     yaw, pitch = (
         np.clip(angle - (head_deg[:, axis] - head_deg[0, axis]), bounds.low, bounds.high)

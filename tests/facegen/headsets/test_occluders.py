@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from facegen.errors import InputError
-from facegen.headsets import Occluder
+from facegen.headsets import HeadsetOccluder
 from facegen.raster import triangles_of
 from tests.facegen.headsets.test_headset_files import SMALL, parse
 
@@ -19,14 +19,14 @@ def occluders(draw):
     shape = draw(st.sampled_from(["ring", "cylinder", "box"]))
     place = {"name": "o", "shape": shape, "position_mm": draw(vectors), "turn_deg": draw(vectors)}
     if shape == "box":
-        return Occluder(**place, size_mm=(draw(lengths), draw(lengths), draw(lengths)))
+        return HeadsetOccluder(**place, size_mm=(draw(lengths), draw(lengths), draw(lengths)))
     place |= {"radii_mm": (draw(lengths), draw(lengths)), "depth_mm": draw(lengths)}
     if shape == "ring":
         place["rim_mm"] = draw(st.floats(0.1, 0.9)) * min(place["radii_mm"])
-    return Occluder(**place)
+    return HeadsetOccluder(**place)
 
 
-def volume_mm3(occluder: Occluder) -> float:
+def volume_mm3(occluder: HeadsetOccluder) -> float:
     if occluder.shape == "box":
         return float(np.prod(occluder.size_mm))
     a, b = occluder.radii_mm
@@ -61,7 +61,7 @@ def test_contains_agrees_with_the_winding_number_of_the_mesh(occluder, unit):
         assert occluder.contains(point) == (round(turns) == 1)
 
 
-def _near_round_wall(occluder: Occluder, point: np.ndarray) -> bool:
+def _near_round_wall(occluder: HeadsetOccluder, point: np.ndarray) -> bool:
     """Within the sagitta of a wall's flat segments, or of a cylinder's closed hole."""
     if occluder.shape == "box":
         return False

@@ -21,7 +21,7 @@ import pytest
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import InputError, InvalidData
 from facegen.geometry import direction_from_angles
-from facegen.packing import FORMATS, Options, Part, plan_pack, write_pack
+from facegen.packing import PACK_FORMATS, Options, PackFile, plan_pack, write_pack
 from facegen.packing.arrays import face_basis, write_part
 from facegen.packing.view_points import view_points
 from facegen.packing.webdataset import write_tar
@@ -42,7 +42,7 @@ def make(rendered, out: Path, name: str, **options) -> Path:
     return out
 
 
-@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("name", PACK_FORMATS)
 def test_equal_input_gives_equal_bytes_and_the_licence_goes_along(request, tmp_path, name):
     rendered = request.getfixturevalue("recorded" if name in ("livelink", "openface") else "rendered")
     one, two = (make(rendered, tmp_path / part, name) for part in "ab")
@@ -215,7 +215,7 @@ def test_the_faces_basis_turns_weights_into_the_rigs_shape(anny):
 def test_memory_does_not_grow_with_the_number_of_samples(rendered, tmp_path, write, part):
     def peak(samples: list[int]) -> int:
         tracemalloc.start()
-        write(rendered, Part(samples=samples, **part), Options(), tmp_path / "a.tar")
+        write(rendered, PackFile(samples=samples, **part), Options(), tmp_path / "a.tar")
         size = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         return size

@@ -15,7 +15,7 @@ from facegen.expression.couplings import CLOSE_BEYOND_JAW, EXCLUSIVE, MEETING, T
 from facegen.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
 from facegen.randomness import stream
 from facegen.sampling import COMPONENT_NAMES
-from facegen.sampling.faces import Faces, draw_faces
+from facegen.sampling.faces import DrawnFaces, draw_faces
 from facegen.sampling.gaze import axes_from_weights
 from facegen.spec import Spec, load_spec, parse_spec
 
@@ -30,26 +30,28 @@ def spec(**expression) -> Spec:
     return parse_spec(table, where="test")
 
 
-def block(of: Spec, number: int) -> Faces:
+def block(of: Spec, number: int) -> DrawnFaces:
     return draw_faces(of, lambda part: stream(of.seed, part, number), EYES)
 
 
-def drawn(of: Spec, blocks: int) -> Faces:
+def drawn(of: Spec, blocks: int) -> DrawnFaces:
     made = [block(of, number) for number in range(blocks)]
-    return Faces(**{f.name: np.concatenate([getattr(one, f.name) for one in made]) for f in fields(Faces)})
+    return DrawnFaces(
+        **{f.name: np.concatenate([getattr(one, f.name) for one in made]) for f in fields(DrawnFaces)}
+    )
 
 
 @pytest.fixture(scope="module")
-def faces() -> Faces:
+def faces() -> DrawnFaces:
     """A hundred thousand faces of the default spec."""
     return drawn(spec(), 100)
 
 
-def column(faces: Faces, name: str) -> np.ndarray:
+def column(faces: DrawnFaces, name: str) -> np.ndarray:
     return faces.weights[:, BLENDSHAPE_INDEX[name]]
 
 
-def is_from(faces: Faces, name: str) -> np.ndarray:
+def is_from(faces: DrawnFaces, name: str) -> np.ndarray:
     return faces.component == COMPONENT_NAMES.index(name)
 
 

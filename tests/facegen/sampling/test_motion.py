@@ -12,7 +12,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLOCK
 from facegen.expression import load_templates, restrain
 from facegen.rigs import eye_centers
 from facegen.sampling import COMPONENT_NAMES, draw_samples, plan_dataset
-from facegen.sampling.motion import KINDS, draw_take, write_script
+from facegen.sampling.motion import CLIP_KINDS, draw_take, write_script
 from facegen.sampling.motion.blinks import CLOSING_S, draw_blinks, lid_closure
 from facegen.sampling.motion.continuity import ease
 from facegen.sampling.motion.envelopes import STEEPEST, memberships
@@ -42,7 +42,7 @@ def spec(seed: int = 7, **change):
 
 def first_of(kind: str) -> int:
     of = spec()
-    return int(np.flatnonzero(write_script(of).kind == list(KINDS).index(kind))[0])
+    return int(np.flatnonzero(write_script(of).kind == list(CLIP_KINDS).index(kind))[0])
 
 
 def columns(*starts: str) -> list[int]:
@@ -50,7 +50,7 @@ def columns(*starts: str) -> list[int]:
 
 
 def test_every_kind_has_a_key_in_the_spec_and_no_key_lacks_one():
-    assert [f.name for f in fields(spec().sequence) if f.type is Clips] == list(KINDS)
+    assert [f.name for f in fields(spec().sequence) if f.type is Clips] == list(CLIP_KINDS)
 
 
 @given(
@@ -121,7 +121,7 @@ def test_both_eyes_look_at_one_point(seed, clip):
     assert (axes[:, 0, 0] <= axes[:, 1, 0] + 1e-12).all()  # and never outwards
 
 
-@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "neutral"])
+@pytest.mark.parametrize("kind", [kind for kind in CLIP_KINDS if kind != "neutral"])
 def test_clips_begin_at_rest(kind):
     of = spec()
     for clip in range(first_of(kind), first_of(kind) + 2):

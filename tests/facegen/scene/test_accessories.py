@@ -11,7 +11,7 @@ from facegen.raster import triangles_of
 from facegen.rigs import evaluate, eye_geometry
 from facegen.scene.accessories import draw_accessories
 from facegen.scene.beard_maps import beard_map
-from facegen.scene.beards import KINDS, LENGTH_M, beard_strands, draw_beard
+from facegen.scene.beards import BEARD_KINDS, LENGTH_M, beard_strands, draw_beard
 from facegen.scene.glasses import draw_glasses, glasses_meshes, place_lenses
 
 EXPRESSIONS = (
@@ -49,7 +49,7 @@ def _beards(rig, count: int = 12):
 
 def test_beards_grow_on_the_lower_face_alone_and_stay_out_of_skin_and_mouth(anny):
     beards = _beards(anny)
-    assert {beard.kind for beard in beards} == set(KINDS)
+    assert {beard.kind for beard in beards} == set(BEARD_KINDS)
     for beard, weights in zip(beards, EXPRESSIONS * 3, strict=True):
         face = _face(anny, seed=3, **weights)
         landmarks, strands = face.landmarks[0], beard_strands(beard, anny, face.vertices[0])
