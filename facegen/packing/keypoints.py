@@ -2,14 +2,13 @@
 
 from pathlib import Path
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
-from facegen.packing.plan import Options, PackFile, PackFormat, shards
-from facegen.store import Dataset, read_shard
+from facegen.packing.plan import Options, PackFile, PackFormat, read_rows, shards
+from facegen.store import Dataset
 
 SHARD_SAMPLES = 100_000
 """About 250 MB with all columns."""
@@ -36,11 +35,8 @@ def write_keypoints(dataset: Dataset, part: PackFile, options: Options, path: Pa
     schema = dataset.keypoint_schema
     about = {"licence": dataset.licence, "spec_hash": dataset.hash}
     schema = pa.schema([schema.field(name) for name in columns], metadata=about)
-    numbers = np.asarray(part.samples, np.int64)
     with pq.ParquetWriter(path, schema, compression="zstd", write_page_checksum=True) as writer:
-        for shard in np.unique(numbers // SHARD_ROWS):
-            table = read_shard(dataset.folder.shard(int(shard)), columns)
-            rows = table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS))
+        for rows in read_rows(dataset, part.samples, columns):
             writer.write_table(rows.replace_schema_metadata(None).cast(schema), row_group_size=SHARD_ROWS)
 
 

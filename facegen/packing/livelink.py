@@ -3,17 +3,17 @@
 The angles of head and eyes are 0, as the app writes them where head rotation is off; eyes turn by eyeLook*.
 """
 
+import itertools
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
 
-from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
 from facegen.formats import live_link_csv
-from facegen.packing.plan import Options, PackFile, PackFormat
-from facegen.store import Dataset, column_array, read_shard
+from facegen.packing.plan import Options, PackFile, PackFormat, read_rows
+from facegen.store import Dataset, column_array
 
 
 def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> list[PackFile]:
@@ -29,22 +29,26 @@ def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> l
     check_clips(dataset, "livelink")
     numbers = np.asarray(samples, np.int64)
     columns = ["person", "session", "clip", "component"]
-    table = clip_rows(dataset, numbers, columns)
-    clip = table.column("clip").to_numpy()
-    first = np.flatnonzero(np.diff(clip, prepend=-1))
+    table = pa.concat_tables(read_rows(dataset, numbers, columns))
     parts = []
-    for start, stop in zip(first, [*first[1:], len(clip)], strict=True):
-        person, session, number, kind = (table.column(name)[int(start)].as_py() for name in columns)
+    for rows in runs(table.column("clip").to_numpy()):
+        person, session, number, kind = (table.column(name)[rows.start].as_py() for name in columns)
         name = f"person-{person:05d}-session-{session:05d}-clip-{number:06d}-{kind}.csv"
-        parts.append(PackFile(name=name, samples=numbers[start:stop].tolist()))
+        parts.append(PackFile(name=name, samples=numbers[rows].tolist()))
     return parts
 
 
 def write_clip(dataset: Dataset, part: PackFile, _options: Options, path: Path) -> None:
     """Write one clip."""
-    table = clip_rows(dataset, np.asarray(part.samples, np.int64), ["weights", "time_s"])
+    table = pa.concat_tables(read_rows(dataset, part.samples, ["weights", "time_s"]))
     text = live_link_csv(column_array(table, "weights"), table.column("time_s").to_numpy())
     path.write_text(text, encoding="utf-8", newline="")
+
+
+def runs(values: np.ndarray) -> list[slice]:
+    """Slices of equal neighbours in numbers (n,) of 0 or more, in order."""
+    first = [*np.flatnonzero(np.diff(values, prepend=-1)).tolist(), len(values)]
+    return [slice(start, stop) for start, stop in itertools.pairwise(first)]
 
 
 def check_clips(dataset: Dataset, name: str) -> None:
@@ -53,15 +57,6 @@ def check_clips(dataset: Dataset, name: str) -> None:
         raise InputError(
             f"{dataset.folder.path}: holds stills; the format {name!r} packs the clips of sequences and playbacks"
         )
-
-
-def clip_rows(dataset: Dataset, numbers: np.ndarray, columns: list[str]) -> pa.Table:
-    """Columns of samples by number, in order; one shard in memory at a time."""
-    tables = []
-    for shard in np.unique(numbers // SHARD_ROWS):
-        table = read_shard(dataset.folder.shard(int(shard)), columns)
-        tables.append(table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS)))
-    return pa.concat_tables(tables)
 
 
 LIVELINK = PackFormat(

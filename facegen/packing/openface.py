@@ -8,10 +8,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
 
 from facegen.conventions import LANDMARK_COUNT
-from facegen.packing.livelink import check_clips, clip_rows
-from facegen.packing.plan import Options, PackFile, PackFormat
+from facegen.packing.livelink import check_clips, runs
+from facegen.packing.plan import Options, PackFile, PackFormat, read_rows
 from facegen.store import Dataset, column_array
 
 COLUMNS = (
@@ -32,21 +33,20 @@ def session_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -
     """
     check_clips(dataset, "openface")
     numbers = np.asarray(samples, np.int64)
-    table = clip_rows(dataset, numbers, ["person", "session"])
+    table = pa.concat_tables(read_rows(dataset, numbers, ["person", "session"]))
     person, session = (table.column(name).to_numpy() for name in ("person", "session"))
-    first = np.flatnonzero(np.diff(session, prepend=-1))
     return [
         PackFile(
-            name=f"person-{person[start]:05d}-session-{session[start]:05d}.csv",
-            samples=numbers[start:stop].tolist(),
+            name=f"person-{person[rows.start]:05d}-session-{session[rows.start]:05d}.csv",
+            samples=numbers[rows].tolist(),
         )
-        for start, stop in zip(first, [*first[1:], len(session)], strict=True)
+        for rows in runs(session)
     ]
 
 
 def write_session(dataset: Dataset, part: PackFile, _options: Options, path: Path) -> None:
     """Write one session; a frame without a face has success 0 and zeros for points."""
-    table = clip_rows(dataset, np.asarray(part.samples, np.int64), ["detected_2d", "time_s", "clip"])
+    table = pa.concat_tables(read_rows(dataset, part.samples, ["detected_2d", "time_s", "clip"]))
     points = column_array(table, "detected_2d")
     times = _running(table.column("time_s").to_numpy(), table.column("clip").to_numpy())
     with open(path, "w", encoding="utf-8", newline="") as file:

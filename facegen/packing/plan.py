@@ -1,10 +1,11 @@
 """Plans a pack: which samples it holds, in which files."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
 
 from facegen.conventions import SHARD_ROWS, SPLITS
 from facegen.errors import InputError
@@ -88,6 +89,14 @@ def shards(name: str) -> Callable[[Dataset, Sequence[int], Options], list[PackFi
         ]
 
     return cut
+
+
+def read_rows(dataset: Dataset, numbers: Sequence[int], columns: Sequence[str]) -> Iterator[pa.Table]:
+    """Keypoint columns of samples by ascending number, a table a shard; one shard in memory at a time."""
+    numbers = np.asarray(numbers, np.int64)
+    for shard in np.unique(numbers // SHARD_ROWS):
+        table = read_shard(dataset.folder.shard(int(shard)), columns)
+        yield table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS))
 
 
 def chosen_samples(dataset: Dataset, options: Options, *, rendered: bool) -> Sequence[int]:

@@ -6,7 +6,6 @@ import numpy as np
 import pyarrow as pa
 
 from facegen.conventions import SHARD_ROWS, Visibility
-from facegen.errors import InputError
 from facegen.geometry import angles_from_direction, angles_from_rotation
 from facegen.rigs import eye_centers
 from facegen.sampling.cameras import FACING
@@ -117,9 +116,7 @@ def head_angles_deg(camera_from_head: np.ndarray) -> np.ndarray:
 
 
 def _read(dataset: Dataset) -> pa.Table:
-    shards = dataset.folder.shards()
-    if not shards:
-        raise InputError(f"{dataset.folder.path}: has no keypoints yet; run: facegen generate")
+    shards = dataset.made_shards()
     count = min(len(shards), MOST_ROWS // SHARD_ROWS)
     chosen = np.linspace(0, len(shards) - 1, count).round().astype(int)
     return pa.concat_tables([read_shard(shards[index], _COLUMNS) for index in chosen])

@@ -94,10 +94,19 @@ class Dataset:
         InvalidData
             If a shard is damaged.
         """
-        shards = self.folder.shards()
-        if not shards:
-            raise InputError(f"{self.folder.path}: has no keypoints yet; run: facegen generate")
-        return pa.concat_tables([read_shard(shard) for shard in shards])
+        return pa.concat_tables([read_shard(shard) for shard in self.made_shards()])
+
+    def made_shards(self) -> list[Path]:
+        """Files of the finished keypoint shards, in order.
+
+        Raises
+        ------
+        InputError
+            If nothing has been made yet.
+        """
+        if shards := self.folder.shards():
+            return shards
+        raise InputError(f"{self.folder.path}: has no keypoints yet; run: facegen generate")
 
     def array(self, column: str) -> np.ndarray:
         """A keypoint column as (n, ...) array, for example ``array("points_2d")`` (n, 68, 2)."""
