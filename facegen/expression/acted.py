@@ -36,7 +36,10 @@ _JAW = BLENDSHAPE_INDEX["jawOpen"]
 
 
 def draw_rest(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
-    """Nothing but closed lips over a jaw that hangs a little; resting activity comes on top of it."""
+    """A resting face: little but ``resting`` activity.
+
+    Closed lips over a jaw that hangs a little; resting activity comes on top of it.
+    """
     weights = np.zeros((size, len(BLENDSHAPES)))
     weights[:, _JAW] = 0.3 * rng.random(size) ** 3
     weights[:, CLOSING] = 1.0
@@ -44,7 +47,7 @@ def draw_rest(rng: np.random.Generator, size: int, *, correlation: float) -> np.
 
 
 def draw_emotion(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
-    """An emotion from faint to full; which optional action units show, and how strongly each, is drawn."""
+    """One of 23 emotions as FACS action units, from faint to full."""
     table = load_emotions()
     kind = rng.integers(0, len(table.names), size)
     chance = np.where(table.always, 1.0, np.where(table.sometimes, SOMETIMES, 0.0))
@@ -59,7 +62,7 @@ def draw_emotion(rng: np.random.Generator, size: int, *, correlation: float) -> 
 
 
 def draw_speech(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
-    """Somewhere between two visemes, quiet or loud, with what brows, lids and feelings do meanwhile."""
+    """Between two of 15 visemes, with what brows, lids and feelings do meanwhile."""
     visemes = load_templates("visemes").weights
     first, second = rng.integers(0, len(visemes), (2, size))
     share = rng.random((size, 1))
@@ -78,7 +81,7 @@ def draw_speech(rng: np.random.Generator, size: int, *, correlation: float) -> n
 
 
 def draw_movement(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
-    """One or two voluntary movements of mouth and jaw, of brows and lids, or both, as in range-of-motion takes."""
+    """Voluntary movements of mouth, jaw, cheeks, brows and lids, as in range-of-motion takes."""
     mouth = load_templates("mouth")
     kind = rng.integers(0, len(mouth), size)
     kind[rng.random(size) < MOVEMENTS_SEAL] = mouth.names.index("seal")
@@ -94,7 +97,10 @@ def draw_movement(rng: np.random.Generator, size: int, *, correlation: float) ->
 
 
 def draw_one_sided(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
-    """A wink, smirk, raised brow or any other movement on one side, the other one following a little or not."""
+    """Winks, smirks and every other movement on one side.
+
+    The other side follows a little or not.
+    """
     mouth, eyes = load_templates("mouth"), load_templates("eyes")
     every = Templates(names=mouth.names + eyes.names, weights=np.concatenate([mouth.weights, eyes.weights]))
     kind = rng.integers(0, len(every), size)

@@ -1,5 +1,6 @@
 """Lists the components of the expression model; specs weight them, and labels name them."""
 
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -30,11 +31,10 @@ class Component:
 
     Attributes
     ----------
-    meaning
-        What its faces show, for docs/spec.md.
     draw
         ``draw(rng, size, correlation=...)`` gives weights (size, 52) with the closing in the column of mouthClose
-        (see `templates`); eyeLook* weights are a wish where the eyes look.
+        (see `templates`); eyeLook* weights are a wish where the eyes look. Its docstring's first paragraph says in
+        docs/spec.md what the faces show.
     living
         Whether resting activity and lids that follow the gaze come on top, as in people; faces of blind combinations
         stay as drawn.
@@ -51,7 +51,6 @@ class Component:
         changes no dataset that does without.
     """
 
-    meaning: str
     draw: Callable[..., np.ndarray]
     living: bool
     conjugate: bool = True
@@ -60,97 +59,26 @@ class Component:
     share: float = 0.0
     first: bool = False
 
+    @property
+    def meaning(self) -> str:
+        """What its faces show."""
+        return " ".join((inspect.getdoc(self.draw) or "").split("\n\n")[0].split())
+
 
 COMPONENTS: dict[str, Component] = {
-    "rest": Component(
-        meaning="A resting face: little but ``resting`` activity.",
-        draw=draw_rest,
-        living=True,
-        share=0.04,
-        first=True,
-    ),
-    "single": Component(
-        meaning="One shape, or a pair, through its whole range; mouthClose and tongueOut bring the jaw along.",
-        draw=draw_single,
-        living=False,
-        share=0.10,
-        first=True,
-    ),
-    "emotion": Component(
-        meaning="One of 23 emotions as FACS action units, from faint to full.",
-        draw=draw_emotion,
-        living=True,
-        share=0.10,
-        first=True,
-    ),
-    "speech": Component(
-        meaning="Between two of 15 visemes, with what brows, lids and feelings do meanwhile.",
-        draw=draw_speech,
-        living=True,
-        share=0.30,
-        first=True,
-    ),
-    "movement": Component(
-        meaning="Voluntary movements of mouth, jaw, cheeks, brows and lids, as in range-of-motion takes.",
-        draw=draw_movement,
-        living=True,
-        share=0.30,
-        first=True,
-    ),
-    "one_sided": Component(
-        meaning="Winks, smirks and every other movement on one side.",
-        draw=draw_one_sided,
-        living=True,
-        share=0.05,
-        first=True,
-    ),
-    "sparse": Component(
-        meaning="One to six shapes, independent of each other, through their whole range.",
-        draw=draw_sparse,
-        living=False,
-        share=0.05,
-        first=True,
-    ),
-    "dense": Component(
-        meaning="About a third of all shapes, independent of each other, up to 0.7.",
-        draw=draw_dense,
-        living=False,
-        share=0.02,
-        first=True,
-    ),
-    "extreme": Component(
-        meaning="Three shapes at 0.75 or more, the eyes turned as far now and then.",
-        draw=draw_extreme,
-        living=False,
-        share=0.03,
-        first=True,
-    ),
-    "divergent": Component(
-        meaning="A sparse face whose eyes do not look the same way.",
-        draw=draw_divergent,
-        living=False,
-        conjugate=False,
-        share=0.01,
-        first=True,
-    ),
-    "upper_face": Component(
-        meaning="About a third of the shapes of brows, lids, nose and cheekSquint, and any gaze; all else rests.",
-        draw=draw_upper_face,
-        living=False,
-    ),
-    "lower_face": Component(
-        meaning="About a third of the shapes of jaw, mouth, cheekPuff and tongue; the eyes are open and look ahead.",
-        draw=draw_lower_face,
-        living=False,
-        looking=False,
-    ),
-    "combined": Component(
-        meaning="jawOpen above 0.35 with both eyes 0.3 to 0.8 closed, in a dense face: made to be withheld from "
-        "training.",
-        draw=draw_combined,
-        living=False,
-        subtle=False,
-    ),
+    "rest": Component(draw=draw_rest, living=True, share=0.04, first=True),
+    "single": Component(draw=draw_single, living=False, share=0.10, first=True),
+    "emotion": Component(draw=draw_emotion, living=True, share=0.10, first=True),
+    "speech": Component(draw=draw_speech, living=True, share=0.30, first=True),
+    "movement": Component(draw=draw_movement, living=True, share=0.30, first=True),
+    "one_sided": Component(draw=draw_one_sided, living=True, share=0.05, first=True),
+    "sparse": Component(draw=draw_sparse, living=False, share=0.05, first=True),
+    "dense": Component(draw=draw_dense, living=False, share=0.02, first=True),
+    "extreme": Component(draw=draw_extreme, living=False, share=0.03, first=True),
+    "divergent": Component(draw=draw_divergent, living=False, conjugate=False, share=0.01, first=True),
+    "upper_face": Component(draw=draw_upper_face, living=False),
+    "lower_face": Component(draw=draw_lower_face, living=False, looking=False),
+    "combined": Component(draw=draw_combined, living=False, subtle=False),
 }
 """Every component, by its key of ``[expression.mixture]``; a new one is a module and a line here."""
 
