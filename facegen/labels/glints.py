@@ -10,7 +10,6 @@ References
    cornea as a spherical mirror.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
@@ -19,15 +18,13 @@ import numpy as np
 from facegen.conventions import SIDES, Part
 from facegen.geometry import (
     Camera,
-    Reflection,
     apply_transform,
     fresnel,
     invert_transform,
     look_at,
     project,
-    reflect_in_sphere,
-    reflect_in_thread,
 )
+from facegen.labels.led_images import led_images
 from facegen.labels.occluders import occluders
 from facegen.labels.view_label import LabelKey
 from facegen.raster import hidden
@@ -45,7 +42,6 @@ LENS_BLUR = 0.6 / 640.0
 """Standard deviation of the lens's blur, of the picture's width: glints of 9 to 17 px at 640 px wide."""
 PIXEL_BLUR_PX = 0.3
 """Standard deviation of what a pixel adds to its own box: crosstalk, and the renderer's pixel filter."""
-SURFACES = ("cornea", "sclera", "tears", "lens")
 SHEEN = {"cornea": 1.0, "sclera": 0.2, "tears": 0.5, "lens": 1.9}
 """Share of the light that forms an image at all: the sclera's tear film lies on uneven tissue (chosen by eye).
 A lens mirrors at both of its faces, which are so near each other that one image stands for both."""
@@ -53,8 +49,6 @@ CLUMP_RAD = {"cornea": 0.0, "sclera": 0.009, "tears": 0.004}
 """Radians over which an uneven surface scatters its image into a clump of spots (likewise)."""
 LENS_INDEX = 1.5
 LENS_TRANSMISSION = MATERIALS["lens"]["transmission"]
-MENISCUS_M = (0.4e-3, 15e-3)
-"""Radii of the tears on the lower lid's edge, across it (as measured, 0.2 to 0.5) and along it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -66,7 +60,7 @@ class Glints:
     Attributes
     ----------
     lamps, eyes, surfaces
-        n names: of the LED, the eye (``"left"``, ``"right"``) and the mirror (`SURFACES`).
+        n names: of the LED, the eye (``"left"``, ``"right"``) and the mirror (`facegen.labels.led_images.SURFACES`).
     points_2d, points_camera
         (n, 2) pixels and (n, 3) metres in the camera frame, the mirror's point.
     seen
@@ -157,15 +151,7 @@ def label_glints(
     """
     camera_m = invert_transform(view.camera_from_head)[:3, 3]
     lit = [lamp for lamp in lamps if lamp.name in view.lamps]
-    mirrors = {
-        (side, surface): _images(surface, eyes[side], tear_lines[side], lit, camera_m)
-        for side in range(len(SIDES))
-        for surface in ("cornea", "sclera", "tears")
-    }
-    mirrors |= {
-        (side, "lens"): _sphere_images(lens.center, lens.radius, lens.holds, lit, camera_m)
-        for side, lens in enumerate(lenses)
-    }
+    mirrors = led_images(eyes, tear_lines, lenses, lit, camera_m)
     images = [
         (lamp, side, surface, reflections[index])
         for index, lamp in enumerate(lit)
@@ -203,42 +189,6 @@ def label_glints(
         sigma_px=np.sqrt(size_rad**2 * px2_per_sr + blur_px**2 + PIXEL_BLUR_PX**2),
         clump_px=clump_rad * np.sqrt(px2_per_sr),
     )
-
-
-def _images(
-    surface: str, eye: EyeGeometry, tear_line: np.ndarray, lamps: list[Lamp], camera_m: np.ndarray
-) -> list[Reflection]:
-    """The lamps' images in one surface, their points NaN where there is none."""
-    if surface == "tears":
-        return [reflect_in_thread(tear_line, MENISCUS_M, lamp.position, camera_m) for lamp in lamps]
-    if surface == "cornea":
-        center, radius = eye.center + eye.cornea_center_offset * eye.axis, eye.cornea_radius
-    else:
-        center, radius = eye.center, eye.radius
-
-    # the cornea ends, and the sclera begins, at the limbus
-    def on_surface(points: np.ndarray) -> np.ndarray:
-        before_limbus = ((points - eye.center) * eye.axis).sum(axis=-1) > eye.limbus_offset
-        return before_limbus == (surface == "cornea")
-
-    return _sphere_images(center, radius, on_surface, lamps, camera_m)
-
-
-def _sphere_images(
-    center: np.ndarray,
-    radius: float,
-    on_surface: Callable[[np.ndarray], np.ndarray],
-    lamps: list[Lamp],
-    camera_m: np.ndarray,
-) -> list[Reflection]:
-    """The lamps' images in the part of a sphere for whose points (n, 3) ``on_surface`` is True (n,)."""
-    positions = np.array([lamp.position for lamp in lamps]).reshape(-1, 3)
-    image = reflect_in_sphere(center, radius, positions, camera_m)
-    point = np.where(on_surface(image.point)[:, None], image.point, np.nan)
-    return [
-        Reflection(point=point[i], cosine=image.cosine[i], gain=image.gain[i], shrinking=image.shrinking[i])
-        for i in range(len(lamps))
-    ]
 
 
 def _pixels_per_steradian(camera: Camera, points_camera: np.ndarray) -> np.ndarray:

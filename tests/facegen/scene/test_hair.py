@@ -8,7 +8,7 @@ from facegen.rigs import evaluate
 from facegen.scene import draw_look
 from facegen.scene.lashes import lash_strips
 from facegen.scene.looks import hair_meshes
-from facegen.scene.strands import SIDES, strand_tubes
+from facegen.scene.strands import TUBE_SIDES, strand_tubes
 
 
 def _face(rig, **weights):
@@ -24,10 +24,10 @@ def test_tubes_keep_their_radius_and_face_outwards():
     centres = np.cumsum(rng.normal(size=(40, 6, 3)) * 0.2 + [1.0, 0.5, -0.3], axis=1) * 1e-3
     radius = np.linspace(1e-4, 2e-5, 6)[None] * np.ones((40, 1))
     vertices, quads = strand_tubes(centres, radius)
-    away = vertices.reshape(40, 6, SIDES, 3) - centres[:, :, None]
+    away = vertices.reshape(40, 6, TUBE_SIDES, 3) - centres[:, :, None]
     assert np.allclose(np.linalg.norm(away, axis=-1), radius[..., None])
     a, b, c = (vertices[quads[:, i]] for i in range(3))
-    middle = np.repeat(0.5 * (centres[:, :-1] + centres[:, 1:]).reshape(-1, 3), SIDES, axis=0)
+    middle = np.repeat(0.5 * (centres[:, :-1] + centres[:, 1:]).reshape(-1, 3), TUBE_SIDES, axis=0)
     outwards = (np.cross(b - a, c - a) * (vertices[quads].mean(axis=1) - middle)).sum(axis=-1)
     assert (outwards > 0).mean() > 0.99
 
@@ -50,14 +50,14 @@ def test_hair_grows_at_lids_and_brows_and_moves_with_them(anny):
         assert set(lashes.part) == {Part.LASHES}
         assert set(hair.part) == {Part.HAIR}
         rim = np.concatenate([face.vertices[0, margin] for margin in (*anny.upper_lid, *anny.lower_lid)])
-        roots = lashes.vertices.reshape(-1, 7, SIDES, 3)[:, 0].mean(axis=1)
+        roots = lashes.vertices.reshape(-1, 7, TUBE_SIDES, 3)[:, 0].mean(axis=1)
         assert np.linalg.norm(roots[:, None] - rim, axis=-1).min(axis=1).max() < 4e-3
         line = face.landmarks[0, [*LANDMARK_GROUPS["right_brow"], *LANDMARK_GROUPS["left_brow"]]]
-        roots = hair.vertices.reshape(-1, 5, SIDES, 3)[:, 0].mean(axis=1)
+        roots = hair.vertices.reshape(-1, 5, TUBE_SIDES, 3)[:, 0].mean(axis=1)
         assert np.linalg.norm(roots[:, None] - line, axis=-1).min(axis=1).max() < 12e-3
         assert (roots[:, 0] > 0).mean() == pytest.approx(0.5, abs=0.05)
     tips_open, tips_closed = (
-        hair_meshes(look, face.vertices[0])[0].vertices.reshape(-1, 7, SIDES, 3)[:, -1].mean(axis=1)
+        hair_meshes(look, face.vertices[0])[0].vertices.reshape(-1, 7, TUBE_SIDES, 3)[:, -1].mean(axis=1)
         for face in (open_face, closed)
     )
     upper = tips_open[:, 1] > 0
