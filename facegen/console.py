@@ -5,8 +5,8 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, TextIO
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Annotated, TextIO
 
 from facegen.errors import FacegenError, InputError
 from facegen.extras import Extra, missing_extra
@@ -35,16 +35,55 @@ def hang_up(stream: TextIO) -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
-def versions(*distributions: str) -> str:
-    """Name and version of those distributions that are installed, and of Python."""
+def program(name: str, *, version: str, about: str, libraries: tuple[str, ...]) -> "typer.Typer":
+    """Make a program without commands; it has ``--version``, and shows its help where nothing is asked of it.
+
+    Parameters
+    ----------
+    name, version
+        Of the program.
+    about
+        Sentence at the top of its help.
+    libraries
+        Distributions that its results depend on; ``--version`` names those that are installed.
+    """
+    import typer
+
+    app = typer.Typer(
+        name=name,
+        help=about,
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+
+    def print_version(asked: bool) -> None:
+        if asked:
+            typer.echo(f"{name} {version} ({_versions(libraries)})")
+            raise typer.Exit
+
+    flag = typer.Option(
+        "--version",
+        help="Print the versions that results depend on.",
+        callback=print_version,
+        is_eager=True,
+    )
+
+    @app.callback()
+    def options(version: Annotated[bool, flag] = False) -> None:
+        pass
+
+    return app
+
+
+def _versions(distributions: tuple[str, ...]) -> str:
     import importlib.metadata
 
     installed = []
     for name in distributions:
-        try:
+        with suppress(importlib.metadata.PackageNotFoundError):
             installed.append(f"{name} {importlib.metadata.version(name)}")
-        except importlib.metadata.PackageNotFoundError:
-            continue
     return ", ".join([*installed, f"Python {sys.version.split()[0]}"])
 
 

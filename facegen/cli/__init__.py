@@ -3,10 +3,6 @@
 A command imports what it needs when it is called, so that ``--help`` is quick and needs none of the extras.
 """
 
-from typing import Annotated
-
-import typer
-
 from facegen import __version__
 from facegen.cli.blend import blend
 from facegen.cli.develop import develop
@@ -19,16 +15,14 @@ from facegen.cli.preview import preview
 from facegen.cli.rig import rig_app
 from facegen.cli.spec import spec_app
 from facegen.cli.validate import validate
-from facegen.console import run, versions
+from facegen.console import program, run
 from facegen.extras import FACTORY
 
-app = typer.Typer(
-    name="facegen",
-    help="Synthetic people with exact labels: face keypoints by the million, and what cameras in a VR headset see.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
+app = program(
+    "facegen",
+    version=__version__,
+    about="Synthetic people with exact labels: face keypoints by the million, and what cameras in a VR headset see.",
+    libraries=("bpy", "numpy", "pyarrow"),
 )
 app.add_typer(rig_app, name="rig")
 app.add_typer(headset_app, name="headset")
@@ -41,27 +35,6 @@ app.command()(pack)
 app.command()(merge)
 app.command()(develop)
 app.command()(blend)
-
-
-def _print_version(wanted: bool) -> None:
-    if wanted:
-        print(f"facegen {__version__} ({versions('bpy', 'numpy', 'pyarrow')})")
-        raise typer.Exit
-
-
-@app.callback()
-def _options(
-    version: Annotated[
-        bool,
-        typer.Option(
-            "--version",
-            help="Print the versions that decide pixels and labels.",
-            callback=_print_version,
-            is_eager=True,
-        ),
-    ] = False,
-) -> None:
-    pass
 
 
 def main() -> None:

@@ -3,11 +3,7 @@
 A command imports what it needs when it is called, so that ``--help`` is quick and needs none of the extras.
 """
 
-from typing import Annotated
-
-import typer
-
-from facegen.console import run, versions
+from facegen.console import program, run
 from facegen.extras import HEADSET, LEARN
 from regress import __version__
 from regress.cli.bench import bench
@@ -20,13 +16,11 @@ from regress.cli.predict import predict
 from regress.cli.report import report
 from regress.cli.train import train
 
-app = typer.Typer(
-    name="regress",
-    help="68 facial landmarks or a headset's pictures in, 52 blendshape weights out, learnt from synthetic people.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
+app = program(
+    "regress",
+    version=__version__,
+    about="68 facial landmarks or a headset's pictures in, 52 blendshape weights out, learnt from synthetic people.",
+    libraries=("numpy", "onnxruntime", "scipy"),
 )
 app.command()(train)
 app.command()(evaluate)
@@ -37,24 +31,6 @@ app.command()(report)
 app.command()(bench)
 app.command()(edges)
 app.add_typer(headset)
-
-
-def _print_version(wanted: bool) -> None:
-    if wanted:
-        print(f"regress {__version__} ({versions('numpy', 'onnxruntime', 'scipy')})")
-        raise typer.Exit
-
-
-@app.callback()
-def _options(
-    version: Annotated[
-        bool,
-        typer.Option(
-            "--version", help="Print the versions that matter.", callback=_print_version, is_eager=True
-        ),
-    ] = False,
-) -> None:
-    pass
 
 
 def main() -> None:
