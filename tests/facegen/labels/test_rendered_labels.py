@@ -9,7 +9,7 @@ import pytest
 from facegen.conventions import Visibility
 from facegen.geometry import rotation_from_angles
 from facegen.headsets import Lens, Tolerances
-from facegen.labels import label_rendered
+from facegen.labels import VIEW_LABEL_KEYS, label_rendered
 from facegen.sampling import draw_samples
 from facegen.scene import draw_look
 from facegen.sessions import draw_sample_scene, sample_scene, session
@@ -52,6 +52,13 @@ def test_keypoint_labels_do_not_change_with_materials_hair_or_sensor(dataset, mo
     ]
     assert before == after
     assert sum(map(len, seen[0])) >= 10
+
+
+def test_the_list_of_labels_names_every_key_of_a_view_once(dataset):
+    names = [key.name for key in VIEW_LABEL_KEYS]
+    assert len(names) == len(set(names))
+    for view in _record(dataset, dataset.headset)["views"].values():
+        assert {*view} == {*names, "camera", "camera_from_head", "shot"}
 
 
 def test_accessories_change_no_label_but_what_a_frame_hides(dataset):
