@@ -15,6 +15,9 @@ NAMES = ("left_eye", "right_eye", "mouth")
 OWNER = {shape: next(name for name in NAMES if shape in part_of(name)) for shape in BLENDSHAPES}
 """Camera whose mean brightness, 0 to 1, is the weight."""
 
+COMPUTED = ("weights", "deviation", "gaze", "shares", "same_seat")
+"""Outputs of the graph: not all of the table, as in a model that is older than one of them."""
+
 PLAIN, BLIND = 0.1, 0.4
 """Predicted deviation of a shape whose camera is there, and is not."""
 
@@ -91,14 +94,13 @@ def tiny_graph(width: int, height: int, gain: float) -> bytes:
         helper.make_tensor_value_info("present", TensorProto.FLOAT, ["n", 3]),
         helper.make_tensor_value_info("calibrated", TensorProto.FLOAT, ["n"]),
     ]
-    made = {name for node in nodes for name in node.output}
     counts = {"shapes": len(BLENDSHAPES), "cameras": len(NAMES)}
     outputs = [
         helper.make_tensor_value_info(
             name, TensorProto.FLOAT, [counts.get(size, size) for size in output.shape]
         )
         for name, output in GRAPH_OUTPUTS.items()
-        if name in made
+        if name in COMPUTED
     ]
     initializers = [numpy_helper.from_array(np.asarray(value), name) for name, value in constants.items()]
     graph = helper.make_graph(nodes, "tiny", [*pictures, *flags], outputs, initializers)
@@ -120,6 +122,7 @@ def write_tiny_model(
         "modulation": 0.3,
         "architecture": "modular",
         "calibration": "optional",
+        "outputs": COMPUTED,
         "scores": {
             "shapes": {
                 shape: {"uncalibrated": {"r2": R2, "mae": 0.1, "rmse": RMSE}} for shape in BLENDSHAPES
