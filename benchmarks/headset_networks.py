@@ -13,6 +13,7 @@ import argparse
 import json
 from collections import defaultdict
 from collections.abc import Iterable
+from dataclasses import asdict
 from pathlib import Path
 
 import cv2
@@ -24,6 +25,8 @@ from facegen.rigs import load_rig
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.comparison import compare
 from regress.learning.headset.evaluation import Condition, estimate, evaluate
+from regress.runtime.headset.figures import evaluation_to_json
+from regress.runtime.headset.model import HeadsetTraining
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.timing import time_headset
 
@@ -59,7 +62,9 @@ def main() -> None:
     models = {path: load_headset_predictor(path) for path in arguments.models}
     data = {name: read_arrays(path) for name, path in (pair.split("=", 1) for pair in arguments.data)}
     found = {
-        name: {path: evaluate(one.graph, one.model, arrays) for path, one in models.items()}
+        name: {
+            path: evaluation_to_json(evaluate(one.graph, one.model, arrays)) for path, one in models.items()
+        }
         for name, arrays in data.items()
     }
     groups = defaultdict(list)
@@ -89,7 +94,7 @@ def main() -> None:
         arguments.json.write_text(json.dumps(document, indent=1))
 
 
-def label(one: HeadsetPredictor, plain: dict[str, object]) -> str:
+def label(one: HeadsetPredictor, plain: HeadsetTraining) -> str:
     """The architecture, and what else differs from the first model's training but the seed."""
     recipe, usual = recipe_of(one.model.training), recipe_of(plain)
     changed = [
@@ -99,14 +104,14 @@ def label(one: HeadsetPredictor, plain: dict[str, object]) -> str:
     ]
     # withholding says already why there are fewer people or frames
     withheld = recipe["withhold"] != usual["withhold"]
-    if one.model.training["people"] != plain["people"] and not withheld:
-        changed.append(f"{one.model.training['people']} people")
+    if one.model.training.people != plain.people and not withheld:
+        changed.append(f"{one.model.training.people} people")
     return ", ".join([recipe["architecture"], *changed])
 
 
-def recipe_of(training: dict[str, object]) -> dict[str, object]:
+def recipe_of(training: HeadsetTraining) -> dict[str, object]:
     """A model's recipe; settings that are younger than it have the values that change nothing."""
-    return {"skip": 0, "gaze_loss": 1.0, "shut_eyes": 0, "points_loss": 0.0, **training["recipe"]}
+    return {"skip": 0, "gaze_loss": 1.0, "shut_eyes": 0, "points_loss": 0.0, **training.recipe}
 
 
 def print_main(groups: dict[str, list[Path]], found: dict[Path, Figures], title: str) -> None:
@@ -150,7 +155,7 @@ def print_losses(groups: dict[str, list[Path]], found: dict[Path, Figures]) -> N
 
 
 def find_rivals(
-    models: dict[Path, HeadsetPredictor], arrays: HeadsetArrays, plain: dict[str, object]
+    models: dict[Path, HeadsetPredictor], arrays: HeadsetArrays, plain: HeadsetTraining
 ) -> dict[str, list[Figures]]:
     """Comparisons of modular with holistic models of equal other settings and seed, by the modular one's name."""
     rivals = defaultdict(list)
@@ -163,8 +168,8 @@ def find_rivals(
             for name in ("modulation", "part_loss", "part_loss_elsewhere", "skip", "hidden"):
                 mine.pop(name, None)
                 theirs.pop(name, None)
-            if mine == theirs and one.model.training["rows"] == other.model.training["rows"]:
-                rivals[label(one, plain)].append(compare(one, other, arrays))
+            if mine == theirs and one.model.training.rows == other.model.training.rows:
+                rivals[label(one, plain)].append(asdict(compare(one, other, arrays)))
     return rivals
 
 
@@ -271,9 +276,7 @@ def print_curve(models: dict[Path, HeadsetPredictor], found: dict[Path, Figures]
         record = one.model.training
         if {k: v for k, v in recipe_of(record).items() if k not in free} != plain:
             continue
-        points[(record["people"], record["rows"], record["recipe"]["architecture"])].append(
-            found[path]["conditions"]
-        )
+        points[(record.people, record.rows, record.recipe["architecture"])].append(found[path]["conditions"])
     if len({people for people, _, _ in points}) < 2:
         return
     titles = ("mm", "R²", "blink R²", "gaze °", "calibrated mm", "calibrated R²")

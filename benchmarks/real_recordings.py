@@ -255,7 +255,7 @@ def main() -> None:
     arguments = parser.parse_args()
     model = load_model(arguments.model)
     dataset = read_dataset(arguments.dataset)
-    noise = model.record["recipe"]["calibrated_noise"]
+    noise = model.record.recipe["calibrated_noise"]
     ridges = {
         name: fit_baseline(
             dataset, model.features, mirror=mirror, calibrated=True, noise=noise and DetectorNoise(**noise)

@@ -20,6 +20,7 @@ from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training import train_headset
+from regress.runtime.headset.figures import evaluation_to_json
 from regress.runtime.headset.predictor import load_headset_predictor
 
 HOLISTIC = {"architecture": "holistic"}
@@ -119,7 +120,7 @@ def print_others(places: dict[str, Path], tests: dict[str, HeadsetArrays]) -> No
 
 def figures(place: Path, arrays: HeadsetArrays) -> dict[str, Any]:
     one = load_headset_predictor(place)
-    return evaluate(one.graph, one.model, arrays)
+    return evaluation_to_json(evaluate(one.graph, one.model, arrays))
 
 
 def cell(found: dict[str, Any], condition: str, figure: str, digits: int) -> str:

@@ -27,6 +27,7 @@ from facegen.preview import pictures, play_weights
 from facegen.rigs import load_rig
 from regress.learning.headset.arrays import read_arrays
 from regress.learning.headset.evaluation import Condition, estimate, evaluate
+from regress.runtime.headset.figures import Evaluation
 from regress.runtime.headset.predictor import load_headset_predictor
 
 OUT = Path(__file__).resolve().parents[1] / "pictures"
@@ -84,7 +85,7 @@ def draw_network(model: Path, arrays: Path) -> None:
     """How the training went, what each camera sees, and faces."""
     predictor, frames = load_headset_predictor(model), read_arrays(arrays)
     figures = evaluate(predictor.graph, predictor.model, frames)
-    draw_training(predictor.model.training["history"])
+    draw_training(predictor.model.training.history)
     draw_cameras(figures)
     draw_points(predictor, frames)
     draw_faces(predictor, frames)
@@ -105,16 +106,14 @@ def draw_training(history: list[dict[str, float]]) -> None:
     _save(figure, axes, "headset-network-training.png")
 
 
-def draw_cameras(figures: dict) -> None:
+def draw_cameras(figures: Evaluation) -> None:
     """R2 of each shape with all cameras, without and with a neutral picture, and with one camera only."""
     series = {
         "all cameras, neutral picture": [
-            figures["shapes"][name].get("same_seat", {}).get("r2") for name in BLENDSHAPES
+            getattr(figures.shapes[name].get("same_seat"), "r2", None) for name in BLENDSHAPES
         ],
-        "all cameras": [figures["shapes"][name]["uncalibrated"]["r2"] for name in BLENDSHAPES],
-        **{
-            f"{camera.replace('_', ' ')} only": list(of.values()) for camera, of in figures["cameras"].items()
-        },
+        "all cameras": [figures.shapes[name]["uncalibrated"].r2 for name in BLENDSHAPES],
+        **{f"{camera.replace('_', ' ')} only": list(of.values()) for camera, of in figures.cameras.items()},
     }
     table = np.array([[np.nan if value is None else value for value in row] for row in series.values()])
     shown = ~np.isnan(table[1])

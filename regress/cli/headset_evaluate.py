@@ -24,26 +24,29 @@ def evaluate(
     """
     from regress.learning.headset.arrays import read_arrays
     from regress.learning.headset.evaluation import evaluate as evaluate_model
+    from regress.runtime.headset.figures import evaluation_to_json
     from regress.runtime.headset.predictor import load_headset_predictor
 
     predictor = load_headset_predictor(model)
-    found = evaluate_model(predictor.graph, predictor.model, read_arrays(arrays), split=split)
+    evaluation = evaluate_model(predictor.graph, predictor.model, read_arrays(arrays), split=split)
     if as_json:
-        typer.echo(json.dumps(found, allow_nan=False))
+        typer.echo(json.dumps(evaluation_to_json(evaluation), allow_nan=False))
         return
-    tables = {"ordinary frames": found["conditions"], "rare combinations": found["combined"]}
+    tables = {"ordinary frames": evaluation.conditions, "rare combinations": evaluation.combined}
     for title, conditions in tables.items():
         if conditions:
             typer.echo(f"{title:<24} " + " ".join(f"{name:>11}" for name in _COLUMNS))
-            for name, figures in (*conditions.items(), *(found["floors"] if title[0] == "o" else {}).items()):
-                typer.echo(f"{_said(name):<24} " + " ".join(_cell(figures[column]) for column in _COLUMNS))
+            floors = evaluation.floors if conditions is evaluation.conditions else {}
+            for name, figures in (*conditions.items(), *floors.items()):
+                cells = (_cell(getattr(figures, column)) for column in _COLUMNS)
+                typer.echo(f"{_said(name):<24} " + " ".join(cells))
             typer.echo("")
-    cameras = list(found["cameras"])
-    calibrated = [name for name in ("uncalibrated", "same_seat") if name in found["shapes"][BLENDSHAPES[0]]]
+    cameras, shapes = evaluation.cameras, evaluation.shapes
+    calibrated = [name for name in ("uncalibrated", "same_seat") if name in shapes[BLENDSHAPES[0]]]
     typer.echo(f"{'R2':<20} " + " ".join(f"{_said(name):>16}" for name in (*calibrated, *cameras)))
     for shape in BLENDSHAPES:
-        r2 = [found["shapes"][shape][name]["r2"] for name in calibrated]
-        r2 += [found["cameras"][name][shape] for name in cameras]
+        r2 = [shapes[shape][name].r2 for name in calibrated]
+        r2 += [camera[shape] for camera in cameras.values()]
         typer.echo(f"{shape:<20} " + " ".join(f"{_cell(value):>16}" for value in r2))
 
 

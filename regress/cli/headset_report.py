@@ -1,8 +1,10 @@
 """``regress headset report``: what a headset network can do, as one page."""
 
 import json
+from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -13,6 +15,7 @@ from regress.errors import InputError, ModelError
 
 if TYPE_CHECKING:
     from regress.report.headset_page import Judged
+    from regress.report.people_curve import CurvePoint
 
 
 def report(
@@ -52,6 +55,7 @@ def report(
     from regress.learning.headset.evaluation import evaluate
     from regress.learning.headset.worst import worst_frames
     from regress.report.headset_page import Judged, write_headset_report
+    from regress.report.people_curve import CurvePoint
     from regress.runtime.headset.predictor import load_headset_predictor
     from regress.timing import time_headset
 
@@ -72,12 +76,13 @@ def report(
             )
         )
     for name, one in [*fewer, *([(model.name, predictor)] if fewer else [])]:
-        found = one.model.scores
+        evaluation = one.model.scores
         if folders:
-            found = evaluate(one.graph, one.model, folders[0][1], split=split)
-        elif not found:
+            evaluation = evaluate(one.graph, one.model, folders[0][1], split=split)
+        elif evaluation is None:
             raise ModelError(f"{name} has no scores on a test split; give --data to measure some")
-        points.append((name, one.model.training["people"], one.model.training["rows"], found))
+        training = one.model.training
+        points.append(CurvePoint(title=name, people=training.people, rows=training.rows, figures=evaluation))
     timings = [(timing.name, timing.microseconds) for timing in time_headset(predictor)] if timed else []
     typer.echo(
         write_headset_report(predictor.model, out, judged, name=model.name, curve=points, timings=timings)
@@ -100,14 +105,26 @@ def _titled(option: str, paths: list[Path] | None) -> list[tuple[str, Path]]:
 
 
 def _write_figures(
-    path: Path, judged: "list[Judged]", points: list[Any], timings: list[tuple[str, float]]
+    path: Path,
+    judged: "Sequence[Judged]",
+    points: "Sequence[CurvePoint]",
+    timings: Sequence[tuple[str, float]],
 ) -> None:
+    from regress.runtime.headset.figures import evaluation_to_json
+
     document = {
-        "data": {one.title: one.figures for one in judged},
-        "against": {one.title: dict(one.rivals) for one in judged},
+        "data": {one.title: evaluation_to_json(one.figures) for one in judged},
+        "against": {
+            one.title: {title: asdict(comparison) for title, comparison in one.rivals} for one in judged
+        },
         "curve": [
-            {"model": title, "people": people, "rows": rows, "figures": figures}
-            for title, people, rows, figures in points
+            {
+                "model": point.title,
+                "people": point.people,
+                "rows": point.rows,
+                "figures": evaluation_to_json(point.figures),
+            }
+            for point in points
         ],
         "microseconds": dict(timings),
     }

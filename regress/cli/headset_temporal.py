@@ -25,7 +25,7 @@ def temporal(
     """
     from regress.learning.headset.arrays import read_arrays
     from regress.learning.headset.taps import fit_temporal
-    from regress.runtime.headset.model import describe_headset_model
+    from regress.runtime.headset.folder import describe_headset_model
     from regress.runtime.headset.predictor import load_headset_predictor
 
     predictor, arrays = load_headset_predictor(model), read_arrays(clips)
@@ -36,9 +36,10 @@ def temporal(
     describe_headset_model(replace(predictor.model, temporal=found), model)
     typer.echo(f"{'':<14} " + " ".join(f"{title:>9}" for title in _COLUMNS.values()))
     for name, figures in found.scores.items():
-        cells = ("-" if figures[column] is None else f"{figures[column]:.4f}" for column in _COLUMNS)
+        values = (getattr(figures, column) for column in _COLUMNS)
+        cells = ("-" if value is None else f"{value:.4f}" for value in values)
         typer.echo(f"{name:<14} " + " ".join(f"{cell:>9}" for cell in cells))
-    alone, together = (found.scores[name]["geometry_mm"] for name in ("one frame", "taps"))
+    alone, together = (found.scores[name].geometry_mm for name in ("one frame", "taps"))
     if together > alone:
         say(
             f"with the taps these people's faces err by {together:.4f} mm, and by {alone:.4f} mm without: --temporal "

@@ -97,16 +97,12 @@ def train(
             frames, recipe, out, progress=lambda done, total, _: draw(f"{out.name}: epochs", done, total)
         )
     record = model.training
-    say(
-        f"trained on {record['rows']} frames of {record['people']} people in {time.monotonic() - began:.0f} s"
-    )
-    for name, figures in model.scores.get("conditions", {}).items():
+    say(f"trained on {record.rows} frames of {record.people} people in {time.monotonic() - began:.0f} s")
+    for name, figures in (model.scores.conditions if model.scores else {}).items():
         if name in ("uncalibrated", "same_seat"):
-            r2 = "undefined" if figures["r2"] is None else f"{figures['r2']:.3f}"
+            r2 = "undefined" if figures.r2 is None else f"{figures.r2:.3f}"
             said = name.replace("_", " ")
-            say(
-                f"{said:>14}: {figures['geometry_mm']:.3f} mm, R2 {r2}, gaze {figures['gaze_deg']:.2f} degrees"
-            )
+            say(f"{said:>14}: {figures.geometry_mm:.3f} mm, R2 {r2}, gaze {figures.gaze_deg:.2f} degrees")
     say(f"model in {out}")
 
 

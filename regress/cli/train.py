@@ -36,11 +36,9 @@ def train(
     with progress(unit="steps") as draw:
         model = train_model(keypoints, RECIPES[recipe], seed=seed, progress=draw)
     save_model(model, out)
-    say(
-        f"trained on {model.record['training_rows']} rows in {time.monotonic() - began:.0f} s; model in {out}"
-    )
-    for name, figures in model.record["summary"].items():
-        r2, visible = figures["mean_r2_networks"], figures["mean_r2_visible"]
+    say(f"trained on {model.record.training_rows} rows in {time.monotonic() - began:.0f} s; model in {out}")
+    for name, figures in model.record.summary.items():
+        r2, visible = figures.mean_r2_networks, figures.mean_r2_visible
         say(f"{name.replace('_', ' '):>26}: test R2 {_figure(r2)}, visible shapes {_figure(visible)}")
 
 

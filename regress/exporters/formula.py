@@ -179,13 +179,16 @@ def _feature_mean(model: Model) -> np.ndarray:
 
 
 def _about(model: Model) -> dict[str, str]:
-    dataset = model.record.get("dataset", {})
+    record = model.record
+    name, sha256, data_licence, licence = "unknown", "unknown", "licence of the data unknown", "unknown"
+    if record is not None:
+        name, sha256 = record.dataset.name, record.dataset.keypoints_sha256
+        data_licence, licence = record.dataset.licence, record.licence
     return {
         "recipe": model.recipe,
-        "dataset": str(dataset.get("name", "unknown")),
-        "dataset_sha256": str(dataset.get("keypoints_sha256", "unknown")),
+        "dataset": name,
+        "dataset_sha256": sha256,
         # what the numbers derive from comes first: a rig's terms may bind whoever ships them
-        "licence": f"{dataset.get('licence', 'licence of the data unknown')}; weights: "
-        f"{model.record.get('licence', 'unknown')}",
+        "licence": f"{data_licence}; weights: {licence}",
         "program": f"regress {__version__}",
     }

@@ -4,7 +4,6 @@ import base64
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import cv2
 import numpy as np
@@ -14,6 +13,7 @@ from markupsafe import Markup
 from facegen.conventions import BLENDSHAPES
 from facegen.files import output_errors, write_whole
 from regress.errors import ModelError
+from regress.learning.headset.comparison import Comparison
 from regress.learning.headset.worst import WorstFrame
 from regress.report.axes import figure
 from regress.report.content import PARTLY_R2, SEEN_R2, Headline
@@ -29,7 +29,8 @@ from regress.report.headset_tables import (
     temporal_table,
 )
 from regress.report.histogram import histogram
-from regress.report.people_curve import people_curve
+from regress.report.people_curve import CurvePoint, people_curve
+from regress.runtime.headset.figures import Evaluation
 from regress.runtime.headset.model import HeadsetModel
 
 
@@ -42,16 +43,16 @@ class Judged:
     title
         What the frames are.
     figures
-        Of ``regress.learning.headset.evaluation.evaluate``.
+        Of the model.
     rivals
-        Title of another model, and figures of ``regress.learning.headset.comparison.compare`` against it.
+        Title of another model, and the comparison with it.
     worst
         Frames with the largest errors.
     """
 
     title: str
-    figures: dict[str, Any]
-    rivals: tuple[tuple[str, dict[str, Any]], ...] = ()
+    figures: Evaluation
+    rivals: tuple[tuple[str, Comparison], ...] = ()
     worst: tuple[WorstFrame, ...] = ()
 
 
@@ -78,7 +79,7 @@ def write_headset_report(
     judged: Sequence[Judged] = (),
     *,
     name: str,
-    curve: Sequence[tuple[str, int, int, dict[str, Any]]] = (),
+    curve: Sequence[CurvePoint] = (),
     timings: Sequence[tuple[str, float]] = (),
 ) -> Path:
     """Write the page.
@@ -90,7 +91,7 @@ def write_headset_report(
     judged
         What was measured; without anything the figures of the model's own training data stand.
     curve
-        Models trained on fewer people: title, people, frames, evaluation.
+        Models trained on fewer people.
     timings
         Microseconds a frame, by how the network was run.
 
@@ -102,7 +103,7 @@ def write_headset_report(
         Where the file cannot be written.
     """
     if not judged:
-        if not model.scores:
+        if model.scores is None:
             raise ModelError("the model has no figures of its own; give --data to measure some")
         judged = [Judged(title="the test split of its training data", figures=model.scores)]
     environment = Environment(
@@ -134,32 +135,32 @@ def write_headset_report(
 
 def _section(judged: Judged, name: str) -> Section:
     figures = judged.figures
-    errors = np.array([person["uncalibrated"] for person in figures["people_mm"].values()])
+    errors = np.array([person.mm["uncalibrated"] for person in figures.people_mm.values()])
     rivals = tuple(
         (
             title,
             tuple(
-                (what, rivals_table(compared[key], names=(name, title)))
-                for what, key in (
-                    ("Ordinary frames", "conditions"),
-                    ("An open jaw and closing lids", "combined"),
-                    ("By component, no neutral picture", "components"),
+                (what, rivals_table(entries, names=(name, title)))
+                for what, entries in (
+                    ("Ordinary frames", compared.conditions),
+                    ("An open jaw and closing lids", compared.combined),
+                    ("By component, no neutral picture", compared.components),
                 )
-                if compared[key]
+                if entries
             ),
         )
         for title, compared in judged.rivals
     )
     return Section(
         title=judged.title,
-        lead=f"{figures['rows']:,} frames of {figures['people']:,} people ({figures['split']} split).",
-        conditions=conditions_table(figures["conditions"], figures["floors"]),
-        combined=conditions_table(figures["combined"], {}) if figures["combined"] else None,
+        lead=f"{figures.rows:,} frames of {figures.people:,} people ({figures.split} split).",
+        conditions=conditions_table(figures.conditions, figures.floors),
+        combined=conditions_table(figures.combined, {}) if figures.combined else None,
         shapes=shapes_table(figures),
         components=components_table(figures),
         people=people_table(figures),
         histogram=Markup(histogram(errors)),
-        honesty=_honesty(figures),
+        honesty=_deviation(figures),
         rivals=rivals,
         worst=tuple(
             (one, tuple((camera, _image(picture, camera)) for camera, picture in one.pictures.items()))
@@ -173,39 +174,34 @@ def _lead(model: HeadsetModel, first: Judged) -> str:
     return (
         f"A {model.architecture} network turns the pictures of {len(model.cameras)} cameras of the headset "
         f"{model.headset} ({cameras}) into {len(model.weights)} avatar weights and the gaze. Trained on "
-        f"{model.training.get('rows', 0):,} synthetic frames of {model.training.get('people', 0):,} people. The first "
+        f"{model.training.rows:,} synthetic frames of {model.training.people:,} people. The first "
         f"figures are of {first.title}: {_whose(first.figures)}."
     )
 
 
-def _whose(figures: dict[str, Any]) -> str:
+def _whose(figures: Evaluation) -> str:
     """The people of an evaluation, and whether the network knows them; older figures do not say."""
-    people = f"{figures['people']:,} people"
-    if figures["split"] == "train":
+    people = f"{figures.people:,} people"
+    if figures.split == "train":
         return f"{people} of the training split, whom it may have learned from"
-    known = figures.get("people_in_training", 0)
-    if known:
-        return f"{people}, of whom {known:,} are in the training split too"
-    return (
-        f"{people} that it has never seen"
-        if figures.get("unseen")
-        else f"{people} of the {figures['split']} split"
-    )
+    if figures.people_in_training:
+        return f"{people}, of whom {figures.people_in_training:,} are in the training split too"
+    return f"{people} that it has never seen" if figures.unseen else f"{people} of the {figures.split} split"
 
 
-def _headlines(figures: dict[str, Any], timings: Sequence[tuple[str, float]]) -> list[Headline]:
-    found, rest = figures["conditions"], figures["floors"]["rest"]
-    alone, calibrated = found["uncalibrated"], found.get("same_seat")
-    beside = "" if calibrated is None else f"; with a neutral picture {figure(calibrated['geometry_mm'])}"
-    r2 = "" if calibrated is None else f"; with a neutral picture {_known(calibrated['r2'])}"
+def _headlines(figures: Evaluation, timings: Sequence[tuple[str, float]]) -> list[Headline]:
+    alone, calibrated = figures.conditions["uncalibrated"], figures.conditions.get("same_seat")
+    rest = figures.floors["rest"]
+    beside = "" if calibrated is None else f"; with a neutral picture {figure(calibrated.geometry_mm)}"
+    r2 = "" if calibrated is None else f"; with a neutral picture {_known(calibrated.r2)}"
     lines = [
         Headline(
-            value=f"{alone['geometry_mm']:.2f} mm",
-            caption=f"mean error of the face's vertices{beside}; a resting face {figure(rest['geometry_mm'])}",
+            value=f"{alone.geometry_mm:.2f} mm",
+            caption=f"mean error of the face's vertices{beside}; a resting face {figure(rest.geometry_mm)}",
         ),
-        Headline(value=_known(alone["r2"]), caption=f"mean R² of 51 shapes{r2}"),
-        Headline(value=_known(alone["blink_r2"]), caption="R² of the eyes' blink"),
-        Headline(value=f"{alone['gaze_deg']:.1f}°", caption="mean angle between predicted and true gaze"),
+        Headline(value=_known(alone.r2), caption=f"mean R² of 51 shapes{r2}"),
+        Headline(value=_known(alone.blink_r2), caption="R² of the eyes' blink"),
+        Headline(value=f"{alone.gaze_deg:.1f}°", caption="mean angle between predicted and true gaze"),
     ]
     if timings:
         lines.append(
@@ -214,35 +210,33 @@ def _headlines(figures: dict[str, Any], timings: Sequence[tuple[str, float]]) ->
     return lines
 
 
-def _hidden(figures: dict[str, Any]) -> list[str]:
+def _hidden(figures: Evaluation) -> list[str]:
     """Shapes that the cameras show neither without nor with a neutral picture."""
-    shapes = figures["shapes"]
     return [
         shape
         for shape in BLENDSHAPES
-        if all((one["r2"] if one["r2"] is not None else 0.0) < PARTLY_R2 for one in shapes[shape].values())
+        if all((one.r2 if one.r2 is not None else 0.0) < PARTLY_R2 for one in figures.shapes[shape].values())
     ]
 
 
-def _honesty(figures: dict[str, Any]) -> str:
-    deviation, seat = figures["deviation"], figures["seat"]
-    said = (
-        f"Squared errors are {deviation['squared_error_over_variance']:.2f} times the variance that the network "
+def _deviation(figures: Evaluation) -> str:
+    deviation = figures.deviation
+    text = (
+        f"Squared errors are {deviation.squared_error_over_variance:.2f} times the variance that the network "
         f"predicts for them; 1 is honest."
     )
-    if deviation["correlation"] is not None:
-        said += f" Errors and predicted deviations correlate with {deviation['correlation']:.2f}."
-    if seat:
-        same, other = seat.get("same_seat"), seat.get("other_seat")
-        if same is not None:
-            said += f" It takes {percent(same)} of the neutral pictures of the same seat for such"
-            said += "." if other is None else f", and {percent(other)} of those of another seat."
-    return said
+    if deviation.correlation is not None:
+        text += f" Errors and predicted deviations correlate with {deviation.correlation:.2f}."
+    same, other = figures.seat.get("same_seat"), figures.seat.get("other_seat")
+    if same is not None:
+        text += f" It takes {percent(same)} of the neutral pictures of the same seat for such"
+        text += "." if other is None else f", and {percent(other)} of those of another seat."
+    return text
 
 
 def _provenance(model: HeadsetModel) -> list[tuple[str, str]]:
     record = model.training
-    recipe = ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in record.get("recipe", {}).items())
+    recipe = ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in record.recipe.items())
     rows = [
         ("headset", model.headset),
         ("rig of the data", model.rig),
@@ -251,13 +245,13 @@ def _provenance(model: HeadsetModel) -> list[tuple[str, str]]:
         ("network SHA-256", model.network_sha256),
         ("recipe", recipe),
     ]
-    if "parameters" in record:
-        rows.append(("parameters", f"{record['parameters']:,}"))
-    if "cpu_s" in record:
-        rows.append(("processor time of the training", f"{record['cpu_s'] / 60:.1f} minutes"))
-    if "onnx_difference" in record:
-        rows.append(("largest difference of ONNX and PyTorch", f"{record['onnx_difference']:.1e}"))
-    rows += [(name, version) for name, version in record.get("versions", {}).items()]
+    if record.parameters is not None:
+        rows.append(("parameters", f"{record.parameters:,}"))
+    if record.cpu_s is not None:
+        rows.append(("processor time of the training", f"{record.cpu_s / 60:.1f} minutes"))
+    if record.onnx_difference is not None:
+        rows.append(("largest difference of ONNX and PyTorch", f"{record.onnx_difference:.1e}"))
+    rows += record.versions.items()
     return [(term, value) for term, value in rows if value]
 
 

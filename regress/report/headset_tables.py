@@ -2,14 +2,19 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
+from regress.learning.headset.comparison import Rivalry
 from regress.report.axes import figure
 from regress.report.content import PARTLY_R2, SEEN_R2
+from regress.report.people_curve import CurvePoint
+from regress.runtime.headset.figures import Evaluation, Summary
 from regress.runtime.headset.model import Temporal
+
+Entry = TypeVar("Entry")
 
 MAIN = ("uncalibrated", "same_seat", "same_seat_fallback", "other_seat", "other_seat_fallback")
 """Conditions in the order of the page; those of lost and single cameras follow."""
@@ -41,22 +46,22 @@ class Table:
     tinted: bool = False
 
 
-def conditions_table(found: dict[str, Any], floors: dict[str, Any]) -> Table:
+def conditions_table(conditions: dict[str, Summary], floors: dict[str, Summary]) -> Table:
     """Every condition's summary, floors last."""
     head = ("given", "frames", "error in mm", "mean R²", "MAE", "RMSE", "blink R²", "gaze in degrees")
     keys = ("geometry_mm", "r2", "mae", "rmse", "blink_r2", "gaze_deg")
-    named = [(said(name), figures) for name, figures in _ordered(found)]
+    named = [(said(name), figures) for name, figures in _ordered(conditions)]
     named += [(FLOORS[name], figures) for name, figures in floors.items()]
     rows = [
-        (Cell(text=name), Cell(text=f"{figures['rows']:,}"), *(cell(figures[key]) for key in keys))
+        (Cell(text=name), Cell(text=f"{figures.rows:,}"), *(cell(getattr(figures, key)) for key in keys))
         for name, figures in named
     ]
     return Table(head=head, rows=tuple(rows))
 
 
-def shapes_table(figures: dict[str, Any]) -> Table:
+def shapes_table(figures: Evaluation) -> Table:
     """R2, MAE and RMSE of every shape, without and with calibration, and R2 from each camera alone."""
-    shapes, cameras = figures["shapes"], figures["cameras"]
+    shapes, cameras = figures.shapes, figures.cameras
     known = [name for name in MAIN if name in shapes[BLENDSHAPES[0]]]
     short = {"uncalibrated": "alone", "same_seat": "calibrated", "other_seat": "other seat"}
     head = (
@@ -68,36 +73,36 @@ def shapes_table(figures: dict[str, Any]) -> Table:
     rows = [
         (
             Cell(text=shape),
-            *(r2_cell(shapes[shape][name]["r2"]) for name in known),
+            *(r2_cell(shapes[shape][name].r2) for name in known),
             *(r2_cell(cameras[camera][shape]) for camera in cameras),
-            *(cell(shapes[shape][name][what]) for what in ("mae", "rmse") for name in known[:2]),
+            *(cell(getattr(shapes[shape][name], what)) for what in ("mae", "rmse") for name in known[:2]),
         )
         for shape in BLENDSHAPES
     ]
     return Table(head=head, rows=tuple(rows), tinted=True)
 
 
-def components_table(figures: dict[str, Any]) -> Table:
+def components_table(figures: Evaluation) -> Table:
     """Geometry error of each component of the sampler, by the main conditions."""
-    components = figures["components"]
-    known = [name for name in MAIN if name in next(iter(components.values()))]
+    components = figures.components
+    known = [name for name in MAIN if name in next(iter(components.values())).mm]
     rows = [
         (
             Cell(text=name.replace("_", " ")),
-            Cell(text=f"{one['rows']:,}"),
-            *(cell(one[condition]) for condition in known),
+            Cell(text=f"{one.rows:,}"),
+            *(cell(one.mm[condition]) for condition in known),
         )
         for name, one in components.items()
     ]
     return Table(head=("component", "frames", *map(said, known)), rows=tuple(rows))
 
 
-def people_table(figures: dict[str, Any]) -> Table:
+def people_table(figures: Evaluation) -> Table:
     """Median, bad and worst geometry error of a person, by condition."""
-    people = list(figures["people_mm"].values())
+    people = [person.mm for person in figures.people_mm.values()]
     rows = []
     for name in (name for name in MAIN if name in people[0]):
-        errors = np.array([one[name] for one in people])
+        errors = np.array([errors_mm[name] for errors_mm in people])
         values = (*np.percentile(errors, (5, 50, 95)), errors.max())
         rows.append((Cell(text=said(name)), *(cell(float(value)) for value in values)))
     return Table(
@@ -105,32 +110,33 @@ def people_table(figures: dict[str, Any]) -> Table:
     )
 
 
-def rivals_table(entries: dict[str, Any], *, names: tuple[str, str]) -> Table:
+def rivals_table(entries: dict[str, Rivalry], *, names: tuple[str, str]) -> Table:
     """Geometry error of two networks, how much less the first has, and how often."""
     head = ("given", "frames", *names, "difference", "better frames", "better people")
     rows = [
         (
             Cell(text=said(name)),
-            Cell(text=f"{one['rows']:,}"),
-            cell(one["geometry_mm"]),
-            cell(one["rival_mm"]),
-            Cell(text=percent(one["geometry_mm"] / one["rival_mm"] - 1, signed=True)),
-            Cell(text=percent(one["better"])),
-            Cell(text=percent(one["people"])),
+            Cell(text=f"{one.rows:,}"),
+            cell(one.geometry_mm),
+            cell(one.rival_mm),
+            Cell(text=percent(one.geometry_mm / one.rival_mm - 1, signed=True)),
+            Cell(text=percent(one.better)),
+            Cell(text=percent(one.people)),
         )
         for name, one in _ordered(entries)
     ]
     return Table(head=head, rows=tuple(rows))
 
 
-def curve_table(points: Sequence[tuple[str, int, int, dict[str, Any]]]) -> Table:
-    """Figures by how many people a model was trained on: title, people, frames, evaluation."""
+def curve_table(points: Sequence[CurvePoint]) -> Table:
+    """Figures by how many people a model was trained on."""
     head = ("model", "people", "frames", "error in mm", "mean R²", "calibrated, mm", "calibrated, R²")
     rows = []
-    for title, people, frames, figures in sorted(points, key=lambda point: point[1:3]):
-        found = figures["conditions"]
-        cells = [cell(found.get(name, {}).get(key)) for name in MAIN[:2] for key in ("geometry_mm", "r2")]
-        rows.append((Cell(text=title), Cell(text=f"{people:,}"), Cell(text=f"{frames:,}"), *cells))
+    for point in sorted(points, key=lambda point: (point.people, point.rows)):
+        summaries = [point.figures.conditions.get(name) for name in MAIN[:2]]
+        cells = [cell(getattr(one, key, None)) for one in summaries for key in ("geometry_mm", "r2")]
+        counts = (Cell(text=f"{count:,}") for count in (point.people, point.rows))
+        rows.append((Cell(text=point.title), *counts, *cells))
     return Table(head=head, rows=tuple(rows))
 
 
@@ -148,8 +154,8 @@ def temporal_table(temporal: Temporal) -> Table:
     rows = [
         (
             Cell(text={"taps": "frames before, by their taps"}.get(name, name)),
-            Cell(text=f"{one['rows']:,}"),
-            *(cell(one[key]) for key in ("geometry_mm", "r2", "blink_r2", "gaze_deg", "shake")),
+            Cell(text=f"{one.rows:,}"),
+            *(cell(getattr(one, key)) for key in ("geometry_mm", "r2", "blink_r2", "gaze_deg", "shake")),
         )
         for name, one in temporal.scores.items()
     ]
@@ -177,7 +183,7 @@ def percent(share: float, *, signed: bool = False) -> str:
     return f"{100 * share:{'+' if signed else ''}.1f} %".replace("-", "\N{MINUS SIGN}")
 
 
-def _ordered(found: dict[str, Any]) -> Iterable[tuple[str, Any]]:
+def _ordered(entries: dict[str, Entry]) -> Iterable[tuple[str, Entry]]:
     """Main conditions first, then the others as they are."""
-    names = [name for name in MAIN if name in found]
-    return [(name, found[name]) for name in (*names, *(name for name in found if name not in names))]
+    names = [name for name in MAIN if name in entries]
+    return [(name, entries[name]) for name in (*names, *(name for name in entries if name not in names))]

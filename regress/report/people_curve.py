@@ -1,33 +1,44 @@
-"""The error of headset networks against how many people they learned from."""
+"""Draws the error of headset networks over the number of people that they learned from."""
 
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from regress.report.axes import Scale, label
 from regress.report.svg import line, picture, text
+from regress.runtime.headset.figures import Evaluation
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 900, 300, 52, 150, 14, 46
 SERIES = (("uncalibrated", "test", "no neutral picture"), ("same_seat", "train", "neutral picture"))
 """Condition, class of its curve, words."""
 
 
-def people_curve(points: Sequence[tuple[str, int, int, dict[str, Any]]]) -> str:
+@dataclass(frozen=True, kw_only=True)
+class CurvePoint:
+    """A model that was trained on so many people and frames (rows), and its figures."""
+
+    title: str
+    people: int
+    rows: int
+    figures: Evaluation
+
+
+def people_curve(points: Sequence[CurvePoint]) -> str:
     """Geometry error in mm, without and with a neutral picture, over people (logarithmic).
 
     Parameters
     ----------
     points
-        Models: title, people, frames, evaluation.
+        In any order.
     """
-    points = sorted(points, key=lambda point: point[1:3])
-    people = np.array([point[1] for point in points], float)
+    points = sorted(points, key=lambda point: (point.people, point.rows))
+    people = np.array([point.people for point in points], float)
     series = [
         (
             kind,
             words,
-            np.array([point[3]["conditions"].get(name, {}).get("geometry_mm", np.nan) for point in points]),
+            np.array([_error_mm(point, name) for point in points]),
         )
         for name, kind, words in SERIES
     ]
@@ -51,3 +62,8 @@ def people_curve(points: Sequence[tuple[str, int, int, dict[str, Any]]]) -> str:
             parts += [f'<circle class="label {kind}" cx="{a:.1f}" cy="{b:.1f}" r="3.5"/>' for a, b in places]
             parts.append(text(WIDTH - RIGHT + 8, places[-1][1] + 4, words, f"label {kind}"))
     return picture(WIDTH, HEIGHT, parts, "Error by people learned from")
+
+
+def _error_mm(point: CurvePoint, condition: str) -> float:
+    summary = point.figures.conditions.get(condition)
+    return np.nan if summary is None else summary.geometry_mm

@@ -1,4 +1,4 @@
-"""A model's training record as a report's content."""
+"""Turns a model's training record into a report's content."""
 
 import math
 from typing import Any
@@ -18,7 +18,8 @@ from regress.report.content import (
     ShapeScores,
     mean_curve,
 )
-from regress.runtime.model import Model
+from regress.runtime.model import Model, Regression, Scores, TrainingRecord
+from regress.runtime.model.record import NetworkTraining
 from regress.targets import VISIBLE_SHAPES
 
 
@@ -31,29 +32,33 @@ def content_of(model: Model) -> ReportContent:
         The model was not trained by ``regress train``, so its record lacks the figures.
     """
     record = model.record
+    if record is None:
+        raise ModelError(
+            "the model has no training record: a report needs the figures that `regress train` writes into model.json"
+        )
     try:
         scores = tuple(
-            _scores(record["scores"][output], output, network.region)
+            _scores(record.scores[output], output, network.region)
             for network in model.table
             for output in network.outputs
         )
-        curves = tuple(_curve(network.key, record["networks"][network.key]) for network in model.table)
+        curves = tuple(_curve(network.key, record.networks[network.key]) for network in model.table)
         # records of older models do not say; theirs were split by person as a rule
-        known = record["dataset"].get("people_in_training", {}).get("test", 0)
+        known = record.dataset.people_in_training.get("test", 0)
         unseen = "sessions" if known else "people"
         return ReportContent(
             title=f"Model report: {model.recipe} recipe",
             summary=_summary(model, known),
             unseen=unseen,
             people_in_training=known,
-            headlines=_headlines(scores, unseen),
+            headlines=_headlines(record, scores, unseen),
             scores=scores,
             constant=tuple(name for name in BLENDSHAPES if name not in model.outputs),
             curve=mean_curve(curves),
             curves=curves,
-            noisy_training=record["recipe"]["noise"] is not None,
-            floor=record["summary"].get("ridge_same_rows", {}).get("mean_r2_visible"),
-            regressions=tuple(_regression(split, record["regression"][split]) for split in SPLITS),
+            noisy_training=record.recipe["noise"] is not None,
+            floor=getattr(record.summary.get("ridge_same_rows"), "mean_r2_visible", None),
+            regressions=tuple(_regression(split, record.regression[split]) for split in SPLITS),
             calibration=_calibration(record),
             provenance=_provenance(model),
         )
@@ -64,9 +69,9 @@ def content_of(model: Model) -> ReportContent:
         ) from error
 
 
-def _scores(record: dict[str, Any], name: str, region: str) -> ShapeScores:
+def _scores(scores: dict[str, Scores], name: str, region: str) -> ShapeScores:
     methods = {
-        method: Figures(**{figure: _number(record[method][figure]) for figure in ("r2", "mae", "pearson")})
+        method: Figures(**{figure: _number(value) for figure, value in vars(scores[method]).items()})
         for method in ("network", "ridge", "mean")
     }
     return ShapeScores(name=name, region=region, **methods)
@@ -76,24 +81,23 @@ def _number(value: float | None) -> float:
     return math.nan if value is None else value
 
 
-def _curve(name: str, record: dict[str, Any]) -> LearningCurve:
-    series = {split: np.array(record["curves"][split], dtype=float) for split in SPLITS}
-    return LearningCurve(name=name, best_step=record["best_step"], **series)
+def _curve(name: str, network: NetworkTraining) -> LearningCurve:
+    series = {split: np.array(errors, dtype=float) for split, errors in vars(network.curves).items()}
+    return LearningCurve(name=name, best_step=network.best_step, **series)
 
 
-def _regression(split: str, record: dict[str, Any]) -> RegressionPlot:
+def _regression(split: str, regression: Regression) -> RegressionPlot:
     return RegressionPlot(
         split=split,
-        counts=np.array(record["counts"]),
-        slope=_number(record["slope"]),
-        intercept=_number(record["intercept"]),
-        pearson=_number(record["pearson"]),
+        counts=np.array(regression.counts),
+        slope=_number(regression.slope),
+        intercept=_number(regression.intercept),
+        pearson=_number(regression.pearson),
     )
 
 
 def _summary(model: Model, known: int) -> str:
-    dataset = model.record["dataset"]
-    samples = dataset["samples"]
+    samples = model.record.dataset.samples
     whose = f"sessions they have never seen, though of {known:,} people whom they have" if known else ""
     return (
         f"{len(model.table)} networks turn 68 facial landmarks into {len(model.outputs)} avatar weights. "
@@ -102,17 +106,16 @@ def _summary(model: Model, known: int) -> str:
     )
 
 
-def _headlines(scores: tuple[ShapeScores, ...], unseen: str) -> tuple[Headline, ...]:
+def _headlines(record: TrainingRecord, scores: tuple[ShapeScores, ...], unseen: str) -> tuple[Headline, ...]:
     visible = [score for score in scores if score.name in VISIBLE_SHAPES]
-
-    def mean(method: str, figure: str, among=visible) -> float:
-        values = np.array([getattr(getattr(score, method), figure) for score in among])
-        return float(values[np.isfinite(values)].mean()) if np.isfinite(values).any() else math.nan
-
     r2, ridge, all_r2, all_ridge = (
-        f"{mean(method, 'r2', among):.3f}" for among in (visible, scores) for method in ("network", "ridge")
+        f"{_number(getattr(record.summary[method], figure)):.3f}"
+        for figure in ("mean_r2_visible", "mean_r2")
+        for method in ("network", "ridge")
     )
-    mae, mean_mae = f"{mean('network', 'mae'):.3f}", f"{mean('mean', 'mae'):.3f}"
+    mae, mean_mae = (
+        f"{np.mean([getattr(score, method).mae for score in visible]):.3f}" for method in ("network", "mean")
+    )
     seen = sum(score.grade == "seen" for score in scores)
     return (
         Headline(value=r2, caption=f"mean R² of the {len(visible)} visible shapes; ridge regression {ridge}"),
@@ -124,69 +127,69 @@ def _headlines(scores: tuple[ShapeScores, ...], unseen: str) -> tuple[Headline, 
     )
 
 
-def _calibration(record: dict[str, Any]) -> tuple[CalibrationRow, ...]:
-    if "calibrated" not in record["summary"]:
+def _calibration(record: TrainingRecord) -> tuple[CalibrationRow, ...]:
+    if "calibrated" not in record.summary:
         return ()
     return tuple(
         CalibrationRow(
             landmarks=landmarks,
             shapes=shapes,
-            alone=_number(figures["network"][key]),
-            calibrated=_number(figures["calibrated"][key]),
+            alone=_number(getattr(figures["network"], key)),
+            calibrated=_number(getattr(figures["calibrated"], key)),
         )
         for landmarks, figures in (
-            ("as in the dataset", record["summary"]),
-            ("as a detector puts them", record["as_detected"]),
+            ("as in the dataset", record.summary),
+            ("as a detector puts them", record.as_detected),
         )
         for shapes, key in (("visible shapes", "mean_r2_visible"), ("all shapes", "mean_r2"))
     )
 
 
 def _provenance(model: Model) -> tuple[tuple[str, str], ...]:
-    record, dataset = model.record, model.record["dataset"]
-    samples = ", ".join(f"{count:,} {split}" for split, count in dataset["samples"].items())
+    record, dataset = model.record, model.record.dataset
+    samples = ", ".join(f"{count:,} {split}" for split, count in dataset.samples.items())
     recipe = ", ".join(
-        f"{key.replace('_', ' ')} {_said(value)}" for key, value in record["recipe"].items() if key != "name"
+        f"{key.replace('_', ' ')} {_as_text(value)}" for key, value in record.recipe.items() if key != "name"
     )
     return (
-        ("dataset", f"{dataset['name']} ({samples}; {dataset['people']:,} people)"),
-        ("spec hash", _said(dataset["spec_hash"])),
-        ("keypoints SHA-256", dataset["keypoints_sha256"]),
-        *_rig(dataset["rig"]),
-        ("licence of the data", _said(dataset["licence"])),
-        ("licence of the model", record["licence"]),
+        ("dataset", f"{dataset.name} ({samples}; {dataset.people:,} people)"),
+        ("spec hash", _as_text(dataset.spec_hash)),
+        ("keypoints SHA-256", dataset.keypoints_sha256),
+        *_rig(dataset.rig),
+        ("licence of the data", _as_text(dataset.licence)),
+        ("licence of the model", record.licence),
         ("recipe", f"{model.recipe}: {recipe}"),
-        ("training rows", f"{record['training_rows']:,}"),
+        ("training rows", f"{record.training_rows:,}"),
         ("edges", f"{len(model.features.edges)}, from {model.features.reference_name}"),
         ("edges SHA-256", model.features.reference_sha256),
-        ("seed", str(record["seed"])),
-        ("ways networks ended", _outcomes(record["networks"])),
-        ("versions", ", ".join(f"{name} {version}" for name, version in record["versions"].items())),
+        ("seed", str(record.seed)),
+        ("ways networks ended", _outcomes(record.networks)),
+        ("versions", ", ".join(f"{name} {version}" for name, version in record.versions.items())),
     )
 
 
 def _rig(rig: Any) -> tuple[tuple[str, str], ...]:
     """A row for each thing a dataset says of its rig: attribution is among them."""
     if isinstance(rig, dict):
-        return tuple((f"rig {key.replace('_', ' ')}", _said(value)) for key, value in rig.items())
-    return (("rig", _said(rig)),)
+        return tuple((f"rig {key.replace('_', ' ')}", _as_text(value)) for key, value in rig.items())
+    return (("rig", _as_text(rig)),)
 
 
-def _outcomes(networks: dict[str, Any]) -> str:
-    outcomes = [network["outcome"] for network in networks.values()]
+def _outcomes(networks: dict[str, NetworkTraining]) -> str:
+    outcomes = [network.outcome for network in networks.values()]
     return ", ".join(
         f"{outcomes.count(outcome)} {outcome.lower().replace('_', ' ')}" for outcome in sorted(set(outcomes))
     )
 
 
-def _said(value: Any) -> str:
+def _as_text(value: Any) -> str:
     """A value of the record in words."""
     if value is None:
         return "not stated"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, dict):
-        return " ".join(f"{key} {_said(entry)}" for key, entry in value.items())
+        return " ".join(f"{key} {_as_text(entry)}" for key, entry in value.items())
     if isinstance(value, list | tuple):
-        return " / ".join(map(_said, value))
+        return " / ".join(map(_as_text, value))
     return str(value)

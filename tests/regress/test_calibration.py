@@ -79,7 +79,7 @@ def test_datasets_without_neutral_faces_train_one_set(dataset: KeypointDataset):
     quick = dataclasses.replace(QUICK, steps=2, alphas=(1.0,))
     model = train(dataclasses.replace(dataset, neutral=np.zeros(len(dataset.split), dtype=bool)), quick)
     assert model.calibrated is None
-    assert "calibrated" not in model.record["summary"]
+    assert "calibrated" not in model.record.summary
 
 
 def test_every_row_has_its_persons_neutral_row(dataset: KeypointDataset):
@@ -239,7 +239,7 @@ def test_evaluate_counts_calibrated_weights(run, quick_model_folder, quick_model
     assert code == 0
     figures = json.loads(out)
     assert figures["calibrated"]
-    recorded = quick_model.record["scores"]["jawOpen"]["calibrated"]["r2"]
+    recorded = quick_model.record.scores["jawOpen"]["calibrated"].r2
     assert figures["scores"]["jawOpen"]["r2"] == pytest.approx(recorded, abs=1e-4)
 
 
@@ -257,7 +257,7 @@ def test_evaluating_needs_the_split_that_is_scored_and_no_other(
     write_dataset(dataset.take(dataset.rows("test")), tmp_path / "data")
     code, out, err = run("evaluate", quick_model_folder, tmp_path / "data", "--json")
     assert code == 0, err
-    recorded = quick_model.record["scores"]["jawOpen"]["network"]["r2"]
+    recorded = quick_model.record.scores["jawOpen"]["network"].r2
     assert json.loads(out)["scores"]["jawOpen"]["r2"] == pytest.approx(recorded, abs=1e-4)
     code, _, err = run("evaluate", quick_model_folder, tmp_path / "data", "--split", "train")
     assert code == 2

@@ -25,8 +25,8 @@ def test_it_is_at_most_the_test_score_of_the_networks_in_use(calibrated: bool, q
     trust = confidence(model, faces)
     assert trust.min() >= 0
     for shape in model.outputs:
-        scores = quick_model.record["scores"][shape]["calibrated" if calibrated else "network"]
-        assert trust[:, BLENDSHAPE_INDEX[shape]].max() <= max(scores["r2"] or 0, 0) + 1e-12
+        scores = quick_model.record.scores[shape]["calibrated" if calibrated else "network"]
+        assert trust[:, BLENDSHAPE_INDEX[shape]].max() <= max(scores.r2 or 0, 0) + 1e-12
     assert (trust[:, BLENDSHAPE_INDEX["tongueOut"]] == 0).all()
     assert trust.max() > 0.2
 
@@ -47,7 +47,7 @@ def test_it_falls_as_faces_get_stranger_and_is_empty_without_a_face(quick_model,
 
 def test_a_model_without_scores_says_so(quick_model, faces):
     with pytest.raises(InputError, match="no test score of eyeBlinkLeft"):
-        confidence(dataclasses.replace(quick_model, record={}), faces)
+        confidence(dataclasses.replace(quick_model, record=None), faces)
 
 
 def test_the_command_writes_a_table_beside_the_weights(run, quick_model_folder, faces, tmp_path):

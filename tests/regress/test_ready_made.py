@@ -87,7 +87,7 @@ def test_models_are_listed_with_the_honest_figure_first(run):
     code, out, _ = run("models")
     assert code == 0
     record = load_model(LANDMARKS).record
-    honest, exact = (record[part]["network"]["mean_r2_visible"] for part in ("as_detected", "summary"))
+    honest, exact = (means["network"].mean_r2_visible for means in (record.as_detected, record.summary))
     assert f"R2 {honest:.3f} as a detector puts landmarks" in out
     assert out.index(f"{honest:.3f}") < out.index(f"{exact:.3f}")
     listed = json.loads(run("models", "--json")[1])

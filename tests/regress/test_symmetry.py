@@ -71,7 +71,7 @@ def test_a_recipe_can_train_it(dataset):
     np.testing.assert_array_equal(weights, symmetrised(straight).predict(FACES))
     np.testing.assert_allclose(symmetric.predict(mirror_image(FACES)), mirrored_weights(weights), atol=1e-9)
     assert symmetrised(symmetric) is symmetric
-    scored = [model.record["summary"]["network"]["mean_r2"] for model in (straight, symmetric)]
+    scored = [model.record.summary["network"].mean_r2 for model in (straight, symmetric)]
     assert scored[0] != scored[1]
 
 

@@ -13,6 +13,7 @@ from regress.errors import InputError, Interrupted
 from regress.learning.training import RECIPES, KeypointDataset, evaluate_model, read_dataset, score, train
 from regress.learning.training.preparation import mirrored, prepare
 from regress.runtime.model import Model
+from regress.runtime.model.record import record_to_json
 from regress.targets import NETWORKS, OUTPUTS
 from tests.regress.conftest import QUICK, write_dataset
 
@@ -95,29 +96,27 @@ def test_training_repeats_to_the_bit_and_follows_its_seed(quick_model: Model, da
 
 def test_networks_beat_the_mean_and_their_scores_are_recorded(quick_model: Model, dataset: KeypointDataset):
     record = quick_model.record
-    assert set(record["scores"]) == set(OUTPUTS)
-    assert record["summary"]["network"]["mean_r2"] > 0.3
-    assert record["summary"]["mean"]["mean_r2"] < 0.01
+    assert set(record.scores) == set(OUTPUTS)
+    assert record.summary["network"].mean_r2 > 0.3
+    assert record.summary["mean"].mean_r2 < 0.01
     scores = evaluate_model(quick_model, dataset)
     for name, figures in scores.items():
-        assert record["scores"][name]["network"] == dataclasses.asdict(figures)
+        assert record.scores[name]["network"] == figures
     # browInnerUp never moves in the drawn dataset: no R2, and nothing breaks
     assert scores["browInnerUp"].r2 is None
     assert scores["browInnerUp"].mae == pytest.approx(0, abs=1e-6)
-    json.dumps(record, allow_nan=False)
+    json.dumps(record_to_json(record), allow_nan=False)
 
 
 def test_each_network_records_its_curves_alpha_and_outcome(quick_model: Model):
-    networks = quick_model.record["networks"]
+    networks = quick_model.record.networks
     assert set(networks) == {network.key for network in NETWORKS}
     for figures in networks.values():
-        curves = figures["curves"]
-        assert (
-            len(curves["train"]) == len(curves["validation"]) == len(curves["test"]) == figures["steps"] + 1
-        )
-        assert figures["alpha"] in QUICK.alphas
-        assert figures["best_step"] == int(np.argmin(curves["validation"]))
-        assert figures["reason"].endswith(".")
+        curves = figures.curves
+        assert len(curves.train) == len(curves.validation) == len(curves.test) == figures.steps + 1
+        assert figures.alpha in QUICK.alphas
+        assert figures.best_step == int(np.argmin(curves.validation))
+        assert figures.reason.endswith(".")
 
 
 def test_scores_are_the_textbooks():
@@ -161,14 +160,14 @@ def test_a_progress_callback_that_raises_stops_training(dataset: KeypointDataset
 
 
 def test_the_record_says_whom_training_knows(dataset: KeypointDataset, quick_model: Model):
-    assert quick_model.record["dataset"]["people_in_training"] == {"validation": 0, "test": 0}
+    assert quick_model.record.dataset.people_in_training == {"validation": 0, "test": 0}
     split = dataset.split.copy()
     rows = np.flatnonzero(np.isin(dataset.person, [0, 1, 2]) & ~dataset.neutral)  # of training people
     split[rows[::2]] = "test"
     model = train(
         dataclasses.replace(dataset, split=split), dataclasses.replace(QUICK, steps=2, alphas=(1.0,))
     )
-    assert model.record["dataset"]["people_in_training"] == {"validation": 0, "test": 3}
+    assert model.record.dataset.people_in_training == {"validation": 0, "test": 3}
 
 
 @pytest.mark.parametrize("name", RECIPES)
@@ -181,10 +180,10 @@ def test_every_recipe_trains(dataset: KeypointDataset, name: str):
 
 def test_strengths_by_evidence_need_no_list(dataset: KeypointDataset):
     model = train(dataset, dataclasses.replace(QUICK, strengths="evidence", alphas=()))
-    figures = model.record["networks"].values()
-    assert len({network["alpha"] for network in figures}) > 20
-    assert all(network["search"] == {} for network in figures)
-    assert model.record["summary"]["network"]["mean_r2"] > 0.3
+    figures = model.record.networks.values()
+    assert len({network.alpha for network in figures}) > 20
+    assert all(network.search == {} for network in figures)
+    assert model.record.summary["network"].mean_r2 > 0.3
 
 
 def test_the_exact_points_can_be_read(dataset: KeypointDataset, dataset_folder: Path):

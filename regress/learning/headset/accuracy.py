@@ -1,11 +1,10 @@
-"""How near predicted weights and gaze come to the true ones."""
-
-from dataclasses import dataclass
+"""Measures errors of predicted weights and gaze."""
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.learning.headset.geometry import FaceGeometry
+from regress.runtime.headset.figures import Summary
 
 OPEN = 0.3
 """Weight of eyeBlink up to which an eye counts as open."""
@@ -14,38 +13,6 @@ SCORED = [column for column, name in enumerate(BLENDSHAPES) if name != "tongueOu
 """Columns of the shapes that count in means: cameras hardly see a tongue."""
 
 _BLINK = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Summary:
-    """Figures over frames; None where they are undefined.
-
-    Parameters
-    ----------
-    rows
-        Frames.
-    geometry_mm
-        Mean distance of the face's vertices from their true places.
-    r2
-        Mean over the 51 shapes that cameras can see (not tongueOut) of the share of variance explained.
-    mae, rmse
-        Of the 51 weights.
-    blink_r2
-        Mean of both lids.
-    gaze_deg
-        Mean angle between predicted and true optical axes.
-    gaze_open_deg
-        The same of eyes whose lids are less than ``OPEN`` closed: nobody sees where a closed eye looks.
-    """
-
-    rows: int
-    geometry_mm: float
-    r2: float | None
-    mae: float
-    rmse: float
-    blink_r2: float | None
-    gaze_deg: float
-    gaze_open_deg: float | None
 
 
 def summary(

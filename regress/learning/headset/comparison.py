@@ -1,6 +1,6 @@
-"""Two networks on the same frames: which is nearer the truth, how often, and in what."""
+"""Compares two networks on the same frames: which is nearer the truth, how often, and in what."""
 
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,18 +11,48 @@ from regress.learning.headset.evaluation import COMBINED, conditions, estimate
 from regress.runtime.headset.predictor import HeadsetPredictor
 
 
+@dataclass(frozen=True, kw_only=True)
+class Rivalry:
+    """Errors of a network and of a rival on the same frames.
+
+    Parameters
+    ----------
+    rows
+        Frames.
+    geometry_mm, rival_mm
+        Mean geometry errors.
+    better, people
+        Shares of frames and of people in which the network is nearer than the rival; ties count half.
+    """
+
+    rows: int
+    geometry_mm: float
+    rival_mm: float
+    better: float
+    people: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """Errors of a network and of a rival.
+
+    Parameters
+    ----------
+    conditions, combined
+        Under each condition that both can be given: of ordinary frames, and of those of the component ``combined``.
+    components
+        Without calibration, by component.
+    """
+
+    conditions: dict[str, Rivalry]
+    combined: dict[str, Rivalry]
+    components: dict[str, Rivalry]
+
+
 def compare(
     predictor: HeadsetPredictor, rival: HeadsetPredictor, arrays: HeadsetArrays, *, split: str = "test"
-) -> dict[str, Any]:
-    """Geometry errors of a network and of a rival on a split's frames with an expression, as JSON data.
-
-    Returns
-    -------
-    dict
-        ``conditions``, of ordinary frames, and ``combined``: under each condition that both can be given;
-        ``components``: without calibration, by component. Each entry has ``rows``, ``geometry_mm`` and ``rival_mm``,
-        ``better``, the share of frames in which the first is nearer (ties count half), and ``people``, the share of
-        people for whom it is.
+) -> Comparison:
+    """Geometry errors of a network and of a rival on a split's frames with an expression.
 
     Raises
     ------
@@ -46,31 +76,32 @@ def compare(
     component, person = arrays.component[rows], arrays.person[rows]
     combined = component == COMBINED
 
-    def entries(chosen: np.ndarray) -> dict[str, Any]:
+    def entries(chosen: np.ndarray) -> dict[str, Rivalry]:
         if not chosen.any():
             return {}
         return {
-            name: _entry(own[chosen], other[chosen], person[chosen]) for name, (own, other) in errors.items()
+            name: _rivalry(own[chosen], other[chosen], person[chosen])
+            for name, (own, other) in errors.items()
         }
 
     own, other = errors["uncalibrated"]
-    return {
-        "conditions": entries(~combined),
-        "combined": entries(combined),
-        "components": {
-            str(name): _entry(own[component == name], other[component == name], person[component == name])
+    return Comparison(
+        conditions=entries(~combined),
+        combined=entries(combined),
+        components={
+            str(name): _rivalry(own[component == name], other[component == name], person[component == name])
             for name in np.unique(component)
         },
-    }
+    )
 
 
-def _entry(own: np.ndarray, other: np.ndarray, person: np.ndarray) -> dict[str, Any]:
+def _rivalry(own: np.ndarray, other: np.ndarray, person: np.ndarray) -> Rivalry:
     everyone = np.unique(person)
     means = np.array([[error[person == one].mean() for one in everyone] for error in (own, other)])
-    return {
-        "rows": len(own),
-        "geometry_mm": float(own.mean()),
-        "rival_mm": float(other.mean()),
-        "better": share_better(own, other),
-        "people": share_better(*means),
-    }
+    return Rivalry(
+        rows=len(own),
+        geometry_mm=float(own.mean()),
+        rival_mm=float(other.mean()),
+        better=share_better(own, other),
+        people=share_better(*means),
+    )

@@ -1,7 +1,6 @@
-"""How good a headset network is on people it never saw, against exact labels; needs no PyTorch."""
+"""Evaluates a headset network on arrays with exact labels; needs no PyTorch."""
 
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,10 +9,13 @@ from regress.errors import InputError
 from regress.learning.headset.accuracy import SCORED, r2_of, summary
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.runtime.headset.estimates import Estimates
+from regress.runtime.headset.figures import DeviationFigures, Evaluation, GroupErrors, ShapeFigures, Summary
 from regress.runtime.headset.graph import HeadsetGraph
 from regress.runtime.headset.model import HeadsetModel
 
-CALIBRATIONS = ("none", "same_seat", "other_seat")
+NEUTRAL_SOURCES = ("none", "same_seat", "other_seat")
+"""Seats of the headset that neutral pictures may come from."""
+
 COMBINED = "combined"
 """Component of frames in which the jaw opens while the lids close: reported apart from ordinary frames."""
 
@@ -25,7 +27,7 @@ class Condition:
     Parameters
     ----------
     calibration
-        One of ``CALIBRATIONS``: whose neutral pictures it sees.
+        One of ``NEUTRAL_SOURCES``: whose neutral pictures it sees.
     cameras
         Cameras that are there; None means all.
     fallback
@@ -68,20 +70,10 @@ def estimate(
 
 def evaluate(
     graph: HeadsetGraph, model: HeadsetModel, arrays: HeadsetArrays, *, split: str = "test"
-) -> dict[str, Any]:
-    """All figures of a network on a split, as JSON data, unrounded.
+) -> Evaluation:
+    """All figures of a network on a split.
 
     Frames count that are not neutral themselves; those of the component ``COMBINED`` count apart.
-
-    Returns
-    -------
-    dict
-        ``people`` and how many of them the arrays' training split has too, ``people_in_training``; ``unseen``, whether
-        it is known that the network was trained on none of them;
-        ``conditions`` and ``combined``: summaries by condition; ``floors``: of the training mean and of the
-        resting face; ``shapes``: R2, MAE and RMSE by shape and calibration; ``cameras``: R2 of each shape from
-        one camera alone; ``components`` and ``people_mm``: geometry error in mm by condition; ``deviation``: how
-        honest the predicted standard deviations are; ``seat``: how often the network names the seat rightly.
 
     Raises
     ------
@@ -96,65 +88,63 @@ def evaluate(
     known = int(np.isin(people, arrays.person[arrays.split == "train"]).sum())
     combined = arrays.component[rows] == COMBINED
     true, true_gaze = arrays.weights[rows], arrays.gaze[rows].reshape(-1, 2, 2)
-    found = {
+    estimates = {
         name: estimate(graph, model, arrays, rows, condition)
         for name, condition in conditions(model, arrays, rows).items()
     }
 
-    def figures(chosen: np.ndarray) -> dict[str, Any]:
+    def summaries(chosen: np.ndarray) -> dict[str, Summary]:
         if not chosen.any():
             return {}
         return {
-            name: asdict(
-                summary(arrays.face, said.weights[chosen], said.gaze[chosen], true[chosen], true_gaze[chosen])
-            )
-            for name, said in found.items()
+            name: summary(arrays.face, one.weights[chosen], one.gaze[chosen], true[chosen], true_gaze[chosen])
+            for name, one in estimates.items()
         }
 
     ordinary = ~combined if (~combined).any() else combined
-    errors = {name: arrays.face.error_mm(said.weights, true) for name, said in found.items()}
-    return {
-        "split": split,
-        "rows": len(rows),
-        "people": len(people),
-        "people_in_training": known,
-        "unseen": _unseen(model, arrays, known),
-        "dataset_hash": arrays.description.get("dataset_hash", ""),
-        "conditions": figures(ordinary),
-        "combined": figures(combined),
-        "floors": _floors(model, arrays, rows[ordinary]),
-        "shapes": _shapes(found, true, ordinary),
-        "cameras": {
-            name: _named(r2_of(found[f"only_{name}"].weights[ordinary], true[ordinary]))
+    errors = {name: arrays.face.error_mm(one.weights, true) for name, one in estimates.items()}
+    return Evaluation(
+        split=split,
+        rows=len(rows),
+        people=len(people),
+        people_in_training=known,
+        unseen=_unseen(model, arrays, known),
+        dataset_hash=arrays.description.get("dataset_hash", ""),
+        conditions=summaries(ordinary),
+        combined=summaries(combined),
+        floors=_floors(model, arrays, rows[ordinary]),
+        shapes=_shapes(estimates, true, ordinary),
+        cameras={
+            name: _named(r2_of(estimates[f"only_{name}"].weights[ordinary], true[ordinary]))
             for name in model.camera_names
-            if f"only_{name}" in found
+            if f"only_{name}" in estimates
         },
-        "components": _grouped(arrays.component[rows], errors),
-        "people_mm": _grouped(arrays.person[rows][ordinary], {k: v[ordinary] for k, v in errors.items()}),
-        "deviation": _honesty(found["uncalibrated"], true, ordinary),
-        "seat": {
-            name: float(np.mean(found[name].same_seat[ordinary] >= 0.5))
-            for name in CALIBRATIONS[1:]
-            if name in found
+        components=_grouped(arrays.component[rows], errors),
+        people_mm=_grouped(arrays.person[rows][ordinary], {k: v[ordinary] for k, v in errors.items()}),
+        deviation=_deviation(estimates["uncalibrated"], true, ordinary),
+        seat={
+            name: float(np.mean(estimates[name].same_seat[ordinary] >= 0.5))
+            for name in NEUTRAL_SOURCES[1:]
+            if name in estimates
         },
-    }
+    )
 
 
 def conditions(model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray) -> dict[str, Condition]:
     """The conditions that a network can be judged under on these rows, by name."""
     cameras = model.camera_names
-    found = {"uncalibrated": Condition()}
+    named = {"uncalibrated": Condition()}
     if model.calibration != "none":
-        for name in CALIBRATIONS[1:]:
+        for name in NEUTRAL_SOURCES[1:]:
             if (arrays.neutral_rows(other_seat=name == "other_seat")[rows] >= 0).all():
-                found[name] = Condition(calibration=name)
-                found[f"{name}_fallback"] = Condition(calibration=name, fallback=True)
+                named[name] = Condition(calibration=name)
+                named[f"{name}_fallback"] = Condition(calibration=name, fallback=True)
     if len(cameras) > 1:
         for lost in cameras:
-            found[f"without_{lost}"] = Condition(cameras=tuple(name for name in cameras if name != lost))
+            named[f"without_{lost}"] = Condition(cameras=tuple(name for name in cameras if name != lost))
         for only in cameras:
-            found[f"only_{only}"] = Condition(cameras=(only,))
-    return found
+            named[f"only_{only}"] = Condition(cameras=(only,))
+    return named
 
 
 def _check_cameras(model: HeadsetModel, arrays: HeadsetArrays) -> None:
@@ -175,66 +165,70 @@ def _unseen(model: HeadsetModel, arrays: HeadsetArrays, known: int) -> bool:
     """
     if model.dataset_hash and model.dataset_hash == arrays.description.get("dataset_hash"):
         return not known
-    seeds = model.training.get("data_seed"), arrays.description.get("seed")
+    seeds = model.training.data_seed, arrays.description.get("seed")
     return None not in seeds and seeds[0] != seeds[1]
 
 
-def _floors(model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray) -> dict[str, Any]:
-    true, gaze = arrays.weights[rows], arrays.gaze[rows].reshape(-1, 2, 2)
-    mean = np.asarray(model.training.get("mean_weights", true.mean(axis=0)), np.float64)
-    mean_gaze = np.asarray(model.training.get("mean_gaze", arrays.gaze[rows].mean(axis=0)), np.float64)
-    said = {"mean": (mean, mean_gaze), "rest": (np.zeros(len(BLENDSHAPES)), np.zeros(4))}
+def _floors(model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray) -> dict[str, Summary]:
+    true, gaze = arrays.weights[rows], arrays.gaze[rows]
+    mean, mean_gaze = model.training.mean_weights, model.training.mean_gaze
+    constants = {
+        "mean": (
+            true.mean(axis=0) if mean is None else mean,
+            gaze.mean(axis=0) if mean_gaze is None else mean_gaze,
+        ),
+        "rest": (np.zeros(len(BLENDSHAPES)), np.zeros(4)),
+    }
     return {
-        name: asdict(
-            summary(
-                arrays.face,
-                np.broadcast_to(weights, true.shape),
-                np.broadcast_to(angles.reshape(2, 2), gaze.shape),
-                true,
-                gaze,
-            )
+        name: summary(
+            arrays.face,
+            np.broadcast_to(np.asarray(weights, np.float64), true.shape),
+            np.broadcast_to(np.asarray(angles, np.float64), gaze.shape).reshape(-1, 2, 2),
+            true,
+            gaze.reshape(-1, 2, 2),
         )
-        for name, (weights, angles) in said.items()
+        for name, (weights, angles) in constants.items()
     }
 
 
-def _shapes(found: dict[str, Estimates], true: np.ndarray, rows: np.ndarray) -> dict[str, Any]:
-    table: dict[str, Any] = {name: {} for name in BLENDSHAPES}
-    for condition in ("uncalibrated", *CALIBRATIONS[1:]):
-        if condition not in found:
+def _shapes(
+    estimates: dict[str, Estimates], true: np.ndarray, rows: np.ndarray
+) -> dict[str, dict[str, ShapeFigures]]:
+    table: dict[str, dict[str, ShapeFigures]] = {name: {} for name in BLENDSHAPES}
+    for condition in ("uncalibrated", *NEUTRAL_SOURCES[1:]):
+        if condition not in estimates:
             continue
-        predicted, wanted = found[condition].weights[rows], true[rows]
-        error = predicted - wanted
+        error = estimates[condition].weights[rows] - true[rows]
         columns = zip(
             BLENDSHAPES,
-            _named(r2_of(predicted, wanted)).values(),
+            _named(r2_of(estimates[condition].weights[rows], true[rows])).values(),
             np.abs(error).mean(axis=0).tolist(),
             np.sqrt(np.square(error).mean(axis=0)).tolist(),
             strict=True,
         )
         for name, r2, mae, rmse in columns:
-            table[name][condition] = {"r2": r2, "mae": mae, "rmse": rmse}
+            table[name][condition] = ShapeFigures(r2=r2, mae=mae, rmse=rmse)
     return table
 
 
-def _grouped(keys: np.ndarray, errors: dict[str, np.ndarray]) -> dict[str, Any]:
+def _grouped(keys: np.ndarray, errors: dict[str, np.ndarray]) -> dict[str, GroupErrors]:
     return {
-        str(key): {
-            "rows": int((keys == key).sum()),
-            **{name: float(error[keys == key].mean()) for name, error in errors.items()},
-        }
+        str(key): GroupErrors(
+            rows=int((keys == key).sum()),
+            mm={name: float(error[keys == key].mean()) for name, error in errors.items()},
+        )
         for key in np.unique(keys)
     }
 
 
-def _honesty(said: Estimates, true: np.ndarray, chosen: np.ndarray) -> dict[str, float | None]:
-    """Mean squared error over predicted variance (1 is honest), and how error and deviation correlate."""
-    error, deviation = (said.weights - true)[chosen][:, SCORED], said.deviation[chosen][:, SCORED]
+def _deviation(estimates: Estimates, true: np.ndarray, chosen: np.ndarray) -> DeviationFigures:
+    error = (estimates.weights - true)[chosen][:, SCORED]
+    deviation = estimates.deviation[chosen][:, SCORED]
     alike = np.corrcoef(np.abs(error).ravel(), deviation.ravel())[0, 1] if np.ptp(deviation) > 0 else np.nan
-    return {
-        "squared_error_over_variance": float(np.mean(error**2) / np.mean(deviation**2)),
-        "correlation": None if np.isnan(alike) else float(alike),
-    }
+    return DeviationFigures(
+        squared_error_over_variance=float(np.mean(error**2) / np.mean(deviation**2)),
+        correlation=None if np.isnan(alike) else float(alike),
+    )
 
 
 def _named(values: np.ndarray) -> dict[str, float | None]:

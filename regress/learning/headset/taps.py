@@ -1,8 +1,5 @@
 """Finds the taps of the temporal convolution on clips of people whom the network has not seen."""
 
-from dataclasses import asdict
-from typing import Any
-
 import numpy as np
 
 from regress.errors import InputError
@@ -10,6 +7,7 @@ from regress.learning.headset.accuracy import summary
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import Condition, estimate
 from regress.runtime.headset.estimates import Estimates
+from regress.runtime.headset.figures import ClipSummary
 from regress.runtime.headset.model import Temporal
 from regress.runtime.headset.outputs import MIRROR, WEIGHTS
 from regress.runtime.headset.predictor import HeadsetPredictor
@@ -80,14 +78,14 @@ def fit_temporal(predictor: HeadsetPredictor, arrays: HeadsetArrays) -> Temporal
     )
 
 
-def _scores(arrays: HeadsetArrays, rows: np.ndarray, said: Estimates, taps: np.ndarray) -> dict[str, Any]:
+def _scores(arrays: HeadsetArrays, rows: np.ndarray, said: Estimates, taps: np.ndarray) -> ClipSummary:
     starts = arrays.clip_starts()[rows]
     values = convolve(_joined(said), starts, taps)
     weights, gaze = np.clip(values[:, :WEIGHTS], 0, 1), values[:, WEIGHTS:].reshape(-1, 2, 2)
     true = arrays.weights[rows]
     figures = summary(arrays.face, weights, gaze, true, arrays.gaze[rows].reshape(-1, 2, 2))
     shake = np.diff(weights - true, axis=0)[~starts[1:]]
-    return asdict(figures) | {"shake": float(np.sqrt(np.mean(shake**2)))}
+    return ClipSummary(**vars(figures), shake=float(np.sqrt(np.mean(shake**2))))
 
 
 def _joined(said: Estimates) -> np.ndarray:

@@ -65,7 +65,7 @@ def measure(model: Model, folder: Path) -> Measured:
         Where the dataset is another than the model's, or lacks a column.
     """
     dataset = read_dataset(folder)
-    expected = model.record.get("dataset", {}).get("keypoints_sha256")
+    expected = None if model.record is None else model.record.dataset.keypoints_sha256
     if dataset.sha256 != expected:
         raise InputError(
             f"{folder} holds keypoints with SHA-256 {dataset.sha256}, and the model was trained on "

@@ -52,7 +52,7 @@ def networks_of(model: Model) -> tuple[Method, ...]:
 
 def ridges_of(model: Model, dataset: KeypointDataset) -> tuple[Method, ...]:
     """The floors of a model's networks, trained on the dataset that the networks were trained on."""
-    recipe = model.record["recipe"]
+    recipe = model.record.recipe
     methods = []
     for calibrated in (False, True)[: 1 if model.calibrated is None else 2]:
         noise = recipe["calibrated_noise" if calibrated else "noise"]
@@ -70,10 +70,10 @@ def _ridge(
     ridge = fit_baseline(
         dataset,
         model.features,
-        mirror=model.record["recipe"]["mirror"],
+        mirror=model.record.recipe["mirror"],
         noise=noise,
         calibrated=calibrated,
-        seed=model.record["seed"],
+        seed=model.record.seed,
     )
 
     def predict(points: np.ndarray, neutral: np.ndarray) -> np.ndarray:

@@ -3,7 +3,8 @@
 from regress.learning.training.dataset import KeypointDataset, read_dataset
 from regress.learning.training.recipes import RECIPES, Recipe
 from regress.learning.training.run import train
-from regress.learning.training.scores import Scores, evaluate_model, score
+from regress.learning.training.scores import evaluate_model, score
+from regress.runtime.model import Scores
 
 __all__ = [
     "RECIPES",

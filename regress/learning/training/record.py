@@ -1,7 +1,6 @@
-"""A model's training record: figures on the test split, baselines, and how each network's training went."""
+"""Makes a model's training record: figures on the test split, baselines, and how each network's training went."""
 
 import dataclasses
-from typing import Any
 
 import numpy as np
 import scipy
@@ -15,9 +14,10 @@ from regress.learning.training.noise import DetectorNoise
 from regress.learning.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of
 from regress.learning.training.recipes import Recipe
 from regress.learning.training.regression import regress_split
-from regress.learning.training.scores import Scores, evaluate_model, mean_r2, score, score_faces
+from regress.learning.training.scores import evaluate_model, mean_r2, score, score_faces
 from regress.runtime.features import Features
-from regress.runtime.model import Model
+from regress.runtime.model import Model, Scores, TrainingRecord
+from regress.runtime.model.record import DatasetRecord, ErrorCurves, MeanScores, NetworkTraining
 from regress.targets import NETWORKS, OUTPUTS, VISIBLE_SHAPES
 
 DETECTOR = DetectorNoise(bias=1.0, drift=0.0, jitter=0.001, clean=0.0)
@@ -43,16 +43,8 @@ def training_record(
     seed: int,
     fits: dict[str, Fit],
     training_rows: int,
-) -> dict[str, Any]:
-    """JSON data about a model; every figure unrounded.
-
-    ``scores`` and ``summary`` are of the test split as the dataset has it: ``network`` and ``ridge`` see a
-    frame alone, ``calibrated`` and ``calibrated_ridge`` a neutral frame as well. Those two ridges are trained on
-    faces as the dataset has them; where the networks' faces are displaced, ``ridge_same_rows`` and
-    ``calibrated_ridge_same_rows`` are trained on the very rows that the networks were (``floors`` says so).
-    ``as_detected`` is of the same faces with detectors' bias and jitter. Whether the test split's people are
-    strangers, ``dataset`` says under ``people_in_training``.
-    """
+) -> TrainingRecord:
+    """Evaluate a model and its baselines on the test split, and record the training."""
     sets = [False] if model.calibrated is None else [False, True]
     scores = {
         "network": evaluate_model(model, dataset),
@@ -61,46 +53,37 @@ def training_record(
     if model.calibrated is not None:
         scores["calibrated"] = evaluate_model(model, dataset, calibrated=True)
         baselines = _baselines(dataset, model.features, recipe, calibrated=True, seed=seed)
-        scores |= {f"calibrated_{name}": found for name, found in baselines.items() if name != "mean"}
+        scores |= {f"calibrated_{name}": shapes for name, shapes in baselines.items() if name != "mean"}
     networks = {name: _network_records(fit) for name, fit in fits.items()}
-    return {
-        "recipe": {**dataclasses.asdict(recipe), "alphas": list(recipe.alphas)},
-        "seed": seed,
-        "dataset": {
-            "name": dataset.name,
-            "spec_hash": dataset.description.get("spec_hash"),
-            "keypoints_sha256": dataset.sha256,
-            "rig": dataset.description.get("rig"),
-            "licence": dataset.description.get("licence"),
-            "samples": {split: len(dataset.rows(split)) for split in SPLITS},
-            "people": len(np.unique(dataset.person)),
-            "people_in_training": {split: _people_in_training(dataset, split) for split in SPLITS[1:]},
-        },
-        "training_rows": training_rows,
-        "licence": "Apache-2.0",
-        "versions": {
-            "regress": __version__,
-            "numpy": np.__version__,
-            "scipy": scipy.__version__,
-        },
-        "floors": {name: text for name, text in _FLOORS.items() if name in scores},
-        "summary": {name: _summary(shapes) for name, shapes in scores.items()},
-        "as_detected": {
+    return TrainingRecord(
+        recipe={**dataclasses.asdict(recipe), "alphas": list(recipe.alphas)},
+        seed=seed,
+        dataset=DatasetRecord(
+            name=dataset.name,
+            spec_hash=dataset.description.get("spec_hash"),
+            keypoints_sha256=dataset.sha256,
+            rig=dataset.description.get("rig"),
+            licence=dataset.description.get("licence"),
+            samples={split: len(dataset.rows(split)) for split in SPLITS},
+            people=len(np.unique(dataset.person)),
+            people_in_training={split: _people_in_training(dataset, split) for split in SPLITS[1:]},
+        ),
+        training_rows=training_rows,
+        licence="Apache-2.0",
+        versions={"regress": __version__, "numpy": np.__version__, "scipy": scipy.__version__},
+        floors={name: text for name, text in _FLOORS.items() if name in scores},
+        summary={name: _summary(shapes) for name, shapes in scores.items()},
+        as_detected={
             "calibrated" if calibrated else "network": _summary(
                 _scores_as_detected(model, dataset, calibrated=calibrated)
             )
             for calibrated in sets
         },
-        "scores": {
-            shape: {name: dataclasses.asdict(shapes[shape]) for name, shapes in scores.items()}
-            for shape in OUTPUTS
-        },
-        "regression": {
-            split: dataclasses.asdict(regress_split(model, dataset, split=split)) for split in SPLITS
-        },
-        "networks": networks["alone"],
-        **({"calibrated_networks": networks["calibrated"]} if "calibrated" in networks else {}),
-    }
+        scores={shape: {name: shapes[shape] for name, shapes in scores.items()} for shape in OUTPUTS},
+        regression={split: regress_split(model, dataset, split=split) for split in SPLITS},
+        networks=networks["alone"],
+        calibrated_networks=networks.get("calibrated"),
+    )
 
 
 def _people_in_training(dataset: KeypointDataset, split: str) -> int:
@@ -109,12 +92,12 @@ def _people_in_training(dataset: KeypointDataset, split: str) -> int:
     return int(np.isin(held_out, trained).sum())
 
 
-def _summary(shapes: dict[str, Scores]) -> dict[str, float | None]:
-    return {
-        "mean_r2": mean_r2(shapes, OUTPUTS),
-        "mean_r2_visible": mean_r2(shapes, VISIBLE_SHAPES),
-        "mean_r2_networks": _mean_over_networks(shapes),
-    }
+def _summary(shapes: dict[str, Scores]) -> MeanScores:
+    return MeanScores(
+        mean_r2=mean_r2(shapes, OUTPUTS),
+        mean_r2_visible=mean_r2(shapes, VISIBLE_SHAPES),
+        mean_r2_networks=_mean_over_networks(shapes),
+    )
 
 
 def _scores_as_detected(model: Model, dataset: KeypointDataset, *, calibrated: bool) -> dict[str, Scores]:
@@ -149,26 +132,26 @@ def _mean_over_networks(scores: dict[str, Scores]) -> float | None:
     return float(np.mean(known)) if known else None
 
 
-def _network_records(fit: Fit) -> dict[str, Any]:
+def _network_records(fit: Fit) -> dict[str, NetworkTraining]:
     """How each network's training went; errors are mean squares of z-scored targets."""
-    records: dict[int, Any] = {}
+    records: dict[int, NetworkTraining] = {}
     for group, result in zip(fit.groups, fit.results, strict=True):
         for row, number in enumerate(group):
             steps = int(result.steps[row])
             errors = result.monitored[: steps + 1, row]
             # Padding of one-output networks counts as zeros in the mean over K: undo it.
             padding = fit.layout.outputs / len(NETWORKS[number].outputs)
-            records[int(number)] = {
-                "alpha": float(fit.alphas[number]),
-                "search": dict(zip(map(str, fit.tried), fit.search_errors[:, number].tolist(), strict=True)),
-                "outcome": result.outcomes[row].name,
-                "reason": result.outcomes[row].value,
-                "steps": steps,
-                "best_step": int(result.best_step[row]),
-                "curves": {
-                    "train": (result.residual_square[: steps + 1, row] * padding).tolist(),
-                    "validation": errors[:, 0].tolist(),
-                    "test": errors[:, 1].tolist(),
-                },
-            }
+            records[int(number)] = NetworkTraining(
+                alpha=float(fit.alphas[number]),
+                search=dict(zip(map(str, fit.tried), fit.search_errors[:, number].tolist(), strict=True)),
+                outcome=result.outcomes[row].name,
+                reason=result.outcomes[row].value,
+                steps=steps,
+                best_step=int(result.best_step[row]),
+                curves=ErrorCurves(
+                    train=(result.residual_square[: steps + 1, row] * padding).tolist(),
+                    validation=errors[:, 0].tolist(),
+                    test=errors[:, 1].tolist(),
+                ),
+            )
     return {network.key: records[number] for number, network in enumerate(NETWORKS)}

@@ -1,35 +1,13 @@
-"""Predicted against true weights of a split, counted in cells: what the paper's figure 3 plots."""
-
-from dataclasses import dataclass
+"""Counts predicted against true weights of a split in cells, as the paper's figure 3 plots them."""
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.learning.training.dataset import KeypointDataset
-from regress.runtime.model import Model
+from regress.runtime.model import Model, Regression
 
 CELLS = 51
 """Cells a side, 0.02 wide and centred on 0, 0.02 ... 1: weights of 0 and 1 fall into the middle of one."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Regression:
-    """All shapes of all faces of a split together.
-
-    Parameters
-    ----------
-    counts
-        ``counts[i][j]`` values with the truth in cell i and the prediction in cell j.
-    slope, intercept
-        Of the least-squares line: predicted = slope true + intercept; None where no weight moves.
-    pearson
-        Correlation; None where no weight or no prediction moves.
-    """
-
-    counts: list[list[int]]
-    slope: float | None
-    intercept: float | None
-    pearson: float | None
 
 
 def regression(predicted: np.ndarray, true: np.ndarray) -> Regression:

@@ -69,7 +69,6 @@ def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Prog
         features=features,
         normalisation=alone.prepared.normalisation,
         networks=alone.networks,
-        record={},
         calibrated=None
         if compared is None
         else Calibrated(normalisation=compared.prepared.normalisation, networks=compared.networks),

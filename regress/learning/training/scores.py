@@ -1,6 +1,4 @@
-"""How good predictions are, shape by shape."""
-
-from dataclasses import dataclass
+"""Scores predictions shape by shape."""
 
 import numpy as np
 
@@ -9,30 +7,11 @@ from regress.errors import InputError
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.preparation import Faces, faces_of
 from regress.runtime.features import extract
-from regress.runtime.model import Model
+from regress.runtime.model import Model, Scores
 from regress.runtime.networks import evaluate
 
 _BLOCK_ROWS = 4096
 """Rows predicted at a time: 4096 x 620 hidden units are 20 MB."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Scores:
-    """Figures of one shape; None where they are undefined (a shape that never moves has no R2).
-
-    Parameters
-    ----------
-    r2
-        Share of the variance explained: 1 is perfect, 0 is as good as the mean of the scored rows.
-    mae
-        Mean absolute error, in weights.
-    pearson
-        Correlation of prediction and truth.
-    """
-
-    r2: float | None
-    mae: float
-    pearson: float | None
 
 
 def score(predicted: np.ndarray, true: np.ndarray) -> tuple[Scores, ...]:

@@ -34,9 +34,9 @@ def confidence(
     InputError
         Where the model has no scores on unseen people.
     """
-    if not model.scores:
+    if model.scores is None:
         raise InputError("the model has no scores on a test split, from which confidence is made")
-    alone = model.scores["cameras"]
+    alone = model.scores.cameras
     best = np.array(
         [[alone.get(camera, {}).get(name) or 0.0 for name in model.weights] for camera in model.camera_names]
     )
@@ -51,10 +51,10 @@ def confidence(
 def _explained(model: HeadsetModel, deviation: np.ndarray, condition: str) -> np.ndarray:
     explained = np.zeros(deviation.shape)
     for column, name in enumerate(model.weights):
-        scores = model.scores["shapes"][name]
-        known = scores.get(condition, scores["uncalibrated"])
-        if known["r2"] is not None and known["rmse"] > 0:
+        figures = model.scores.shapes[name]
+        known = figures.get(condition, figures["uncalibrated"])
+        if known.r2 is not None and known.rmse > 0:
             # R2 is one less the mean squared error over the shape's variance
-            excess = np.maximum(deviation[:, column] ** 2 / known["rmse"] ** 2, 1.0)
-            explained[:, column] = np.clip(1 - (1 - known["r2"]) * excess, 0, 1)
+            excess = np.maximum(deviation[:, column] ** 2 / known.rmse**2, 1.0)
+            explained[:, column] = np.clip(1 - (1 - known.r2) * excess, 0, 1)
     return explained

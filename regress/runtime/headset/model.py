@@ -1,21 +1,21 @@
-"""What a model folder of a headset network says of itself: model.json, beside network.onnx."""
+"""Describes a trained headset network: its cameras, its outputs, and how it was trained and evaluated."""
 
-import hashlib
-import json
-import os
-from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
 
 from facegen.conventions import BLENDSHAPES
-from facegen.files import write_whole
-from regress.errors import ModelError
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS
-from regress.runtime.headset.typical import read_typical
-from regress.runtime.model import HEADSET, KEYPOINTS, write_folder
+from regress.runtime.headset.figures import ClipSummary, Evaluation
+from regress.runtime.headset.typical import TYPICAL_SIDE
 
-VERSION = 1
-CALIBRATIONS = ("optional", "none")
+GreyRow = Annotated[
+    tuple[Annotated[int, Field(ge=0, le=255)], ...], Field(min_length=TYPICAL_SIDE, max_length=TYPICAL_SIDE)
+]
+GreySquare = Annotated[tuple[GreyRow, ...], Field(min_length=TYPICAL_SIDE, max_length=TYPICAL_SIDE)]
+"""24 x 24 grey levels, whole numbers from 0 to 255."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +58,50 @@ class Temporal:
     taps: tuple[tuple[float, ...], ...]
     people: int
     dataset_hash: str
-    scores: dict[str, Any] = field(default_factory=dict)
+    scores: dict[str, ClipSummary] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeadsetTraining:
+    """How a network was trained; unrounded, and as far as it is known.
+
+    Parameters
+    ----------
+    recipe
+        Every setting of ``regress.learning.headset.recipe``, as JSON data.
+    data_seed
+        Seed of the dataset.
+    rows, people
+        Frames that it learned from, and of how many people.
+    parameters
+        Numbers of the network.
+    history
+        ``loss`` and ``validation`` of each epoch.
+    cpu_s
+        Processor time.
+    resumed_after_epochs
+        Epochs that an earlier, stopped training had done.
+    onnx_difference
+        Largest difference between the exported graph and PyTorch.
+    deviation_scale, mean_weights, mean_gaze
+        Factors on the predicted deviations (56); means of the training frames' weights (52) and gaze angles (4).
+    versions
+        Of the programs, by name.
+    """
+
+    recipe: dict[str, Any] = field(default_factory=dict)
+    data_seed: int | None = None
+    rows: int = 0
+    people: int = 0
+    parameters: int | None = None
+    history: tuple[dict[str, float], ...] = ()
+    cpu_s: float | None = None
+    resumed_after_epochs: int = 0
+    onnx_difference: float | None = None
+    deviation_scale: tuple[float, ...] | None = None
+    mean_weights: tuple[float, ...] | None = None
+    mean_gaze: tuple[float, ...] | None = None
+    versions: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,146 +139,43 @@ class HeadsetModel:
     temporal
         What the frames before add; None until ``regress headset temporal`` has found it.
     training
-        Every setting and figure of the training, unrounded.
+        How it was trained.
     scores
-        Figures on unseen people (``regress.learning.headset.evaluation``).
+        Figures on the test split's people (``regress.learning.headset.evaluation``); None where there were none.
     dataset_hash, rig, licences
         Of the data that it learned from.
     network_sha256
         Of network.onnx; empty until the model is written.
     """
 
+    __pydantic_config__: ClassVar[Mapping[str, str]] = {"extra": "forbid"}
+
     headset: str
     cameras: tuple[CameraInput, ...]
     parts: dict[str, tuple[str, ...]]
     modulation: float
     architecture: str
-    calibration: str
+    calibration: Literal["optional", "none"]
     points: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    typical: dict[str, tuple[tuple[int, ...], ...]] = field(default_factory=dict)
+    typical: dict[str, GreySquare] = field(default_factory=dict)
     weights: tuple[str, ...] = BLENDSHAPES
     outputs: tuple[str, ...] = tuple(GRAPH_OUTPUTS)
     temporal: Temporal | None = None
-    training: dict[str, Any] = field(default_factory=dict)
-    scores: dict[str, Any] = field(default_factory=dict)
+    training: HeadsetTraining = field(default_factory=HeadsetTraining)
+    scores: Evaluation | None = None
     dataset_hash: str = ""
     rig: str = ""
     licences: tuple[str, ...] = ()
     network_sha256: str = ""
 
+    def __post_init__(self) -> None:
+        """Refuse typical pictures of cameras that the model does not have."""
+        for name in self.typical:
+            if name not in self.camera_names:
+                cameras = ", ".join(self.camera_names)
+                raise ValueError(f"typical has a picture of {name}, and the cameras are {cameras}")
+
     @property
     def camera_names(self) -> tuple[str, ...]:
         """Names of the cameras, in the order of ``present``."""
         return tuple(camera.name for camera in self.cameras)
-
-
-def save_headset_model(model: HeadsetModel, graph: bytes, folder: str | os.PathLike[str]) -> HeadsetModel:
-    """Write a model folder whole, by one rename.
-
-    Parameters
-    ----------
-    graph
-        Bytes of network.onnx.
-
-    Returns
-    -------
-    HeadsetModel
-        The model as written, with the graph's SHA-256.
-
-    Raises
-    ------
-    OutputError
-        Where the place cannot be written, or holds anything but an older headset model (``check_place``).
-    """
-    folder = Path(folder)
-    text = _text(replace(model, network_sha256=hashlib.sha256(graph).hexdigest()))
-    write_folder(folder, HEADSET, {"network.onnx": graph, "model.json": text.encode()})
-    return read_headset_model(folder)
-
-
-def describe_headset_model(model: HeadsetModel, folder: str | os.PathLike[str]) -> HeadsetModel:
-    """Write what a model folder says of its network anew; the network and whatever else lies there stay.
-
-    Raises
-    ------
-    OutputError
-        Where it cannot be written.
-    """
-    path = Path(folder) / "model.json"
-    write_whole(path, _text(model))
-    return read_headset_model(folder)
-
-
-def _text(model: HeadsetModel) -> str:
-    return (
-        json.dumps({"kind": HEADSET.name, "version": VERSION, **asdict(model)}, indent=1, allow_nan=False)
-        + "\n"
-    )
-
-
-def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
-    """Read and check model.json; the graph's bytes are checked against its SHA-256.
-
-    Raises
-    ------
-    ModelError
-        Where a file is missing or damaged, or the folder holds a model of another kind or version.
-    """
-    folder = Path(folder)
-    path, graph = folder / "model.json", folder / "network.onnx"
-    for needed in (path, graph):
-        if needed.is_file():
-            continue
-        if (folder / "weights.npz").is_file():
-            raise ModelError(
-                f"{folder} is a model of 68 points; `regress` commands without `headset` take it"
-            )
-        raise ModelError(
-            f"{needed} does not exist; a headset model is a folder with model.json and network.onnx"
-        )
-    try:
-        document = json.loads(path.read_text())
-        kind, version = document.pop("kind", KEYPOINTS.name), document.pop("version", None)
-    except (ValueError, AttributeError, TypeError, OSError) as error:
-        raise ModelError(f"{path} is not a model's description: {error}") from error
-    if (kind, version) != (HEADSET.name, VERSION):
-        raise ModelError(
-            f"{path} describes a model of kind {kind!r}, version {version!r}; "
-            f"kind {HEADSET.name!r}, version {VERSION} is needed"
-        )
-    model = _model(document, path)
-    if hashlib.sha256(graph.read_bytes()).hexdigest() != model.network_sha256:
-        raise ModelError(f"{graph} is damaged or belongs to another model: its SHA-256 is not model.json's")
-    return model
-
-
-def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
-    try:
-        cameras = tuple(CameraInput(**camera) for camera in document["cameras"])
-        names = [camera.name for camera in cameras]
-        model = HeadsetModel(
-            **{
-                **document,
-                "cameras": cameras,
-                "parts": {name: tuple(shapes) for name, shapes in document["parts"].items()},
-                "points": {name: tuple(points) for name, points in document.get("points", {}).items()},
-                "typical": read_typical(document.get("typical", {}), names),
-                "weights": tuple(document["weights"]),
-                "outputs": tuple(document["outputs"]),
-                "temporal": _temporal(document.get("temporal")),
-                "licences": tuple(document["licences"]),
-            }
-        )
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise ModelError(f"{path} is not a headset model's description: {error}") from error
-    if model.calibration not in CALIBRATIONS:
-        raise ModelError(
-            f"{path} has calibration {model.calibration!r}; {' or '.join(CALIBRATIONS)} is needed"
-        )
-    return model
-
-
-def _temporal(document: dict[str, Any] | None) -> Temporal | None:
-    if document is None:
-        return None
-    return Temporal(**{**document, "taps": tuple(map(tuple, document["taps"]))})

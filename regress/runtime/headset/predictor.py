@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from regress.runtime.headset.estimates import Estimates
+from regress.runtime.headset.folder import read_headset_model
 from regress.runtime.headset.graph import HeadsetGraph
-from regress.runtime.headset.model import HeadsetModel, read_headset_model
+from regress.runtime.headset.model import HeadsetModel
 from regress.runtime.model import HEADSET
 from regress.runtime.ready_made import model_folder
 

@@ -1,7 +1,4 @@
-"""What a camera's pictures look like on average: a small square, by which the camera is known again."""
-
-from collections.abc import Mapping, Sequence
-from typing import Any
+"""Makes a camera's typical picture: the small mean of its training pictures, by which `predict` knows the camera."""
 
 import numpy as np
 
@@ -32,31 +29,3 @@ def typical_picture(pictures: np.ndarray, rows: np.ndarray) -> np.ndarray:
     return np.rint(cv2.resize(mean, (TYPICAL_SIDE, TYPICAL_SIDE), interpolation=cv2.INTER_AREA)).astype(
         np.uint8
     )
-
-
-def read_typical(
-    document: Mapping[str, Any], cameras: Sequence[str]
-) -> dict[str, tuple[tuple[int, ...], ...]]:
-    """Typical pictures of a model.json.
-
-    Raises
-    ------
-    ValueError
-        Where one is of no camera, or is not 24 x 24 whole numbers from 0 to 255.
-    """
-    typical = {}
-    for name, rows in document.items():
-        if name not in cameras:
-            raise ValueError(f"typical has a picture of {name}, and the cameras are {', '.join(cameras)}")
-        levels = np.array(rows)
-        if (
-            levels.dtype.kind != "i"
-            or levels.shape != (TYPICAL_SIDE,) * 2
-            or levels.min() < 0
-            or levels.max() > 255
-        ):
-            raise ValueError(
-                f"typical of {name} is not {TYPICAL_SIDE} x {TYPICAL_SIDE} grey levels, whole numbers from 0 to 255"
-            )
-        typical[name] = tuple(map(tuple, levels.tolist()))
-    return typical

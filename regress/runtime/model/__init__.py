@@ -4,6 +4,7 @@ from regress.runtime.model.fast import FastPredictor
 from regress.runtime.model.folder import load_model, save_model
 from regress.runtime.model.model import Calibrated, Model, Normalisation
 from regress.runtime.model.place import HEADSET, KEYPOINTS, check_place, write_folder
+from regress.runtime.model.record import Regression, Scores, TrainingRecord
 from regress.runtime.model.symmetry import symmetrised
 
 __all__ = [
@@ -13,6 +14,9 @@ __all__ = [
     "FastPredictor",
     "Model",
     "Normalisation",
+    "Regression",
+    "Scores",
+    "TrainingRecord",
     "check_place",
     "load_model",
     "save_model",

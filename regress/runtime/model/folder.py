@@ -5,16 +5,19 @@ import hashlib
 import io
 import json
 import os
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError
+from regress.runtime.documents import checked
 from regress.runtime.features import Features
 from regress.runtime.model.model import Calibrated, Model, Normalisation
 from regress.runtime.model.place import KEYPOINTS, write_folder
+from regress.runtime.model.record import TrainingRecord, record_to_json
 from regress.runtime.networks import Denoising, FoldedNetworks
 from regress.runtime.ready_made import model_folder
 from regress.targets import Network, observability
@@ -69,22 +72,49 @@ def load_model(folder: str | os.PathLike[str]) -> Model:
         if (folder / "network.onnx").is_file():
             raise ModelError(f"{folder} is a model of headset pictures; `regress headset` commands take it")
         raise ModelError(f"{path} does not exist; a model is a folder with model.json and weights.npz")
-    try:
-        document = json.loads(document_path.read_text())
-        schema, expected = document["schema"], document["weights_sha256"]
-    except (ValueError, KeyError, TypeError, OSError) as error:
-        raise ModelError(f"{document_path} is not a model's description: {error}") from error
-    if schema not in SCHEMAS:
-        raise ModelError(
-            f"{document_path} has schema {schema!r}; this version reads {' and '.join(map(str, SCHEMAS))}"
-        )
+    document = _read_document(document_path)
     weights = weights_path.read_bytes()
-    if hashlib.sha256(weights).hexdigest() != expected:
+    if hashlib.sha256(weights).hexdigest() != document.weights_sha256:
         raise ModelError(
             f"{weights_path} is damaged or belongs to another model: its SHA-256 is not model.json's"
         )
     with np.load(io.BytesIO(weights), allow_pickle=False) as arrays:
-        return _model(document, {name: arrays[name] for name in arrays.files}, document_path)
+        return _model(document, {name: arrays[name] for name in arrays.files}, weights_path)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _FeaturesDocument:
+    alignment: Literal["affine", "none"]
+    edges: list[tuple[int, int]]
+    reference_name: str
+    reference_sha256: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Document:
+    """What is read of model.json; the rest of it is for people."""
+
+    recipe: str
+    networks: tuple[Network, ...]
+    features: _FeaturesDocument
+    weights_sha256: str
+    record: TrainingRecord | None
+
+
+def _read_document(path: Path) -> _Document:
+    try:
+        document = json.loads(path.read_text())
+        schema = document["schema"]
+    except (ValueError, KeyError, TypeError, OSError) as error:
+        raise ModelError(f"{path} is not a model's description: {error}") from error
+    if schema not in SCHEMAS:
+        raise ModelError(
+            f"{path} has schema {schema!r}; this version reads {' and '.join(map(str, SCHEMAS))}"
+        )
+    try:
+        return checked(_Document, {**document, "record": document.get("record") or None})
+    except ModelError as error:
+        raise ModelError(f"{path} lacks a part of the model: {error}") from error
 
 
 def _document(model: Model, weights_sha256: str) -> dict[str, Any]:
@@ -107,7 +137,7 @@ def _document(model: Model, weights_sha256: str) -> dict[str, Any]:
         "calibrated": model.calibrated is not None
         and "the same with the arrays calibrated_*, on features less the neutral frame's",
         "weights_sha256": weights_sha256,
-        "record": model.record,
+        "record": record_to_json(model.record),
     }
 
 
@@ -134,26 +164,22 @@ def _weights_bytes(model: Model) -> bytes:
     return buffer.getvalue()
 
 
-def _model(document: dict[str, Any], arrays: dict[str, np.ndarray], path: Path) -> Model:
+def _model(document: _Document, arrays: dict[str, np.ndarray], path: Path) -> Model:
     try:
-        described = document["features"]
         return Model(
-            recipe=document["recipe"],
-            table=tuple(
-                Network(region=entry["region"], name=entry["name"], outputs=tuple(entry["outputs"]))
-                for entry in document["networks"]
-            ),
+            recipe=document.recipe,
+            table=document.networks,
             features=Features(
-                alignment=described["alignment"],
+                alignment=document.features.alignment,
                 mean_shape=arrays["mean_shape"],
-                edges=np.array(described["edges"], dtype=np.int64),
-                reference_name=described["reference_name"],
-                reference_sha256=described["reference_sha256"],
+                edges=np.array(document.features.edges, dtype=np.int64),
+                reference_name=document.features.reference_name,
+                reference_sha256=document.features.reference_sha256,
                 depth=arrays.get("depth"),
             ),
             normalisation=_taken(Normalisation, arrays),
             networks=_networks(arrays),
-            record=document["record"],
+            record=document.record,
             calibrated=_calibrated(arrays),
         )
     except (KeyError, TypeError, ValueError) as error:

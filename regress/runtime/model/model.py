@@ -1,13 +1,13 @@
-"""A trained model as values, and what it predicts."""
+"""Holds a trained model of 68 points, and predicts with it."""
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_COUNT
 from regress.errors import InputError
 from regress.runtime.features import Features, extract
+from regress.runtime.model.record import TrainingRecord
 from regress.runtime.networks import FoldedNetworks, evaluate, shifted
 from regress.targets import Network
 
@@ -66,7 +66,7 @@ class Model:
     networks
         The folded weights, for a frame by itself.
     record
-        Training record: JSON data, every figure unrounded (see ``regress.learning.training``).
+        How it was trained; None for a model that ``regress train`` did not make.
     calibrated
         Networks for a frame whose person's neutral frame is known; None where a model has none.
     """
@@ -76,7 +76,7 @@ class Model:
     features: Features
     normalisation: Normalisation
     networks: FoldedNetworks
-    record: dict[str, Any]
+    record: TrainingRecord | None = None
     calibrated: Calibrated | None = None
 
     @property

@@ -24,7 +24,7 @@ def symmetrised(model: Model) -> Model:
     InputError
         Where a network gives a shape and not the one of the other side.
     """
-    if model.record.get("recipe", {}).get("symmetric"):
+    if model.record is not None and model.record.recipe.get("symmetric"):
         return model
     features = model.features
     edges = closed_under_mirror(features.edges)

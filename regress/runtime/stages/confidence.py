@@ -41,7 +41,7 @@ def confidence(model: Model, points: np.ndarray) -> np.ndarray:
     InputError
         Where the model's record has no scores.
     """
-    scores = model.record.get("scores", {})
+    scores = {} if model.record is None else model.record.scores
     # calibrating uses up the calibrated networks, and the record still has their scores
     calibrated = model.calibrated is None and any("calibrated" in known for known in scores.values())
     best = np.zeros(len(BLENDSHAPES))
@@ -51,7 +51,7 @@ def confidence(model: Model, points: np.ndarray) -> np.ndarray:
             raise InputError(
                 f"the model's record has no test score of {shape}, from which confidence is made"
             )
-        best[BLENDSHAPE_INDEX[shape]] = np.clip(scores[shape][used]["r2"] or 0.0, 0, 1)
+        best[BLENDSHAPE_INDEX[shape]] = np.clip(scores[shape][used].r2 or 0.0, 0, 1)
     points = np.asarray(points, dtype=np.float64)
     return best * trust(distances(model, points), calibrated=calibrated)[:, None]
 

@@ -70,7 +70,6 @@ def random_model(
             network_of_output=network_of_output,
             denoising=denoising,
         ),
-        record={},
     )
 
 

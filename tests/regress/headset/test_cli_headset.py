@@ -17,6 +17,7 @@ from regress.cli.headset_train import side_notes
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS
+from regress.runtime.headset.figures import evaluation_to_json
 from regress.runtime.headset.predictor import load_headset_predictor
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.takes import write_pictures
@@ -44,7 +45,7 @@ def test_training_by_command_keeps_every_setting(run, arrays_folder: Path, tmp_p
     assert "epochs: 2 of 2" in said
     assert "uncalibrated: " in said
     assert "same seat" not in said
-    recipe = load_headset_predictor(out).model.training["recipe"]
+    recipe = load_headset_predictor(out).model.training.recipe
     wanted = {"architecture": "holistic", "seed": 3, "epochs": 2, "modulation": 0.1, "camera_dropout": 0.3}
     wanted |= {"randomise": 0.5, "input_size": 16, "code": 8, "mirror": False, "calibration": False}
     assert {name: recipe[name] for name in wanted} == wanted
@@ -112,7 +113,7 @@ def test_evaluation_prints_and_gives_all_figures(
     code, out, _ = run("headset", "evaluate", model, arrays_folder, "--json")
     assert code == 0
     predictor = load_headset_predictor(model)
-    assert json.loads(out) == evaluate(predictor.graph, predictor.model, arrays)
+    assert json.loads(out) == evaluation_to_json(evaluate(predictor.graph, predictor.model, arrays))
     code, out, _ = run("headset", "evaluate", model, arrays_folder, "--split", "validation")
     assert code == 0
     lines = {line.partition("  ")[0]: line for line in out.splitlines()}

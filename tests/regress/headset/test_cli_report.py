@@ -18,7 +18,9 @@ from regress.learning.headset.comparison import compare
 from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.worst import worst_frames
 from regress.report.headset_page import Judged, write_headset_report
-from regress.runtime.headset.model import Temporal, describe_headset_model, read_headset_model
+from regress.runtime.headset.figures import ClipSummary, evaluation_to_json
+from regress.runtime.headset.folder import describe_headset_model, read_headset_model
+from regress.runtime.headset.model import HeadsetTraining, Temporal
 from regress.runtime.headset.predictor import load_headset_predictor
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.tiny import NAMES, write_tiny_model
@@ -28,7 +30,7 @@ from tests.regress.headset.tiny import NAMES, write_tiny_model
 def models(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """Two models of which the second says less, and says that it was trained on fewer people."""
     folder = tmp_path_factory.mktemp("models")
-    few = {"people": 5, "rows": 30}
+    few = HeadsetTraining(people=5, rows=30)
     return (
         write_tiny_model(folder / "many", width=SIDE, height=SIDE),
         write_tiny_model(folder / "few", width=SIDE, height=SIDE, gain=0.4, training=few),
@@ -85,10 +87,10 @@ def test_the_page_is_whole_and_fetches_nothing(
     document = json.loads(figures.read_text())
     predictor = load_headset_predictor(many)
     found = evaluate(predictor.graph, predictor.model, arrays)
-    assert document["data"] == {str(arrays_folder): found, str(other): found}
+    assert document["data"] == dict.fromkeys(map(str, (arrays_folder, other)), evaluation_to_json(found))
     assert [(one["model"], one["people"]) for one in document["curve"]] == [("few", 5), ("many", 20)]
-    assert f"{found['conditions']['uncalibrated']['geometry_mm']:.3f}" in page
-    assert f"{found['shapes']['jawOpen']['same_seat']['r2']:.3f}".replace("-", "−") in page
+    assert f"{found.conditions['uncalibrated'].geometry_mm:.3f}" in page
+    assert f"{found.shapes['jawOpen']['same_seat'].r2:.3f}".replace("-", "−") in page
     # the worst frames' own pictures, three cameras each, in both sections
     worst = worst_frames(predictor, arrays)
     assert len(outline.pictures) == 2 * 3 * len(worst)
@@ -123,7 +125,7 @@ def test_people_are_called_unseen_in_no_split_that_training_knows(
         (None, "of more people", False),
     ):
         place = tmp_path / f"{seed}-{dataset_hash}"
-        training = {"people": 20, "rows": 100, "data_seed": seed}
+        training = HeadsetTraining(people=20, rows=100, data_seed=seed)
         write_tiny_model(place, width=SIDE, height=SIDE, dataset_hash=dataset_hash, training=training)
         assert run("headset", "report", place, *words[3:])[0] == 0
         whose = "people that it has never seen." if unseen else "people of the test split."
@@ -131,11 +133,11 @@ def test_people_are_called_unseen_in_no_split_that_training_knows(
     predictor = load_headset_predictor(models[0])
     known = np.where(np.arange(len(arrays.split)) % 3 == 0, "train", arrays.split)
     figures = evaluate(predictor.graph, predictor.model, replace(arrays, split=known))
-    assert figures["people_in_training"] == figures["people"]  # a third of each one's frames
+    assert figures.people_in_training == figures.people  # a third of each one's frames
     path = write_headset_report(
         predictor.model, out, [Judged(title="sessions", figures=figures)], name="tiny"
     )
-    assert f"{figures['people']} people, of whom {figures['people']} are in the training split too." in (
+    assert f"{figures.people} people, of whom {figures.people} are in the training split too." in (
         path.read_text()
     )
 
@@ -156,7 +158,7 @@ def test_a_model_is_reported_by_its_own_scores_without_data(
     code, _, said = run("headset", "report", scored, "--out", tmp_path / "report.html")
     assert code == 0, said
     assert "a frame in onnxruntime on one core" in (tmp_path / "report.html").read_text()
-    bare = write_tiny_model(tmp_path / "bare", scores={})
+    bare = write_tiny_model(tmp_path / "bare", scores=None)
     code, _, said = run("headset", "report", bare, "--out", tmp_path / "none.html")
     assert (code, len(said.splitlines())) == (2, 1)
     assert "give --data to measure some" in said
@@ -171,14 +173,17 @@ def test_a_model_is_reported_by_its_own_scores_without_data(
 
 def test_what_the_frames_before_add_is_reported(run, arrays_folder: Path, tmp_path: Path):
     folder = write_tiny_model(tmp_path / "tiny", width=SIDE, height=SIDE)
-    figures = {
-        "rows": 1234,
-        "geometry_mm": 0.6789,
-        "r2": 0.5,
-        "blink_r2": None,
-        "gaze_deg": 2.0,
-        "shake": 0.01,
-    }
+    figures = ClipSummary(
+        rows=1234,
+        geometry_mm=0.6789,
+        r2=0.5,
+        mae=0.05,
+        rmse=0.1,
+        blink_r2=None,
+        gaze_deg=2.0,
+        gaze_open_deg=None,
+        shake=0.01,
+    )
     temporal = Temporal(fps=30, taps=((1.0,) * 5,) * 56, people=3, dataset_hash="", scores={"taps": figures})
     describe_headset_model(replace(read_headset_model(folder), temporal=temporal), folder)
     out = tmp_path / "report.html"
@@ -192,18 +197,18 @@ def test_what_the_frames_before_add_is_reported(run, arrays_folder: Path, tmp_pa
 def test_comparison_is_even_with_itself_and_turns_round(models: tuple[Path, Path], arrays: HeadsetArrays):
     one, other = map(load_headset_predictor, models)
     even = compare(one, one, arrays)
-    assert all(entry["better"] == entry["people"] == 0.5 for part in even.values() for entry in part.values())
-    assert set(even["components"]) == {"combined", "dense", "lower_face", "upper_face"}
-    assert set(even["conditions"]) >= {"uncalibrated", "same_seat", *(f"without_{name}" for name in NAMES)}
+    assert all(entry.better == entry.people == 0.5 for part in vars(even).values() for entry in part.values())
+    assert set(even.components) == {"combined", "dense", "lower_face", "upper_face"}
+    assert set(even.conditions) >= {"uncalibrated", "same_seat", *(f"without_{name}" for name in NAMES)}
     there, back = compare(one, other, arrays), compare(other, one, arrays)
     figures = evaluate(one.graph, one.model, arrays)
-    for part, entries in there.items():
+    for part, entries in vars(there).items():
         for name, entry in entries.items():
-            turned = back[part][name]
-            assert entry["better"] + turned["better"] == pytest.approx(1)
-            assert (entry["geometry_mm"], entry["rival_mm"]) == (turned["rival_mm"], turned["geometry_mm"])
+            turned = getattr(back, part)[name]
+            assert entry.better + turned.better == pytest.approx(1)
+            assert (entry.geometry_mm, entry.rival_mm) == (turned.rival_mm, turned.geometry_mm)
             if part != "components":
-                assert entry["geometry_mm"] == pytest.approx(figures[part][name]["geometry_mm"])
+                assert entry.geometry_mm == pytest.approx(getattr(figures, part)[name].geometry_mm)
 
 
 def test_worst_frames_are_the_worst_of_different_people(models: tuple[Path, Path], arrays: HeadsetArrays):
@@ -212,5 +217,5 @@ def test_worst_frames_are_the_worst_of_different_people(models: tuple[Path, Path
     assert errors == sorted(errors, reverse=True)
     assert len({frame.person for frame in found}) == len(found) == 8
     predictor = load_headset_predictor(models[0])
-    people = evaluate(predictor.graph, predictor.model, arrays)["people_mm"]
-    assert all(frame.geometry_mm > people[str(frame.person)]["uncalibrated"] for frame in found[:1])
+    people = evaluate(predictor.graph, predictor.model, arrays).people_mm
+    assert all(frame.geometry_mm > people[str(frame.person)].mm["uncalibrated"] for frame in found[:1])

@@ -83,20 +83,18 @@ def test_it_says_where_points_lie_in_each_cameras_own_pictures(
 
 def test_it_learns_what_unseen_people_do(trained: tuple[HeadsetModel, Path]):
     scores = trained[0].scores
-    found, floor = scores["conditions"], scores["floors"]["mean"]
+    found, floor = scores.conditions, scores.floors["mean"]
     # seconds of training: a modular network is at .71 and .20 of the floors then, a holistic one at .88 and .27
     share = {"modular": 0.8}.get(trained[0].architecture, 0.95)
-    assert found["uncalibrated"]["geometry_mm"] < share * floor["geometry_mm"]
-    assert found["uncalibrated"]["gaze_deg"] < 0.4 * floor["gaze_deg"]
-    assert found["uncalibrated"]["r2"] > 0.1
-    assert floor["r2"] < 0.01
-    assert set(scores["cameras"]) == {"left_eye", "right_eye", "mouth"}
+    assert found["uncalibrated"].geometry_mm < share * floor.geometry_mm
+    assert found["uncalibrated"].gaze_deg < 0.4 * floor.gaze_deg
+    assert found["uncalibrated"].r2 > 0.1
+    assert floor.r2 < 0.01
+    assert set(scores.cameras) == {"left_eye", "right_eye", "mouth"}
     lower = [name for name in part_of("mouth") if name not in (*part_of("left_eye"), "tongueOut")]
-    alone = {
-        camera: np.mean([shapes[name] for name in lower]) for camera, shapes in scores["cameras"].items()
-    }
+    alone = {camera: np.mean([shapes[name] for name in lower]) for camera, shapes in scores.cameras.items()}
     assert alone["mouth"] > alone["left_eye"] + 0.05
-    assert set(scores["combined"]) == set(found)
+    assert set(scores.combined) == set(found)
 
 
 def test_the_folder_says_all_there_is_to_say(trained: tuple[HeadsetModel, Path], arrays: HeadsetArrays):
@@ -110,12 +108,12 @@ def test_the_folder_says_all_there_is_to_say(trained: tuple[HeadsetModel, Path],
     )
     for name, typical in model.typical.items():  # the drawn pictures are as small themselves
         assert np.abs(np.array(typical) - arrays.pictures[name][rows].mean(axis=0)).max() <= 0.5
-    assert model.training["recipe"]["architecture"] == model.architecture == folder.name
-    assert len(model.training["history"]) == QUICK.epochs
-    assert model.training["rows"] == len(arrays.rows("train"))
-    assert model.training["data_seed"] == arrays.description["seed"]
-    assert model.scores["unseen"]
-    assert model.training["onnx_difference"] < 1e-4
+    assert model.training.recipe["architecture"] == model.architecture == folder.name
+    assert len(model.training.history) == QUICK.epochs
+    assert model.training.rows == len(arrays.rows("train"))
+    assert model.training.data_seed == arrays.description["seed"]
+    assert model.scores.unseen
+    assert model.training.onnx_difference < 1e-4
     assert [camera.mirrored_of for camera in model.cameras] == [None, "left_eye", None]
     again = evaluate(HeadsetGraph(folder / "network.onnx", model.cameras), model, arrays)
     assert again == model.scores
@@ -140,8 +138,8 @@ def test_a_stopped_training_goes_on_to_the_same_model(arrays: HeadsetArrays, tmp
     epochs = []
     model = train_headset(arrays, recipe, tmp_path / "stopped", progress=lambda done, *_: epochs.append(done))
     assert epochs == [3]
-    assert model.training["resumed_after_epochs"] == 2
-    assert 1000 < model.training["cpu_s"] < 2000
+    assert model.training.resumed_after_epochs == 2
+    assert 1000 < model.training.cpu_s < 2000
     graphs = [(tmp_path / name / "network.onnx").read_bytes() for name in ("whole", "stopped")]
     assert graphs[0] == graphs[1]
 
@@ -172,9 +170,9 @@ def test_a_state_that_cannot_be_written_is_said(arrays: HeadsetArrays, tmp_path:
 )
 def test_settings_train(arrays: HeadsetArrays, tmp_path: Path, settings: dict):
     model = train_headset(arrays, replace(QUICK, epochs=1, **settings), tmp_path / "model")
-    assert np.isfinite(model.training["history"][0]["loss"])
-    assert ("same_seat" in model.scores["conditions"]) == settings.get("calibration", True)
-    assert model.training["recipe"] == replace(QUICK, epochs=1, **settings).settings()
+    assert np.isfinite(model.training.history[0]["loss"])
+    assert ("same_seat" in model.scores.conditions) == settings.get("calibration", True)
+    assert model.training.recipe == replace(QUICK, epochs=1, **settings).settings()
     graph = HeadsetGraph(tmp_path / "model" / "network.onnx", model.cameras)
     pictures, neutral = ({n: seen[at] for n, seen in arrays.pictures.items()} for at in ([1, 2], [0, 5]))
     alone, both = graph.run(pictures), graph.run(pictures, neutral=neutral)
@@ -250,13 +248,13 @@ def test_evaluation_asks_for_what_it_reports(arrays: HeadsetArrays, trained: tup
     rows = np.flatnonzero((arrays.split == "test") & ~arrays.neutral)
     oracle = Oracle(arrays, rows)
     scores = evaluate(oracle, trained[0], arrays)
-    assert scores["rows"] == len(rows)
-    for figures in scores["conditions"].values():
-        assert (figures["geometry_mm"], figures["r2"], figures["mae"]) == (0, 1, 0)
-        assert figures["gaze_deg"] < 1e-6
-    assert scores["components"]["combined"]["uncalibrated"] == 0
-    assert "neutral" not in scores["components"]
-    assert scores["seat"] == {"same_seat": 0.0, "other_seat": 0.0}
+    assert scores.rows == len(rows)
+    for figures in scores.conditions.values():
+        assert (figures.geometry_mm, figures.r2, figures.mae) == (0, 1, 0)
+        assert figures.gaze_deg < 1e-6
+    assert scores.components["combined"].mm["uncalibrated"] == 0
+    assert "neutral" not in scores.components
+    assert scores.seat == {"same_seat": 0.0, "other_seat": 0.0}
     mouths = [neutral for _, neutral, _ in oracle.asked if neutral is not None]
     np.testing.assert_array_equal(mouths[0], arrays.pictures["mouth"][arrays.neutral_rows()[rows]])
     other = arrays.neutral_rows(other_seat=True)[rows]

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
 from regress.runtime.headset.confidence import confidence
+from regress.runtime.headset.figures import ShapeFigures
 from regress.runtime.headset.footage import Footage, line_up
 from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
 from regress.runtime.headset.predict import predict_footage
@@ -74,13 +75,15 @@ def test_confidence_is_the_share_explained_and_falls_with_deviation_and_cameras(
 
 
 def test_calibrated_frames_have_their_own_scores(predictor: HeadsetPredictor):
-    scores = {"cameras": {}, "shapes": {name: {} for name in BLENDSHAPES}}
-    for name in BLENDSHAPES:
-        scores["shapes"][name] = {
-            "uncalibrated": {"r2": 0.5, "mae": 0.1, "rmse": 0.2},
-            "same_seat": {"r2": 0.8, "mae": 0.1, "rmse": 0.1},
+    shapes = {
+        name: {
+            "uncalibrated": ShapeFigures(r2=0.5, mae=0.1, rmse=0.2),
+            "same_seat": ShapeFigures(r2=0.8, mae=0.1, rmse=0.1),
         }
-    scores["shapes"]["tongueOut"]["uncalibrated"] = {"r2": None, "mae": 0.0, "rmse": 0.0}
+        for name in BLENDSHAPES
+    }
+    shapes["tongueOut"]["uncalibrated"] = ShapeFigures(r2=None, mae=0.0, rmse=0.0)
+    scores = dataclasses.replace(predictor.model.scores, cameras={}, shapes=shapes)
     model = dataclasses.replace(predictor.model, scores=scores)
     found = confidence(model, np.full((2, 52), 0.1), np.ones((2, 3), dtype=bool), np.array([False, True]))
     assert found[0, :-1] == pytest.approx(0.5)
@@ -88,7 +91,10 @@ def test_calibrated_frames_have_their_own_scores(predictor: HeadsetPredictor):
     assert found[0, -1] == 0
     with pytest.raises(InputError, match="has no scores"):
         confidence(
-            dataclasses.replace(model, scores={}), np.ones((1, 52)), np.ones((1, 3)), np.zeros(1, dtype=bool)
+            dataclasses.replace(model, scores=None),
+            np.ones((1, 52)),
+            np.ones((1, 3)),
+            np.zeros(1, dtype=bool),
         )
 
 

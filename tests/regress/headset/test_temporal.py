@@ -18,7 +18,9 @@ from regress.errors import InputError
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.taps import fit_taps, fit_temporal
 from regress.runtime.headset.estimates import Estimates
-from regress.runtime.headset.model import Temporal, describe_headset_model, read_headset_model
+from regress.runtime.headset.figures import ClipSummary
+from regress.runtime.headset.folder import describe_headset_model, read_headset_model
+from regress.runtime.headset.model import Temporal
 from regress.runtime.headset.temporal import TAPS, convolve
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.takes import pictures, write_take
@@ -136,11 +138,11 @@ def test_a_models_taps_are_judged_on_other_people(as_clips: HeadsetArrays):
     assert found.people == len(np.unique(as_clips.person[as_clips.split == "train"]))
     assert np.shape(found.taps) == (56, TAPS)
     alone, even, taps = (found.scores[name] for name in ("one frame", "mean of five", "taps"))
-    assert alone["rmse"] == pytest.approx(0.1, rel=0.2)  # clipped at 0 and 1
-    assert taps["rmse"] < 0.7 * alone["rmse"]
-    assert taps["rmse"] == pytest.approx(even["rmse"], rel=0.1)  # faces that are held want even taps
-    assert taps["shake"] < 0.5 * alone["shake"]
-    assert taps["rows"] == (as_clips.split == "test").sum()
+    assert alone.rmse == pytest.approx(0.1, rel=0.2)  # clipped at 0 and 1
+    assert taps.rmse < 0.7 * alone.rmse
+    assert taps.rmse == pytest.approx(even.rmse, rel=0.1)  # faces that are held want even taps
+    assert taps.shake < 0.5 * alone.shake
+    assert taps.rows == (as_clips.split == "test").sum()
 
 
 @pytest.mark.parametrize(
@@ -256,14 +258,24 @@ def test_by_command_taps_go_into_the_model(run, arrays_folder: Path, tmp_path: P
 def test_taps_that_make_it_worse_are_told(
     run, arrays_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    figures = {"r2": None, "blink_r2": None, "gaze_deg": 1.0, "shake": 0.1}
+    figures = ClipSummary(
+        rows=9,
+        geometry_mm=0.0,
+        r2=None,
+        mae=0.1,
+        rmse=0.1,
+        blink_r2=None,
+        gaze_deg=1.0,
+        gaze_open_deg=None,
+        shake=0.1,
+    )
     errors_mm = {"one frame": 0.5, "mean of five": 0.7, "taps": 0.6}
     found = Temporal(
         fps=30,
         taps=((1.0, 0.0, 0.0, 0.0, 0.0),) * 56,
         people=1,
         dataset_hash="",
-        scores={name: figures | {"geometry_mm": error} for name, error in errors_mm.items()},
+        scores={name: replace(figures, geometry_mm=error) for name, error in errors_mm.items()},
     )
     monkeypatch.setattr("regress.learning.headset.taps.fit_temporal", lambda predictor, arrays: found)
     code, _, said = run(

@@ -8,7 +8,9 @@ from onnx import TensorProto, helper, numpy_helper
 
 from facegen.conventions import BLENDSHAPES
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS
-from regress.runtime.headset.model import CameraInput, HeadsetModel, save_headset_model
+from regress.runtime.headset.figures import DeviationFigures, Evaluation, ShapeFigures
+from regress.runtime.headset.folder import save_headset_model
+from regress.runtime.headset.model import CameraInput, HeadsetModel, HeadsetTraining
 from regress.runtime.headset.parts import part_of
 
 NAMES = ("left_eye", "right_eye", "mouth")
@@ -123,13 +125,23 @@ def write_tiny_model(
         "architecture": "modular",
         "calibration": "optional",
         "outputs": COMPUTED,
-        "scores": {
-            "shapes": {
-                shape: {"uncalibrated": {"r2": R2, "mae": 0.1, "rmse": RMSE}} for shape in BLENDSHAPES
+        "scores": Evaluation(
+            split="test",
+            rows=100,
+            people=20,
+            conditions={},
+            combined={},
+            floors={},
+            shapes={
+                shape: {"uncalibrated": ShapeFigures(r2=R2, mae=0.1, rmse=RMSE)} for shape in BLENDSHAPES
             },
-            "cameras": alone,
-        },
-        "training": {"people": 20, "rows": 100, "recipe": {"epochs": 0}},
+            cameras=alone,
+            components={},
+            people_mm={},
+            deviation=DeviationFigures(squared_error_over_variance=1.0, correlation=None),
+            seat={},
+        ),
+        "training": HeadsetTraining(people=20, rows=100, recipe={"epochs": 0}),
         "rig": "anny",
         "dataset_hash": "0" * 64,
         "licences": ("CC0-1.0",),

@@ -77,16 +77,14 @@ def test_both_floors_are_told_apart(model, measured):
             # the record scores all faces where nothing is compared with a neutral one, probes those beside one
             tolerance = 1e-4 if calibrated else 0.15
             recorded = [
-                model.record["scores"][shape][begins + name]["r2"]
-                for shape in OUTPUTS
-                if shape != "browInnerUp"
+                model.record.scores[shape][begins + name].r2 for shape in OUTPUTS if shape != "browInnerUp"
             ]
             found = np.delete(floors[method, calibrated], OUTPUTS.index("browInnerUp"))
             np.testing.assert_allclose(found, recorded, atol=tolerance)
     assert not np.allclose(
         floors["ridge, same rows", True], floors["ridge, undisplaced rows", True], equal_nan=True
     )
-    assert set(model.record["floors"]) == {
+    assert set(model.record.floors) == {
         "ridge",
         "ridge_same_rows",
         "calibrated_ridge",
@@ -127,8 +125,8 @@ def test_the_command_writes_page_and_figures(model, measured, folder, run, tmp_p
 
 def test_probed_faces_of_known_people_are_not_called_unseen_peoples(model, measured, page, tmp_path):
     assert len(re.findall(r"[uU]nseen people", page)) == 3
-    dataset = {**model.record["dataset"], "people_in_training": {"validation": 4, "test": 4}}
-    record = {**model.record, "dataset": dataset}
+    dataset = dataclasses.replace(model.record.dataset, people_in_training={"validation": 4, "test": 4})
+    record = dataclasses.replace(model.record, dataset=dataset)
     said = write_report(
         dataclasses.replace(model, record=record), tmp_path / "report.html", measured
     ).read_text()
@@ -159,7 +157,8 @@ def test_a_dataset_without_neutral_faces_has_the_other_probes(model, folder, tmp
     columns = {name: values[rows] for name, values in columns.items()}
     write_dataset(dataset.take(rows), tmp_path / "data", more=columns)
     given = read_dataset(tmp_path / "data")
-    record = {**model.record, "dataset": {**model.record["dataset"], "keypoints_sha256": given.sha256}}
+    dataset = dataclasses.replace(model.record.dataset, keypoints_sha256=given.sha256)
+    record = dataclasses.replace(model.record, dataset=dataset)
     alone = dataclasses.replace(model, calibrated=None, record=record)
     found = measure(alone, tmp_path / "data")
     assert found.cross_talk == ()

@@ -1,17 +1,13 @@
 """Words of the tables of a headset network's report."""
 
+from regress.learning.headset.comparison import Rivalry
 from regress.report.headset_tables import conditions_table, rivals_table
+from regress.runtime.headset.figures import Summary
 
-ROW = {"rows": 4, "geometry_mm": 1.0, "rival_mm": 2.0, "better": 0.5, "people": 0.5}
-FIGURES = {
-    "rows": 4,
-    "geometry_mm": 1.0,
-    "r2": 0.5,
-    "mae": 0.1,
-    "rmse": 0.2,
-    "blink_r2": 0.9,
-    "gaze_deg": 3.0,
-}
+ROW = Rivalry(rows=4, geometry_mm=1.0, rival_mm=2.0, better=0.5, people=0.5)
+FIGURES = Summary(
+    rows=4, geometry_mm=1.0, r2=0.5, mae=0.1, rmse=0.2, blink_r2=0.9, gaze_deg=3.0, gaze_open_deg=None
+)
 
 
 def test_faces_at_rest_are_no_floor():

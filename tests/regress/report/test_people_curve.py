@@ -2,17 +2,19 @@
 
 import re
 import xml.etree.ElementTree as ElementTree
+from types import SimpleNamespace
 
 import pytest
 
-from regress.report.people_curve import people_curve
+from regress.report.people_curve import CurvePoint, people_curve
 
 
-def point(people: int, alone: float, calibrated: float | None = None) -> tuple:
-    conditions = {"uncalibrated": {"geometry_mm": alone}}
+def point(people: int, alone: float, calibrated: float | None = None) -> CurvePoint:
+    conditions = {"uncalibrated": SimpleNamespace(geometry_mm=alone)}
     if calibrated is not None:
-        conditions["same_seat"] = {"geometry_mm": calibrated}
-    return f"m{people}", people, 10 * people, {"conditions": conditions}
+        conditions["same_seat"] = SimpleNamespace(geometry_mm=calibrated)
+    figures = SimpleNamespace(conditions=conditions)
+    return CurvePoint(title=f"m{people}", people=people, rows=10 * people, figures=figures)
 
 
 def paths(drawing: str) -> dict[str, list[tuple[float, float]]]:

@@ -59,11 +59,11 @@ def test_page_is_well_formed_and_fetches_nothing(page):
 def test_page_holds_every_shape_with_its_figures(model, page):
     rows = dict(re.findall(r"<tr><td>(\w+)</td>(.*?)</tr>", page))
     assert set(rows) == set(BLENDSHAPES) - {"tongueOut"}
-    for shape, scores in model.record["scores"].items():
+    for shape, scores in model.record.scores.items():
         shown = re.findall(r">([^<]+)</td>", rows[shape])
-        figures = [scores[method]["r2"] for method in ("network", "ridge", "mean")]
-        figures += [scores[method]["mae"] for method in ("network", "ridge", "mean")]
-        figures += [scores[method]["pearson"] for method in ("network", "ridge")]
+        figures = [scores[method].r2 for method in ("network", "ridge", "mean")]
+        figures += [scores[method].mae for method in ("network", "ridge", "mean")]
+        figures += [scores[method].pearson for method in ("network", "ridge")]
         for text, figure in zip(shown, figures, strict=True):
             if figure is None:
                 assert text == "\N{EN DASH}"
@@ -75,14 +75,14 @@ def test_page_says_what_a_neutral_frame_brings(model, page):
     start = page.index("What a neutral frame brings")
     shown = re.findall(r"<td>([^<]+)</td>\s*</tr>", page[start : page.index("<h2>", start)])
     recorded = [
-        model.record[landmarks]["calibrated"][key]
+        getattr(getattr(model.record, landmarks)["calibrated"], key)
         for landmarks in ("summary", "as_detected")
         for key in ("mean_r2_visible", "mean_r2")
     ]
     assert [float(text.replace("\N{MINUS SIGN}", "-")) for text in shown] == pytest.approx(recorded, abs=6e-4)
     without = dataclasses.replace(model, calibrated=None)
-    summary = {key: value for key, value in model.record["summary"].items() if key != "calibrated"}
-    without = dataclasses.replace(without, record={**model.record, "summary": summary})
+    summary = {key: value for key, value in model.record.summary.items() if key != "calibrated"}
+    without = dataclasses.replace(without, record=dataclasses.replace(model.record, summary=summary))
     assert "neutral frame" not in render_page(content_of(without))
 
 
@@ -90,7 +90,7 @@ def test_page_says_plainly_what_cannot_be_seen(model, page):
     start = page.index("What 68 points cannot show")
     section = page[start : page.index("<h2>", start)]
     named = set(re.findall(r"<code>(\w+)</code>", section))
-    scores = {shape: scores["network"]["r2"] for shape, scores in model.record["scores"].items()}
+    scores = {shape: scores["network"].r2 for shape, scores in model.record.scores.items()}
     weak = {shape for shape, r2 in scores.items() if r2 is not None and r2 < 0.3}
     inferred = set(scores) - set(VISIBLE_SHAPES) - weak
     assert weak, "the drawn faces are meant to hide some shapes"
@@ -99,8 +99,12 @@ def test_page_says_plainly_what_cannot_be_seen(model, page):
 
 
 def _of_sessions(model, known):
-    dataset = {**model.record["dataset"], "people_in_training": {"validation": known, "test": known}}
-    return dataclasses.replace(model, record={**model.record, "dataset": dataset})
+    return _of_dataset(model, people_in_training={"validation": known, "test": known})
+
+
+def _of_dataset(model, **changes: object):
+    dataset = dataclasses.replace(model.record.dataset, **changes)
+    return dataclasses.replace(model, record=dataclasses.replace(model.record, dataset=dataset))
 
 
 def test_page_calls_nobody_unseen_whom_training_knows(model, page):
@@ -113,16 +117,15 @@ def test_page_calls_nobody_unseen_whom_training_knows(model, page):
     assert "on sessions the networks have never seen" in said
     assert "on unseen sessions" in said
     assert not re.search(r"unseen people|people (they|the networks) have never|people that appear", said)
-    dataset = {key: value for key, value in model.record["dataset"].items() if key != "people_in_training"}
-    old = dataclasses.replace(model, record={**model.record, "dataset": dataset})
+    old = _of_dataset(model, people_in_training={})
     assert render_page(content_of(old)) == page
 
 
 def test_page_says_how_the_model_was_made(model, page):
-    dataset = model.record["dataset"]
+    dataset = model.record.dataset
     for value in (
-        dataset["spec_hash"],
-        dataset["keypoints_sha256"],
+        dataset.spec_hash,
+        dataset.keypoints_sha256,
         "CC0-1.0",
         model.features.reference_sha256,
     ):
@@ -134,8 +137,7 @@ def test_figures_are_drawn(page):
 
 
 def test_names_from_a_dataset_are_escaped(model):
-    record = {**model.record, "dataset": {**model.record["dataset"], "name": "<script>alert(1)</script>"}}
-    assert "<script>" not in render_page(content_of(dataclasses.replace(model, record=record)))
+    assert "<script>" not in render_page(content_of(_of_dataset(model, name="<script>alert(1)</script>")))
 
 
 def test_a_model_read_back_gives_the_same_page(model, page, tmp_path):
@@ -146,8 +148,8 @@ def test_a_model_read_back_gives_the_same_page(model, page, tmp_path):
 
 
 def test_a_model_without_a_record_is_refused(model, tmp_path):
-    with pytest.raises(ModelError, match=r"no 'scores'.*regress train"):
-        write_report(dataclasses.replace(model, record={}), tmp_path / "report.html")
+    with pytest.raises(ModelError, match=r"no training record.*regress train"):
+        write_report(dataclasses.replace(model, record=None), tmp_path / "report.html")
 
 
 def test_a_place_that_cannot_be_written_is_said(model, tmp_path):

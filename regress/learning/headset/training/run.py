@@ -15,8 +15,9 @@ from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.export import export_graph
 from regress.learning.headset.training.loop import Progress, Training
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
+from regress.runtime.headset.folder import save_headset_model
 from regress.runtime.headset.graph import HeadsetGraph
-from regress.runtime.headset.model import HeadsetModel, save_headset_model
+from regress.runtime.headset.model import HeadsetModel, HeadsetTraining
 from regress.runtime.headset.outputs import WEIGHTS
 from regress.runtime.headset.parts import encoder_owners, part_of
 from regress.runtime.headset.typical import typical_picture
@@ -81,21 +82,21 @@ def train_headset(
         points=points,
         typical={name: _typical(pictures, training.rows) for name, pictures in arrays.pictures.items()},
         outputs=(*GRAPH_OUTPUTS, *map(points_output, points)),
-        training={
-            "recipe": recipe.settings(),
-            "data_seed": description.get("seed"),
-            "rows": len(training.rows),
-            "people": len(set(arrays.person[training.rows].tolist())),
-            "parameters": sum(parameter.numel() for parameter in network.parameters()),
-            "history": training.history,
-            "cpu_s": training.cpu_s,
-            "resumed_after_epochs": resumed,
-            "onnx_difference": difference,
-            "deviation_scale": scale.tolist(),
-            "mean_weights": training.targets.mean[:WEIGHTS].tolist(),
-            "mean_gaze": training.targets.mean[WEIGHTS:].tolist(),
-            "versions": {"facegen": version("facegen"), "torch": torch.__version__},
-        },
+        training=HeadsetTraining(
+            recipe=recipe.settings(),
+            data_seed=description.get("seed"),
+            rows=len(training.rows),
+            people=len(set(arrays.person[training.rows].tolist())),
+            parameters=sum(parameter.numel() for parameter in network.parameters()),
+            history=tuple(training.history),
+            cpu_s=training.cpu_s,
+            resumed_after_epochs=resumed,
+            onnx_difference=difference,
+            deviation_scale=tuple(scale.tolist()),
+            mean_weights=tuple(training.targets.mean[:WEIGHTS].tolist()),
+            mean_gaze=tuple(training.targets.mean[WEIGHTS:].tolist()),
+            versions={"facegen": version("facegen"), "torch": torch.__version__},
+        ),
         dataset_hash=description.get("dataset_hash", ""),
         rig=description.get("rig", ""),
         licences=_licences(description),

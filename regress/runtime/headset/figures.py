@@ -1,0 +1,159 @@
+"""Holds a headset network's figures on frames with exact labels, as model.json and reports have them."""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class Summary:
+    """Figures over frames; None where they are undefined.
+
+    Parameters
+    ----------
+    rows
+        Frames.
+    geometry_mm
+        Mean distance of the face's vertices from their true places.
+    r2
+        Mean over the 51 shapes that cameras can see (not tongueOut) of the share of variance explained.
+    mae, rmse
+        Of the 51 weights.
+    blink_r2
+        Mean of both lids.
+    gaze_deg
+        Mean angle between predicted and true optical axes.
+    gaze_open_deg
+        The same of open eyes: nobody sees where a closed eye looks.
+    """
+
+    rows: int
+    geometry_mm: float
+    r2: float | None
+    mae: float
+    rmse: float
+    blink_r2: float | None
+    gaze_deg: float
+    gaze_open_deg: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClipSummary(Summary):
+    """Figures over the frames of clips.
+
+    Parameters
+    ----------
+    shake
+        Root mean square change of a weight's error from frame to frame.
+    """
+
+    shake: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShapeFigures:
+    """Figures of one shape; ``r2`` is None where it never moves."""
+
+    r2: float | None
+    mae: float
+    rmse: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class GroupErrors:
+    """Mean geometry errors of a group of frames.
+
+    Parameters
+    ----------
+    rows
+        Frames.
+    mm
+        By condition.
+    """
+
+    rows: int
+    mm: dict[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeviationFigures:
+    """How well predicted standard deviations are calibrated.
+
+    Parameters
+    ----------
+    squared_error_over_variance
+        Mean squared error over mean predicted variance; 1 is calibrated.
+    correlation
+        Of absolute error and predicted deviation; None where all deviations are equal.
+    """
+
+    squared_error_over_variance: float
+    correlation: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evaluation:
+    """All figures of a network on one split of arrays, unrounded.
+
+    Parameters
+    ----------
+    split, rows, people
+        Which frames, how many, and of how many people.
+    people_in_training
+        How many of these people the arrays' training split has too.
+    unseen
+        Whether it is known that the network was trained on none of these people.
+    dataset_hash
+        Of the arrays.
+    conditions, combined
+        Summaries by condition: of ordinary frames, and of frames of the component ``combined``.
+    floors
+        Summaries of the baselines ``mean`` (always the training mean) and ``rest`` (always the resting face).
+    shapes
+        By shape, then by calibration.
+    cameras
+        R2 by camera, then by shape: from this camera alone.
+    components, people_mm
+        Errors by component of the sampler, and by person.
+    deviation
+        How well predicted deviations are calibrated.
+    seat
+        By calibration, share of frames whose neutral pictures the network takes for those of the frame's seat.
+    """
+
+    split: str
+    rows: int
+    people: int
+    people_in_training: int = 0
+    unseen: bool = False
+    dataset_hash: str = ""
+    conditions: dict[str, Summary]
+    combined: dict[str, Summary]
+    floors: dict[str, Summary]
+    shapes: dict[str, dict[str, ShapeFigures]]
+    cameras: dict[str, dict[str, float | None]]
+    components: dict[str, GroupErrors]
+    people_mm: dict[str, GroupErrors]
+    deviation: DeviationFigures
+    seat: dict[str, float]
+
+
+_GROUPED = ("components", "people_mm")
+
+
+def evaluation_to_json(evaluation: Evaluation) -> dict[str, Any]:
+    """JSON data of an evaluation; a group's errors stand beside its rows."""
+    document = asdict(evaluation)
+    for name in _GROUPED:
+        document[name] = {
+            key: {"rows": group["rows"], **group["mm"]} for key, group in document[name].items()
+        }
+    return document
+
+
+def evaluation_from_json(document: dict[str, Any]) -> dict[str, Any]:
+    """The same data with the keys of `Evaluation` and its records, not yet checked."""
+    grouped = {}
+    for name in _GROUPED:
+        groups = {key: dict(group) for key, group in document.get(name, {}).items()}
+        grouped[name] = {key: {"rows": group.pop("rows", None), "mm": group} for key, group in groups.items()}
+    return {**document, **grouped}
