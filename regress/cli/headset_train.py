@@ -1,6 +1,5 @@
 """``regress headset train``: from arrays of pictures to a model."""
 
-import dataclasses
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,7 +10,7 @@ import typer
 from facegen.console import progress, say
 from regress.errors import InputError
 from regress.learning.headset.architectures import ARCHITECTURES
-from regress.learning.headset.recipe import WITHHOLDINGS, HeadsetRecipe
+from regress.learning.headset.recipe import WITHHOLDINGS, HeadsetRecipe, recipe_of
 from regress.runtime.headset.parts import without_side
 
 _PLAIN = HeadsetRecipe()
@@ -118,17 +117,11 @@ def side_notes(cameras: tuple[str, ...]) -> list[str]:
 
 
 def _recipe(chosen: dict[str, object], pairs: Sequence[str]) -> HeadsetRecipe:
-    """The recipe of the options and of ``NAME=VALUE`` pairs, whose values have the type of the default."""
-    defaults = dataclasses.asdict(_PLAIN)
-    others = [name for name in defaults if name not in chosen]
+    """The recipe of the options and of ``NAME=VALUE`` pairs."""
+    others = [name for name in _PLAIN.settings() if name not in chosen]
     for pair in pairs:
         name, sign, text = pair.partition("=")
         if not sign or name not in others:
             raise InputError(f"--set {pair!r} is not NAME=VALUE with one of {', '.join(others)}")
-        try:
-            words = {"true": True, "false": False}
-            chosen[name] = words[text] if isinstance(defaults[name], bool) else type(defaults[name])(text)
-        except (ValueError, KeyError):
-            kind = {bool: "true or false", int: "a whole number", float: "a number"}[type(defaults[name])]
-            raise InputError(f"--set {name} is {text!r}; {kind} is needed") from None
-    return HeadsetRecipe(**chosen)
+        chosen[name] = text
+    return recipe_of(chosen)

@@ -4,7 +4,7 @@ from functools import cache
 from typing import TYPE_CHECKING, TypeVar
 
 from facegen.refusals import refusal
-from regress.errors import ModelError
+from regress.errors import InputError
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
@@ -24,7 +24,7 @@ def checked(kind: type[Record], document: object) -> Record:
 
     Raises
     ------
-    ModelError
+    InputError
         Names each refused key, its value and what is allowed.
     """
     from pydantic import ValidationError
@@ -32,7 +32,7 @@ def checked(kind: type[Record], document: object) -> Record:
     try:
         return _adapter(kind).validate_python(document)
     except ValidationError as error:
-        raise ModelError(refusal(error, kind)) from error
+        raise InputError(refusal(error, kind)) from error
 
 
 @cache

@@ -1,10 +1,13 @@
-"""All settings of a headset network's training, in one place."""
+"""Lists and checks all settings of a headset network's training."""
 
-from dataclasses import dataclass, fields
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Annotated, Any, ClassVar, Literal
 
-from regress.errors import InputError
+from annotated_types import Ge, Interval
+
 from regress.learning.headset.architectures import ARCHITECTURES
+from regress.runtime.documents import checked
 
 WITHHOLDINGS = ("none", "combined", "regions")
 """What training may leave out: ``combined`` drops frames with an open jaw (> .25) and closed lids (> .2);
@@ -14,9 +17,15 @@ _DETAIL = 1.5
 """Side of squares as a multiple of ``input_size``: more would alias when they are sampled linearly."""
 
 
+Count = Annotated[int, Ge(1)]
+CountOrNone = Annotated[int, Ge(0)]
+Share = Annotated[float, Interval(ge=0, le=1)]
+Size = Annotated[float, Ge(0)]
+
+
 @dataclass(frozen=True, kw_only=True)
 class HeadsetRecipe:
-    """How a headset network is built and trained.
+    """How a headset network is built and trained; `recipe_of` checks the values.
 
     Parameters
     ----------
@@ -70,77 +79,47 @@ class HeadsetRecipe:
         Train on the first so many people only (learning curve); 0 means all.
     """
 
-    architecture: str = "modular"
-    seed: int = 0
-    epochs: int = 30
-    batch: int = 32
-    learning_rate: float = 1.5e-3
-    matrix_learning_rate: float = 0.02
-    weight_decay: float = 0.3
-    input_size: int = 64
-    code: int = 96
-    hidden: int = 192
-    modulation: float = 0.3
-    skip: int = 24
-    part_loss: float = 1.0
-    part_loss_elsewhere: float = 0.05
-    geometry_loss: float = 0.5
-    points_loss: float = 10.0
+    architecture: Literal[tuple(ARCHITECTURES)] = "modular"
+    seed: CountOrNone = 0
+    epochs: Count = 30
+    batch: Count = 32
+    learning_rate: Size = 1.5e-3
+    matrix_learning_rate: Size = 0.02
+    weight_decay: Size = 0.3
+    input_size: Count = 64
+    code: Count = 96
+    hidden: Count = 192
+    modulation: Share = 0.3
+    skip: CountOrNone = 24
+    part_loss: Size = 1.0
+    part_loss_elsewhere: Size = 0.05
+    geometry_loss: Size = 0.5
+    points_loss: Size = 10.0
     second_look: bool = True
-    gaze_loss: float = 3.0
-    camera_dropout: float = 0.2
+    gaze_loss: Size = 3.0
+    camera_dropout: Share = 0.2
     calibration: bool = True
-    calibration_dropout: float = 0.4
-    other_seat: float = 0.15
-    jitter_neutral: float = 0.1
-    shut_eyes: int = 1
+    calibration_dropout: Share = 0.4
+    other_seat: Share = 0.15
+    jitter_neutral: Share = 0.1
+    shut_eyes: CountOrNone = 1
     mirror: bool = True
-    shift: float = 0.03
-    scale: float = 0.04
-    rotation_deg: float = 3.0
-    randomise: float = 0.0
-    withhold: str = "none"
-    people: int = 0
+    shift: Size = 0.03
+    scale: Size = 0.04
+    rotation_deg: Size = 3.0
+    randomise: Size = 0.0
+    withhold: Literal[WITHHOLDINGS] = "none"
+    people: CountOrNone = 0
+
+    __pydantic_config__: ClassVar[Mapping[str, str]] = {"extra": "forbid"}
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be trained.
-
-        Raises
-        ------
-        InputError
-            Names the setting, its value and what is allowed.
-        """
-        for name, allowed in (("architecture", ARCHITECTURES), ("withhold", WITHHOLDINGS)):
-            value = getattr(self, name)
-            if value not in allowed:
-                raise InputError(f"{name} is {value!r}; {', '.join(allowed)} are allowed")
-        for name in ("epochs", "batch", "input_size", "code", "hidden"):
-            if getattr(self, name) < 1:
-                raise InputError(f"{name} is {getattr(self, name)}; 1 or more is allowed")
-        for name in ("camera_dropout", "calibration_dropout", "other_seat", "jitter_neutral", "modulation"):
-            if not 0 <= getattr(self, name) <= 1:
-                raise InputError(f"{name} is {getattr(self, name)}; 0 to 1 is allowed")
+        """Refuse shares of training frames that are more than all."""
         if self.other_seat + self.jitter_neutral > 1:
-            raise InputError(
+            raise ValueError(
                 f"other_seat and jitter_neutral are {self.other_seat} and {self.jitter_neutral}; "
                 "together they may be 1 at most"
             )
-        unsigned = (
-            "seed",
-            "learning_rate",
-            "matrix_learning_rate",
-            "weight_decay",
-            "part_loss",
-            "part_loss_elsewhere",
-            "geometry_loss",
-            "points_loss",
-            "gaze_loss",
-            "skip",
-            "shut_eyes",
-        )
-        for name in (*unsigned, "shift", "scale", "rotation_deg", "randomise", "people"):
-            if getattr(self, name) < 0:
-                raise InputError(f"{name} is {getattr(self, name)}; 0 or more is allowed")
 
     @property
     def square_size(self) -> int:
@@ -149,4 +128,15 @@ class HeadsetRecipe:
 
     def settings(self) -> dict[str, Any]:
         """The fields as JSON data."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+        return asdict(self)
+
+
+def recipe_of(settings: Mapping[str, Any]) -> HeadsetRecipe:
+    """The recipe of settings, numbers as text among them; others have their defaults.
+
+    Raises
+    ------
+    InputError
+        Names each refused setting, its value and what is allowed.
+    """
+    return checked(HeadsetRecipe, settings)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from facegen.files import write_whole
-from regress.errors import ModelError
+from regress.errors import InputError, ModelError
 from regress.runtime.documents import checked
 from regress.runtime.headset.figures import evaluation_from_json, evaluation_to_json
 from regress.runtime.headset.model import HeadsetModel
@@ -102,5 +102,5 @@ def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
     try:
         scores = document.get("scores")
         return checked(HeadsetModel, {**document, "scores": evaluation_from_json(scores) if scores else None})
-    except (ModelError, TypeError, AttributeError, ValueError) as error:
+    except (InputError, TypeError, AttributeError, ValueError) as error:
         raise ModelError(f"{path} is not a headset model's description: {error}") from error

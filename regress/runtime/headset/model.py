@@ -4,17 +4,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
+from annotated_types import Ge, Le, Len
 
 from facegen.conventions import BLENDSHAPES
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS
 from regress.runtime.headset.figures import ClipSummary, Evaluation
 from regress.runtime.headset.typical import TYPICAL_SIDE
 
-GreyRow = Annotated[
-    tuple[Annotated[int, Field(ge=0, le=255)], ...], Field(min_length=TYPICAL_SIDE, max_length=TYPICAL_SIDE)
-]
-GreySquare = Annotated[tuple[GreyRow, ...], Field(min_length=TYPICAL_SIDE, max_length=TYPICAL_SIDE)]
+GreyRow = Annotated[tuple[Annotated[int, Ge(0), Le(255)], ...], Len(TYPICAL_SIDE, TYPICAL_SIDE)]
+GreySquare = Annotated[tuple[GreyRow, ...], Len(TYPICAL_SIDE, TYPICAL_SIDE)]
 """24 x 24 grey levels, whole numbers from 0 to 255."""
 
 

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
-from regress.errors import ModelError
+from regress.errors import InputError, ModelError
 from regress.runtime.documents import checked
 from regress.runtime.features import Features
 from regress.runtime.model.model import Calibrated, Model, Normalisation
@@ -113,7 +113,7 @@ def _read_document(path: Path) -> _Document:
         )
     try:
         return checked(_Document, {**document, "record": document.get("record") or None})
-    except ModelError as error:
+    except InputError as error:
         raise ModelError(f"{path} lacks a part of the model: {error}") from error
 
 

@@ -55,9 +55,9 @@ def test_training_by_command_keeps_every_setting(run, arrays_folder: Path, tmp_p
     ("words", "message"),
     [
         (["--set", "epoch=2"], "--set 'epoch=2' is not NAME=VALUE with one of batch, "),
-        (["--set", "batch=few"], "--set batch is 'few'; a whole number is needed"),
-        (["--set", "mirror=maybe"], "--set mirror is 'maybe'; true or false is needed"),
-        (["--camera-dropout", "2"], "camera_dropout is 2.0; 0 to 1 is allowed"),
+        (["--set", "batch=few"], 'batch = "few": must be a whole number'),
+        (["--set", "mirror=maybe"], 'mirror = "maybe": must be a boolean'),
+        (["--camera-dropout", "2"], "camera_dropout = 2.0: must be less than or equal to 1"),
     ],
 )
 def test_settings_that_cannot_be_are_one_sentence(

@@ -18,7 +18,7 @@ from regress.learning.headset.accuracy import share_better, summary  # noqa: E40
 from regress.learning.headset.architectures import ARCHITECTURES  # noqa: E402
 from regress.learning.headset.arrays import HeadsetArrays  # noqa: E402
 from regress.learning.headset.evaluation import evaluate  # noqa: E402
-from regress.learning.headset.recipe import HeadsetRecipe  # noqa: E402
+from regress.learning.headset.recipe import HeadsetRecipe, recipe_of  # noqa: E402
 from regress.learning.headset.training import train_headset  # noqa: E402
 from regress.learning.headset.training.batches import Frames  # noqa: E402
 from regress.runtime.headset import HeadsetGraph, read_headset_model  # noqa: E402
@@ -291,17 +291,17 @@ def test_the_share_of_better_frames_counts_ties_half():
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ({"architecture": "other"}, "architecture is 'other'; modular, holistic"),
-        ({"withhold": "all"}, "withhold is 'all'"),
-        ({"epochs": 0}, "epochs is 0"),
-        ({"modulation": 1.5}, "modulation is 1.5"),
+        ({"architecture": "other"}, "architecture = \"other\": must be 'modular' or 'holistic'"),
+        ({"withhold": "all"}, 'withhold = "all": must be'),
+        ({"epochs": 0}, "epochs = 0: must be greater than or equal to 1"),
+        ({"modulation": 1.5}, "modulation = 1.5: must be less than or equal to 1"),
         ({"other_seat": 0.7, "jitter_neutral": 0.7}, "together"),
-        ({"randomise": -1.0}, "randomise is -1.0"),
+        ({"randomise": -1.0}, "randomise = -1.0: must be greater than or equal to 0"),
     ],
 )
 def test_impossible_settings_are_refused(settings: dict, message: str):
     with pytest.raises(InputError, match=message):
-        HeadsetRecipe(**settings)
+        recipe_of(settings)
 
 
 def test_nothing_but_training_loads_torch():

@@ -11,7 +11,7 @@ import torch
 
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
-from regress.learning.headset.recipe import HeadsetRecipe
+from regress.learning.headset.recipe import HeadsetRecipe, recipe_of
 from regress.learning.headset.training.export import export_graph
 from regress.learning.headset.training.loop import Progress, Training
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
@@ -47,13 +47,13 @@ def train_headset(
     Raises
     ------
     InputError
-        Where no training row is left, or the checkpoint belongs to another training.
+        Where a setting is impossible, no training row is left, or the checkpoint belongs to another training.
     Interrupted
         On Ctrl-C.
     OutputError
         Where the model cannot be written.
     """
-    folder = Path(folder)
+    folder, recipe = Path(folder), recipe_of(recipe.settings())
     check_place(folder, HEADSET)
     checkpoint = folder.parent / f".{folder.name}.checkpoint"
     training = Training(arrays, recipe, checkpoint)
