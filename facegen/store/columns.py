@@ -1,7 +1,7 @@
 """Lists the columns of the keypoint shards: what each says of itself in the file, and where its values come from."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import pyarrow as pa
@@ -10,6 +10,8 @@ from facegen.conventions import BLENDSHAPES, SPLITS
 from facegen.labels import Keypoints
 from facegen.labels.keypoint_label import KeypointColumn
 from facegen.sampling import COMPONENT_NAMES, Samples
+
+_DRAWN = {field.name for field in fields(Samples)}
 
 IDENTITY = "identity"
 """The column whose width is the rig's number of identity components."""
@@ -45,33 +47,30 @@ class Column:
         )
 
 
-def _drawn(name: str, kind: pa.DataType, description: str, *, shape: str = "", unit: str = "") -> Column:
-    """A column that is a field of `Samples`."""
-    return Column(
-        name=name,
-        kind=kind,
-        values=lambda samples, _: getattr(samples, name),
-        description=description,
-        shape=shape,
-        unit=unit,
-    )
+def _column(
+    name: str,
+    kind: pa.DataType,
+    description: str,
+    *,
+    values: Callable[[Samples, Keypoints], np.ndarray] | None = None,
+    shape: str = "",
+    unit: str = "",
+) -> Column:
+    """A column; without ``values`` it holds the field of its name of the rows, or else of their labels."""
 
+    def own(samples: Samples, keypoints: Keypoints) -> np.ndarray:
+        return getattr(samples if name in _DRAWN else keypoints, name)
 
-def _labelled(name: str, kind: pa.DataType, description: str, *, shape: str = "", unit: str = "") -> Column:
-    """A column that is a field of `Keypoints`."""
-    return replace(
-        _drawn(name, kind, description, shape=shape, unit=unit),
-        values=lambda _, keypoints: getattr(keypoints, name),
-    )
+    return Column(name=name, kind=kind, values=values or own, description=description, shape=shape, unit=unit)
 
 
 def _further(column: KeypointColumn) -> Column:
     """A column of a further label."""
-    return Column(
-        name=column.name,
-        kind=_floats(int(np.prod(column.shape))),
+    return _column(
+        column.name,
+        _floats(int(np.prod(column.shape))),
+        column.description,
         values=lambda _, keypoints: keypoints.further[column.name],
-        description=column.description,
         shape=" ".join(map(str, column.shape)),
         unit=column.unit,
     )
@@ -86,56 +85,56 @@ def _floats(width: int) -> pa.DataType:
 
 
 _COLUMNS = (
-    _drawn("sample", pa.int64(), "number of the sample in the dataset"),
-    _drawn("person", pa.int64(), "number of the person"),
-    _drawn("session", pa.int64(), "number of the session: one donning of the headset"),
-    _drawn("clip", pa.int64(), "number of the clip"),
-    _drawn("frame", pa.int32(), "number of the frame in its clip"),
-    _drawn("time_s", pa.float64(), "time from the start of the clip", unit="s"),
-    Column(
-        name="split",
-        kind=pa.string(),
+    _column("sample", pa.int64(), "number of the sample in the dataset"),
+    _column("person", pa.int64(), "number of the person"),
+    _column("session", pa.int64(), "number of the session: one donning of the headset"),
+    _column("clip", pa.int64(), "number of the clip"),
+    _column("frame", pa.int32(), "number of the frame in its clip"),
+    _column("time_s", pa.float64(), "time from the start of the clip", unit="s"),
+    _column(
+        "split",
+        pa.string(),
+        "train, validation or test",
         values=lambda samples, _: _named(SPLITS, samples.split),
-        description="train, validation or test",
     ),
-    _drawn("neutral", pa.bool_(), "a neutral face"),
-    Column(
-        name="component",
-        kind=pa.string(),
+    _column("neutral", pa.bool_(), "a neutral face"),
+    _column(
+        "component",
+        pa.string(),
+        "what made the expression: " + " ".join(COMPONENT_NAMES),
         values=lambda samples, _: _named(COMPONENT_NAMES, samples.component),
-        description="what made the expression: " + " ".join(COMPONENT_NAMES),
     ),
-    Column(
-        name="sex",
-        kind=pa.string(),
+    _column(
+        "sex",
+        pa.string(),
+        "female or male",
         values=lambda samples, _: np.where(samples.female, "female", "male").astype(object),
-        description="female or male",
     ),
-    _drawn("age_years", pa.float32(), "age", unit="years"),
-    _drawn("ancestry", _floats(3), "shares of African, Asian and Caucasian ancestry"),
-    _drawn("weights", _floats(len(BLENDSHAPES)), "ARKit blendshape weights: " + " ".join(BLENDSHAPES)),
-    _drawn(IDENTITY, pa.list_(pa.float32()), "coefficients of the rig's identity basis"),
-    _drawn("gaze", _floats(6), "unit optical axes, head frame, subject's left eye first", shape="2 3"),
-    _drawn(
+    _column("age_years", pa.float32(), "age", unit="years"),
+    _column("ancestry", _floats(3), "shares of African, Asian and Caucasian ancestry"),
+    _column("weights", _floats(len(BLENDSHAPES)), "ARKit blendshape weights: " + " ".join(BLENDSHAPES)),
+    _column(IDENTITY, pa.list_(pa.float32()), "coefficients of the rig's identity basis"),
+    _column("gaze", _floats(6), "unit optical axes, head frame, subject's left eye first", shape="2 3"),
+    _column(
         "camera_from_head",
         pa.list_(pa.float64(), 16),
         "head pose in the keypoint camera",
         shape="4 4",
         unit="m",
     ),
-    _drawn("intrinsics", pa.list_(pa.float64(), 4), "fx fy cx cy of the keypoint camera", unit="px"),
-    _labelled("image_size", pa.list_(pa.int32(), 2), "width and height of the keypoint camera", unit="px"),
-    _labelled("points_2d", _floats(136), "exact landmarks", shape="68 2", unit="px"),
-    _labelled(
+    _column("intrinsics", pa.list_(pa.float64(), 4), "fx fy cx cy of the keypoint camera", unit="px"),
+    _column("image_size", pa.list_(pa.int32(), 2), "width and height of the keypoint camera", unit="px"),
+    _column("points_2d", _floats(136), "exact landmarks", shape="68 2", unit="px"),
+    _column(
         "detected_2d",
         _floats(136),
         "landmarks with detector noise; NaN where no face is found",
         shape="68 2",
         unit="px",
     ),
-    _labelled("points_3d", _floats(204), "landmarks in the head frame", shape="68 3", unit="m"),
-    _labelled("visibility", pa.list_(pa.uint8(), 68), "0 outside the picture, 1 hidden, 2 visible"),
-    _labelled("face_width", pa.float32(), "distance between landmarks 0 and 16", unit="px"),
+    _column("points_3d", _floats(204), "landmarks in the head frame", shape="68 3", unit="m"),
+    _column("visibility", pa.list_(pa.uint8(), 68), "0 outside the picture, 1 hidden, 2 visible"),
+    _column("face_width", pa.float32(), "distance between landmarks 0 and 16", unit="px"),
 )
 
 
