@@ -98,18 +98,9 @@ def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:
     )
     noise[frames.dropped] = np.nan
     return Samples(
-        sample=positions.sample,
-        person=positions.person,
-        session=positions.session,
-        clip=positions.clip,
-        frame=positions.frame,
-        time_s=positions.time_s,
-        neutral=positions.neutral,
+        **vars(positions),
+        **vars(people),
         split=split_of(spec, positions.session if spec.split == "session" else positions.person),
-        female=people.female,
-        age_years=people.age_years,
-        ancestry=people.ancestry,
-        identity=people.identity,
         weights=frames.weights,
         gaze=frames.gaze,
         component=frames.component,
