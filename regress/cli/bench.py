@@ -5,7 +5,6 @@ import json
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 
 
@@ -24,6 +23,8 @@ def bench(
     if is_headset_model(model):
         timings = time_headset(load_headset_predictor(model))
     else:
+        import numpy as np
+
         loaded = load_model(model)
         noise = np.random.default_rng(0).normal(size=(100, 68, 2)) * 0.01
         timings = time_model(loaded, (loaded.features.mean_shape + noise) * 300 + 900)

@@ -2,16 +2,18 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from facegen.console import say
 from regress.errors import InputError
-from regress.runtime.headset.footage import Footage, line_up
-from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
-from regress.runtime.headset.predictor import HeadsetPredictor
-from regress.runtime.headset.recordings import read_recording, read_rendered
 from regress.runtime.ready_made import HEADSET, ready_made_models
+
+if TYPE_CHECKING:
+    from regress.runtime.headset.footage import Footage
+    from regress.runtime.headset.neutral import Neutral
+    from regress.runtime.headset.predictor import HeadsetPredictor
 
 
 def model_and_dataset(
@@ -46,7 +48,7 @@ def model_and_dataset(
 
 
 def camera_paths(
-    predictor: HeadsetPredictor, pairs: Sequence[str], short: dict[str, Path]
+    predictor: "HeadsetPredictor", pairs: Sequence[str], short: dict[str, Path]
 ) -> dict[str, Path]:
     """Paths by camera, of all options.
 
@@ -84,14 +86,14 @@ def check_stills(**asked: bool) -> None:
 
 
 def read_footage(
-    predictor: HeadsetPredictor,
+    predictor: "HeadsetPredictor",
     dataset: Path | None,
     paths: dict[str, Path],
     *,
     from_start: bool,
     fps: float | None,
     bits: int | None = None,
-) -> Footage:
+) -> "Footage":
     """The cameras' frames, side by side, from a dataset or from a path each.
 
     Raises
@@ -99,6 +101,9 @@ def read_footage(
     InputError
         Where neither or both are given, or they cannot be read.
     """
+    from regress.runtime.headset.footage import line_up
+    from regress.runtime.headset.recordings import read_recording, read_rendered
+
     if (dataset is None) == (not paths):
         raise InputError(
             f"give either a dataset or the cameras' paths ({', '.join(predictor.sizes)}), as --camera NAME=PATH"
@@ -115,13 +120,13 @@ def read_footage(
 
 
 def read_neutrals(
-    predictor: HeadsetPredictor,
-    footage: Footage,
+    predictor: "HeadsetPredictor",
+    footage: "Footage",
     named: Sequence[str],
     *,
     still: bool,
     bits: int | None = None,
-) -> list[Neutral]:
+) -> "list[Neutral]":
     """Neutral pictures as the options ask for them; none where frames are to be seen alone.
 
     Raises
@@ -129,6 +134,8 @@ def read_neutrals(
     InputError
         Where the model, the footage or the options have no use for them.
     """
+    from regress.runtime.headset.neutral import Neutral, neutral_of_frame
+
     if not named or list(named) == ["none"]:
         return []
     if predictor.model.calibration == "none":
@@ -146,7 +153,7 @@ def read_neutrals(
     return [Neutral(row=row, pictures=neutral_of_frame(footage, row)) for row in rows]
 
 
-def _row(footage: Footage, named: str) -> int:
+def _row(footage: "Footage", named: str) -> int:
     """Row of a frame by its number, where several neutral frames are named."""
     if not (named.isdecimal() and int(named) in footage.numbers):
         first, last = footage.numbers[[0, -1]]
@@ -157,9 +164,11 @@ def _row(footage: Footage, named: str) -> int:
 
 
 def _one_neutral(
-    predictor: HeadsetPredictor, footage: Footage, named: str, bits: int | None
-) -> list[Neutral]:
+    predictor: "HeadsetPredictor", footage: "Footage", named: str, bits: int | None
+) -> "list[Neutral]":
     """A frame, a folder's pictures or the calmest frame; nothing where none can be relied on."""
+    from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
+
     present = footage.present
     if named == "auto":
         usable = present[:, footage.given].all(axis=1)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -30,18 +30,14 @@ from regress.cli.options import (
 )
 from regress.cli.results import TableFormat, check_targets, needs_times, write_prediction
 from regress.errors import InputError
-from regress.runtime.headset.film import check_film_name, write_film
-from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.networks import ASSUMED_FPS
-from regress.runtime.headset.orientation import told_orientation
-from regress.runtime.headset.points import check_points, points_csv
-from regress.runtime.headset.predict import predict_footage
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.temporal import TAPS
 from regress.runtime.stages import OneEuro, Output
 from regress.runtime.stages.adjustment_file import read_adjustments
 from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.writers import confidence_csv, weights_csv
+
+if TYPE_CHECKING:
+    from regress.runtime.headset.footage import Footage
+    from regress.runtime.headset.predictor import HeadsetPredictor
 
 _SAME_RATE = 0.05
 """Relative difference of frame rates that --temporal does not speak of: 29.97 are 30."""
@@ -152,6 +148,12 @@ def predict(
     Example: regress headset predict --left-eye take/left --right-eye take/right --mouth take/mouth
     --neutral 0 --out weights.csv
     """
+    from regress.runtime.headset.film import check_film_name, write_film
+    from regress.runtime.headset.networks import ASSUMED_FPS
+    from regress.runtime.headset.points import points_csv
+    from regress.runtime.headset.predict import predict_footage
+    from regress.runtime.headset.predictor import load_headset_predictor
+
     cameras = bool(camera or left_eye or right_eye or mouth)
     model, dataset = model_and_dataset(arguments or [], chosen, cameras=cameras)
     predictor = load_headset_predictor(model)
@@ -201,15 +203,19 @@ def predict(
 
 
 def _check_model(
-    predictor: HeadsetPredictor, folder: Path, *, trust: Path | None, points: Path | None
+    predictor: "HeadsetPredictor", folder: Path, *, trust: Path | None, points: Path | None
 ) -> None:
     if trust is not None and not predictor.model.scores:
         raise InputError(f"{folder} has no scores on a test split, from which confidence is made")
     if points is not None:
+        from regress.runtime.headset.points import check_points
+
         check_points(predictor)
 
 
-def _tell_of(footage: Footage, predictor: HeadsetPredictor, *, strict: bool) -> None:
+def _tell_of(footage: "Footage", predictor: "HeadsetPredictor", *, strict: bool) -> None:
+    from regress.runtime.headset.orientation import told_orientation
+
     if strict and not footage.present[:, footage.recorded].all():
         raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
     for note in (*footage.notes, *told_orientation(footage, predictor.typical)):
@@ -226,6 +232,8 @@ def _seat_notes(reseated: tuple[str, ...], *, keep_neutral: bool) -> Iterator[st
 
 
 def _rate_note(taps_fps: float, footage_fps: float | None) -> Iterator[str]:
+    from regress.runtime.headset.temporal import TAPS
+
     if footage_fps is not None and abs(footage_fps / taps_fps - 1) > _SAME_RATE:
         yield (
             f"--temporal: the model's taps are for {taps_fps:g} frames a second and the take has {footage_fps:.4g}; "
