@@ -1,7 +1,7 @@
 """Gather the samples of ``make samples``: ``python docs/samples/collect.py TAKE.csv DATASET``.
 
 The take is the CSV of ``facegen pack --format openface``, the dataset the one of docs/samples/headset.toml. Beside them
-stand the answers of the ready-made models, for whoever wants to know whether an installation answers as it should: every
+stand the answers of the ready-made models, to hold an installation against: every
 tenth row of the landmarks' and every row of the pictures'.
 """
 

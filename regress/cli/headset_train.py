@@ -1,5 +1,6 @@
 """``regress headset train``: from arrays of pictures to a model."""
 
+import importlib
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -69,6 +70,7 @@ def train(
 
     Example: regress headset train datasets/out/headset-arrays --out models/headset
     """
+    importlib.import_module("torch")  # first, so that its extra is named: it brings what the others need
     from regress.learning.headset.arrays import read_arrays
     from regress.learning.headset.training import train_headset
 
