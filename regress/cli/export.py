@@ -5,10 +5,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from regress.cli.rows import sound_rows
-from regress.exporters import EXPORTERS, export_model
-from regress.runtime.inputs import read_frames
-from regress.runtime.model import load_model, symmetrised
+from regress.exporters import EXPORTERS
 
 
 def export(
@@ -28,6 +25,11 @@ def export(
 
     Every file agrees with `regress predict` to 1e-4. Example: regress export models/default --format onnx
     """
+    from regress.cli.rows import sound_rows
+    from regress.exporters import export_model
+    from regress.runtime.inputs import read_frames
+    from regress.runtime.model import load_model, symmetrised
+
     formats = list(EXPORTERS) if chosen == "all" else [chosen]
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     if neutral is not None:

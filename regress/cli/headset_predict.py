@@ -1,20 +1,10 @@
 """``regress headset predict``: the pictures of a headset's cameras in, a table of weights out."""
 
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from facegen.console import say
-from facegen.files import write_whole
-from regress.cli.headset_input import (
-    camera_paths,
-    check_stills,
-    model_and_dataset,
-    read_footage,
-    read_neutrals,
-)
 from regress.cli.options import (
     AvatarOption,
     BetaOption,
@@ -26,21 +16,10 @@ from regress.cli.options import (
     OutOption,
     RetargetOption,
     SmoothOption,
+    TableFormat,
     TrustOption,
 )
-from regress.cli.results import TableFormat, check_targets, needs_times, write_prediction
-from regress.errors import InputError
-from regress.runtime.stages import OneEuro, Output
-from regress.runtime.stages.adjustment_file import read_adjustments
-from regress.runtime.stages.retargeting.target_file import read_retargeting
-from regress.runtime.writers import confidence_csv, weights_csv
-
-if TYPE_CHECKING:
-    from regress.runtime.headset.footage import Footage
-    from regress.runtime.headset.predictor import HeadsetPredictor
-
-_SAME_RATE = 0.05
-"""Relative difference of frame rates that --temporal does not speak of: 29.97 are 30."""
+from regress.runtime.stages.smoothing import OneEuro
 
 
 def predict(
@@ -148,23 +127,38 @@ def predict(
     Example: regress headset predict --left-eye take/left --right-eye take/right --mouth take/mouth
     --neutral 0 --out weights.csv
     """
+    from facegen.console import say
+    from facegen.files import write_whole
+    from regress.cli.headset_input import (
+        camera_paths,
+        check_stills,
+        model_and_dataset,
+        read_footage,
+        read_neutrals,
+    )
+    from regress.cli.headset_notes import check_model, rate_note, seat_notes, tell_of
+    from regress.cli.output import output_of
+    from regress.cli.results import check_targets, needs_times, write_prediction
+    from regress.errors import InputError
     from regress.runtime.headset.film import check_film_name, write_film
     from regress.runtime.headset.networks import ASSUMED_FPS
     from regress.runtime.headset.points import points_csv
     from regress.runtime.headset.predict import predict_footage
     from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.writers.csv_table import confidence_csv, weights_csv
 
     cameras = bool(camera or left_eye or right_eye or mouth)
     model, dataset = model_and_dataset(arguments or [], chosen, cameras=cameras)
     predictor = load_headset_predictor(model)
-    output = Output(
+    output = output_of(
         smooth=smooth,
-        one_euro=None if cutoff_hz is None else OneEuro(cutoff_hz=cutoff_hz, beta=beta),
+        cutoff_hz=cutoff_hz,
+        beta=beta,
         amplify_eyes=amplify_eyes,
-        adjustments={} if adjust is None else read_adjustments(adjust),
+        adjust=adjust,
         left_right_blend=left_right_blend,
         mirror=mirror,
-        retargeting=None if retarget is None else read_retargeting(retarget),
+        retarget=retarget,
     )
     check_targets(table_format, out=out, gltf=gltf, retargeted=retarget is not None)
     if video is not None and retarget is not None:
@@ -173,7 +167,7 @@ def predict(
         check_stills(
             temporal=temporal, smooth=smooth > 1, one_euro=cutoff_hz is not None, bits=bits is not None
         )
-    _check_model(predictor, model, trust=trust, points=points)
+    check_model(predictor, model, trust=trust, points=points)
     if video is not None:
         check_film_name(video)
     short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
@@ -183,13 +177,13 @@ def predict(
     footage = read_footage(predictor, dataset, paths, from_start=from_start, fps=fps, bits=bits)
     if footage.time_s is None and (output.needs_times or needs_times(table_format, gltf)):
         raise InputError(f"{footage.source} does not say when its frames were taken; give --fps")
-    _tell_of(footage, predictor, strict=strict)
+    tell_of(footage, predictor, strict=strict)
     neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None, bits=bits)
     prediction, reseated = predict_footage(
         predictor, footage, neutrals, output=output, keep_neutral=keep_neutral, temporal=temporal
     )
-    rate_note = _rate_note(predictor.model.temporal.fps, footage.fps) if temporal else ()
-    for note in (*_seat_notes(reseated, keep_neutral=keep_neutral), *rate_note):
+    of_rate = rate_note(predictor.model.temporal.fps, footage.fps) if temporal else ()
+    for note in (*seat_notes(reseated, keep_neutral=keep_neutral), *of_rate):
         say(note)
     if points is not None:
         write_whole(points, points_csv(predictor, footage))
@@ -200,42 +194,3 @@ def predict(
         rate = fps or footage.fps or ASSUMED_FPS
         write_film(video, footage, weights_csv(prediction), rig=rig, fps=rate)
         say(f"film in {video}")
-
-
-def _check_model(
-    predictor: "HeadsetPredictor", folder: Path, *, trust: Path | None, points: Path | None
-) -> None:
-    if trust is not None and not predictor.model.scores:
-        raise InputError(f"{folder} has no scores on a test split, from which confidence is made")
-    if points is not None:
-        from regress.runtime.headset.points import check_points
-
-        check_points(predictor)
-
-
-def _tell_of(footage: "Footage", predictor: "HeadsetPredictor", *, strict: bool) -> None:
-    from regress.runtime.headset.orientation import told_orientation
-
-    if strict and not footage.present[:, footage.recorded].all():
-        raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
-    for note in (*footage.notes, *told_orientation(footage, predictor.typical)):
-        say(note)
-
-
-def _seat_notes(reseated: tuple[str, ...], *, keep_neutral: bool) -> Iterator[str]:
-    worth = "less well calibrated" if keep_neutral else "not calibrated (--keep-neutral for the same person)"
-    for frame in reseated:
-        yield (
-            f"frame {frame}: the headset does not sit as in the neutral pictures; weights are {worth} "
-            f"from here on, until a --neutral frame of the new seat"
-        )
-
-
-def _rate_note(taps_fps: float, footage_fps: float | None) -> Iterator[str]:
-    from regress.runtime.headset.temporal import TAPS
-
-    if footage_fps is not None and abs(footage_fps / taps_fps - 1) > _SAME_RATE:
-        yield (
-            f"--temporal: the model's taps are for {taps_fps:g} frames a second and the take has {footage_fps:.4g}; "
-            f"they reach {1000 * (TAPS - 1) / footage_fps:.0f} ms back in place of {1000 * (TAPS - 1) / taps_fps:.0f}"
-        )

@@ -1,12 +1,16 @@
 """Options that every ``predict`` takes: where weights go, in which form, and what happens to them on the way."""
 
+from enum import Enum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from regress.cli.results import TableFormat
-from regress.runtime.stages.retargeting import shipped_targets
+from regress.runtime.stages.retargeting.shipped import shipped_targets
+from regress.runtime.writers.tables import TABLES
+
+TableFormat = Enum("TableFormat", {name: name for name in TABLES}, type=str)
+"""Tables that ``--format`` knows."""
 
 ModelOption = Annotated[
     str | None,

@@ -1,17 +1,10 @@
 """``regress predict``: landmarks in, a table of weights out."""
 
-import dataclasses
-import sys
-from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 
-from facegen.console import say
-from facegen.files import write_whole
-from regress.cli.fault_runs import FaultRuns
 from regress.cli.options import (
     AvatarOption,
     BetaOption,
@@ -23,21 +16,10 @@ from regress.cli.options import (
     OutOption,
     RetargetOption,
     SmoothOption,
+    TableFormat,
     TrustOption,
 )
-from regress.cli.results import TableFormat, check_targets, needs_times, write_prediction
-from regress.cli.rows import sound_rows
-from regress.errors import InputError
-from regress.runtime.inputs import Frames, read_frames, read_lines
-from regress.runtime.model import Model, load_model, symmetrised
-from regress.runtime.predict import predict_frames, predict_stream
-from regress.runtime.ready_made import LANDMARKS
-from regress.runtime.sample import Sample
-from regress.runtime.stages import OneEuro, Output
-from regress.runtime.stages.adjustment_file import read_adjustments
-from regress.runtime.stages.neutral import estimate_neutral
-from regress.runtime.stages.retargeting.target_file import read_retargeting
-from regress.runtime.writers import confidence_csv, csv_lines
+from regress.runtime.stages.smoothing import OneEuro
 
 
 def predict(
@@ -103,108 +85,39 @@ def predict(
 
     Example: regress predict take.csv --neutral 1 --one-euro 1 --out weights.csv
     """
+    from regress.cli.landmark_take import model_and_input, predict_file, predict_pipe
+    from regress.cli.output import output_of
+    from regress.cli.results import check_targets
+    from regress.errors import InputError
+    from regress.runtime.model import load_model, symmetrised
+
     model, landmarks = model_and_input(arguments, chosen)
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
-    output = Output(
+    output = output_of(
         smooth_landmarks_hz=smooth_landmarks_hz,
         smooth=smooth,
-        one_euro=None if cutoff_hz is None else OneEuro(cutoff_hz=cutoff_hz, beta=beta),
-        adjustments={} if adjust is None else read_adjustments(adjust),
+        cutoff_hz=cutoff_hz,
+        beta=beta,
+        adjust=adjust,
         left_right_blend=left_right_blend,
         mirror=mirror,
-        retargeting=None if retarget is None else read_retargeting(retarget),
+        retarget=retarget,
     )
     check_targets(table_format, out=out, gltf=gltf, retargeted=retarget is not None)
-    if str(landmarks) == "-":
-        if not (out is gltf is trust is None and table_format is TableFormat.csv):
-            raise InputError("weights of standard input leave as CSV on standard output alone: use > FILE")
-        _predict_stream(loaded, neutral, output, fps=fps, strict=strict)
-        return
-    frames = read_frames(landmarks)
-    if fps is not None:
-        frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
-    timed = output.needs_times or needs_times(table_format, gltf)
-    frames = sound_rows(frames, needs_times=timed, strict=strict)
-    calibrated = _calibrated(loaded, frames, neutral)
-    prediction = predict_frames(calibrated, frames, output=output, confident=trust is not None)
-    if trust is not None:
-        write_whole(trust, confidence_csv(prediction))
-    write_prediction(prediction, table_format, out=out, gltf=gltf)
-
-
-def model_and_input(arguments: list[Path], chosen: str | None) -> tuple[str | Path, Path]:
-    """Which model sees which file: of two arguments the model comes first, one is the file.
-
-    Raises
-    ------
-    InputError
-        Where there are more, or the model is given twice.
-    """
-    *models, landmarks = arguments
-    if len(models) + (chosen is not None) > 1:
-        given = [str(model) for model in models] + ([f"--model {chosen}"] if chosen else [])
-        raise InputError(
-            f"one model and one INPUT are needed; before {landmarks} there are {', '.join(given)}"
+    if str(landmarks) != "-":
+        predict_file(
+            loaded,
+            landmarks,
+            output,
+            neutral=neutral,
+            fps=fps,
+            strict=strict,
+            trust=trust,
+            table_format=table_format,
+            gltf=gltf,
+            out=out,
         )
-    return (models or [chosen or LANDMARKS])[0], landmarks
-
-
-def _predict_stream(model: Model, neutral: str, output: Output, *, fps: float | None, strict: bool) -> None:
-    if neutral not in ("auto", "none"):
-        model = model.calibrate(_neutral_file(neutral, "standard input").points)
-    samples = read_lines(sys.stdin, fps=fps)
-    answers = predict_stream(samples, model, output, auto=neutral == "auto", say=say)
-    try:
-        for line in csv_lines(_told(answers, strict=strict), output.names):
-            sys.stdout.write(line)
-            sys.stdout.flush()  # the reader wants each frame as it comes
-    except UnicodeDecodeError as error:
-        raise InputError(
-            f"standard input is not text ({error}); lines of 136 numbers are needed, and files are read by name"
-        ) from error
-
-
-def _told(answers: Iterable[Sample], *, strict: bool) -> Iterator[Sample]:
-    """The answers, while runs of faulty lines are told; where ``strict``, the first one is an error."""
-    runs, number = FaultRuns(say), 0
-    for number, sample in enumerate(answers, start=1):
-        fault = sample.faults.get("points")
-        if fault is not None and strict:
-            raise InputError(f"line {number} has {fault.value}; without --strict its cells stay empty")
-        runs.step(number, fault)
-        yield sample
-    runs.step(number + 1, None)
-
-
-def _calibrated(model: Model, frames: Frames, neutral: str) -> Model:
-    """The model for this recording: calibrated where a neutral frame is named or found."""
-    if neutral == "none":
-        return model
-    if neutral == "auto":
-        estimate = estimate_neutral(model, frames.points)
-        if not estimate.sure:
-            say(f"{frames.source}: no neutral face found, weights are not calibrated: {estimate.reason}")
-            return model
-        say(f"{frames.source}: neutral face found: {estimate.reason}")
-        return model.calibrate(frames.points[estimate.frames])
-    named = _named(frames, neutral)
-    return model.calibrate(frames.points[named] if named else _neutral_file(neutral, frames.source).points)
-
-
-def _named(frames: Frames, neutral: str) -> list[int]:
-    """Rows of a frame named by its label, or of frames FIRST-LAST."""
-    first, _, last = neutral.rpartition("-")
-    if neutral in frames.labels:
-        first = last = neutral
-    if first in frames.labels and last in frames.labels:
-        start, stop = frames.labels.index(first), frames.labels.index(last)
-        return list(range(start, stop + 1))
-    return []
-
-
-def _neutral_file(neutral: str, source: str) -> Frames:
-    if not Path(neutral).exists():
-        raise InputError(
-            f"--neutral {neutral!r} is neither a frame of {source}, nor a file; auto and none are allowed too"
-        )
-    return sound_rows(read_frames(neutral))
+    elif out is gltf is trust is None and table_format is TableFormat.csv:
+        predict_pipe(loaded, neutral, output, fps=fps, strict=strict)
+    else:
+        raise InputError("weights of standard input leave as CSV on standard output alone: use > FILE")

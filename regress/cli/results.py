@@ -1,17 +1,15 @@
 """Where predicted weights go: a table on standard output or in a file, or an avatar's animation."""
 
 import sys
-from enum import Enum
 from pathlib import Path
 
 from facegen.console import say
 from facegen.files import write_whole
+from regress.cli.options import TableFormat
 from regress.errors import InputError
 from regress.runtime.prediction import Prediction
-from regress.runtime.writers import TABLES, animated_avatar
-
-TableFormat = Enum("TableFormat", {name: name for name in TABLES}, type=str)
-"""Tables that ``--format`` knows."""
+from regress.runtime.writers.avatar import animated_avatar
+from regress.runtime.writers.tables import TABLES
 
 
 def check_targets(

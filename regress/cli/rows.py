@@ -7,7 +7,7 @@ import numpy as np
 from facegen.console import say
 from regress.errors import InputError
 from regress.runtime.inputs import Frames, fault_sentences
-from regress.runtime.stages import Soundness
+from regress.runtime.stages.soundness import Soundness
 
 
 def sound_rows(frames: Frames, *, needs_times: bool = False, strict: bool = False) -> Frames:

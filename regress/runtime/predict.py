@@ -6,16 +6,11 @@ from regress.runtime.inputs import Frames
 from regress.runtime.model import Model
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
-from regress.runtime.stages import (
-    AutomaticCalibration,
-    Chain,
-    LandmarkConfidence,
-    LandmarkNetworks,
-    Output,
-    Soundness,
-    Stage,
-)
+from regress.runtime.stages.networks import AutomaticCalibration, LandmarkConfidence, LandmarkNetworks
+from regress.runtime.stages.output import Output
 from regress.runtime.stages.smoothing import LandmarkSmoothing
+from regress.runtime.stages.soundness import Soundness
+from regress.runtime.stages.stage import Chain, Stage
 
 
 def landmark_chain(

@@ -19,7 +19,8 @@ from regress.runtime.inputs import (
 )
 from regress.runtime.predict import predict_frames
 from regress.runtime.sample import Sample
-from regress.runtime.stages import Output, Soundness
+from regress.runtime.stages.output import Output
+from regress.runtime.stages.soundness import Soundness
 from tests.regress.drawn import drawn_face, drawn_faces
 
 GOOD = drawn_faces(np.random.default_rng(8), 9)

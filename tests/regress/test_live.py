@@ -12,10 +12,15 @@ from regress.runtime.model import Model
 from regress.runtime.predict import landmark_chain
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
-from regress.runtime.stages import Chain, OneEuro, Output, Soundness
 from regress.runtime.stages.adjustment import ShapeAdjustment
+from regress.runtime.stages.output import Output
 from regress.runtime.stages.retargeting.target_file import read_retargeting
-from regress.runtime.writers import TABLES, animated_avatar, confidence_csv
+from regress.runtime.stages.smoothing import OneEuro
+from regress.runtime.stages.soundness import Soundness
+from regress.runtime.stages.stage import Chain
+from regress.runtime.writers.avatar import animated_avatar
+from regress.runtime.writers.csv_table import confidence_csv
+from regress.runtime.writers.tables import TABLES
 from tests.facegen.formats.test_gltf_animation import avatar
 from tests.regress.drawn import drawn_faces
 from tests.regress.test_inputs import example_file

@@ -15,7 +15,7 @@ from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames
 from regress.runtime.sample import Sample
 from regress.runtime.stages.smoothing import MovingAverage
-from regress.runtime.writers import weights_csv
+from regress.runtime.writers.csv_table import weights_csv
 
 
 def _frames(points: np.ndarray, *, time_s: np.ndarray | None = None) -> Frames:

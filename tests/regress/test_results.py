@@ -11,7 +11,7 @@ from facegen.conventions import BLENDSHAPES
 from facegen.formats import read_live_link
 from regress.runtime.features import align_similarity, extract
 from regress.runtime.inputs import Frames
-from regress.runtime.stages.retargeting import shipped_targets
+from regress.runtime.stages.retargeting.shipped import shipped_targets
 from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.stages.smoothing import LandmarkSmoothing
 from tests.facegen.formats.test_gltf_animation import avatar

@@ -5,7 +5,7 @@ import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES, mirrored_name
 from regress.errors import InputError
-from regress.runtime.stages.retargeting import shipped_targets
+from regress.runtime.stages.retargeting.shipped import shipped_targets
 from regress.runtime.stages.retargeting.target_file import read_retargeting
 
 COUNTS = {"mixamo50": 50, "perfect_sync": 52, "vrm0": 17, "vrm1": 18}

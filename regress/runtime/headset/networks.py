@@ -14,7 +14,7 @@ from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.seats import SeatWatch
 from regress.runtime.headset.temporal import TAPS
 from regress.runtime.sample import Sample
-from regress.runtime.stages import Stage
+from regress.runtime.stages.stage import Stage
 
 ASSUMED_FPS = 30.0
 """Frames a second where nobody says: only the patience with a changed seat depends on it."""

@@ -9,7 +9,8 @@ from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.soundness import PictureSoundness
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
-from regress.runtime.stages import Chain, Output, Stage
+from regress.runtime.stages.output import Output
+from regress.runtime.stages.stage import Chain, Stage
 
 
 class HeadsetStream(Stage):

@@ -6,7 +6,7 @@ from dataclasses import replace
 from regress.runtime.headset.faults import Fault, FrozenWatch
 from regress.runtime.headset.recordings import fit_picture
 from regress.runtime.sample import Sample
-from regress.runtime.stages import Stage
+from regress.runtime.stages.stage import Stage
 
 
 class PictureSoundness(Stage):

@@ -9,7 +9,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES, SIDES
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
-from regress.runtime.stages.retargeting import Retargeting
+from regress.runtime.stages.retargeting.matrix import Retargeting
 from regress.runtime.stages.smoothing import MovingAverage, OneEuro, OneEuroSmoothing
 from regress.runtime.stages.stage import Stage
 

@@ -2,8 +2,3 @@
 
 A target that ships is a file in ``targets``; a new one is a new file there, and the tests run over them all.
 """
-
-from regress.runtime.stages.retargeting.matrix import Retargeting
-from regress.runtime.stages.retargeting.shipped import shipped_targets
-
-__all__ = ["Retargeting", "shipped_targets"]

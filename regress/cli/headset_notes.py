@@ -1,0 +1,52 @@
+"""What `regress headset predict` refuses or says of a model, its footage and how the answers came about."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from facegen.console import say
+from regress.errors import InputError
+from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.orientation import told_orientation
+from regress.runtime.headset.points import check_points
+from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.temporal import TAPS
+
+_SAME_RATE = 0.05
+"""Relative difference of frame rates that --temporal does not speak of: 29.97 are 30."""
+
+
+def check_model(
+    predictor: HeadsetPredictor, folder: Path, *, trust: Path | None, points: Path | None
+) -> None:
+    """Refuse tables that the model cannot fill."""
+    if trust is not None and not predictor.model.scores:
+        raise InputError(f"{folder} has no scores on a test split, from which confidence is made")
+    if points is not None:
+        check_points(predictor)
+
+
+def tell_of(footage: Footage, predictor: HeadsetPredictor, *, strict: bool) -> None:
+    """Say what is wrong with pictures and how they look; where ``strict``, a fault is an error."""
+    if strict and not footage.present[:, footage.recorded].all():
+        raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
+    for note in (*footage.notes, *told_orientation(footage, predictor.typical)):
+        say(note)
+
+
+def seat_notes(reseated: tuple[str, ...], *, keep_neutral: bool) -> Iterator[str]:
+    """A sentence for each frame from which the headset sits otherwise."""
+    worth = "less well calibrated" if keep_neutral else "not calibrated (--keep-neutral for the same person)"
+    for frame in reseated:
+        yield (
+            f"frame {frame}: the headset does not sit as in the neutral pictures; weights are {worth} "
+            f"from here on, until a --neutral frame of the new seat"
+        )
+
+
+def rate_note(taps_fps: float, footage_fps: float | None) -> Iterator[str]:
+    """A sentence where the taps are for another rate than the recording's."""
+    if footage_fps is not None and abs(footage_fps / taps_fps - 1) > _SAME_RATE:
+        yield (
+            f"--temporal: the model's taps are for {taps_fps:g} frames a second and the take has {footage_fps:.4g}; "
+            f"they reach {1000 * (TAPS - 1) / footage_fps:.0f} ms back in place of {1000 * (TAPS - 1) / taps_fps:.0f}"
+        )

@@ -1,0 +1,129 @@
+"""What `regress predict` does with a recording of landmarks, or with lines on a pipe."""
+
+import dataclasses
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from facegen.console import say
+from facegen.files import write_whole
+from regress.cli.fault_runs import FaultRuns
+from regress.cli.options import TableFormat
+from regress.cli.results import needs_times, write_prediction
+from regress.cli.rows import sound_rows
+from regress.errors import InputError
+from regress.runtime.inputs import Frames, read_frames, read_lines
+from regress.runtime.model import Model
+from regress.runtime.predict import predict_frames, predict_stream
+from regress.runtime.ready_made import LANDMARKS
+from regress.runtime.sample import Sample
+from regress.runtime.stages.neutral import estimate_neutral
+from regress.runtime.stages.output import Output
+from regress.runtime.writers.csv_table import confidence_csv, csv_lines
+
+
+def model_and_input(arguments: list[Path], chosen: str | None) -> tuple[str | Path, Path]:
+    """Which model sees which file: of two arguments the model comes first, one is the file.
+
+    Raises
+    ------
+    InputError
+        Where there are more, or the model is given twice.
+    """
+    *models, landmarks = arguments
+    if len(models) + (chosen is not None) > 1:
+        given = [str(model) for model in models] + ([f"--model {chosen}"] if chosen else [])
+        raise InputError(
+            f"one model and one INPUT are needed; before {landmarks} there are {', '.join(given)}"
+        )
+    return (models or [chosen or LANDMARKS])[0], landmarks
+
+
+def predict_file(
+    model: Model,
+    landmarks: Path,
+    output: Output,
+    *,
+    neutral: str,
+    fps: float | None,
+    strict: bool,
+    trust: Path | None,
+    table_format: TableFormat,
+    gltf: Path | None,
+    out: Path | None,
+) -> None:
+    """Predict a recording and write what was asked for; the arguments are the command's options."""
+    frames = read_frames(landmarks)
+    if fps is not None:
+        frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
+    timed = output.needs_times or needs_times(table_format, gltf)
+    frames = sound_rows(frames, needs_times=timed, strict=strict)
+    calibrated = _calibrated(model, frames, neutral)
+    prediction = predict_frames(calibrated, frames, output=output, confident=trust is not None)
+    if trust is not None:
+        write_whole(trust, confidence_csv(prediction))
+    write_prediction(prediction, table_format, out=out, gltf=gltf)
+
+
+def predict_pipe(model: Model, neutral: str, output: Output, *, fps: float | None, strict: bool) -> None:
+    """Predict lines of standard input, each as it comes, and write rows to standard output."""
+    if neutral not in ("auto", "none"):
+        model = model.calibrate(_neutral_file(neutral, "standard input").points)
+    samples = read_lines(sys.stdin, fps=fps)
+    answers = predict_stream(samples, model, output, auto=neutral == "auto", say=say)
+    try:
+        for line in csv_lines(_told(answers, strict=strict), output.names):
+            sys.stdout.write(line)
+            sys.stdout.flush()  # the reader wants each frame as it comes
+    except UnicodeDecodeError as error:
+        raise InputError(
+            f"standard input is not text ({error}); lines of 136 numbers are needed, and files are read by name"
+        ) from error
+
+
+def _told(answers: Iterable[Sample], *, strict: bool) -> Iterator[Sample]:
+    """The answers, while runs of faulty lines are told; where ``strict``, the first one is an error."""
+    runs, number = FaultRuns(say), 0
+    for number, sample in enumerate(answers, start=1):
+        fault = sample.faults.get("points")
+        if fault is not None and strict:
+            raise InputError(f"line {number} has {fault.value}; without --strict its cells stay empty")
+        runs.step(number, fault)
+        yield sample
+    runs.step(number + 1, None)
+
+
+def _calibrated(model: Model, frames: Frames, neutral: str) -> Model:
+    """The model for this recording: calibrated where a neutral frame is named or found."""
+    if neutral == "none":
+        return model
+    if neutral == "auto":
+        estimate = estimate_neutral(model, frames.points)
+        if not estimate.sure:
+            say(f"{frames.source}: no neutral face found, weights are not calibrated: {estimate.reason}")
+            return model
+        say(f"{frames.source}: neutral face found: {estimate.reason}")
+        return model.calibrate(frames.points[estimate.frames])
+    named = _named(frames, neutral)
+    return model.calibrate(frames.points[named] if named else _neutral_file(neutral, frames.source).points)
+
+
+def _named(frames: Frames, neutral: str) -> list[int]:
+    """Rows of a frame named by its label, or of frames FIRST-LAST."""
+    first, _, last = neutral.rpartition("-")
+    if neutral in frames.labels:
+        first = last = neutral
+    if first in frames.labels and last in frames.labels:
+        start, stop = frames.labels.index(first), frames.labels.index(last)
+        return list(range(start, stop + 1))
+    return []
+
+
+def _neutral_file(neutral: str, source: str) -> Frames:
+    if not Path(neutral).exists():
+        raise InputError(
+            f"--neutral {neutral!r} is neither a frame of {source}, nor a file; auto and none are allowed too"
+        )
+    return sound_rows(read_frames(neutral))

@@ -1,0 +1,44 @@
+"""From options to what happens before and after the networks."""
+
+from pathlib import Path
+
+from regress.runtime.stages.output import Output
+from regress.runtime.stages.smoothing import OneEuro
+
+
+def output_of(
+    *,
+    cutoff_hz: float | None,
+    beta: float,
+    adjust: Path | None,
+    retarget: str | None,
+    **settings: float | bool | None,
+) -> Output:
+    """Read the files that options name.
+
+    Parameters
+    ----------
+    cutoff_hz, beta
+        Of One-Euro smoothing.
+    adjust, retarget
+        A file of adjustments, a target's name or file.
+    settings
+        The other fields of `Output`.
+
+    Raises
+    ------
+    InputError
+        Where a file cannot be used.
+    """
+    # each reader imports the settings library, which takes as long as NumPy
+    adjustments, retargeting = {}, None
+    if adjust is not None:
+        from regress.runtime.stages.adjustment_file import read_adjustments
+
+        adjustments = read_adjustments(adjust)
+    if retarget is not None:
+        from regress.runtime.stages.retargeting.target_file import read_retargeting
+
+        retargeting = read_retargeting(retarget)
+    one_euro = None if cutoff_hz is None else OneEuro(cutoff_hz=cutoff_hz, beta=beta)
+    return Output(one_euro=one_euro, adjustments=adjustments, retargeting=retargeting, **settings)
