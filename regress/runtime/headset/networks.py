@@ -8,7 +8,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from regress.errors import InputError
-from regress.runtime.headset.confidence import confidence
+from regress.runtime.headset.confidence import HeadsetConfidence
 from regress.runtime.headset.estimates import Estimates
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.seats import SeatWatch
@@ -38,6 +38,8 @@ class HeadsetNetworks(Stage):
         self, predictor: HeadsetPredictor, *, fps: float = ASSUMED_FPS, keep_neutral: bool = False
     ) -> None:
         self._predictor, self._fps, self._keep = predictor, fps, keep_neutral
+        scored = predictor.model.scores is not None
+        self._confidence = HeadsetConfidence(predictor.model) if scored else None
         self._neutral: Mapping[str, np.ndarray] | None = None
         self._seat: SeatWatch | None = None
         self._labels: deque[str] = deque(maxlen=SeatWatch(fps=fps).patience_frames)
@@ -58,16 +60,15 @@ class HeadsetNetworks(Stage):
         InputError
             Where a camera is not the model's, or has no neutral picture while others have.
         """
-        scored = bool(self._predictor.model.scores)
         if not sample.pictures:
             nothing = np.full(len(BLENDSHAPES), np.nan)
-            trust = np.zeros(len(BLENDSHAPES)) if scored else None
+            trust = None if self._confidence is None else np.zeros(len(BLENDSHAPES))
             return replace(sample, weights=nothing, gaze=np.full(4, np.nan), confidence=trust)
         estimates, calibrated = self._estimate(sample)
         trust = None
-        if scored:
-            present = np.array([[name in sample.pictures for name in self._predictor.sizes]])
-            trust = confidence(self._predictor.model, estimates.deviation, present, np.array([calibrated]))[0]
+        if self._confidence is not None:
+            present = np.array([name in sample.pictures for name in self._predictor.sizes])
+            trust = self._confidence.of_frame(estimates.deviation[0], present, calibrated=calibrated)
         return replace(
             sample,
             weights=np.clip(estimates.weights[0].astype(np.float64), 0, 1),

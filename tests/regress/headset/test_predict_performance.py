@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
-from regress.runtime.headset.confidence import confidence
+from regress.runtime.headset.confidence import HeadsetConfidence
 from regress.runtime.headset.figures import ShapeFigures
 from regress.runtime.headset.footage import Footage, line_up
 from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
@@ -63,8 +63,8 @@ def test_each_camera_drives_its_shapes_and_an_absent_one_lowers_confidence(predi
 def test_confidence_is_the_share_explained_and_falls_with_deviation_and_cameras(
     predictor: HeadsetPredictor, factor: float, there: list[bool], calibrated: bool
 ):
-    deviation = np.full((1, 52), factor * RMSE)
-    found = confidence(predictor.model, deviation, np.array([there]), np.array([calibrated]))[0]
+    trust = HeadsetConfidence(predictor.model)
+    found = trust.of_frame(np.full(52, factor * RMSE), np.array(there), calibrated=calibrated)
     usual = np.clip(1 - (1 - R2) * max(factor**2, 1), 0, 1)
     for column, shape in enumerate(BLENDSHAPES):
         alone = [
@@ -85,17 +85,16 @@ def test_calibrated_frames_have_their_own_scores(predictor: HeadsetPredictor):
     shapes["tongueOut"]["uncalibrated"] = ShapeFigures(r2=None, mae=0.0, rmse=0.0)
     scores = dataclasses.replace(predictor.model.scores, cameras={}, shapes=shapes)
     model = dataclasses.replace(predictor.model, scores=scores)
-    found = confidence(model, np.full((2, 52), 0.1), np.ones((2, 3), dtype=bool), np.array([False, True]))
-    assert found[0, :-1] == pytest.approx(0.5)
-    assert found[1] == pytest.approx(0.8)
-    assert found[0, -1] == 0
+    trust = HeadsetConfidence(model)
+    alone, beside_neutral = (
+        trust.of_frame(np.full(52, 0.1), np.ones(3, dtype=bool), calibrated=calibrated)
+        for calibrated in (False, True)
+    )
+    assert alone[:-1] == pytest.approx(0.5)
+    assert beside_neutral == pytest.approx(0.8)
+    assert alone[-1] == 0
     with pytest.raises(InputError, match="has no scores"):
-        confidence(
-            dataclasses.replace(model, scores=None),
-            np.ones((1, 52)),
-            np.ones((1, 3)),
-            np.zeros(1, dtype=bool),
-        )
+        HeadsetConfidence(dataclasses.replace(model, scores=None))
 
 
 def test_frames_without_pictures_have_no_weights_and_no_confidence(predictor: HeadsetPredictor):
