@@ -8,7 +8,7 @@ import pytest
 from regress.cli import app
 from tests.facegen.cli.commands import ROOT, sub_commands
 
-HEAVY = {"cv2", "matplotlib", "onnx", "onnxruntime", "pyarrow", "scipy", "sklearn", "torch"}
+HEAVY = {"cv2", "matplotlib", "onnx", "onnxruntime", "pyarrow", "pydantic", "scipy", "sklearn", "torch"}
 
 PROGRAM = f"""
 import sys, time
