@@ -1,4 +1,4 @@
-"""What is predicted: 31 networks grouped by face region, and which shapes 68 points can show."""
+"""Lists what is predicted: 31 networks grouped by face region, and which shapes 68 points can show."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""How long a frame takes: NumPy, and each export run by what runs it here."""
+"""Measures how long a frame takes: in NumPy, and in each export by what runs it here."""
 
 import json
 import os

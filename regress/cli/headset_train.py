@@ -95,7 +95,7 @@ def train(
     began = time.monotonic()
     with progress(unit="steps") as draw:
         model = train_headset(
-            frames, recipe, out, progress=lambda done, total, _: draw(f"{out.name}: epochs", done, total)
+            frames, recipe, out, progress=lambda stage, *steps: draw(f"{out.name}: {stage}", *steps)
         )
     record = model.training
     say(f"trained on {record.rows} frames of {record.people} people in {time.monotonic() - began:.0f} s")

@@ -120,6 +120,18 @@ class Formula:
     networks: tuple[FormulaNetwork, ...]
     about: dict[str, str]
 
+    def measuring(self) -> dict[str, list | str]:
+        """JSON data of what it takes to measure features: all but their mean."""
+        return {
+            "depth": self.depth.tolist(),
+            "turn": self.turn.tolist(),
+            "alignment": self.alignment,
+            "anchors": self.anchors.tolist(),
+            "reference": self.reference.tolist(),
+            "edges": self.edges.tolist(),
+            "width_landmarks": self.width_landmarks.tolist(),
+        }
+
     def stacked(self) -> StackedNetworks:
         """The networks side by side."""
         hidden_counts = [len(network.hidden_bias) for network in self.networks]

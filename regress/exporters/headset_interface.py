@@ -62,12 +62,12 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
 
 def _outputs(model: HeadsetModel) -> dict[str, Any]:
     counts = {"cameras": len(model.cameras), "shapes": len(model.weights)}
-    known = {name: (output, counts) for name, output in GRAPH_OUTPUTS.items()}
+    table = {name: (output, counts) for name, output in GRAPH_OUTPUTS.items()}
     for camera in model.camera_names:
-        known[points_output(camera)] = (POINTS, {"points": len(model.points.get(camera, ()))})
+        table[points_output(camera)] = (POINTS, {"points": len(model.points.get(camera, ()))})
     outputs = {}
     for name in model.outputs:
-        output, sizes = known[name]
+        output, sizes = table[name]
         uncalibrated = output.uncalibrated if model.calibration == "none" else None
         outputs[name] = {
             "type": "float32",

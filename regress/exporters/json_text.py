@@ -51,13 +51,7 @@ def export_json(formula: Formula, name: str) -> dict[str, bytes]:
         "version": FORMAT_VERSION,
         "about": formula.about,
         "names": list(BLENDSHAPES),
-        "depth": formula.depth.tolist(),
-        "turn": formula.turn.tolist(),
-        "alignment": formula.alignment,
-        "anchors": formula.anchors.tolist(),
-        "reference": formula.reference.tolist(),
-        "edges": formula.edges.tolist(),
-        "width_landmarks": formula.width_landmarks.tolist(),
+        **formula.measuring(),
         "feature_mean": formula.feature_mean.tolist(),
         "denoising": None
         if formula.denoising is None

@@ -84,17 +84,7 @@ def build_networks_graph(formula: Formula) -> onnx.ModelProto:
     graph.constant("feature_mean", formula.feature_mean)
     graph.node("Sub", ["features", "feature_mean"], "features_centred")
     _networks(graph, formula, features="features_centred")
-    about = {
-        "names": list(BLENDSHAPES),
-        **formula.about,
-        "depth": formula.depth.tolist(),
-        "turn": formula.turn.tolist(),
-        "alignment": formula.alignment,
-        "anchors": formula.anchors.tolist(),
-        "reference": formula.reference.tolist(),
-        "edges": formula.edges.tolist(),
-        "width_landmarks": formula.width_landmarks.tolist(),
-    }
+    about = {"names": list(BLENDSHAPES), **formula.about, **formula.measuring()}
     return _checked(graph, ("features", ["n", len(formula.edges)]), about, _NETWORKS_DESCRIPTION)
 
 

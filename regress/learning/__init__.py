@@ -1,1 +1,1 @@
-"""What trains, judges and measures models: needs the extra ``learn``, for headset networks ``headset``."""
+"""Trains, evaluates and probes models: needs the extra ``learn``, for headset networks ``headset``."""

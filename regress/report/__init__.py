@@ -1,4 +1,4 @@
-"""What a model can do and cannot, as one HTML page that opens without a network."""
+"""Writes a model's report: one HTML page of its figures that opens without a network."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Scales and ticks of the report's charts: values to SVG units."""
+"""Scales values to SVG units and sets ticks, for the report's charts."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The report's figures as SVG text: drawn in classes, so that the page's style decides the colours."""
+"""Draws the report's figures as SVG text: in classes, so that the page's style decides the colours."""
 
 from collections.abc import Sequence
 from html import escape
@@ -102,8 +102,8 @@ def _curve_parts(curve: LearningCurve, box, *, large: bool, low: float, high: fl
         parts.append(line(x(curve.best_step), top, x(curve.best_step), bottom, "chosen"))
     for name, values in series.items():
         if len(values):
-            places = zip(x(np.arange(len(values))), y(np.asarray(values)), strict=True)
-            path = "L".join(f"{a:.1f} {b:.1f}" for a, b in places)
+            corners = zip(x(np.arange(len(values))), y(np.asarray(values)), strict=True)
+            path = "L".join(f"{a:.1f} {b:.1f}" for a, b in corners)
             parts.append(f'<path class="curve {name}" d="M{path}"/>')
     if large:
         parts += _end_labels(series, y, right)

@@ -1,4 +1,4 @@
-"""What a report says, as plain records: read from a model once, then only drawn and printed."""
+"""Holds what a report says, as plain records: read from a model once, then only drawn and printed."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""A headset network's report as one HTML page: figures on arrays, a rival, people, frames that go wrong."""
+"""Writes a headset network's report as one HTML page: figures on arrays, a rival, people, frames that go wrong."""
 
 import base64
 from collections.abc import Sequence
@@ -7,7 +7,6 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from facegen.conventions import BLENDSHAPES
@@ -18,7 +17,7 @@ from regress.learning.headset.worst import WorstFrame
 from regress.report.axes import figure
 from regress.report.content import PARTLY_R2, SEEN_R2, Headline
 from regress.report.headset_tables import (
-    Table,
+    PageTable,
     components_table,
     conditions_table,
     curve_table,
@@ -30,6 +29,7 @@ from regress.report.headset_tables import (
 )
 from regress.report.histogram import histogram
 from regress.report.people_curve import CurvePoint, people_curve
+from regress.report.template import rendered
 from regress.runtime.headset.figures import Evaluation
 from regress.runtime.headset.model import HeadsetModel
 
@@ -62,14 +62,14 @@ class Section:
 
     title: str
     lead: str
-    conditions: Table
-    combined: Table | None
-    shapes: Table
-    components: Table
-    people: Table
+    conditions: PageTable
+    combined: PageTable | None
+    shapes: PageTable
+    components: PageTable
+    people: PageTable
     histogram: Markup
     honesty: str
-    rivals: tuple[tuple[str, tuple[tuple[str, Table], ...]], ...]
+    rivals: tuple[tuple[str, tuple[tuple[str, PageTable], ...]], ...]
     worst: tuple[tuple[WorstFrame, tuple[tuple[str, Markup], ...]], ...]
 
 
@@ -106,14 +106,8 @@ def write_headset_report(
         if model.scores is None:
             raise ModelError("the model has no figures of its own; give --data to measure some")
         judged = [Judged(title="the test split of its training data", figures=model.scores)]
-    environment = Environment(
-        loader=PackageLoader("regress.report"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    page = environment.get_template("headset.html").render(
+    page = rendered(
+        "headset.html",
         name=name,
         lead=_lead(model, judged[0]),
         headlines=_headlines(judged[0].figures, timings),

@@ -1,4 +1,4 @@
-"""Tables of a headset network's report: figures of an evaluation, row by row, as text and shades."""
+"""Makes the tables of a headset network's report: figures of an evaluation, row by row, as text and shades."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class Cell:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Table:
+class PageTable:
     """A head and rows of the same length; the first cell of each is its name."""
 
     head: tuple[str, ...]
@@ -46,7 +46,7 @@ class Table:
     tinted: bool = False
 
 
-def conditions_table(conditions: dict[str, Summary], floors: dict[str, Summary]) -> Table:
+def conditions_table(conditions: dict[str, Summary], floors: dict[str, Summary]) -> PageTable:
     """Every condition's summary, floors last."""
     head = ("given", "frames", "error in mm", "mean R²", "MAE", "RMSE", "blink R²", "gaze in degrees")
     keys = ("geometry_mm", "r2", "mae", "rmse", "blink_r2", "gaze_deg")
@@ -56,48 +56,52 @@ def conditions_table(conditions: dict[str, Summary], floors: dict[str, Summary])
         (Cell(text=name), Cell(text=f"{figures.rows:,}"), *(cell(getattr(figures, key)) for key in keys))
         for name, figures in named
     ]
-    return Table(head=head, rows=tuple(rows))
+    return PageTable(head=head, rows=tuple(rows))
 
 
-def shapes_table(figures: Evaluation) -> Table:
+def shapes_table(figures: Evaluation) -> PageTable:
     """R2, MAE and RMSE of every shape, without and with calibration, and R2 from each camera alone."""
     shapes, cameras = figures.shapes, figures.cameras
-    known = [name for name in MAIN if name in shapes[BLENDSHAPES[0]]]
+    conditions = [name for name in MAIN if name in shapes[BLENDSHAPES[0]]]
     short = {"uncalibrated": "alone", "same_seat": "calibrated", "other_seat": "other seat"}
     head = (
         "shape",
-        *(f"R² {short[name]}" for name in known),
+        *(f"R² {short[name]}" for name in conditions),
         *(f"R² {camera.replace('_', ' ')} only" for camera in cameras),
-        *(f"{what} {short[name]}" for what in ("MAE", "RMSE") for name in known[:2]),
+        *(f"{what} {short[name]}" for what in ("MAE", "RMSE") for name in conditions[:2]),
     )
     rows = [
         (
             Cell(text=shape),
-            *(r2_cell(shapes[shape][name].r2) for name in known),
+            *(r2_cell(shapes[shape][name].r2) for name in conditions),
             *(r2_cell(cameras[camera][shape]) for camera in cameras),
-            *(cell(getattr(shapes[shape][name], what)) for what in ("mae", "rmse") for name in known[:2]),
+            *(
+                cell(getattr(shapes[shape][name], what))
+                for what in ("mae", "rmse")
+                for name in conditions[:2]
+            ),
         )
         for shape in BLENDSHAPES
     ]
-    return Table(head=head, rows=tuple(rows), tinted=True)
+    return PageTable(head=head, rows=tuple(rows), tinted=True)
 
 
-def components_table(figures: Evaluation) -> Table:
+def components_table(figures: Evaluation) -> PageTable:
     """Geometry error of each component of the sampler, by the main conditions."""
     components = figures.components
-    known = [name for name in MAIN if name in next(iter(components.values())).mm]
+    conditions = [name for name in MAIN if name in next(iter(components.values())).mm]
     rows = [
         (
             Cell(text=name.replace("_", " ")),
             Cell(text=f"{one.rows:,}"),
-            *(cell(one.mm[condition]) for condition in known),
+            *(cell(one.mm[condition]) for condition in conditions),
         )
         for name, one in components.items()
     ]
-    return Table(head=("component", "frames", *map(said, known)), rows=tuple(rows))
+    return PageTable(head=("component", "frames", *map(said, conditions)), rows=tuple(rows))
 
 
-def people_table(figures: Evaluation) -> Table:
+def people_table(figures: Evaluation) -> PageTable:
     """Median, bad and worst geometry error of a person, by condition."""
     people = [person.mm for person in figures.people_mm.values()]
     rows = []
@@ -105,12 +109,12 @@ def people_table(figures: Evaluation) -> Table:
         errors = np.array([errors_mm[name] for errors_mm in people])
         values = (*np.percentile(errors, (5, 50, 95)), errors.max())
         rows.append((Cell(text=said(name)), *(cell(float(value)) for value in values)))
-    return Table(
+    return PageTable(
         head=("given", "one in twenty below", "median", "one in twenty above", "worst"), rows=tuple(rows)
     )
 
 
-def rivals_table(entries: dict[str, Rivalry], *, names: tuple[str, str]) -> Table:
+def rivals_table(entries: dict[str, Rivalry], *, names: tuple[str, str]) -> PageTable:
     """Geometry error of two networks, how much less the first has, and how often."""
     head = ("given", "frames", *names, "difference", "better frames", "better people")
     rows = [
@@ -125,10 +129,10 @@ def rivals_table(entries: dict[str, Rivalry], *, names: tuple[str, str]) -> Tabl
         )
         for name, one in _ordered(entries)
     ]
-    return Table(head=head, rows=tuple(rows))
+    return PageTable(head=head, rows=tuple(rows))
 
 
-def curve_table(points: Sequence[CurvePoint]) -> Table:
+def curve_table(points: Sequence[CurvePoint]) -> PageTable:
     """Figures by how many people a model was trained on."""
     head = ("model", "people", "frames", "error in mm", "mean R²", "calibrated, mm", "calibrated, R²")
     rows = []
@@ -137,10 +141,10 @@ def curve_table(points: Sequence[CurvePoint]) -> Table:
         cells = [cell(getattr(one, key, None)) for one in summaries for key in ("geometry_mm", "r2")]
         counts = (Cell(text=f"{count:,}") for count in (point.people, point.rows))
         rows.append((Cell(text=point.title), *counts, *cells))
-    return Table(head=head, rows=tuple(rows))
+    return PageTable(head=head, rows=tuple(rows))
 
 
-def temporal_table(temporal: Temporal) -> Table:
+def temporal_table(temporal: Temporal) -> PageTable:
     """What the frames before add, on clips."""
     head = (
         "what is said of a frame",
@@ -159,7 +163,7 @@ def temporal_table(temporal: Temporal) -> Table:
         )
         for name, one in temporal.scores.items()
     ]
-    return Table(head=head, rows=tuple(rows))
+    return PageTable(head=head, rows=tuple(rows))
 
 
 def said(name: str) -> str:

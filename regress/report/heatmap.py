@@ -1,4 +1,4 @@
-"""Tables of numbers as shaded cells."""
+"""Draws tables of numbers as shaded cells."""
 
 from collections.abc import Sequence
 from html import escape
@@ -42,12 +42,12 @@ def leak_map(change: np.ndarray, names: Sequence[str], *, full: float) -> str:
         parts.append(upright_text(_NAMES + row * CELL + 11, top - 6, name, "small"))
         for column, value in enumerate(change[row]):
             if abs(value) >= 0.02:
-                said = f"{name} moves {names[column]} by {value:+.2f}"
+                title = f"{name} moves {names[column]} by {value:+.2f}"
                 shade = (
                     min(abs(value) / full, 1.0) ** 0.7
                 )  # leaks of a tenth stay visible beside the diagonal
                 kind = "more" if value > 0 else "less"
-                parts.append(_cell(_NAMES + column * CELL, y, CELL, CELL, kind, shade, said))
+                parts.append(_cell(_NAMES + column * CELL, y, CELL, CELL, kind, shade, title))
     end = top + len(names) * CELL
     frame = f'<rect class="frame" x="{_NAMES}" y="{top}" width="{end - top}" height="{end - top}"/>'
     return picture(
@@ -56,10 +56,10 @@ def leak_map(change: np.ndarray, names: Sequence[str], *, full: float) -> str:
 
 
 def _cell(
-    x: float, y: float, width: float, height: float, kind: str, opacity: float, said: str | None = None
+    x: float, y: float, width: float, height: float, kind: str, opacity: float, title: str | None = None
 ) -> str:
     rectangle = (
         f'<rect class="{kind}" fill-opacity="{opacity:.2f}" x="{x + 0.5:.1f}" y="{y + 0.5:.1f}" '
         f'width="{width - 1:.1f}" height="{height - 1:.1f}"'
     )
-    return f"{rectangle}/>" if said is None else f"{rectangle}><title>{escape(said)}</title></rect>"
+    return f"{rectangle}/>" if title is None else f"{rectangle}><title>{escape(title)}</title></rect>"

@@ -1,4 +1,4 @@
-"""How values spread over people."""
+"""Draws how values spread over people."""
 
 import numpy as np
 

@@ -1,31 +1,20 @@
-"""A report's HTML: one file that opens without a network, figures inside."""
-
-from collections.abc import Iterable
-from itertools import groupby
-from operator import attrgetter
+"""Renders a report's HTML: one file that opens without a network, figures inside."""
 
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from regress.report.axes import figure
 from regress.report.charts import error_range, learning_curves, regression_panel, score_bars, small_curves
 from regress.report.content import PARTLY_R2, SEEN_R2, ReportContent, ShapeScores
 from regress.report.probed import Probed, grade
+from regress.report.template import rendered
 
 
 def render_page(content: ReportContent, probed: Probed | None = None) -> str:
     """Draw the figures and fill in the page, with what probes found where they ran; equal content gives equal text."""
-    environment = Environment(
-        loader=PackageLoader("regress.report"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["groupby_in_order"] = _groupby_in_order
     low, high = error_range(content.curves)
-    return environment.get_template("report.html").render(
+    return rendered(
+        "report.html",
         content=content,
         probed=probed,
         grade=grade,
@@ -41,11 +30,6 @@ def render_page(content: ReportContent, probed: Probed | None = None) -> str:
         cells=_cells,
         figure=figure,
     )
-
-
-def _groupby_in_order(items: Iterable, attribute: str) -> list[tuple[str, list]]:
-    """Runs of equal attributes; jinja's own filter would sort them."""
-    return [(key, list(group)) for key, group in groupby(items, key=attrgetter(attribute))]
 
 
 def _cells(score: ShapeScores) -> Markup:

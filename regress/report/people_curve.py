@@ -54,13 +54,13 @@ def people_curve(points: Sequence[CurvePoint]) -> str:
     middle = (LEFT + WIDTH - RIGHT) / 2
     parts.append(text(middle, HEIGHT - 8, "people learned from; error in mm upwards", "tick middle"))
     for kind, words, errors in series:
-        known = np.isfinite(errors)
-        if known.any():
-            places = list(zip(x(people[known]), y(errors[known]), strict=True))
-            path = "L".join(f"{a:.1f} {b:.1f}" for a, b in places)
+        measured = np.isfinite(errors)
+        if measured.any():
+            corners = list(zip(x(people[measured]), y(errors[measured]), strict=True))
+            path = "L".join(f"{a:.1f} {b:.1f}" for a, b in corners)
             parts.append(f'<path class="curve {kind}" d="M{path}"/>')
-            parts += [f'<circle class="label {kind}" cx="{a:.1f}" cy="{b:.1f}" r="3.5"/>' for a, b in places]
-            parts.append(text(WIDTH - RIGHT + 8, places[-1][1] + 4, words, f"label {kind}"))
+            parts += [f'<circle class="label {kind}" cx="{a:.1f}" cy="{b:.1f}" r="3.5"/>' for a, b in corners]
+            parts.append(text(WIDTH - RIGHT + 8, corners[-1][1] + 4, words, f"label {kind}"))
     return picture(WIDTH, HEIGHT, parts, "Error by people learned from")
 
 

@@ -1,4 +1,4 @@
-"""Faces drawn by their 68 points."""
+"""Draws faces by their 68 points."""
 
 import numpy as np
 

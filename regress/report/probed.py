@@ -1,4 +1,4 @@
-"""What probes found, as the page prints it: a part for the networks alone, one for those beside a neutral frame."""
+"""Prepares probes for the page: a part for the networks alone, one for those beside a neutral frame."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ _REGIONS = [network.region for network in NETWORKS for _ in network.outputs]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
+class ProbedPart:
     """Figures and drawings of one set of networks.
 
     Parameters
@@ -88,7 +88,7 @@ class Probed:
         Whether the networks' rows were displaced, so that two ridge regressions are shown.
     summary : tuple of (title, method, over, figures)
         Mean R2 of every method at every level of noise.
-    parts : tuple of Part
+    parts : tuple of ProbedPart
     """
 
     faces: int
@@ -102,7 +102,7 @@ class Probed:
     shut: float
     two_ridges: bool
     summary: tuple
-    parts: tuple[Part, ...]
+    parts: tuple[ProbedPart, ...]
 
 
 def probed_of(measured: Measured) -> Probed:
@@ -163,12 +163,12 @@ def _part(
     still: Stillness,
     *,
     most: float,
-) -> Part:
+) -> ProbedPart:
     same = {one.method: one.r2 for one in observed if one.calibrated == poses.calibrated}
     networks, floor = same["networks"], same.get("ridge, same rows", same["ridge, undisplaced rows"])
     visible = np.zeros(len(OUTPUTS), dtype=bool)
     visible[_VISIBLE] = True
-    return Part(
+    return ProbedPart(
         title=_title(poses.calibrated),
         noise=_by_region(np.stack([networks, floor], axis=1).reshape(-1, len(OUTPUTS)).T),
         pose=_by_region(np.stack([poses.frontal_r2, poses.turned_r2, poses.loss, poses.mae_rise], axis=1)),

@@ -44,13 +44,13 @@ def content_of(model: Model) -> ReportContent:
         )
         curves = tuple(_curve(network.key, record.networks[network.key]) for network in model.table)
         # records of older models do not say; theirs were split by person as a rule
-        known = record.dataset.people_in_training.get("test", 0)
-        unseen = "sessions" if known else "people"
+        in_training = record.dataset.people_in_training.get("test", 0)
+        unseen = "sessions" if in_training else "people"
         return ReportContent(
             title=f"Model report: {model.recipe} recipe",
-            summary=_summary(model, known),
+            summary=_summary(model, in_training),
             unseen=unseen,
-            people_in_training=known,
+            people_in_training=in_training,
             headlines=_headlines(record, scores, unseen),
             scores=scores,
             constant=tuple(name for name in BLENDSHAPES if name not in model.outputs),
@@ -96,9 +96,13 @@ def _regression(split: str, regression: Regression) -> RegressionPlot:
     )
 
 
-def _summary(model: Model, known: int) -> str:
+def _summary(model: Model, in_training: int) -> str:
     samples = model.record.dataset.samples
-    whose = f"sessions they have never seen, though of {known:,} people whom they have" if known else ""
+    whose = (
+        f"sessions they have never seen, though of {in_training:,} people whom they have"
+        if in_training
+        else ""
+    )
     return (
         f"{len(model.table)} networks turn 68 facial landmarks into {len(model.outputs)} avatar weights. "
         f"Trained on {samples['train']:,} synthetic faces, judged on {samples['test']:,} faces of "

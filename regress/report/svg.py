@@ -1,4 +1,4 @@
-"""The few SVG elements that the report's figures are made of."""
+"""Makes the few SVG elements of the report's figures."""
 
 from collections.abc import Sequence
 from html import escape

@@ -1,1 +1,1 @@
-"""Headset networks: their arrays, training and judgement."""
+"""Headset networks: arrays, training, evaluation."""

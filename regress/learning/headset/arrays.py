@@ -1,4 +1,4 @@
-"""A folder of arrays that ``facegen pack --format arrays`` wrote: pictures memory-mapped, labels in memory."""
+"""Reads a folder that ``facegen pack --format arrays`` wrote: pictures memory-mapped, labels in memory."""
 
 import json
 import os
@@ -90,7 +90,7 @@ class HeadsetArrays:
             False: of the row's own session, another row than itself where there is one; True: of the person's
             next other session.
         """
-        found = np.full(len(self.person), -1)
+        neutral_row = np.full(len(self.person), -1)
         neutral_of: dict[int, dict[int, list[int]]] = {}
         for row in np.flatnonzero(self.neutral):
             seats = neutral_of.setdefault(int(self.person[row]), {})
@@ -104,8 +104,8 @@ class HeadsetArrays:
                 own = seats.get(int(session), [])
                 choice = [other for other in own if other != row] or own
             if choice:
-                found[row] = choice[0]
-        return found
+                neutral_row[row] = choice[0]
+        return neutral_row
 
     def kept_rows(self, split: str, *, withhold: str = "none", people: int = 0) -> np.ndarray:
         """Rows of a split without those that training is to go without.

@@ -85,7 +85,7 @@ def evaluate(
     if not len(rows):
         raise InputError(f"the arrays have no {split} row with an expression; choose another split")
     people = np.unique(arrays.person[rows])
-    known = int(np.isin(people, arrays.person[arrays.split == "train"]).sum())
+    in_training = int(np.isin(people, arrays.person[arrays.split == "train"]).sum())
     combined = arrays.component[rows] == COMBINED
     true, true_gaze = arrays.weights[rows], arrays.gaze[rows].reshape(-1, 2, 2)
     estimates = {
@@ -107,8 +107,8 @@ def evaluate(
         split=split,
         rows=len(rows),
         people=len(people),
-        people_in_training=known,
-        unseen=_unseen(model, arrays, known),
+        people_in_training=in_training,
+        unseen=_unseen(model, arrays, in_training),
         dataset_hash=arrays.description.get("dataset_hash", ""),
         conditions=summaries(ordinary),
         combined=summaries(combined),
@@ -149,22 +149,22 @@ def conditions(model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray) -> 
 
 def _check_cameras(model: HeadsetModel, arrays: HeadsetArrays) -> None:
     needed = {camera.name: (camera.width, camera.height) for camera in model.cameras}
-    there = {camera.name: (camera.width, camera.height) for camera in arrays.cameras}
+    sizes = {camera.name: (camera.width, camera.height) for camera in arrays.cameras}
     for name, (width, height) in needed.items():
-        if there.get(name) != (width, height):
-            has = ", ".join(f"{other} {w}x{h}" for other, (w, h) in there.items())
+        if sizes.get(name) != (width, height):
+            has = ", ".join(f"{other} {w}x{h}" for other, (w, h) in sizes.items())
             raise InputError(
                 f"the model needs camera {name} of {width}x{height} pixels; the arrays have {has}"
             )
 
 
-def _unseen(model: HeadsetModel, arrays: HeadsetArrays, known: int) -> bool:
+def _unseen(model: HeadsetModel, arrays: HeadsetArrays, in_training: int) -> bool:
     """Whether a model cannot know people of whom the arrays' own training split has so many.
 
     Datasets of one seed share people, however many each has; without a record of the seed nothing is known.
     """
     if model.dataset_hash and model.dataset_hash == arrays.description.get("dataset_hash"):
-        return not known
+        return not in_training
     seeds = model.training.data_seed, arrays.description.get("seed")
     return None not in seeds and seeds[0] != seeds[1]
 

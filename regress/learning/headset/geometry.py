@@ -1,4 +1,4 @@
-"""Errors of weights as millimetres on the face: how far its vertices are from where they should be."""
+"""Measures errors of weights in millimetres on the face: how far vertices are from their true positions."""
 
 from dataclasses import dataclass
 

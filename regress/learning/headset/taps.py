@@ -17,7 +17,7 @@ _RIDGE = 1e-3
 """Of the mean squared difference between frames: an output that says the same throughout keeps its own frame alone."""
 
 
-def fit_taps(said: np.ndarray, true: np.ndarray, starts: np.ndarray) -> np.ndarray:
+def fit_taps(estimated: np.ndarray, true: np.ndarray, starts: np.ndarray) -> np.ndarray:
     """Taps (56, TAPS) of least squared error; both sides of the face share theirs.
 
     As taps add up to 1, the error of the mean is the frame's own error plus the differences to the frames before, each
@@ -25,15 +25,15 @@ def fit_taps(said: np.ndarray, true: np.ndarray, starts: np.ndarray) -> np.ndarr
 
     Parameters
     ----------
-    said, true : (n, 56)
+    estimated, true : (n, 56)
         Weights, then gaze angles, clip after clip.
     starts : (n,) bool
         First frames of clips.
     """
-    history = lagged(said, starts)
+    history = lagged(estimated, starts)
     change = history[:, 1:] - history[:, :1]
     gram = np.einsum("nio,njo->oij", change, change)
-    moment = np.einsum("nio,no->oi", change, true - said)
+    moment = np.einsum("nio,no->oi", change, true - estimated)
     gram, moment = gram + gram[MIRROR], moment + moment[MIRROR]
     ridge = _RIDGE * np.trace(gram, axis1=1, axis2=2) / (TAPS - 1) + 1e-12
     before = np.linalg.solve(gram + ridge[:, None, None] * np.eye(TAPS - 1), moment[..., None])[..., 0]
@@ -54,15 +54,15 @@ def fit_temporal(predictor: HeadsetPredictor, arrays: HeadsetArrays) -> Temporal
             "(datasets/headset-clips.toml)"
         )
     rows = {split: arrays.rows(split) for split in ("train", "test")}
-    for split, there in rows.items():
-        if not len(there):
+    for split, numbers in rows.items():
+        if not len(numbers):
             raise InputError(f"the clips have no {split} people; split_shares in their spec gives some")
-    said = {
-        split: estimate(predictor.graph, predictor.model, arrays, there, Condition())
-        for split, there in rows.items()
+    estimates = {
+        split: estimate(predictor.graph, predictor.model, arrays, numbers, Condition())
+        for split, numbers in rows.items()
     }
     starts = arrays.clip_starts()
-    taps = fit_taps(_joined(said["train"]), _true(arrays, rows["train"]), starts[rows["train"]])
+    taps = fit_taps(_joined(estimates["train"]), _true(arrays, rows["train"]), starts[rows["train"]])
     even = np.full_like(taps, 1 / TAPS)
     alone = np.zeros_like(taps)
     alone[:, 0] = 1
@@ -72,15 +72,15 @@ def fit_temporal(predictor: HeadsetPredictor, arrays: HeadsetArrays) -> Temporal
         people=len(np.unique(arrays.person[rows["train"]])),
         dataset_hash=arrays.description.get("dataset_hash", ""),
         scores={
-            name: _scores(arrays, rows["test"], said["test"], one)
+            name: _scores(arrays, rows["test"], estimates["test"], one)
             for name, one in (("one frame", alone), ("mean of five", even), ("taps", taps))
         },
     )
 
 
-def _scores(arrays: HeadsetArrays, rows: np.ndarray, said: Estimates, taps: np.ndarray) -> ClipSummary:
+def _scores(arrays: HeadsetArrays, rows: np.ndarray, estimates: Estimates, taps: np.ndarray) -> ClipSummary:
     starts = arrays.clip_starts()[rows]
-    values = convolve(_joined(said), starts, taps)
+    values = convolve(_joined(estimates), starts, taps)
     weights, gaze = np.clip(values[:, :WEIGHTS], 0, 1), values[:, WEIGHTS:].reshape(-1, 2, 2)
     true = arrays.weights[rows]
     figures = summary(arrays.face, weights, gaze, true, arrays.gaze[rows].reshape(-1, 2, 2))
@@ -88,8 +88,8 @@ def _scores(arrays: HeadsetArrays, rows: np.ndarray, said: Estimates, taps: np.n
     return ClipSummary(**vars(figures), shake=float(np.sqrt(np.mean(shake**2))))
 
 
-def _joined(said: Estimates) -> np.ndarray:
-    return np.concatenate([said.weights, said.gaze.reshape(-1, 4)], axis=1).astype(np.float64)
+def _joined(estimates: Estimates) -> np.ndarray:
+    return np.concatenate([estimates.weights, estimates.gaze.reshape(-1, 4)], axis=1).astype(np.float64)
 
 
 def _true(arrays: HeadsetArrays, rows: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The frames of unseen people that a network gets most wrong, with their pictures."""
+"""Collects the frames of unseen people with the largest errors, with their pictures."""
 
 from dataclasses import dataclass
 
@@ -42,20 +42,20 @@ def worst_frames(
 ) -> tuple[WorstFrame, ...]:
     """The frames with the largest error without calibration, one a person, worst first."""
     rows = np.flatnonzero((arrays.split == split) & ~arrays.neutral)
-    said = estimate(predictor.graph, predictor.model, arrays, rows, Condition())
-    errors = arrays.face.error_mm(said.weights, arrays.weights[rows])
+    estimates = estimate(predictor.graph, predictor.model, arrays, rows, Condition())
+    errors = arrays.face.error_mm(estimates.weights, arrays.weights[rows])
     reach = np.sqrt(np.diag(arrays.face.gram_mm2()))
-    found: list[WorstFrame] = []
+    worst: list[WorstFrame] = []
     seen: set[int] = set()
     for place in np.argsort(-errors, kind="stable"):
         row = int(rows[place])
         person = int(arrays.person[row])
-        if person in seen or len(found) == count:
+        if person in seen or len(worst) == count:
             continue
         seen.add(person)
-        true, predicted = arrays.weights[row], said.weights[place]
+        true, predicted = arrays.weights[row], estimates.weights[place]
         largest = np.argsort(-np.abs(predicted - true) * reach, kind="stable")[:_SHAPES]
-        found.append(
+        worst.append(
             WorstFrame(
                 sample=int(arrays.sample[row]),
                 person=person,
@@ -65,4 +65,4 @@ def worst_frames(
                 shapes=tuple((BLENDSHAPES[one], float(true[one]), float(predicted[one])) for one in largest),
             )
         )
-    return tuple(found)
+    return tuple(worst)

@@ -1,4 +1,4 @@
-"""The Levenberg-Marquardt loop: damping by gain ratio, early stopping by held-out error, a named outcome."""
+"""Runs the Levenberg-Marquardt loop: damping by gain ratio, early stopping by held-out error, a named outcome."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What the solver asks of a batch of problems: residuals, products with the Jacobian, a preconditioner."""
+"""Defines what the solver needs of a batch of problems: residuals, products with the Jacobian, a preconditioner."""
 
 from collections.abc import Callable
 from typing import Protocol

@@ -1,4 +1,4 @@
-"""Folding: everything linear around a trained network goes into its weights."""
+"""Folds everything linear around a trained network into its weights."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Where networks start: along ridge directions at several knots, or at random as Nguyen and Widrow do."""
+"""Initialises networks: along ridge directions at several knots, or at random as Nguyen and Widrow do."""
 
 import numpy as np
 

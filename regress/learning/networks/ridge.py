@@ -1,4 +1,4 @@
-"""Ridge regression for all strengths at once: the baseline, and where networks start."""
+"""Fits ridge regressions of all strengths at once: the baseline, and the start of networks."""
 
 from dataclasses import dataclass
 

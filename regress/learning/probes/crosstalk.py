@@ -1,4 +1,4 @@
-"""Which shape leaks into which: one shape is moved, and all outputs are watched."""
+"""Measures which shape leaks into which: one shape is moved, and all outputs are watched."""
 
 import re
 from dataclasses import dataclass

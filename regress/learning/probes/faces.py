@@ -1,4 +1,4 @@
-"""Exact faces of a dataset that can be turned: points in the head, and the camera that sees them."""
+"""Reads exact faces of a dataset that can be turned: points in the head, and the camera that sees them."""
 
 from dataclasses import dataclass, fields
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""All probes of one model on one dataset."""
+"""Runs all probes of one model on one dataset."""
 
 import dataclasses
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What is asked: a model's networks, and the two ridge regressions that are their floors."""
+"""Lists the methods that probes compare: a model's networks, and the two ridge regressions that are their baselines."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

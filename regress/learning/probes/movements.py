@@ -1,4 +1,4 @@
-"""What one shape alone does to the points, learned from a dataset: no rig is needed to move a face."""
+"""Learns from a dataset how one shape alone moves the points: no rig is needed to move a face."""
 
 from dataclasses import dataclass
 
@@ -49,8 +49,8 @@ def movements(faces: ProbeFaces, neutral: ProbeFaces) -> Movements:
     for points, other_side in _FITS:
         shapes = [row for row, name in enumerate(BLENDSHAPES) if not _is_eye_of(name, other_side)]
         flat_m = shifts_m[:, points].reshape(len(weights), -1)
-        found, *_ = np.linalg.lstsq(weights[:, shapes], flat_m, rcond=None)
-        per_weight_m[np.ix_(shapes, points)] = found.reshape(len(shapes), len(points), 3)
+        moved_m, *_ = np.linalg.lstsq(weights[:, shapes], flat_m, rcond=None)
+        per_weight_m[np.ix_(shapes, points)] = moved_m.reshape(len(shapes), len(points), 3)
     residual_m = shifts_m - np.einsum("ns,spd->npd", weights, per_weight_m)
     return Movements(per_weight_m=per_weight_m, residual_m=float(np.sqrt(np.mean(residual_m**2))))
 

@@ -1,4 +1,4 @@
-"""How much of each shape the 68 points determine at several levels of noise."""
+"""Measures how much of each shape the 68 points determine at several levels of noise."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -49,11 +49,11 @@ def observability(
             displace(points, level / 100 * rng.standard_normal(points.shape))
             for points in (faces.points_px, neutral.points_px)
         )
-        for found, method in zip(r2, methods, strict=True):
-            found.append(r2_of(method.predict(shown, beside), true))
+        for by_level, method in zip(r2, methods, strict=True):
+            by_level.append(r2_of(method.predict(shown, beside), true))
     return tuple(
-        Observability(method=method.name, calibrated=method.calibrated, r2=np.array(found))
-        for method, found in zip(methods, r2, strict=True)
+        Observability(method=method.name, calibrated=method.calibrated, r2=np.array(by_level))
+        for method, by_level in zip(methods, r2, strict=True)
     )
 
 

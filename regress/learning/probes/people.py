@@ -1,4 +1,4 @@
-"""Error by person, and the faces that go worst."""
+"""Measures error by person, and finds the faces with the largest errors."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Error against head pose: the same faces, turned to each pose of a grid."""
+"""Measures error against head pose: the same faces, turned to each pose of a grid."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

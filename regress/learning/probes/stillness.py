@@ -1,4 +1,4 @@
-"""Faces that do nothing: what is said of a neutral face, and how outputs tremble on a still one."""
+"""Measures faces that do nothing: weights of a neutral face, and how outputs tremble on a still one."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""One eye shut: does the other eye's blink stay at rest?"""
+"""Measures winks: one eye is shut, and the other eye's blink should stay at rest."""
 
 from dataclasses import dataclass
 
@@ -52,7 +52,7 @@ def winks(method: Method, faces: ProbeFaces, neutral: ProbeFaces) -> Winks:
     both = np.minimum(*(faces.weights[:, BLENDSHAPE_INDEX[f"eyeBlink{side}"]] for side, _ in _SIDES))
     rows = np.flatnonzero(both >= SHUT)
     faces, neutral = faces.take(rows), neutral.take(rows)
-    said = {"true": [], "shut": [], "leak": [], "both": []}
+    blinks = {"true": [], "shut": [], "leak": [], "both": []}
 
     def outputs(*sides: str) -> dict[str, np.ndarray]:
         """What is said of the blinks of neutral faces with the lids of some sides shut."""
@@ -65,9 +65,9 @@ def winks(method: Method, faces: ProbeFaces, neutral: ProbeFaces) -> Winks:
     blink = outputs("Left", "Right") if len(rows) else {}
     for side, other in _SIDES if len(rows) else ():
         wink = outputs(side)
-        said["true"].append(faces.weights[:, BLENDSHAPE_INDEX[f"eyeBlink{side}"]])
-        said["shut"].append(wink[side])
-        said["leak"].append(wink[other])
-        said["both"].append(blink[side])
-    means = {name: float(np.mean(values)) if values else float("nan") for name, values in said.items()}
+        blinks["true"].append(faces.weights[:, BLENDSHAPE_INDEX[f"eyeBlink{side}"]])
+        blinks["shut"].append(wink[side])
+        blinks["leak"].append(wink[other])
+        blinks["both"].append(blink[side])
+    means = {name: float(np.mean(values)) if values else float("nan") for name, values in blinks.items()}
     return Winks(method=method.name, calibrated=method.calibrated, count=len(rows), **means)

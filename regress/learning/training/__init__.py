@@ -1,4 +1,4 @@
-"""From a facegen dataset to a model: splits, z-scores, 31 networks, baselines, scores."""
+"""Trains models on facegen datasets: splits, z-scores, 31 networks, baselines, scores."""
 
 from regress.learning.training.dataset import KeypointDataset, read_dataset
 from regress.learning.training.recipes import RECIPES, Recipe

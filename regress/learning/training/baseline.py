@@ -1,4 +1,4 @@
-"""Ridge regression on a model's own features: what every network must beat."""
+"""Fits ridge regression on a model's own features: the baseline that every network must beat."""
 
 from dataclasses import dataclass
 

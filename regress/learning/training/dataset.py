@@ -1,4 +1,4 @@
-"""Keypoints and weights of a facegen dataset, as files say them (DESIGN: a dataset on disk)."""
+"""Reads keypoints and weights of a facegen dataset (DESIGN: a dataset on disk)."""
 
 import hashlib
 import json
@@ -68,8 +68,8 @@ class KeypointDataset:
     @property
     def has_neutral_frames(self) -> bool:
         """Whether every split has a face beside its person's neutral one."""
-        known = (self.neutral_rows() >= 0) & ~self.neutral
-        return all(bool(np.any(known[self.rows(split)])) for split in SPLITS)
+        beside_neutral = (self.neutral_rows() >= 0) & ~self.neutral
+        return all(bool(np.any(beside_neutral[self.rows(split)])) for split in SPLITS)
 
     def neutral_rows(self) -> np.ndarray:
         """(n,) int64: for each row the first neutral row of its person, -1 where there is none."""
@@ -112,13 +112,15 @@ def read_dataset(
         digest.update(content)
         tables.append(_table(shard, content, points))
     table = pa.concat_tables(tables)
-    places = _column(table, points).reshape(-1, LANDMARK_COUNT, 2)
-    found = ~np.isnan(places).all(axis=(1, 2))  # frames in which the detector finds no face teach nothing
-    if not found.any():
+    landmarks = _column(table, points).reshape(-1, LANDMARK_COUNT, 2)
+    has_face = ~np.isnan(landmarks).all(
+        axis=(1, 2)
+    )  # frames in which the detector finds no face teach nothing
+    if not has_face.any():
         raise InputError(f"{folder / 'keypoints'}: no row has a face; all of {points} is NaN")
-    table, places = table.filter(found), places[found]
+    table, landmarks = table.filter(has_face), landmarks[has_face]
     weights = _column(table, "weights")
-    if not (np.isfinite(places).all() and np.isfinite(weights).all()):
+    if not (np.isfinite(landmarks).all() and np.isfinite(weights).all()):
         raise InputError(f"{folder / 'keypoints'} holds points or weights that are not finite numbers")
     split = np.array(table.column("split").to_pylist())
     for name in splits:
@@ -128,7 +130,7 @@ def read_dataset(
             )
     return KeypointDataset(
         name=folder.resolve().name,
-        points=places,
+        points=landmarks,
         weights=weights,
         split=split,
         person=table.column("person").to_numpy(),

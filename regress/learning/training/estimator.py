@@ -1,4 +1,4 @@
-"""One network as a scikit-learn estimator, for anyone's data."""
+"""Offers one network as a scikit-learn estimator, for any data."""
 
 from collections.abc import Sequence
 from typing import Any

@@ -1,8 +1,8 @@
-"""Fitting all networks: groups of them in threads, the L2 strength of each chosen on the validation split."""
+"""Fits all networks: groups of them in threads, the L2 strength of each chosen on the validation split."""
 
 import os
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
@@ -26,12 +26,10 @@ from regress.learning.networks import (
     ridge_directions,
     ridge_knots,
 )
+from regress.learning.progress import Progress
 from regress.learning.training.preparation import WIDEST, Prepared, Split, network_columns, used_outputs
 from regress.learning.training.recipes import Recipe
 from regress.targets import NETWORKS
-
-Progress = Callable[[str, int, int], None]
-"""Called with the stage's name, steps done and steps at most."""
 
 _GROUPS: tuple[np.ndarray, ...] = tuple(np.arange(first, len(NETWORKS), 6) for first in range(6))
 """Networks fitted together. Fixed, whatever the cores: matrix products of other shapes give other last bits.
@@ -105,10 +103,10 @@ def fit_networks(prepared: Prepared, recipe: Recipe, *, seed: int, progress: Pro
             start = _start(searched, prepared.rotation, layout, recipe, _FIRST_STRENGTH, seed)
             stage = _Stage(progress, "evidence", EVIDENCE_ROUNDS * EVIDENCE_STEPS + brief.steps)
             alphas = np.full(len(NETWORKS), _FIRST_STRENGTH)
-            found = _fit_groups(layout, few, (held,), start, alphas, brief, stage, evidence=True)
+            fits = _fit_groups(layout, few, (held,), start, alphas, brief, stage, evidence=True)
             errors = np.empty((0, len(NETWORKS)))
-            start = _gathered(result.parameters for result in found)
-            alphas = _gathered(result.alpha for result in found)
+            start = _gathered(result.parameters for result in fits)
+            alphas = _gathered(result.alpha for result in fits)
         else:
             tried = recipe.alphas
             trials = [search(alpha) for alpha in tried]

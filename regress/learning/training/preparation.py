@@ -1,4 +1,4 @@
-"""Training data in the form the networks want: z-scored, in principal axes, padded to one shape."""
+"""Prepares training data: z-scored, in principal axes, padded to one shape."""
 
 from dataclasses import dataclass, replace
 

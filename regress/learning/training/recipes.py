@@ -1,4 +1,4 @@
-"""Named ways to train. A new recipe is one new entry."""
+"""Lists named ways to train. A new recipe is one new entry."""
 
 from dataclasses import dataclass
 

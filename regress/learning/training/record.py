@@ -122,14 +122,16 @@ def _baselines(
             dataset, features, mirror=recipe.mirror, noise=noise, calibrated=calibrated, seed=seed
         )
         predicted["ridge_same_rows"] = same.predict(given)
-    return {name: dict(zip(OUTPUTS, score(found, true), strict=True)) for name, found in predicted.items()}
+    return {
+        name: dict(zip(OUTPUTS, score(weights, true), strict=True)) for name, weights in predicted.items()
+    }
 
 
 def _mean_over_networks(scores: dict[str, Scores]) -> float | None:
     """Mean over the networks of the mean R2 of their outputs: two-sided shapes count once."""
     means = [mean_r2(scores, network.outputs) for network in NETWORKS]
-    known = [mean for mean in means if mean is not None]
-    return float(np.mean(known)) if known else None
+    defined = [mean for mean in means if mean is not None]
+    return float(np.mean(defined)) if defined else None
 
 
 def _network_records(fit: Fit) -> dict[str, NetworkTraining]:

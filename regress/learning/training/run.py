@@ -1,12 +1,13 @@
-"""Training from start to model: features, networks with and without a neutral frame, and the record."""
+"""Trains a model: features, networks with and without a neutral frame, and the record."""
 
 import dataclasses
 from dataclasses import dataclass
 
 from regress.errors import Interrupted
 from regress.learning.networks import fold
+from regress.learning.progress import Progress
 from regress.learning.training.dataset import KeypointDataset
-from regress.learning.training.fitting import Fit, Progress, fit_networks
+from regress.learning.training.fitting import Fit, fit_networks
 from regress.learning.training.preparation import Prepared, prepare
 from regress.learning.training.recipes import Recipe
 from regress.learning.training.record import training_record

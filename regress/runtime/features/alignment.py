@@ -1,4 +1,4 @@
-"""Alignment of a face to a mean shape by the points that expressions move least."""
+"""Aligns a face to a mean shape by the points that expressions move least."""
 
 import numpy as np
 

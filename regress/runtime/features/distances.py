@@ -1,4 +1,4 @@
-"""Edge lengths in face widths."""
+"""Measures edge lengths in face widths."""
 
 import numpy as np
 

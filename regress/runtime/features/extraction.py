@@ -1,4 +1,4 @@
-"""The features of a model: which alignment, which edges."""
+"""Extracts the features of a model: which alignment, which edges."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The one reference shape and its Delaunay edges, fixed once and copied into every model."""
+"""Reads the one reference shape and its Delaunay edges, fixed once and copied into every model."""
 
 import hashlib
 import json

@@ -1,4 +1,4 @@
-"""Undoing a turn of the head: near points move against far ones, as far as the mean face's depth says."""
+"""Undoes a turn of the head: near points move against far ones, as far as the mean face's depth says."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The trained graph, run by onnxruntime on one core."""
+"""Runs the trained graph in onnxruntime on one core."""
 
 import os
 from collections.abc import Sequence

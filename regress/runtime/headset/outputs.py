@@ -1,4 +1,4 @@
-"""What a headset network says of a frame: 52 weights, then four gaze angles; and how a mirrored face reads."""
+"""Lists a headset network's outputs for a frame: 52 weights, then four gaze angles; and mirrors them."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Which camera is made to see which shapes, and which cameras are each other's mirror image, by their names."""
+"""Decides from cameras' names which shapes each is made to see, and which cameras mirror each other."""
 
 import re
 
@@ -41,13 +41,13 @@ def part_of(camera: str) -> tuple[str, ...]:
 
 def side_of(camera: str) -> str | None:
     """``"left"``, ``"right"`` or None, from a camera's name: left_eye, lefteye, eye_l, leye."""
-    found = _SIDE.search(camera.lower())
-    return found and {"l": "left", "r": "right"}.get(found[1], found[1])
+    side = _SIDE.search(camera.lower())
+    return side and {"l": "left", "r": "right"}.get(side[1], side[1])
 
 
 def mirror_partner(camera: str) -> str:
     """Name of the camera on the other side of the face; a camera without a side names itself."""
-    return _SIDE.sub(lambda found: _OTHER_SIDE[found[1]], camera)
+    return _SIDE.sub(lambda match: _OTHER_SIDE[match[1]], camera)
 
 
 def without_side(cameras: tuple[str, ...]) -> list[str]:

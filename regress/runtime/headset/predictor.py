@@ -1,4 +1,4 @@
-"""A headset network ready to be used: what its folder says, and its graph."""
+"""Loads a headset network ready to be used: its description, and its graph."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Predictions for many faces: blocks that stay in a core's cache, in buffers made once."""
+"""Predicts for many faces: blocks that stay in a core's cache, in buffers made once."""
 
 import os
 from concurrent.futures import ThreadPoolExecutor
@@ -184,14 +184,14 @@ class BatchPredictor:
     def _shrink(self, buffers: "_Buffers") -> None:
         """Fill in what denoising leaves of the lengths."""
         shown, share = len(self._signal), np.float32(1 / len(self._denoising.noise_axes))
-        places = np.matmul(self._axes, buffers.lengths)
-        noise = np.einsum("tf,tf->f", places[shown:], places[shown:]) * share
-        surplus = self._surplus @ np.square(places[:shown]) - np.float32(self._denoising.usual)
+        coordinates = np.matmul(self._axes, buffers.lengths)
+        noise = np.einsum("tf,tf->f", coordinates[shown:], coordinates[shown:]) * share
+        surplus = self._surplus @ np.square(coordinates[:shown]) - np.float32(self._denoising.usual)
         np.maximum(noise, surplus, out=noise)
         noise += np.float32(self._denoising.least)
-        places = np.add(places[:shown], self._offset, out=buffers.inputs[:-1])
+        coordinates = np.add(coordinates[:shown], self._offset, out=buffers.inputs[:-1])
         gain = self._signal + noise
-        places *= np.divide(self._signal, gain, out=gain)
+        coordinates *= np.divide(self._signal, gain, out=gain)
 
 
 class _Buffers:

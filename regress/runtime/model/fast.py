@@ -1,4 +1,4 @@
-"""The same predictions in a fraction of the time: buffers made once, networks in float32."""
+"""Predicts the same weights in a fraction of the time: buffers made once, networks in float32."""
 
 import cmath
 import math
@@ -132,8 +132,8 @@ class FastPredictor:
 
     def _shrunk(self, features: np.ndarray) -> np.ndarray:
         """What denoising leaves of one face's features, centred."""
-        places = np.dot(features, self._axes_columns)
-        shown, noise = places[: self._shown], places[self._shown :]
+        coordinates = np.dot(features, self._axes_columns)
+        shown, noise = coordinates[: self._shown], coordinates[self._shown :]
         measured = float(noise.dot(noise)) * self._noise_share
         surplus = float(np.square(shown).dot(self._surplus)) - self._usual
         gain = self._signal + (max(measured, surplus) + self._least)

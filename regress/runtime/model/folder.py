@@ -1,4 +1,4 @@
-"""A model on disk: a folder with model.json and weights.npz, no pickle, equal bytes for equal models."""
+"""Writes and reads a model folder: model.json and weights.npz, no pickle, equal bytes for equal models."""
 
 import dataclasses
 import hashlib

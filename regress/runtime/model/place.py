@@ -1,4 +1,4 @@
-"""The place of a model: what its folder may hold before a new model takes it, and one rename that does."""
+"""Checks what a model's folder holds before a new model replaces it, and replaces it by one rename."""
 
 import json
 import os
@@ -116,13 +116,11 @@ def _check_old(folder: Path, kind: ModelKind) -> None:
         return
     if names is None or "model.json" not in names:
         raise OutputError(f"{folder} exists and is not a model folder; choose another --out")
-    found = _kind_of(folder / "model.json")
-    if found is None:
+    old = _kind_of(folder / "model.json")
+    if old is None:
         raise OutputError(f"{folder / 'model.json'} is of no model that regress wrote; choose another --out")
-    if found is not kind:
-        raise OutputError(
-            f"{folder} is {found.title}, and {kind.title} would replace it; choose another --out"
-        )
+    if old is not kind:
+        raise OutputError(f"{folder} is {old.title}, and {kind.title} would replace it; choose another --out")
     others = [name for name in names if name not in ("model.json", kind.numbers, *_MADE_OF_IT)]
     if others:
         raise OutputError(

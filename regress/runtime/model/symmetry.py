@@ -1,4 +1,4 @@
-"""A model whose answer to a mirrored face is the mirrored answer, exactly."""
+"""Makes a model whose answer to a mirrored face is the mirrored answer, exactly."""
 
 from dataclasses import replace
 

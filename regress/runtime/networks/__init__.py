@@ -1,4 +1,4 @@
-"""Many small networks side by side: how they run."""
+"""Runs many small networks side by side."""
 
 from regress.runtime.networks.denoising import Denoising
 from regress.runtime.networks.folded import FoldedNetworks, evaluate, shifted

@@ -1,4 +1,4 @@
-"""Features shrunk as far as the noise of the very face says: what noise floods is left out, the rest is kept."""
+"""Shrinks features as far as the noise of the very face says: what noise floods is left out, the rest is kept."""
 
 from dataclasses import dataclass, replace
 
@@ -52,11 +52,11 @@ class Denoising:
     def shrunk(self, features: np.ndarray) -> np.ndarray:
         """Places along the axes (n, A) of raw features (n, E), shrunk; rows of NaN give rows of NaN."""
         centred = features - self.origin
-        places = centred @ self.axes.T
+        coordinates = centred @ self.axes.T
         measured = np.mean((centred @ self.noise_axes.T) ** 2, axis=1, keepdims=True)
-        surplus = (places**2 @ self.surplus)[:, None] - self.usual
+        surplus = (coordinates**2 @ self.surplus)[:, None] - self.usual
         noise = np.maximum(measured, surplus) + self.least
-        return (places + self.offset) * (self.signal / (self.signal + noise))
+        return (coordinates + self.offset) * (self.signal / (self.signal + noise))
 
     @property
     def believing(self) -> "Denoising":

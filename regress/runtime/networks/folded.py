@@ -1,4 +1,4 @@
-"""Many small networks side by side: inference in one go, with everything linear folded into the weights."""
+"""Runs many small networks in one go, with everything linear folded into the weights."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property

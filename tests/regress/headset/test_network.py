@@ -142,7 +142,7 @@ def test_a_holistic_network_traces_what_an_absent_camera_would_see_and_has_a_cod
     there = torch.ones(2, 3)
     absent = there * torch.tensor([1.0, 1, 0])
     whole, without = (made(seen, torch.zeros_like(seen), here, torch.zeros(2)) for here in (there, absent))
-    for one, other in zip(whole.places, without.places, strict=True):
+    for one, other in zip(whole.positions, without.positions, strict=True):
         assert torch.equal(one, other)
     made.absent[2].data += 1
     again = made(seen, torch.zeros_like(seen), absent, torch.zeros(2)).blended.mean

@@ -20,7 +20,7 @@ from regress.learning.headset.arrays import HeadsetArrays  # noqa: E402
 from regress.learning.headset.evaluation import evaluate  # noqa: E402
 from regress.learning.headset.recipe import HeadsetRecipe, recipe_of  # noqa: E402
 from regress.learning.headset.training import train_headset  # noqa: E402
-from regress.learning.headset.training.batches import Frames  # noqa: E402
+from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
 from regress.runtime.headset import HeadsetGraph, read_headset_model  # noqa: E402
 from regress.runtime.headset.estimates import Estimates  # noqa: E402
 from regress.runtime.headset.model import HeadsetModel  # noqa: E402
@@ -123,7 +123,7 @@ def test_a_stopped_training_goes_on_to_the_same_model(arrays: HeadsetArrays, tmp
     recipe = replace(QUICK, epochs=3)
     train_headset(arrays, recipe, tmp_path / "whole")
 
-    def stop(done: int, total: int, figures: dict[str, float]) -> None:
+    def stop(stage: str, done: int, total: int) -> None:
         if done == 2:
             raise KeyboardInterrupt
 
@@ -136,7 +136,9 @@ def test_a_stopped_training_goes_on_to_the_same_model(arrays: HeadsetArrays, tmp
     assert 0 < state["cpu_s"] < 1000
     torch.save(state | {"cpu_s": 1000.0}, tmp_path / ".stopped.checkpoint")
     epochs = []
-    model = train_headset(arrays, recipe, tmp_path / "stopped", progress=lambda done, *_: epochs.append(done))
+    model = train_headset(
+        arrays, recipe, tmp_path / "stopped", progress=lambda _, done, total: epochs.append(done)
+    )
     assert epochs == [3]
     assert model.training.resumed_after_epochs == 2
     assert 1000 < model.training.cpu_s < 2000
@@ -185,7 +187,7 @@ def test_batches_pair_frames_with_neutral_pictures_of_the_same_person(arrays: He
         input_size=16, batch=len(arrays.rows("train")), other_seat=0.5, jitter_neutral=0, **still
     )
     assert recipe.square_size == 24  # as the pictures
-    frames = Frames(arrays, recipe, arrays.rows("train"))
+    frames = TrainingFrames(arrays, recipe, arrays.rows("train"))
     (batch,) = frames.draw_epoch(np.random.default_rng(0))
     left, mouth = arrays.pictures["left_eye"].astype(int), arrays.pictures["mouth"].astype(int)
     own, other = arrays.neutral_rows(), arrays.neutral_rows(other_seat=True)
@@ -204,7 +206,7 @@ def test_batches_pair_frames_with_neutral_pictures_of_the_same_person(arrays: He
 def test_a_mirrored_frame_is_the_frame_of_the_mirrored_face(arrays: HeadsetArrays):
     still = {"shift": 0.0, "scale": 0.0, "rotation_deg": 0.0, "camera_dropout": 0.0}
     recipe = HeadsetRecipe(input_size=16, batch=len(arrays.rows("train")), **still)
-    frames = Frames(arrays, recipe, arrays.rows("train"))
+    frames = TrainingFrames(arrays, recipe, arrays.rows("train"))
     (batch,) = frames.draw_epoch(np.random.default_rng(0))
     left, right, mouth = (arrays.pictures[name].astype(int) for name in ("left_eye", "right_eye", "mouth"))
     counted = [0, 0]
@@ -318,7 +320,7 @@ def test_an_epoch_shows_frames_with_shut_eyes_again(arrays: HeadsetArrays):
         axis=1
     )
     recipe = HeadsetRecipe(input_size=16, batch=1, mirror=False, shut_eyes=2)
-    frames = Frames(arrays, recipe, rows)
+    frames = TrainingFrames(arrays, recipe, rows)
     shown = np.concatenate([batch.outputs for batch in frames.draw_epoch(np.random.default_rng(0))])
     assert len(shown) == frames.batches == len(rows) + 2 * np.sum(blink[rows] > 0.5)
     expected = frames.outputs[np.concatenate([rows, np.repeat(rows[blink[rows] > 0.5], 2)])]

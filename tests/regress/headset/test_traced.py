@@ -10,11 +10,11 @@ torch = pytest.importorskip("torch")
 from facegen.conventions import BLENDSHAPES, IRIS_POINTS, VIEW_POINTS  # noqa: E402
 from regress.learning.headset.arrays import HeadsetArrays  # noqa: E402
 from regress.learning.headset.recipe import HeadsetRecipe  # noqa: E402
-from regress.learning.headset.training.batches import Frames  # noqa: E402
+from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
 from regress.learning.headset.training.blend import Blended  # noqa: E402
 from regress.learning.headset.training.encoders import Encoder  # noqa: E402
 from regress.learning.headset.training.loop import Training  # noqa: E402
-from regress.learning.headset.training.losses import places_loss, total_loss  # noqa: E402
+from regress.learning.headset.training.losses import positions_loss, total_loss  # noqa: E402
 from regress.learning.headset.training.modular import ModularNetwork  # noqa: E402
 from regress.learning.headset.training.networks import Answer  # noqa: E402
 from regress.learning.headset.training.traced import traced_points  # noqa: E402
@@ -51,10 +51,12 @@ def test_places_are_where_the_dots_are_however_frames_are_displaced(arrays: Head
             [255 * np.exp(-((across - x) ** 2 + (down - y) ** 2) / 8) for x, y in spots]
         ).astype(np.uint8)
     moved = HeadsetRecipe(input_size=input_size, batch=len(rows), shift=0.05, scale=0.1, rotation_deg=10.0)
-    (batch,) = Frames(replace(arrays, pictures=pictures), moved, rows).draw_epoch(np.random.default_rng(3))
+    (batch,) = TrainingFrames(replace(arrays, pictures=pictures), moved, rows).draw_epoch(
+        np.random.default_rng(3)
+    )
     size = moved.square_size
     middle = (np.arange(size) + 0.5) / size
-    for camera, places in enumerate(batch.places):
+    for camera, places in enumerate(batch.positions):
         seen = batch.pictures[:, camera].astype(float) ** 2
         mass = seen.sum(axis=(1, 2))
         found = np.stack([(seen.sum(axis=1) @ middle) / mass, (seen.sum(axis=2) @ middle) / mass], axis=1)
@@ -137,7 +139,7 @@ def test_a_cameras_own_part_counts_in_millimetres_too():
                 torch.zeros(1, outputs),
                 calibrated=torch.zeros(1),
                 same_seat=torch.zeros(1),
-                places=(),
+                positions=(),
                 gram=gram,
                 recipe=replace(recipe, geometry_loss=geometry_loss),
             )
@@ -152,26 +154,26 @@ def test_points_that_are_not_shown_cost_nothing():
     found = torch.randn(4, 3, 2, requires_grad=True)
     wanted = torch.randn(4, 3, 2)
     wanted[:, 1] = float("nan")
-    loss = places_loss([found, found[:, :0]], [wanted, wanted[:, :0]])
+    loss = positions_loss([found, found[:, :0]], [wanted, wanted[:, :0]])
     loss.backward()
     assert torch.isfinite(loss)
     assert not found.grad[:, 1].any()
     assert found.grad[:, [0, 2]].all()
-    assert places_loss([wanted[:, ::2]], [wanted[:, ::2]]) == 0
+    assert positions_loss([wanted[:, ::2]], [wanted[:, ::2]]) == 0
 
 
 def test_networks_learn_where_things_are(arrays: HeadsetArrays):
     recipe = HeadsetRecipe(input_size=24, code=24, epochs=12, batch=16)
     training = Training(arrays, recipe)
     network = training.run()
-    frames = Frames(arrays, recipe, training.rows)
+    frames = TrainingFrames(arrays, recipe, training.rows)
     batch = frames.plain_batch(arrays.rows("test"))
     pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
     with torch.no_grad():
         answer = network(
             pictures.unbind(1), neutral.unbind(1), torch.from_numpy(batch.present), torch.zeros(len(pictures))
         )
-    for camera, found, places in zip(network.cameras, answer.places, batch.places, strict=True):
+    for camera, found, places in zip(network.cameras, answer.positions, batch.positions, strict=True):
         wanted = network.encoder(camera).standardised(torch.from_numpy(places))
         assert found.shape == wanted.shape
         traced = places.shape[1]

@@ -1,4 +1,4 @@
-"""Training of headset networks: the one place that imports PyTorch (the extra ``headset``)."""
+"""Trains headset networks: the one package that imports PyTorch (the extra ``headset``)."""
 
 from regress.learning.headset.training.run import train_headset
 

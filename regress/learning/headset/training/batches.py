@@ -1,4 +1,4 @@
-"""Training batches: frames paired with neutral pictures, displaced at random, now and then without a camera."""
+"""Draws training batches: frames paired with neutral pictures, displaced at random, now and then without a camera."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.resampling import reduced, warp_matrix
 from regress.learning.headset.training.targets import outputs_of
-from regress.learning.headset.training.traced import mirrored_points, places_of, traced_points
+from regress.learning.headset.training.traced import mirrored_points, positions_of, traced_points
 from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN
 from regress.runtime.headset.parts import encoder_owners, is_symmetric, mirror_partner
 
@@ -36,7 +36,7 @@ class Batch:
     present : (n, cameras) float32
     calibrated, same_seat : (n,) float32
         0 or 1; ``same_seat`` counts where ``calibrated``.
-    places : tuple of (n, P, 2) float32
+    positions : tuple of (n, P, 2) float32
         By camera, where its traced points lie: 0 to 1 across and down what the encoder sees, NaN beyond.
     outputs : (n, 56) float32
         Weights and gaze.
@@ -47,11 +47,11 @@ class Batch:
     present: np.ndarray
     calibrated: np.ndarray
     same_seat: np.ndarray
-    places: tuple[np.ndarray, ...]
+    positions: tuple[np.ndarray, ...]
     outputs: np.ndarray
 
 
-class Frames:
+class TrainingFrames:
     """Pictures and labels of arrays as batches are made of them, reduced to what the encoders need."""
 
     def __init__(self, arrays: HeadsetArrays, recipe: HeadsetRecipe, rows: np.ndarray) -> None:
@@ -68,7 +68,7 @@ class Frames:
         self._partner = np.array([names.index(mirror_partner(name)) if self._mirror else 0 for name in names])
         self.traced = traced_points(arrays, rows)
         if not recipe.points_loss:
-            self.traced = {name: found[:0] for name, found in self.traced.items()}
+            self.traced = {name: traced[:0] for name, traced in self.traced.items()}
         self._traced = [self.traced[owners[name] or name] for name in names]
         self._points = [arrays.points[name] for name in names]
         self._reduction = np.array(
@@ -107,7 +107,7 @@ class Frames:
             present=np.ones((count, cameras), np.float32),
             calibrated=none,
             same_seat=none,
-            places=self._places(rows, warps, straight),
+            positions=self._positions(rows, warps, straight),
             outputs=self.outputs[rows],
         )
 
@@ -133,7 +133,7 @@ class Frames:
             present=present.astype(np.float32),
             calibrated=calibrated.astype(np.float32),
             same_seat=(~displaced).astype(np.float32),
-            places=self._places(rows, warps, mirrored),
+            positions=self._positions(rows, warps, mirrored),
             outputs=np.where(mirrored[:, None], outputs[:, MIRROR] * MIRROR_SIGN, outputs),
         )
 
@@ -162,26 +162,26 @@ class Frames:
     def _warped(self, rows: np.ndarray, warps: np.ndarray, mirrored: np.ndarray) -> np.ndarray:
         """Pictures (n, cameras, size, size) uint8 of rows; -1 gives black ones."""
         sources, size = self._sources(mirrored), self._recipe.square_size
-        found = np.zeros((*sources.shape, size, size), np.uint8)
+        warped = np.zeros((*sources.shape, size, size), np.uint8)
         for place, camera in np.ndindex(*sources.shape):
             if rows[place] >= 0:
-                found[place, camera] = cv2.warpAffine(
+                warped[place, camera] = cv2.warpAffine(
                     self._pictures[sources[place, camera]][rows[place]],
                     warps[place, camera],
                     (size, size),
                     flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
                     borderMode=cv2.BORDER_REPLICATE,
                 )
-        return found
+        return warped
 
-    def _places(self, rows: np.ndarray, warps: np.ndarray, mirrored: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Places (n, P, 2) of each camera's traced points in its warped pictures."""
-        found = []
+    def _positions(self, rows: np.ndarray, warps: np.ndarray, mirrored: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Positions (n, P, 2) of each camera's traced points in its warped pictures."""
+        by_camera = []
         for camera, sources in enumerate(self._sources(mirrored).T):
             points = np.stack([self._points[source][row] for source, row in zip(sources, rows, strict=True)])
             turned, traced = mirrored != self._flipped[camera], self._traced[camera]
-            found.append(
-                places_of(
+            by_camera.append(
+                positions_of(
                     points,
                     np.where(turned[:, None], mirrored_points(traced), traced),
                     warps[:, camera],
@@ -189,7 +189,7 @@ class Frames:
                     size=self._recipe.square_size,
                 )
             )
-        return tuple(found)
+        return tuple(by_camera)
 
 
 @dataclass(frozen=True)

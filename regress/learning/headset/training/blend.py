@@ -1,4 +1,4 @@
-"""What the cameras say, blended output by output."""
+"""Blends the cameras' outputs, output by output."""
 
 from dataclasses import dataclass
 

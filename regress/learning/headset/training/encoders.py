@@ -1,4 +1,4 @@
-"""A camera's encoder: pictures to the places of the face's points, and to a part code."""
+"""Encodes a camera's pictures: into positions of the face's points, and into a part code."""
 
 from collections.abc import Sequence
 
@@ -14,7 +14,7 @@ _CHANNELS = (16, 32, 48, 64)
 
 
 class Encoder(nn.Module):
-    """Four convolutions that halve the picture; a tracer of points beside them; a code of looks and one of places.
+    """Four convolutions that halve the picture; a tracer of points beside them; a code of looks and one of positions.
 
     A neutral picture goes through the same convolutions and the same tracer, and the code reads what differs: a lid
     that hangs half shut is a blink in one face and rest in another. So a frame is seen in the same way with a neutral
@@ -25,7 +25,7 @@ class Encoder(nn.Module):
     recipe
         Sizes.
     traced
-        Which of ``VIEW_POINTS`` are traced; none leaves out the tracer and the code of places.
+        Which of ``VIEW_POINTS`` are traced; none leaves out the tracer and the code of positions.
     """
 
     def __init__(self, recipe: HeadsetRecipe, traced: Sequence[int]) -> None:
@@ -46,15 +46,19 @@ class Encoder(nn.Module):
             sides.append(input_size)
         self.convolutions = nn.ModuleList(layers)
         irises = iris_columns(traced) if recipe.second_look else ()
-        # places, those of irises again, how far from the neutral picture's, and whether there is one
-        told = 4 * points + sum(2 * len(columns) for columns in irises) + 1
-        self.looks = nn.Sequential(nn.Linear(2 * channels * sides[-1] ** 2 + told, code), nn.ReLU())
+        # positions, those of irises again, how far from the neutral picture's, and whether there is one
+        position_inputs = 4 * points + sum(2 * len(columns) for columns in irises) + 1
+        self.looks = nn.Sequential(
+            nn.Linear(2 * channels * sides[-1] ** 2 + position_inputs, code), nn.ReLU()
+        )
         self.tracer = None
         if points:
             self.tracer = Tracer(_CHANNELS[1:], tuple(sides[1:]), points)
             self.irises = irises
             self.foveas = nn.ModuleList([Fovea() for _ in self.irises])
-            self.shape = nn.Sequential(nn.Linear(told, code), nn.ReLU(), nn.Linear(code, code), nn.ReLU())
+            self.shape = nn.Sequential(
+                nn.Linear(position_inputs, code), nn.ReLU(), nn.Linear(code, code), nn.ReLU()
+            )
         self.width = 2 * code if points else code
         self.register_buffer("scale", torch.tensor([0.0, 1.0]))
         # on a CPU this order of memory trains a third faster than channels first
@@ -64,68 +68,70 @@ class Encoder(nn.Module):
         """Mean and standard deviation of the pictures, grey levels."""
         self.scale.copy_(torch.tensor([mean, std]))
 
-    def set_usual(self, places: torch.Tensor) -> None:
-        """Take usual places from those (n, P, 2) of training pictures, shares of the side; NaN where not shown."""
+    def set_usual(self, positions: torch.Tensor) -> None:
+        """Take usual positions from those (n, P, 2) of training pictures, shares of the side; NaN where not shown."""
         if self.tracer is None:
             return
-        self.tracer.set_usual(places)
+        self.tracer.set_usual(positions)
         for fovea, columns in zip(self.foveas, self.irises, strict=True):
-            fovea.set_usual(places[:, columns])
+            fovea.set_usual(positions[:, columns])
 
-    def standardised(self, places: torch.Tensor) -> torch.Tensor:
-        """Places (n, P + 9 irises, 2) as `forward` gives them: of all points traced, and of irises looked at again."""
+    def standardised(self, positions: torch.Tensor) -> torch.Tensor:
+        """Positions (n, P + 9 irises, 2) as `forward` gives them: all points traced, then irises looked at again."""
         if self.tracer is None:
-            return places
-        again = [self.tracer.standardised(places)[:, columns] for columns in self.irises]
-        return torch.cat([self.tracer.standardised(places), *again], dim=1)
+            return positions
+        again = [self.tracer.standardised(positions)[:, columns] for columns in self.irises]
+        return torch.cat([self.tracer.standardised(positions), *again], dim=1)
 
-    def shares(self, places: torch.Tensor) -> torch.Tensor:
-        """Places (n, P, 2), shares of the side, from those of `forward`; irises where the second look saw them."""
-        best, found = list(range(len(self.tracer.usual))), len(self.tracer.usual)
+    def shares(self, positions: torch.Tensor) -> torch.Tensor:
+        """Positions (n, P, 2), shares of the side, from those of `forward`; irises where the second look saw them."""
+        best, column_again = list(range(len(self.tracer.usual))), len(self.tracer.usual)
         for columns in self.irises:
             for column in columns:
-                best[column], found = found, found + 1
-        return places[:, best] * self.tracer.spread + self.tracer.usual
+                best[column], column_again = column_again, column_again + 1
+        return positions[:, best] * self.tracer.spread + self.tracer.usual
 
     def forward(
         self, pictures: torch.Tensor, neutral: torch.Tensor, calibrated: torch.Tensor
     ) -> tuple[torch.Tensor, torch.Tensor]:
-        """Part codes (n, width) and standardised places of pictures and neutral ones (n, size, size).
+        """Part codes (n, width) and standardised positions of pictures and neutral ones (n, size, size).
 
         Pictures are in grey levels; ``calibrated`` (n,) is 1 where the neutral one counts.
         """
-        known = calibrated[:, None]
+        has_neutral = calibrated[:, None]
         # without a neutral picture the frame stands in for it: batch statistics see no black ones
-        before = torch.where(known[..., None] > 0, neutral, pictures)
+        before = torch.where(has_neutral[..., None] > 0, neutral, pictures)
         small, small_before = (self.reduction @ seen @ self.reduction.T for seen in (pictures, before))
         features, features_before = self._features(small), self._features(small_before)
         flat = features[-1].flatten(1)
-        changed = (flat - features_before[-1].flatten(1)) * known
+        changed = (flat - features_before[-1].flatten(1)) * has_neutral
         if self.tracer is None:
-            return self.looks(torch.cat([flat, changed, known], dim=1)), flat.new_zeros(len(flat), 0, 2)
-        places = self.tracer(features[1:])
+            return self.looks(torch.cat([flat, changed, has_neutral], dim=1)), flat.new_zeros(len(flat), 0, 2)
+        positions = self.tracer(features[1:])
         rest = self.tracer(features_before[1:])
-        moved = (places - rest.detach()).flatten(1) * known  # learns to trace from the frame itself
+        moved = (positions - rest.detach()).flatten(1) * has_neutral  # learns to trace from the frame itself
         again = [
-            self._look_again(fovea, pictures, places[:, columns], columns)
+            self._look_again(fovea, pictures, positions[:, columns], columns)
             for fovea, columns in zip(self.foveas, self.irises, strict=True)
         ]
-        told = torch.cat([places.flatten(1), *(found.flatten(1) for found in again), moved, known], dim=1)
-        code = torch.cat([self.looks(torch.cat([flat, changed, told], dim=1)), self.shape(told)], dim=1)
-        return code, torch.cat([places, *again], dim=1)
+        seen_at = torch.cat(
+            [positions.flatten(1), *(one.flatten(1) for one in again), moved, has_neutral], dim=1
+        )
+        code = torch.cat([self.looks(torch.cat([flat, changed, seen_at], dim=1)), self.shape(seen_at)], dim=1)
+        return code, torch.cat([positions, *again], dim=1)
 
     def _look_again(
-        self, fovea: Fovea, pictures: torch.Tensor, places: torch.Tensor, columns: Sequence[int]
+        self, fovea: Fovea, pictures: torch.Tensor, positions: torch.Tensor, columns: Sequence[int]
     ) -> torch.Tensor:
         usual, spread = self.tracer.usual[list(columns)], self.tracer.spread
-        return (fovea(pictures, places * spread + usual) - usual) / spread
+        return (fovea(pictures, positions * spread + usual) - usual) / spread
 
     def _features(self, pictures: torch.Tensor) -> list[torch.Tensor]:
         """Features after each convolution, finest first."""
         mean, std = self.scale.unbind()
-        found = ((pictures - mean) / std)[:, None]
+        feature = ((pictures - mean) / std)[:, None]
         features = []
         for layer in self.convolutions:
-            found = torch.relu(layer(found))
-            features.append(found)
+            feature = torch.relu(layer(feature))
+            features.append(feature)
         return features

@@ -1,4 +1,4 @@
-"""A trained network as one ONNX graph, preprocessing included, checked against PyTorch."""
+"""Exports a trained network as one ONNX graph, preprocessing included, and checks it against PyTorch."""
 
 import io
 import warnings
@@ -52,18 +52,18 @@ class Deployed(nn.Module):
         if not self.calibration:  # a product, so that the graph keeps the input
             calibrated = 0 * calibrated
         answer = self.network(self._squares(seen[0::2]), self._squares(seen[1::2]), present, calibrated)
-        said = answer.blended.mean * self.std + self.mean
+        outputs_mean = answer.blended.mean * self.std + self.mean
         deviation = torch.sqrt(answer.blended.variance) * self.deviation_std
         # yaw and pitch of the left eye, then of the right
-        gaze = said[:, WEIGHTS:].reshape(-1, 2, 2)
+        gaze = outputs_mean[:, WEIGHTS:].reshape(-1, 2, 2)
         # the graph's nodes stand in this order
         outputs = {
-            "weights": said[:, :WEIGHTS].clamp(0, 1),
+            "weights": outputs_mean[:, :WEIGHTS].clamp(0, 1),
             "shares": answer.blended.shares[..., :WEIGHTS],
         }
-        for camera, places in zip(self.cameras, answer.places, strict=True):
+        for camera, positions in zip(self.cameras, answer.positions, strict=True):
             if self._traces(camera):
-                outputs[points_output(camera.name)] = self._pixels(camera, places)
+                outputs[points_output(camera.name)] = self._pixels(camera, positions)
         outputs |= {
             "deviation": deviation[:, :WEIGHTS],
             "gaze": gaze,
@@ -80,10 +80,10 @@ class Deployed(nn.Module):
     def _traces(self, camera: CameraInput) -> bool:
         return self.network.encoder(camera.name).tracer is not None
 
-    def _pixels(self, camera: CameraInput, places: torch.Tensor) -> torch.Tensor:
-        """Places (n, P, 2) that the camera's encoder found, in pixels of the camera's own picture."""
+    def _pixels(self, camera: CameraInput, positions: torch.Tensor) -> torch.Tensor:
+        """Positions (n, P, 2) that the camera's encoder found, in pixels of the camera's own picture."""
         encoder = self.network.encoder(camera.name)
-        across, down = encoder.shares(places).unbind(2)
+        across, down = encoder.shares(positions).unbind(2)
         across = across if camera.mirrored_of is None else 1 - across
         return torch.stack([across * camera.width - 0.5, down * camera.height - 0.5], dim=2)
 
@@ -167,9 +167,9 @@ def _difference(deployed: Deployed, graph: bytes, names: list[str], probe: tuple
     with torch.no_grad():
         expected = deployed(*probe)
     feed = {name: value.numpy() for name, value in zip(names, probe, strict=True)}
-    found = open_session(graph).run(None, feed)
+    given = open_session(graph).run(None, feed)
     # points as shares of the picture: pixels are up to hundreds, and float32 has seven digits
     largest = max(max(camera.width, camera.height) for camera in deployed.cameras)
     scales = [1.0 if name in GRAPH_OUTPUTS else 1 / largest for name in deployed.output_names]
-    pairs = zip(found, expected, scales, strict=True)
+    pairs = zip(given, expected, scales, strict=True)
     return float(max(scale * np.abs(one - other.numpy()).max() for one, other, scale in pairs))

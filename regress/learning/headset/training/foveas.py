@@ -23,13 +23,13 @@ _HIDDEN = 96
 
 def iris_columns(traced: Sequence[int]) -> tuple[tuple[int, ...], ...]:
     """For each eye whose pupil and whole iris are among the traced points, which they are: the pupil first."""
-    places = {VIEW_POINTS[index]: column for column, index in enumerate(traced)}
+    columns = {VIEW_POINTS[index]: column for column, index in enumerate(traced)}
     eyes = [[f"{side}_pupil", *(f"{side}_iris_{place}" for place in range(IRIS_POINTS))] for side in SIDES]
-    return tuple(tuple(places[name] for name in eye) for eye in eyes if places.keys() >= set(eye))
+    return tuple(tuple(columns[name] for name in eye) for eye in eyes if columns.keys() >= set(eye))
 
 
 class Fovea(nn.Module):
-    """From a picture and the rough place of an iris to the places of its pupil and its outline.
+    """From a picture and the rough place of an iris to the positions of its pupil and its outline.
 
     Pictures are in any units: the first normalisation takes their mean and spread.
     """
@@ -52,21 +52,21 @@ class Fovea(nn.Module):
         self.register_buffer("usual", torch.zeros(1 + IRIS_POINTS, 2))
         self.register_buffer("span", torch.tensor(0.4))
 
-    def set_usual(self, places: torch.Tensor) -> None:
-        """Take the usual iris from places (n, 9, 2), shares of the picture's side; NaN where it is not shown."""
-        known = places[torch.isfinite(places).all(dim=(1, 2))]
-        if not len(known):
+    def set_usual(self, positions: torch.Tensor) -> None:
+        """Take the usual iris from positions (n, 9, 2), shares of the picture's side; NaN where it is not shown."""
+        shown = positions[torch.isfinite(positions).all(dim=(1, 2))]
+        if not len(shown):
             return
-        self.usual.copy_((known - center(known)[:, None]).mean(dim=0))
+        self.usual.copy_((shown - center(shown)[:, None]).mean(dim=0))
         outline = self.usual[1:]
         self.span.copy_(_MARGIN * (outline.amax(dim=0) - outline.amin(dim=0)).max())
 
-    def forward(self, pictures: torch.Tensor, found: torch.Tensor) -> torch.Tensor:
-        """Places (n, 9, 2), shares of the side, in pictures (n, size, size) in which ``found`` (n, 9, 2) were traced.
+    def forward(self, pictures: torch.Tensor, first_look: torch.Tensor) -> torch.Tensor:
+        """Positions (n, 9, 2), shares of the side, in pictures (n, size, size), from those of the first look.
 
         The first look learns nothing from the second.
         """
-        middle = center(found.detach())
+        middle = center(first_look.detach())
         across, down = (self._samples(place, pictures.shape[-1]) for place in middle.unbind(1))
         seen = (down @ pictures @ across.transpose(1, 2))[:, None]
         off = self.head(self.read(self.convolutions(seen).flatten(1))).view(-1, 1 + IRIS_POINTS, 2)
@@ -77,10 +77,10 @@ class Fovea(nn.Module):
 
         Matrix products sample a picture as fast as ONNX's GridSample, which not every runtime has.
         """
-        places = ((middle[:, None] + self.span * self.line) * size - 0.5).clamp(0, size - 1)
-        return torch.relu(1 - (places[..., None] - torch.arange(size)).abs())
+        positions = ((middle[:, None] + self.span * self.line) * size - 0.5).clamp(0, size - 1)
+        return torch.relu(1 - (positions[..., None] - torch.arange(size)).abs())
 
 
-def center(places: torch.Tensor) -> torch.Tensor:
+def center(positions: torch.Tensor) -> torch.Tensor:
     """Middle (n, 2) of the outlines of irises (n, 9, 2)."""
-    return places[:, 1:].mean(dim=1)
+    return positions[:, 1:].mean(dim=1)

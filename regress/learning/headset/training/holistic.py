@@ -31,12 +31,12 @@ class HolisticNetwork(HeadsetNetwork):
         calibrated: torch.Tensor,
     ) -> Answer:
         """Answer to pictures and neutral ones (n, size, size) by camera, ``present`` (n, cameras)."""
-        codes, places = self.codes(pictures, neutral, calibrated)
-        heard = [
+        codes, positions = self.codes(pictures, neutral, calibrated)
+        seen = [
             torch.lerp(absent, code, here[:, None])
             for absent, code, here in zip(self.absent, codes, present.unbind(1), strict=True)
         ]
-        mean, log_variance, logit = self.head(self.hidden(torch.cat(heard, dim=1)))
+        mean, log_variance, logit = self.head(self.hidden(torch.cat(seen, dim=1)))
         shares = (torch.ones_like(present) / len(self.cameras))[..., None].expand(-1, -1, len(OUTPUTS))
         blended = Blended(mean, torch.exp(log_variance), shares)
-        return Answer(blended, mean[:, None], log_variance[:, None], logit, places)
+        return Answer(blended, mean[:, None], log_variance[:, None], logit, positions)

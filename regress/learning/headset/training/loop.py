@@ -1,11 +1,11 @@
-"""The training loop: epochs of batches, a checkpoint after each."""
+"""Runs the training loop: epochs of batches, a checkpoint after each."""
 
 import hashlib
 import io
 import json
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -17,20 +17,18 @@ from facegen.files import output_errors, write_whole
 from regress.errors import InputError, Interrupted
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.recipe import HeadsetRecipe
-from regress.learning.headset.training.batches import Batch, Frames
+from regress.learning.headset.training.batches import Batch, TrainingFrames
 from regress.learning.headset.training.losses import total_loss
 from regress.learning.headset.training.networks import Answer, HeadsetNetwork, network_of
 from regress.learning.headset.training.optimizer import optimizers_of
 from regress.learning.headset.training.photometry import draw_photometry
 from regress.learning.headset.training.targets import Targets, target_scale
 from regress.learning.headset.training.traced import mirrored_points
+from regress.learning.progress import Progress
 from regress.runtime.headset.outputs import WEIGHTS
 
 _STATE_VERSION = 3
 """Raised when a checkpoint of before no longer fits the networks."""
-
-Progress = Callable[[int, int, dict[str, float]], None]
-"""Called with epochs done, epochs in all and the epoch's figures."""
 
 _SCALE_ROWS = 512
 """Training rows from which the pictures' mean and spread are taken."""
@@ -55,7 +53,7 @@ class Training:
         self.recipe = recipe
         self.history: list[dict[str, float]] = []
         self._checkpoint = checkpoint
-        self._frames = Frames(arrays, recipe, rows)
+        self._frames = TrainingFrames(arrays, recipe, rows)
         self._validation = arrays.rows("validation")
         self.targets = target_scale(self._frames.outputs[rows])
         self._mean, self._std = torch.from_numpy(self.targets.mean), torch.from_numpy(self.targets.std)
@@ -80,13 +78,13 @@ class Training:
 
     def points(self) -> dict[str, tuple[str, ...]]:
         """Names of what each camera traces, in order; a mirrored camera's are those of the other side."""
-        found = {}
+        points = {}
         for camera in self.network.cameras:
             owner = self.network.owners[camera]
             traced = self._frames.traced[owner or camera]
             chosen = traced if owner is None else mirrored_points(traced)
-            found[camera] = tuple(VIEW_POINTS[index] for index in chosen)
-        return {camera: names for camera, names in found.items() if names}
+            points[camera] = tuple(VIEW_POINTS[index] for index in chosen)
+        return {camera: names for camera, names in points.items() if names}
 
     def run(self, progress: Progress | None = None) -> HeadsetNetwork:
         """Train what is left to train.
@@ -102,7 +100,7 @@ class Training:
                 if self._checkpoint is not None:
                     self._save(self._checkpoint)
                 if progress is not None:
-                    progress(len(self.history), self.recipe.epochs, self.history[-1])
+                    progress("epochs", len(self.history), self.recipe.epochs)
         except KeyboardInterrupt:
             kept = "nothing was kept" if self._checkpoint is None else "run the same command again to go on"
             raise Interrupted(
@@ -116,8 +114,8 @@ class Training:
         Variances are learned on training people, whom the network knows better than others. Ones without such rows.
         """
         squares, variances = [], []
-        for answer, wanted in self._validation_answers():
-            squares.append((answer.blended.mean - wanted).square().numpy())
+        for answer, true in self._validation_answers():
+            squares.append((answer.blended.mean - true).square().numpy())
             variances.append(answer.blended.variance.numpy())
         if not squares:
             return np.ones(len(self.targets.std), np.float32)
@@ -153,7 +151,7 @@ class Training:
             self._wanted(batch),
             calibrated=calibrated,
             same_seat=torch.from_numpy(batch.same_seat),
-            places=self._places(batch),
+            positions=self._positions(batch),
             gram=self._gram,
             recipe=self.recipe,
         )
@@ -161,18 +159,17 @@ class Training:
     def _wanted(self, batch: Batch) -> torch.Tensor:
         return (torch.from_numpy(batch.outputs) - self._mean) / self._std
 
-    def _places(self, batch: Batch) -> list[torch.Tensor]:
-        """Standardised places of each camera's points; none where they are not traced."""
-        found = []
-        for camera, places in zip(self.network.cameras, batch.places, strict=True):
-            found.append(self.network.encoder(camera).standardised(torch.from_numpy(places)))
-        return found
+    def _positions(self, batch: Batch) -> list[torch.Tensor]:
+        """Standardised positions of each camera's points; none where they are not traced."""
+        standardised = []
+        for camera, positions in zip(self.network.cameras, batch.positions, strict=True):
+            standardised.append(self.network.encoder(camera).standardised(torch.from_numpy(positions)))
+        return standardised
 
     def _validation_error(self) -> float:
         """Mean squared z-score without calibration; 1 is as good as the training mean. Without rows it is 0."""
         squares = [
-            (answer.blended.mean - wanted).square().mean(dim=1)
-            for answer, wanted in self._validation_answers()
+            (answer.blended.mean - true).square().mean(dim=1) for answer, true in self._validation_answers()
         ]
         return float(torch.cat(squares).mean()) if squares else 0.0
 
@@ -185,7 +182,7 @@ class Training:
                 yield answer_to(self.network, batch), self._wanted(batch)
 
     def _set_scales(self) -> None:
-        """Give encoders the spread of training pictures, and their points' usual places."""
+        """Give encoders the spread of training pictures, and their points' usual positions."""
         rows = self.rows[:: max(1, len(self.rows) // _SCALE_ROWS)]
         batch = self._frames.plain_batch(rows)
         pictures = batch.pictures.astype(np.float32)
@@ -193,7 +190,7 @@ class Training:
             if self.network.owners[camera] is not None:
                 continue
             encoder = self.network.encoder(camera)
-            encoder.set_usual(torch.from_numpy(batch.places[column]))
+            encoder.set_usual(torch.from_numpy(batch.positions[column]))
             seen = pictures[:, column]
             encoder.set_scale(float(seen.mean()), max(float(seen.std()), 1.0))
 
@@ -245,11 +242,11 @@ def _scaled_gram(arrays: HeadsetArrays, targets: Targets, rows: np.ndarray) -> t
 
 def _key(arrays: HeadsetArrays, recipe: HeadsetRecipe, rows: np.ndarray) -> str:
     """Of everything that a state must share with a training to go on with it."""
-    said: dict[str, Any] = {
+    settings: dict[str, Any] = {
         "version": _STATE_VERSION,
         "recipe": recipe.settings(),
         "arrays": arrays.description,
     }
     labels = [arrays.weights, arrays.gaze, np.asarray(rows)]
-    text = json.dumps(said, sort_keys=True).encode() + b"".join(array.tobytes() for array in labels)
+    text = json.dumps(settings, sort_keys=True).encode() + b"".join(array.tobytes() for array in labels)
     return hashlib.sha256(text).hexdigest()

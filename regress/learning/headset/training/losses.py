@@ -1,4 +1,4 @@
-"""What training makes small (the second paper, eq. 4: blend, whole and part), on exact labels."""
+"""Computes the training loss (the second paper, eq. 4: blend, whole and part), on exact labels."""
 
 from collections.abc import Sequence
 
@@ -19,11 +19,11 @@ _NEAR = 0.2
 def total_loss(
     network: HeadsetNetwork,
     answer: Answer,
-    wanted: torch.Tensor,
+    true: torch.Tensor,
     *,
     calibrated: torch.Tensor,
     same_seat: torch.Tensor,
-    places: Sequence[torch.Tensor],
+    positions: Sequence[torch.Tensor],
     gram: torch.Tensor,
     recipe: HeadsetRecipe,
 ) -> torch.Tensor:
@@ -31,17 +31,17 @@ def total_loss(
 
     Parameters
     ----------
-    wanted : (n, outputs)
+    true : (n, outputs)
         Z-scores.
     calibrated, same_seat : (n,)
         Of a training batch.
-    places : (n, P, 2) by camera
+    positions : (n, P, 2) by camera
         Standardised; NaN where a point is not in the picture.
     gram : (52, 52)
         ``e @ gram @ e`` is the face's squared displacement by errors ``e`` of weights in z-scores, 1 where the
         training mean is said.
     """
-    error = answer.blended.mean - wanted
+    error = answer.blended.mean - true
     importance = torch.ones(error.shape[1])
     importance[WEIGHTS:] = recipe.gaze_loss
     importance = importance / importance.mean()
@@ -49,7 +49,7 @@ def total_loss(
     if recipe.geometry_loss:
         weights = error[:, : len(gram)]
         loss = loss + recipe.geometry_loss * ((weights @ gram) * weights).sum(dim=1).mean()
-    own = answer.means - wanted[:, None]
+    own = answer.means - true[:, None]
     if network.part is not None and recipe.part_loss:
         share = torch.where(network.part, 1.0, recipe.part_loss_elsewhere)
         part = (importance * share * own.square()).mean()
@@ -61,18 +61,18 @@ def total_loss(
     log_variances = answer.log_variances
     loss = loss + 0.5 * (log_variances + own.detach().square() * torch.exp(-log_variances)).mean()
     if recipe.points_loss:
-        loss = loss + recipe.points_loss * places_loss(answer.places, places)
+        loss = loss + recipe.points_loss * positions_loss(answer.positions, positions)
     if recipe.calibration:
         seat = functional.binary_cross_entropy_with_logits(answer.seat, same_seat, reduction="none")
         loss = loss + _SEAT * (seat * calibrated).sum() / calibrated.sum().clamp(min=1)
     return loss
 
 
-def places_loss(found: Sequence[torch.Tensor], wanted: Sequence[torch.Tensor]) -> torch.Tensor:
-    """Mean over cameras of how far places (n, P, 2) are from those that are known."""
+def positions_loss(predicted: Sequence[torch.Tensor], true: Sequence[torch.Tensor]) -> torch.Tensor:
+    """Mean over cameras of how far positions (n, P, 2) are from those that are known."""
     losses = []
-    for one, other in zip(found, wanted, strict=True):
-        known = torch.isfinite(other)
-        off = functional.smooth_l1_loss(one, torch.where(known, other, 0.0), beta=_NEAR, reduction="none")
-        losses.append((off * known).sum() / known.sum().clamp(min=1))
+    for one, other in zip(predicted, true, strict=True):
+        shown = torch.isfinite(other)
+        off = functional.smooth_l1_loss(one, torch.where(shown, other, 0.0), beta=_NEAR, reduction="none")
+        losses.append((off * shown).sum() / shown.sum().clamp(min=1))
     return torch.stack(losses).mean()

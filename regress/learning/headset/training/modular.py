@@ -23,8 +23,10 @@ class ModularNetwork(HeadsetNetwork):
         self, cameras: tuple[str, ...], recipe: HeadsetRecipe, points: Mapping[str, Sequence[int]]
     ) -> None:
         super().__init__(cameras, recipe, points)
-        heard = recipe.skip * (len(cameras) - 1)
-        self.heads = nn.ModuleDict({name: Head(own.width + heard) for name, own in self.encoders.items()})
+        skip_inputs = recipe.skip * (len(cameras) - 1)
+        self.heads = nn.ModuleDict(
+            {name: Head(own.width + skip_inputs) for name, own in self.encoders.items()}
+        )
         self.others = [_others(camera, self.owners) for camera in cameras]
         keys = dict.fromkeys(key for _, key in chain.from_iterable(self.others) if recipe.skip)
         self.tells = nn.ModuleDict(
@@ -43,7 +45,7 @@ class ModularNetwork(HeadsetNetwork):
     ) -> Answer:
         """Answer to pictures and neutral ones (n, size, size) by camera, ``present`` (n, cameras)."""
         means, log_variances, seat = [], [], 0.0
-        codes, places = self.codes(pictures, neutral, calibrated)
+        codes, positions = self.codes(pictures, neutral, calibrated)
         if self.tells:
             codes = self._with_heard(codes, present)
         for column, code in enumerate(codes):
@@ -58,16 +60,16 @@ class ModularNetwork(HeadsetNetwork):
             seat = seat + present[:, column] * logit
         mean, log_variance = torch.stack(means, dim=1), torch.stack(log_variances, dim=1)
         blended = blend(mean, log_variance, self.modulation, present)
-        return Answer(blended, mean, log_variance, seat, places)
+        return Answer(blended, mean, log_variance, seat, positions)
 
     def _with_heard(self, codes: list[torch.Tensor], present: torch.Tensor) -> list[torch.Tensor]:
         """Each camera's code, and behind it what the others tell (the second paper's skips); absent ones tell 0."""
-        told = {
+        skips = {
             (column, key): present[:, column, None] * torch.relu(self.tells[key](codes[column]))
             for column, key in chain.from_iterable(self.others)
         }
         return [
-            torch.cat([code, *(told[said] for said in others)], dim=1)
+            torch.cat([code, *(skips[source] for source in others)], dim=1)
             for code, others in zip(codes, self.others, strict=True)
         ]
 
@@ -83,11 +85,11 @@ def _others(camera: str, owners: Mapping[str, str | None]) -> list[tuple[int, st
     swapped = {one: mirror_partner(one) if mirror_partner(one) in cameras else one for one in cameras}
     owner = owners[camera]
     order = sorted(cameras, key=lambda other: other != swapped[owner or camera])
-    found = []
+    sources = []
     for other in order:
         if other == (owner or camera):
             continue
-        heard = other if owner is None else swapped[other]
-        mirrored = owner is not None and heard == other
-        found.append((cameras.index(heard), (owners[heard] or heard) + (_MIRRORED if mirrored else "")))
-    return found
+        source = other if owner is None else swapped[other]
+        mirrored = owner is not None and source == other
+        sources.append((cameras.index(source), (owners[source] or source) + (_MIRRORED if mirrored else "")))
+    return sources

@@ -30,7 +30,7 @@ class Answer:
         What each camera says for itself.
     seat : (n,)
         Logit that the neutral pictures come from the frame's own seat.
-    places : tuple of (n, P, 2)
+    positions : tuple of (n, P, 2)
         By camera, where the points that its encoder traces lie in what that sees, standardised.
     """
 
@@ -38,7 +38,7 @@ class Answer:
     means: torch.Tensor
     log_variances: torch.Tensor
     seat: torch.Tensor
-    places: tuple[torch.Tensor, ...]
+    positions: tuple[torch.Tensor, ...]
 
 
 class Head(nn.Module):
@@ -94,20 +94,20 @@ class HeadsetNetwork(nn.Module):
     def codes(
         self, pictures: Sequence[torch.Tensor], neutral: Sequence[torch.Tensor], calibrated: torch.Tensor
     ) -> tuple[list[torch.Tensor], tuple[torch.Tensor, ...]]:
-        """Part codes (n, width) and places (n, P, 2) by camera, from grey pictures (n, size, size) by camera.
+        """Part codes (n, width) and positions (n, P, 2) by camera, from grey pictures (n, size, size) by camera.
 
         Cameras that share an encoder go through it together.
         """
         codes: dict[str, torch.Tensor] = {}
-        places: dict[str, torch.Tensor] = {}
+        positions: dict[str, torch.Tensor] = {}
         for name, encoder in self.encoders.items():
             users = [camera for camera in self.cameras if camera == name or self.owners[camera] == name]
             columns = [self.cameras.index(camera) for camera in users]
             seen, rest = (torch.cat([given[column] for column in columns]) for given in (pictures, neutral))
-            found = encoder(seen, rest, calibrated.repeat(len(users)))
-            for said, all_said in zip((codes, places), found, strict=True):
-                said |= zip(users, all_said.unflatten(0, (len(users), -1)).unbind(), strict=True)
-        return [codes[camera] for camera in self.cameras], tuple(places[camera] for camera in self.cameras)
+            encoded = encoder(seen, rest, calibrated.repeat(len(users)))
+            for by_camera, all_said in zip((codes, positions), encoded, strict=True):
+                by_camera |= zip(users, all_said.unflatten(0, (len(users), -1)).unbind(), strict=True)
+        return [codes[camera] for camera in self.cameras], tuple(positions[camera] for camera in self.cameras)
 
 
 def network_of(architecture: str) -> type[HeadsetNetwork]:

@@ -1,4 +1,4 @@
-"""Optimizers: orthogonalised steps for convolutions and codes, AdamW for all else."""
+"""Makes optimizers: orthogonalised steps for convolutions and codes, AdamW for all else."""
 
 from collections.abc import Callable, Iterable
 
@@ -54,13 +54,13 @@ class Muon(torch.optim.Optimizer):
 def orthogonalised(matrix: torch.Tensor) -> torch.Tensor:
     """``U @ V.T`` of a matrix (m, n) = ``U @ S @ V.T``, with singular values of 0.7 to 1.2 for those not near 0."""
     tall = matrix.shape[0] > matrix.shape[1]
-    found = matrix.T if tall else matrix
-    found = found / (found.norm() + 1e-7)
+    wide = matrix.T if tall else matrix
+    wide = wide / (wide.norm() + 1e-7)
     a, b, c = _COEFFICIENTS
     for _ in range(_STEPS):
-        gram = found @ found.T
-        found = a * found + (b * gram + c * gram @ gram) @ found
-    return found.T if tall else found
+        gram = wide @ wide.T
+        wide = a * wide + (b * gram + c * gram @ gram) @ wide
+    return wide.T if tall else wide
 
 
 def optimizers_of(network: nn.Module, recipe: HeadsetRecipe) -> tuple[torch.optim.Optimizer, ...]:
@@ -74,12 +74,12 @@ def optimizers_of(network: nn.Module, recipe: HeadsetRecipe) -> tuple[torch.opti
     taken = {id(parameter) for parameter in hidden}
     others = [parameter for parameter in network.parameters() if id(parameter) not in taken]
     decay = recipe.weight_decay
-    found: list[torch.optim.Optimizer] = [
+    optimizers: list[torch.optim.Optimizer] = [
         torch.optim.AdamW(others, lr=recipe.learning_rate, weight_decay=decay)
     ]
     if hidden:
-        found.append(Muon(hidden, lr=recipe.matrix_learning_rate, weight_decay=decay))
-    for optimizer in found:
+        optimizers.append(Muon(hidden, lr=recipe.matrix_learning_rate, weight_decay=decay))
+    for optimizer in optimizers:
         for group in optimizer.param_groups:
             group["peak"] = group["lr"]
-    return tuple(found)
+    return tuple(optimizers)

@@ -1,4 +1,4 @@
-"""Photometric randomisation: pictures as another camera, lamp or lens would have made them."""
+"""Randomises pictures photometrically, as another camera, lamp or lens would have made them."""
 
 import numpy as np
 import torch

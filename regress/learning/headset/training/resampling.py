@@ -1,4 +1,4 @@
-"""From a camera's pictures to the squares that encoders see, in training and by the same rule in the exported graph."""
+"""Resamples pictures to the squares that encoders see, by the same rule in training and in the exported graph."""
 
 import math
 
@@ -54,8 +54,8 @@ def warp_matrix(
 
 def linear_matrix(side: int, size: int) -> np.ndarray:
     """(size, side): samples ``side`` pixels linearly at the middles of ``size``; at most half as many do not alias."""
-    places = np.clip((np.arange(size) + 0.5) * side / size - 0.5, 0, side - 1)
-    return np.clip(1 - np.abs(places[:, None] - np.arange(side)), 0, None)
+    centres = np.clip((np.arange(size) + 0.5) * side / size - 0.5, 0, side - 1)
+    return np.clip(1 - np.abs(centres[:, None] - np.arange(side)), 0, None)
 
 
 def _area(side: int, size: int) -> np.ndarray:

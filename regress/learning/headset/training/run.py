@@ -1,4 +1,4 @@
-"""Training from arrays to a model folder."""
+"""Trains a headset network on arrays and writes its model folder."""
 
 import os
 from dataclasses import replace
@@ -13,7 +13,8 @@ from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.recipe import HeadsetRecipe, recipe_of
 from regress.learning.headset.training.export import export_graph
-from regress.learning.headset.training.loop import Progress, Training
+from regress.learning.headset.training.loop import Training
+from regress.learning.progress import Progress
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
 from regress.runtime.headset.folder import save_headset_model
 from regress.runtime.headset.graph import HeadsetGraph

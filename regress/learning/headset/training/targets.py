@@ -1,4 +1,4 @@
-"""What networks are trained to say: 52 weights and four gaze angles, as z-scores that mirroring leaves alone."""
+"""Makes training targets: 52 weights and four gaze angles, as z-scores that mirroring leaves alone."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Which points of the face a camera's network learns to find, and where they lie in what it sees."""
+"""Chooses the points that a camera's network traces, and finds them in the squares that it sees."""
 
 import numpy as np
 
@@ -28,7 +28,7 @@ def traced_points(arrays: HeadsetArrays, rows: np.ndarray) -> dict[str, np.ndarr
     return {name: np.flatnonzero(np.concatenate(found).mean(axis=0) >= SEEN) for name, found in seen.items()}
 
 
-def places_of(
+def positions_of(
     points: np.ndarray, traced: np.ndarray, warps: np.ndarray, *, scale: np.ndarray, size: int
 ) -> np.ndarray:
     """Where traced points lie in an encoder's squares, (n, P, 2) float32: 0 to 1 across and down, NaN beyond.
@@ -49,10 +49,10 @@ def places_of(
     chosen = np.take_along_axis(points, traced[..., None], axis=1)
     reduced = (chosen + 0.5) * scale[:, None] - 0.5
     turned = np.linalg.inv(warps[:, :, :2])
-    places = (np.einsum("nij,npj->npi", turned, reduced - warps[:, None, :, 2]) + 0.5) / size
+    positions = (np.einsum("nij,npj->npi", turned, reduced - warps[:, None, :, 2]) + 0.5) / size
     with np.errstate(invalid="ignore"):
-        inside = ((places > 0) & (places < 1)).all(axis=-1, keepdims=True)
-    return np.where(inside, places, np.nan).astype(np.float32)
+        inside = ((positions > 0) & (positions < 1)).all(axis=-1, keepdims=True)
+    return np.where(inside, positions, np.nan).astype(np.float32)
 
 
 def mirrored_points(traced: np.ndarray) -> np.ndarray:

@@ -16,7 +16,7 @@ _SPREAD = 0.05
 
 
 class Tracer(nn.Module):
-    """From features at a quarter, an eighth and a sixteenth of the picture's side to the places of points.
+    """From features at a quarter, an eighth and a sixteenth of the picture's side to the positions of points.
 
     Coarse features are added to finer ones on the way back (Lin et al., "Feature Pyramid Networks", 2017); each point
     has a heat map at the finest, and lies at its mean (soft argmax; Sun et al., "Integral Human Pose Regression",
@@ -48,22 +48,22 @@ class Tracer(nn.Module):
         self.register_buffer("usual", torch.full((points, 2), 0.5))
         self.register_buffer("spread", torch.tensor(_SPREAD))
 
-    def set_usual(self, places: torch.Tensor) -> None:
-        """Take means and spread from places (n, P, 2), shares of the side; NaN where a point is not in the picture."""
-        mean = torch.nan_to_num(places.nanmean(dim=0), nan=0.5)
+    def set_usual(self, positions: torch.Tensor) -> None:
+        """Take means and spread from positions (n, P, 2), shares of the side; NaN beyond the picture."""
+        mean = torch.nan_to_num(positions.nanmean(dim=0), nan=0.5)
         self.usual.copy_(mean)
-        self.spread.copy_((places - mean).square().nanmean().sqrt().nan_to_num(nan=0.0).clamp(min=_SPREAD))
+        self.spread.copy_((positions - mean).square().nanmean().sqrt().nan_to_num(nan=0.0).clamp(min=_SPREAD))
 
-    def standardised(self, places: torch.Tensor) -> torch.Tensor:
-        """Places as `forward` gives them."""
-        return (places - self.usual) / self.spread
+    def standardised(self, positions: torch.Tensor) -> torch.Tensor:
+        """Positions as `forward` gives them."""
+        return (positions - self.usual) / self.spread
 
     def forward(self, features: Sequence[torch.Tensor]) -> torch.Tensor:
-        """Standardised places (n, P, 2) from features, finest first."""
-        found = features[-1]
+        """Standardised positions (n, P, 2) from features, finest first."""
+        merged = features[-1]
         for step in range(len(self.lifts) - 1, -1, -1):
             side = self._sides[step]
-            lifted = functional.interpolate(self.lifts[step](found), size=(side, side))
-            found = torch.relu(self.mixes[step](lifted + features[step]))
-        heat = torch.softmax(self.head(found).flatten(2), dim=2)
+            lifted = functional.interpolate(self.lifts[step](merged), size=(side, side))
+            merged = torch.relu(self.mixes[step](lifted + features[step]))
+        heat = torch.softmax(self.head(merged).flatten(2), dim=2)
         return self.standardised(heat @ self.grid)
