@@ -1,15 +1,17 @@
 """Describes a trained model to people: its figures, its files and their hashes, read from its folder."""
 
 import hashlib
-import json
-from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from regress.errors import ModelError
-from regress.runtime.model import HEADSET, KEYPOINTS
+from regress.runtime.headset.figures import Evaluation
+from regress.runtime.headset.folder import read_headset_model
+from regress.runtime.headset.model import HeadsetModel
+from regress.runtime.headset.predictor import is_headset_model
+from regress.runtime.model import HEADSET, KEYPOINTS, load_model
+from regress.runtime.model.record import TrainingRecord
 
 _CONDITIONS = {
     "uncalibrated": "no neutral picture",
@@ -57,105 +59,104 @@ def describe_model(name: str, folder: Path) -> ModelCard:
     Raises
     ------
     ModelError
-        Where there is no model of this version, or none that was judged.
+        Where there is no model, or none that was judged.
     """
-    document = _document(folder)
-    kind = _kind(document)
-    files = [folder / "model.json", folder / kind.numbers]
-    texts = _keypoint_texts(document) if kind is KEYPOINTS else _headset_texts(document)
+    kind = HEADSET if is_headset_model(folder) else KEYPOINTS
+    texts = _texts(folder)
     return ModelCard(
         name=name,
         kind=kind.name,
         sees=texts["sees"],
         figures=texts["figures"],
         licence=texts["licence"],
-        sha256=document["weights_sha256" if kind is KEYPOINTS else "network_sha256"],
-        size_bytes=sum(path.stat().st_size for path in files),
+        sha256=_sha256(folder / kind.numbers),
+        size_bytes=sum((folder / file).stat().st_size for file in ("model.json", kind.numbers)),
         folder=folder,
     )
 
 
 def card_markdown(name: str, folder: Path) -> str:
-    """The text of CARD.md: regress/data/cards, filled in with what model.json says."""
-    document = _document(folder)
-    kind = _kind(document)
-    texts = _keypoint_texts(document) if kind is KEYPOINTS else _headset_texts(document)
-    rows = []
-    for file in ("model.json", kind.numbers):
-        content = (folder / file).read_bytes()
-        rows.append(f"| {file} | `{hashlib.sha256(content).hexdigest()}` | {len(content):,} |")
+    """The text of CARD.md: the template in regress/data/cards, filled in with what the folder says."""
+    kind = HEADSET if is_headset_model(folder) else KEYPOINTS
+    texts = _texts(folder)
+    files = "\n".join(
+        f"| {file} | `{_sha256(folder / file)}` | {(folder / file).stat().st_size:,} |"
+        for file in ("model.json", kind.numbers)
+    )
     template = resources.files("regress") / "data" / "cards" / f"{kind.name}.md"
-    return template.read_text(encoding="utf-8").format_map({**texts, "name": name, "files": "\n".join(rows)})
+    return template.read_text(encoding="utf-8").format_map({**texts, "name": name, "files": files})
 
 
-def _document(folder: Path) -> dict[str, Any]:
-    path = folder / "model.json"
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ModelError(f"{path} is no model's description: {error}") from error
+def _sha256(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def _kind(document: Mapping[str, Any]) -> Any:
-    return HEADSET if document.get("kind") == HEADSET.name else KEYPOINTS
+def _texts(folder: Path) -> dict[str, str]:
+    """What fills the template's fields, and the fields of a card."""
+    if is_headset_model(folder):
+        model = read_headset_model(folder)
+        if model.scores is None or "uncalibrated" not in model.scores.conditions:
+            raise ModelError(f"{folder} was not judged: its model.json has no scores on a test split")
+        return _headset_texts(model, model.scores)
+    record = load_model(folder).record
+    if record is None or not {"network", "calibrated"} <= record.as_detected.keys():
+        raise ModelError(
+            f"{folder} was not judged as a detector puts landmarks: its model.json has no such scores"
+        )
+    return _keypoint_texts(record)
 
 
-def _keypoint_texts(document: Mapping[str, Any]) -> dict[str, str]:
-    record = document["record"]
-    dataset, samples = record["dataset"], record["dataset"]["samples"]
-    figures = {
-        "detected": record["as_detected"]["network"],
-        "detected_calibrated": record["as_detected"]["calibrated"],
-        "exact": record["summary"]["network"],
-        "exact_calibrated": record["summary"]["calibrated"],
+def _keypoint_texts(record: TrainingRecord) -> dict[str, str]:
+    means = {
+        "detected": record.as_detected["network"],
+        "detected_calibrated": record.as_detected["calibrated"],
+        "exact": record.summary["network"],
+        "exact_calibrated": record.summary["calibrated"],
     }
-    texts = {}
-    for name, means in figures.items():
-        texts[f"{name}_visible"] = f"{means['mean_r2_visible']:.3f}"
-        texts[f"{name}_networks"] = f"{means['mean_r2_networks']:.3f}"
+    texts = {f"{name}_visible": _figure(one.mean_r2_visible) for name, one in means.items()}
+    texts |= {f"{name}_networks": _figure(one.mean_r2_networks) for name, one in means.items()}
+    dataset = record.dataset
     return texts | {
         "sees": "68 landmarks",
         "figures": f"R2 {texts['detected_visible']} as a detector puts landmarks, "
         f"{texts['detected_calibrated_visible']} with a neutral frame; exact landmarks {texts['exact_visible']}",
-        "licence": record["licence"],
-        "test_samples": f"{samples['test']:,}",
-        "train_samples": f"{samples['train']:,}",
-        "people": f"{dataset['people']:,}",
-        "dataset": dataset["name"],
-        "data_sha256": dataset["keypoints_sha256"],
-        "data_licence": dataset["licence"],
+        "licence": record.licence,
+        "test_samples": f"{dataset.samples['test']:,}",
+        "train_samples": f"{dataset.samples['train']:,}",
+        "people": f"{dataset.people:,}",
+        "dataset": dataset.name,
+        "data_sha256": dataset.keypoints_sha256,
+        "data_licence": str(dataset.licence),
     }
 
 
-def _headset_texts(document: Mapping[str, Any]) -> dict[str, str]:
-    training, scores = document["training"], document["scores"]
+def _headset_texts(model: HeadsetModel, scores: Evaluation) -> dict[str, str]:
     shown = {
-        title: scores["conditions"][name]
-        for name, title in _CONDITIONS.items()
-        if name in scores["conditions"]
+        title: scores.conditions[name] for name, title in _CONDITIONS.items() if name in scores.conditions
     }
-    rows = [
-        f"| {title} | {figures['geometry_mm']:.2f} | {figures['r2']:.3f} | {figures['gaze_deg']:.1f} |"
-        for title, figures in shown.items()
-    ]
-    cameras = ", ".join(camera["name"] for camera in document["cameras"])
-    uncalibrated = scores["conditions"]["uncalibrated"]
+    errors = (f"{summary.geometry_mm:.2f} mm with {title}" for title, summary in shown.items())
+    rest_mm = f"{scores.floors['rest'].geometry_mm:.2f}" if "rest" in scores.floors else "-"
+    cameras = ", ".join(model.camera_names)
     return {
-        "sees": f"{document['headset']}: {cameras}",
-        "figures": "; ".join(
-            f"{figures['geometry_mm']:.2f} mm with {title}" for title, figures in shown.items()
-        )
-        + f"; a resting face errs by {scores['floors']['rest']['geometry_mm']:.2f} mm; synthetic people",
+        "sees": f"{model.headset}: {cameras}",
+        "figures": f"{'; '.join(errors)}; a resting face errs by {rest_mm} mm; synthetic people",
         "licence": "Apache-2.0",
         "cameras": cameras,
-        "headset": document["headset"],
-        "rows": f"{uncalibrated['rows']:,}",
-        "people_judged": f"{len(scores['people_mm']):,}",
-        "conditions": "\n".join(rows),
-        "rest_mm": f"{scores['floors']['rest']['geometry_mm']:.2f}",
-        "train_rows": f"{training['rows']:,}",
-        "people": f"{training['people']:,}",
-        "data_sha256": document["dataset_hash"],
-        "rig": document["rig"],
-        "data_licence": ", ".join(document["licences"]),
+        "headset": model.headset,
+        "rows": f"{scores.conditions['uncalibrated'].rows:,}",
+        "people_judged": f"{scores.people:,}",
+        "conditions": "\n".join(
+            f"| {title} | {summary.geometry_mm:.2f} | {_figure(summary.r2)} | {summary.gaze_deg:.1f} |"
+            for title, summary in shown.items()
+        ),
+        "rest_mm": rest_mm,
+        "train_rows": f"{model.training.rows:,}",
+        "people": f"{model.training.people:,}",
+        "data_sha256": model.dataset_hash,
+        "rig": model.rig,
+        "data_licence": ", ".join(model.licences),
     }
+
+
+def _figure(value: float | None) -> str:
+    return "undefined" if value is None else f"{value:.3f}"
