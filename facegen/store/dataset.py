@@ -25,7 +25,7 @@ from facegen.store.folder import DatasetFolder, commit_file, read_json, write_js
 from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
 from facegen.store.stage import staging
 
-_PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "opencv-contrib-python-headless", "OpenEXR")
+_PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
 
 _FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "headset.toml", "recording.csv")
 """What `begin` leaves if it is killed before ``dataset.json``, and what a farm puts there before it."""
@@ -221,8 +221,16 @@ def _description(dataset: Dataset) -> dict:
         "headset": dataset.headset.name,
         "licence": f"Pictures and labels derive from the rig {dataset.rig.name!r}: {dataset.rig.licence}",
         "blendshapes": list(BLENDSHAPES),
-        "versions": {"facegen": __version__} | {name: importlib.metadata.version(name) for name in _PACKAGES},
+        "versions": _versions(),
     }
+
+
+def _versions() -> dict[str, str]:
+    """Versions of what made the data; OpenCV's is its own word, as any of its four distributions will do."""
+    import cv2  # where a dataset begins, not where one is read
+
+    installed = {name: importlib.metadata.version(name) for name in _PACKAGES}
+    return {"facegen": __version__, **installed, "opencv": cv2.__version__}
 
 
 def _scaled(headset: Headset, size_px: int) -> Headset:
