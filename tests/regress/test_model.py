@@ -56,13 +56,18 @@ def test_a_damaged_model_says_which_file(quick_model_folder: Path, tmp_path: Pat
 
         return change
 
+    record = json.loads((quick_model_folder / "model.json").read_text())["record"]
+    without_mae = json.loads(json.dumps(record))
+    del without_mae["scores"]["jawOpen"]["ridge"]["mae"]
     cases = {
         "model.json does not exist": lambda folder: (folder / "model.json").unlink(),
         "weights.npz does not exist": lambda folder: (folder / "weights.npz").unlink(),
         "is not a model's description": lambda folder: (folder / "model.json").write_text("{"),
         "weights.npz is damaged": lambda folder: (folder / "weights.npz").write_bytes(b"PK"),
         "has schema 99": edit(schema=99),
-        "lacks a part of the model": edit(features={}),
+        "model.json is not a model's description: key 'features.alignment' is missing": edit(features={}),
+        'record.seed = "x": must be a whole number': edit(record={**record, "seed": "x"}),
+        "key 'record.scores.jawOpen.ridge.mae' is missing": edit(record=without_mae),
     }
     for said, change in cases.items():
         with pytest.raises(ModelError, match=said):

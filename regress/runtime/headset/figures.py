@@ -1,6 +1,6 @@
 """Holds a headset network's figures on frames with exact labels, as model.json and reports have them."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 
@@ -33,7 +33,7 @@ class Summary:
     rmse: float
     blink_r2: float | None
     gaze_deg: float
-    gaze_open_deg: float | None
+    gaze_open_deg: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +92,7 @@ class DeviationFigures:
 
 @dataclass(frozen=True, kw_only=True)
 class Evaluation:
-    """All figures of a network on one split of arrays, unrounded.
+    """All figures of a network on one split of arrays, unrounded; fields with a default are younger than some models.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ class Evaluation:
     unseen: bool = False
     dataset_hash: str = ""
     conditions: dict[str, Summary]
-    combined: dict[str, Summary]
+    combined: dict[str, Summary] = field(default_factory=dict)
     floors: dict[str, Summary]
     shapes: dict[str, dict[str, ShapeFigures]]
     cameras: dict[str, dict[str, float | None]]

@@ -114,7 +114,7 @@ def _read_document(path: Path) -> _Document:
     try:
         return checked(_Document, {**document, "record": document.get("record") or None})
     except InputError as error:
-        raise ModelError(f"{path} lacks a part of the model: {error}") from error
+        raise ModelError(f"{path} is not a model's description: {error}") from error
 
 
 def _document(model: Model, weights_sha256: str) -> dict[str, Any]:

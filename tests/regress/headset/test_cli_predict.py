@@ -173,6 +173,35 @@ def test_a_damaged_typical_picture_is_one_sentence(run, take: list[str], tmp_pat
     assert str(path) in said
 
 
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"calibration": "always"}, "calibration = \"always\": must be 'optional' or 'none'"),
+        ({"cameras": [{"name": "left_eye", "width": 16}]}, "key 'cameras[0].height' is missing"),
+        ({"scores": {"split": "test", "components": {"dense": {}}}}, "key 'scores.rows' is missing"),
+        ({"scores": 7}, "model.json is not a headset model's description"),
+        ({"age": 3}, "unknown key 'age'"),
+    ],
+)
+def test_a_damaged_description_is_one_sentence(
+    run, take: list[str], tmp_path: Path, changes: dict[str, object], message: str
+):
+    path = write_tiny_model(tmp_path / "model") / "model.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | changes))
+    code, out, said = run("headset", "predict", path.parent, *take)
+    assert (code, out, len(said.splitlines())) == (2, "", 1)
+    assert message in said
+
+
+def test_scores_of_older_models_say_less(run, take: list[str], tmp_path: Path):
+    path = write_tiny_model(tmp_path / "model") / "model.json"
+    document = json.loads(path.read_text())
+    for name in ("combined", "people_in_training", "unseen"):
+        del document["scores"][name]
+    path.write_text(json.dumps(document | {"training": {"people": 20}}))
+    assert run("headset", "predict", path.parent, *take, "--confidence", tmp_path / "trust.csv")[0] == 0
+
+
 @pytest.mark.parametrize("suffix", ["png", "tiff", "pgm"])
 def test_pictures_of_more_bits_say_how_many(run, model: Path, tmp_path: Path, suffix: str):
     levels = {
