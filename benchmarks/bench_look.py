@@ -1,4 +1,4 @@
-"""How headset pictures compare with real ones: grey levels, parts and glints of a dataset, beside measured ranges.
+"""Compares headset pictures with real ones: grey levels, parts and glints of a dataset, beside measured ranges.
 
     facegen generate datasets/gallery.toml --out datasets/out/gallery
     python benchmarks/bench_look.py datasets/out/gallery [--json]

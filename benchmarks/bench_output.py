@@ -1,4 +1,4 @@
-"""What the options of `regress predict` do: smoothing, averaging with the mirror image, confidence; and filling.
+"""Measures the options of `regress predict`: smoothing, averaging with the mirror image, confidence, filling.
 
     python benchmarks/bench_output.py MODEL DATASET
 

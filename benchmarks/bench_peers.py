@@ -1,4 +1,4 @@
-"""Six networks of the paper's size, trained by this project's solver and by three others: errors and seconds.
+"""Trains six networks of the paper's size by this project's solver and by three others: errors and seconds.
 
     python benchmarks/bench_peers.py DATASET [--faces 2000] [--limit 60] [--json]
 

@@ -1,4 +1,4 @@
-"""What turning the head costs each shape: frontal R2 less R2 within +-20 degrees of yaw and pitch, model beside model.
+"""Measures what a turned head costs each shape: frontal R2 less R2 within +-20 degrees of yaw and pitch, by model.
 
     python benchmarks/bench_poses.py DATASET MODEL [MODEL ...] [--json]
 

@@ -1,4 +1,4 @@
-"""What each part of a recipe is worth: test R2 of recipes that differ by one thing, at several levels of noise.
+"""Measures what each part of a recipe adds: test R2 of recipes that differ by one thing, at several noise levels.
 
     python benchmarks/bench_recipes.py DATASET [--faces 20000] [--only "NAME;NAME"] [--bound 0.1 1] [--features]
 

@@ -1,4 +1,4 @@
-"""What a headset picture costs, in CPU seconds: by size, paths, scattering and truth; what is no path tracing; noise.
+"""Measures CPU seconds of a headset picture: by size, paths, scattering and truth; all but path tracing; noise.
 
     python benchmarks/bench_render.py [datasets/headset.toml] [--samples 8] [--noise 256] [--resident 0]
 

@@ -1,4 +1,4 @@
-"""What a sample costs: processor seconds and bytes to make, check, pack and merge it, and 10^6 of them.
+"""Measures what a sample costs: processor seconds and bytes to make, check, pack and merge it, and 10^6 of them.
 
     python benchmarks/bench_store.py [--samples 12] [--size 256] [--json]
 

@@ -1,4 +1,4 @@
-"""How often the mesh that hides keypoints and the rendered mesh agree about what is hidden.
+"""Measures how often the mesh that hides keypoints and the rendered mesh agree about what is hidden.
 
     python benchmarks/bench_visibility.py [--faces 10000] [--rig anny] [--wide]
 

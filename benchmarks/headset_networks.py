@@ -1,4 +1,4 @@
-"""The second paper's tables on exact truth: networks on headset pictures, modular against holistic.
+"""Makes the second paper's tables on exact truth: networks on headset pictures, modular against holistic.
 
     python benchmarks/headset_networks.py models/headset-* --data ordinary=ARRAYS [--data slip=ARRAYS ...]
         [--drawn 60] [--json FILE]

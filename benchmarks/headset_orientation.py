@@ -1,4 +1,4 @@
-"""How often `regress headset predict` says that a camera's pictures are turned, mirrored or another camera's.
+"""Counts how often `regress headset predict` takes pictures for turned, mirrored or another camera's.
 
     python benchmarks/headset_orientation.py models/headset --data test=datasets/out/headset-test-arrays --data rig=...
 

@@ -1,4 +1,4 @@
-"""How near the points that headset networks trace come to the labels, by part of the face.
+"""Measures how near the points that headset networks trace come to the labels, by part of the face.
 
     python benchmarks/headset_points.py models/headset* --data datasets/out/headset-test-arrays
 

@@ -1,4 +1,4 @@
-"""How a trained model does on real recordings, and on heads that it was not trained on.
+"""Measures a trained model on real recordings, and on heads that it was not trained on.
 
     python benchmarks/real_recordings.py models/default datasets/out/default --real RECORDINGS --json figures.json
 

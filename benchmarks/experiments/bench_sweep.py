@@ -1,4 +1,4 @@
-"""What the dataset's heads and winks, and the recipe's noise and size, each do: one line a trial, as Markdown.
+"""Compares datasets with other heads and winks, and recipes of other noise and size: one line a trial, as Markdown.
 
     python -m benchmarks.experiments.bench_sweep WORK [--faces 6000] [--only "NAME;NAME"] [--real RECORDINGS]
 

@@ -1,4 +1,4 @@
-"""How cameras are blended: the modulation and the variances of a trained network, changed in its graph.
+"""Evaluates other blends of the cameras: a trained network's modulation and variances, changed in its graph.
 
     python -m benchmarks.experiments.headset_blend models/headset ARRAYS
 

@@ -50,7 +50,7 @@ def conditions_table(conditions: dict[str, Summary], floors: dict[str, Summary])
     """Every condition's summary, floors last."""
     head = ("given", "frames", "error in mm", "mean R²", "MAE", "RMSE", "blink R²", "gaze in degrees")
     keys = ("geometry_mm", "r2", "mae", "rmse", "blink_r2", "gaze_deg")
-    named = [(said(name), figures) for name, figures in _ordered(conditions)]
+    named = [(condition_words(name), figures) for name, figures in _ordered(conditions)]
     named += [(FLOORS[name], figures) for name, figures in floors.items()]
     rows = [
         (Cell(text=name), Cell(text=f"{figures.rows:,}"), *(cell(getattr(figures, key)) for key in keys))
@@ -98,7 +98,7 @@ def components_table(figures: Evaluation) -> PageTable:
         )
         for name, one in components.items()
     ]
-    return PageTable(head=("component", "frames", *map(said, conditions)), rows=tuple(rows))
+    return PageTable(head=("component", "frames", *map(condition_words, conditions)), rows=tuple(rows))
 
 
 def people_table(figures: Evaluation) -> PageTable:
@@ -108,7 +108,7 @@ def people_table(figures: Evaluation) -> PageTable:
     for name in (name for name in MAIN if name in people[0]):
         errors = np.array([errors_mm[name] for errors_mm in people])
         values = (*np.percentile(errors, (5, 50, 95)), errors.max())
-        rows.append((Cell(text=said(name)), *(cell(float(value)) for value in values)))
+        rows.append((Cell(text=condition_words(name)), *(cell(float(value)) for value in values)))
     return PageTable(
         head=("given", "one in twenty below", "median", "one in twenty above", "worst"), rows=tuple(rows)
     )
@@ -119,7 +119,7 @@ def rivals_table(entries: dict[str, Rivalry], *, names: tuple[str, str]) -> Page
     head = ("given", "frames", *names, "difference", "better frames", "better people")
     rows = [
         (
-            Cell(text=said(name)),
+            Cell(text=condition_words(name)),
             Cell(text=f"{one.rows:,}"),
             cell(one.geometry_mm),
             cell(one.rival_mm),
@@ -166,7 +166,7 @@ def temporal_table(temporal: Temporal) -> PageTable:
     return PageTable(head=head, rows=tuple(rows))
 
 
-def said(name: str) -> str:
+def condition_words(name: str) -> str:
     """A condition in words."""
     return WORDS.get(name, name.replace("_", " "))
 

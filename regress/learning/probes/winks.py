@@ -59,8 +59,8 @@ def winks(method: Method, faces: ProbeFaces, neutral: ProbeFaces) -> Winks:
         lids = [landmark for side in sides for landmark in LANDMARK_GROUPS[f"{side.lower()}_eye"]]
         points_m = neutral.points_m.copy()
         points_m[:, lids] = faces.points_m[:, lids]
-        found = method.predict(frontal(points_m, neutral), frontal(neutral.points_m, neutral))
-        return {side: found[:, OUTPUTS.index(f"eyeBlink{side}")] for side, _ in _SIDES}
+        weights = method.predict(frontal(points_m, neutral), frontal(neutral.points_m, neutral))
+        return {side: weights[:, OUTPUTS.index(f"eyeBlink{side}")] for side, _ in _SIDES}
 
     blink = outputs("Left", "Right") if len(rows) else {}
     for side, other in _SIDES if len(rows) else ():

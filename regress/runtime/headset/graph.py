@@ -101,14 +101,14 @@ class HeadsetGraph:
                 f"pictures are given of {', '.join(dict.fromkeys(unknown))}; the model has {', '.join(cameras)}"
             )
         rows = len(next(iter(pictures.values())))
-        here = np.tile(np.array([name in pictures for name in cameras], np.float32), (rows, 1))
+        seen = np.tile(np.array([name in pictures for name in cameras], np.float32), (rows, 1))
         if present is not None:
-            here *= np.asarray(present, np.float32)
-        known = np.full(rows, float(neutral is not None), np.float32)
+            seen *= np.asarray(present, np.float32)
+        with_neutral = np.full(rows, float(neutral is not None), np.float32)
         if calibrated is not None:
-            known *= np.asarray(calibrated, np.float32)
-        compared = zip(cameras, (here * known[:, None]).any(axis=0), strict=True)
-        lost = [name for name, there in compared if there and name not in neutral]
+            with_neutral *= np.asarray(calibrated, np.float32)
+        compared = zip(cameras, (seen * with_neutral[:, None]).any(axis=0), strict=True)
+        lost = [name for name, needed in compared if needed and name not in neutral]
         if lost:
             raise InputError(
                 f"no neutral pictures are given of {', '.join(lost)}; a calibrated frame needs them of every camera "
@@ -117,13 +117,13 @@ class HeadsetGraph:
         blocks = []
         for start in range(0, max(rows, 1), _BLOCK_ROWS):
             block = slice(start, start + _BLOCK_ROWS)
-            feed = {"present": here[block], "calibrated": known[block]}
+            feed = {"present": seen[block], "calibrated": with_neutral[block]}
             for camera in self._cameras:
-                blank = np.zeros((len(known[block]), camera.height, camera.width), np.uint8)
+                blank = np.zeros((len(with_neutral[block]), camera.height, camera.width), np.uint8)
                 feed[f"pictures_{camera.name}"] = _rows(pictures, camera.name, block, blank)
                 feed[f"neutral_{camera.name}"] = _rows(neutral or {}, camera.name, block, blank)
             blocks.append(self._session.run(names, feed))
-        return [np.concatenate(found) for found in zip(*blocks, strict=True)]
+        return [np.concatenate(arrays) for arrays in zip(*blocks, strict=True)]
 
 
 def _rows(arrays: dict[str, np.ndarray], name: str, block: slice, blank: np.ndarray) -> np.ndarray:

@@ -105,8 +105,8 @@ class HeadsetNetwork(nn.Module):
             columns = [self.cameras.index(camera) for camera in users]
             seen, rest = (torch.cat([given[column] for column in columns]) for given in (pictures, neutral))
             encoded = encoder(seen, rest, calibrated.repeat(len(users)))
-            for by_camera, all_said in zip((codes, positions), encoded, strict=True):
-                by_camera |= zip(users, all_said.unflatten(0, (len(users), -1)).unbind(), strict=True)
+            for by_camera, values in zip((codes, positions), encoded, strict=True):
+                by_camera |= zip(users, values.unflatten(0, (len(users), -1)).unbind(), strict=True)
         return [codes[camera] for camera in self.cameras], tuple(positions[camera] for camera in self.cameras)
 
 
