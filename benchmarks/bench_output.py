@@ -33,8 +33,8 @@ from regress.runtime.model import Model, load_model, symmetrised
 from regress.runtime.networks import evaluate
 from regress.runtime.predict import predict_frames
 from regress.runtime.stages import confidence
+from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
-from regress.runtime.stages.smoothing import OneEuro
 from regress.targets import VISIBLE_SHAPES
 
 VISIBLE = [BLENDSHAPE_INDEX[name] for name in VISIBLE_SHAPES]

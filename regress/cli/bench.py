@@ -16,6 +16,8 @@ def bench(
 
     Example: regress bench models/default
     """
+    import numpy as np
+
     from regress.runtime.headset.predictor import is_headset_model, load_headset_predictor
     from regress.runtime.model import load_model
     from regress.timing import time_headset, time_model

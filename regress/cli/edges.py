@@ -2,14 +2,16 @@
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
 import typer
 
 from facegen.console import say
 from facegen.files import write_whole
 from regress.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 def edges(
@@ -33,7 +35,9 @@ def edges(
     say(f"{len(shape.edges)} edges of {shape.name}, SHA-256 {shape.sha256[:12]}, in {out}")
 
 
-def _read(path: Path) -> np.ndarray:
+def _read(path: Path) -> "np.ndarray":
+    import numpy as np
+
     try:
         if path.suffix == ".npy":
             return np.load(path, allow_pickle=False)

@@ -19,7 +19,7 @@ from regress.cli.options import (
     TableFormat,
     TrustOption,
 )
-from regress.runtime.stages.smoothing import OneEuro
+from regress.runtime.stages.one_euro import OneEuro
 
 
 def predict(

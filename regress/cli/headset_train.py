@@ -12,7 +12,6 @@ from facegen.console import progress, say
 from regress.errors import InputError
 from regress.learning.headset.architectures import ARCHITECTURES
 from regress.learning.headset.recipe import WITHHOLDINGS, HeadsetRecipe, recipe_of
-from regress.runtime.headset.parts import without_side
 
 _PLAIN = HeadsetRecipe()
 
@@ -109,6 +108,8 @@ def train(
 
 def side_notes(cameras: tuple[str, ...]) -> list[str]:
     """What names of cameras leave open, a sentence; nothing where they say all."""
+    from regress.runtime.headset.parts import without_side
+
     lost = without_side(cameras)
     if not lost:
         return []

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
+from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
-from regress.runtime.stages.smoothing import OneEuro
 
 
 def output_of(

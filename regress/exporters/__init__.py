@@ -8,15 +8,16 @@ one line in `EXPORTERS`; the tests run over the table. All write the same `Formu
 import importlib
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from facegen.files import output_errors, write_whole
 from regress.errors import InputError
-from regress.exporters.formula import Formula, formula_of
-from regress.runtime.model import Model
 
-__all__ = ["EXPORTERS", "Formula", "export_model", "formula_of"]
+if TYPE_CHECKING:
+    from regress.exporters.formula import Formula
+    from regress.runtime.model import Model
 
-Exporter = Callable[[Formula, str], dict[str, bytes]]
+__all__ = ["EXPORTERS", "export_model"]
 
 EXPORTERS = {
     "onnx": "onnx_graph.export_onnx",
@@ -30,7 +31,7 @@ EXPORTERS = {
 
 
 def export_model(
-    model: Model, folder: Path, *, name: str, formats: Iterable[str] = EXPORTERS
+    model: "Model", folder: Path, *, name: str, formats: Iterable[str] = EXPORTERS
 ) -> tuple[Path, ...]:
     """Write a model in several formats.
 
@@ -56,6 +57,8 @@ def export_model(
     OutputError
         The folder cannot be written.
     """
+    from regress.exporters.formula import formula_of
+
     formats = tuple(formats)
     for chosen in formats:
         if chosen not in EXPORTERS:
@@ -71,6 +74,6 @@ def export_model(
     return tuple(write_whole(folder / file_name, content) for file_name, content in files.items())
 
 
-def _exporter(chosen: str) -> Exporter:
+def _exporter(chosen: str) -> "Callable[[Formula, str], dict[str, bytes]]":
     module, _, function = EXPORTERS[chosen].partition(".")
     return getattr(importlib.import_module(f"{__name__}.{module}"), function)

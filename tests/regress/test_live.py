@@ -13,9 +13,9 @@ from regress.runtime.predict import landmark_chain
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment
+from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
 from regress.runtime.stages.retargeting.target_file import read_retargeting
-from regress.runtime.stages.smoothing import OneEuro
 from regress.runtime.stages.soundness import Soundness
 from regress.runtime.stages.stage import Chain
 from regress.runtime.writers.avatar import animated_avatar

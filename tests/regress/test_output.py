@@ -18,8 +18,9 @@ from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
 from regress.runtime.stages.adjustment_file import read_adjustments
+from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
-from regress.runtime.stages.smoothing import OneEuro, OneEuroFilter, OneEuroSmoothing, by_region
+from regress.runtime.stages.smoothing import OneEuroFilter, OneEuroSmoothing, by_region
 from regress.runtime.writers.csv_table import csv_lines
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 

@@ -9,8 +9,9 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES, SIDES
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
+from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.retargeting.matrix import Retargeting
-from regress.runtime.stages.smoothing import MovingAverage, OneEuro, OneEuroSmoothing
+from regress.runtime.stages.smoothing import MovingAverage, OneEuroSmoothing
 from regress.runtime.stages.stage import Stage
 
 AMPLIFIED = tuple(f"{stem}{side.title()}" for side in SIDES for stem in ("eyeBlink", "eyeWide", "eyeSquint"))

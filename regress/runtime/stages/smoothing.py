@@ -2,7 +2,7 @@
 
 from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,30 +10,12 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_COUNT
 from regress.errors import InputError
 from regress.runtime.features import align_similarity
 from regress.runtime.sample import Sample
+from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.stage import Stage
 from regress.targets import NETWORKS
 
 LONGEST_GAP_S = 0.5
 """Seconds without a face after which smoothing starts afresh: what was before says nothing any more."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class OneEuro:
-    """Settings of a One-Euro filter (G. Casiez, N. Roussel, D. Vogel, CHI 2012).
-
-    Parameters
-    ----------
-    cutoff_hz
-        Of a weight at rest: lower is calmer.
-    beta
-        Hz more for each unit of weight a second: higher follows quick moves sooner.
-    speed_cutoff_hz
-        Of the speed's own low pass.
-    """
-
-    cutoff_hz: float = 1.0
-    beta: float = 2.0
-    speed_cutoff_hz: float = 1.0
 
 
 EYES_FASTER = 3.0

@@ -1,11 +1,11 @@
 """The table of table formats."""
 
-from collections.abc import Callable
+import importlib
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from regress.runtime.prediction import Prediction
-from regress.runtime.writers.csv_table import weights_csv
-from regress.runtime.writers.live_link import live_link_text
+if TYPE_CHECKING:
+    from regress.runtime.prediction import Prediction
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -16,8 +16,8 @@ class TableWriter:
     ----------
     description
         For people.
-    text
-        A take's whole table.
+    function
+        Module and function that give a take's whole table; imported when it is written, as NumPy takes long.
     needs_times
         Whether every frame must have a time.
     arkit_only
@@ -25,16 +25,22 @@ class TableWriter:
     """
 
     description: str
-    text: Callable[[Prediction], str]
+    function: str
     needs_times: bool = False
     arkit_only: bool = False
 
+    def text(self, prediction: "Prediction") -> str:
+        """A take's whole table."""
+        module, _, function = self.function.partition(".")
+        writer = importlib.import_module(f"regress.runtime.writers.{module}")
+        return getattr(writer, function)(prediction)
+
 
 TABLES: dict[str, TableWriter] = {
-    "csv": TableWriter(description="a column a shape", text=weights_csv),
+    "csv": TableWriter(description="a column a shape", function="csv_table.weights_csv"),
     "livelink": TableWriter(
         description="the columns of the Live Link Face app",
-        text=live_link_text,
+        function="live_link.live_link_text",
         needs_times=True,
         arkit_only=True,
     ),

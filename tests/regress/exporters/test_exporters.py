@@ -12,7 +12,8 @@ import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError, OutputError
-from regress.exporters import EXPORTERS, export_model, formula_of
+from regress.exporters import EXPORTERS, export_model
+from regress.exporters.formula import formula_of
 from regress.exporters.onnx_graph import OPERATORS, OPSET, build_graph, build_networks_graph
 from regress.learning.training import Recipe, train
 from tests.regress.drawn import drawn_dataset, drawn_faces

@@ -14,9 +14,9 @@ from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_pre
 from regress.runtime.headset.temporal import TAPS
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
+from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
 from regress.runtime.stages.retargeting.target_file import read_retargeting
-from regress.runtime.stages.smoothing import OneEuro
 from regress.runtime.writers.csv_table import confidence_csv
 from regress.runtime.writers.tables import TABLES
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, write_take

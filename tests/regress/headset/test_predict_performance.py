@@ -18,8 +18,8 @@ from regress.runtime.headset.predict import predict_footage
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.headset.seats import SeatWatch
 from regress.runtime.prediction import Prediction
+from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import AMPLIFIED, Output
-from regress.runtime.stages.smoothing import OneEuro
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 from tests.regress.headset.tiny import NAMES, OWNER, R2, RMSE, write_tiny_model
 
