@@ -11,7 +11,7 @@ from regress.runtime.model import Model
 from regress.runtime.sample import Sample
 from regress.runtime.stages.confidence import confidence
 from regress.runtime.stages.neutral import estimate_neutral
-from regress.runtime.stages.stage import Stage
+from regress.runtime.stages.stage import BatchStage, Stage
 
 ESTIMATE_EVERY = 30
 """Frames between two estimates of the neutral face: a second of video."""
@@ -20,7 +20,7 @@ _REMEMBERED = 900
 """Frames that an estimate looks back on: half a minute of video."""
 
 
-class LandmarkNetworks(Stage):
+class LandmarkNetworks(BatchStage):
     """Weights of each frame's landmarks by a model.
 
     Parameters
@@ -32,19 +32,13 @@ class LandmarkNetworks(Stage):
     def __init__(self, model: Model) -> None:
         self.model = model
 
-    def step(self, sample: Sample) -> Sample:
-        """The sample with weights (52,); NaN where a point is missing."""
-        return self.run([sample])[0]
-
-    def run(self, samples: Sequence[Sample]) -> list[Sample]:
-        """All at once: products of many rows differ from those of one in the last bits only (5e-15)."""
-        if not samples:
-            return []
+    def batch(self, samples: Sequence[Sample]) -> list[Sample]:
+        """Samples with weights (52,), NaN where a point is missing; those of many frames differ by 5e-15 at most."""
         weights = self.model.predict(np.stack([sample.points for sample in samples]))
         return [replace(sample, weights=row) for sample, row in zip(samples, weights, strict=True)]
 
 
-class LandmarkConfidence(Stage):
+class LandmarkConfidence(BatchStage):
     """Trust in each weight of a frame, by its landmarks as the detector gave them.
 
     Parameters
@@ -56,14 +50,8 @@ class LandmarkConfidence(Stage):
     def __init__(self, model: Model) -> None:
         self.model = model
 
-    def step(self, sample: Sample) -> Sample:
-        """The sample with confidence (52,)."""
-        return self.run([sample])[0]
-
-    def run(self, samples: Sequence[Sample]) -> list[Sample]:
-        """All at once."""
-        if not samples:
-            return []
+    def batch(self, samples: Sequence[Sample]) -> list[Sample]:
+        """Samples with confidence (52,)."""
         trust = confidence(self.model, np.stack([sample.points for sample in samples]))
         return [replace(sample, confidence=row) for sample, row in zip(samples, trust, strict=True)]
 

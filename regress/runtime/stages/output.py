@@ -12,7 +12,7 @@ from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sid
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.retargeting.matrix import Retargeting
 from regress.runtime.stages.smoothing import MovingAverage, OneEuroSmoothing
-from regress.runtime.stages.stage import Stage
+from regress.runtime.stages.stage import BatchStage, Stage
 
 AMPLIFIED = tuple(f"{stem}{side.title()}" for side in SIDES for stem in ("eyeBlink", "eyeWide", "eyeSquint"))
 """Shapes of the lids, which the second paper lets people exaggerate."""
@@ -82,20 +82,14 @@ class Output:
         return made
 
 
-class WeightMap(Stage):
+class WeightMap(BatchStage):
     """Weights of each frame by themselves, by a function of (n, k) arrays."""
 
     def __init__(self, change: Callable[[np.ndarray], np.ndarray]) -> None:
         self._change = change
 
-    def step(self, sample: Sample) -> Sample:
-        """The sample with changed weights."""
-        return self.run([sample])[0]
-
-    def run(self, samples: Sequence[Sample]) -> list[Sample]:
-        """All at once."""
-        if not samples:
-            return []
+    def batch(self, samples: Sequence[Sample]) -> list[Sample]:
+        """Samples with changed weights."""
         weights = self._change(np.stack([sample.weights for sample in samples]))
         return [replace(sample, weights=row) for sample, row in zip(samples, weights, strict=True)]
 

@@ -8,10 +8,10 @@ import numpy as np
 from regress.errors import InputError
 from regress.runtime.inputs import Fault, TimeOrder, face_faults
 from regress.runtime.sample import Sample
-from regress.runtime.stages.stage import Stage
+from regress.runtime.stages.stage import BatchStage
 
 
-class Soundness(Stage):
+class Soundness(BatchStage):
     """Finds what is wrong with each face, and takes its points away.
 
     Parameters
@@ -26,20 +26,14 @@ class Soundness(Stage):
         self._needs_times, self._unit = needs_times, unit
         self._order = TimeOrder(strictly=needs_times)
 
-    def step(self, sample: Sample) -> Sample:
-        """The sample, with NaN for its points and a fault where it cannot be used.
+    def batch(self, samples: Sequence[Sample]) -> list[Sample]:
+        """Samples, with NaN for the points and a fault of those that cannot be used.
 
         Raises
         ------
         InputError
             Where a sound face has no time at all and one is needed.
         """
-        return self.run([sample])[0]
-
-    def run(self, samples: Sequence[Sample]) -> list[Sample]:
-        """All at once."""
-        if not samples:
-            return []
         faults = face_faults(np.stack([sample.points for sample in samples]))
         return [self._judged(sample, fault) for sample, fault in zip(samples, faults, strict=True)]
 

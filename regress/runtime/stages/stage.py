@@ -17,6 +17,22 @@ class Stage:
         return [self.step(sample) for sample in samples]
 
 
+class BatchStage(Stage):
+    """A stage for which one frame is a take of one: what it does, it does to arrays of many."""
+
+    def step(self, sample: Sample) -> Sample:
+        """The next frame's sample."""
+        return self.run([sample])[0]
+
+    def run(self, samples: Sequence[Sample]) -> list[Sample]:
+        """All samples of a take at once, in their order."""
+        return self.batch(samples) if samples else []
+
+    def batch(self, samples: Sequence[Sample]) -> list[Sample]:
+        """One sample or more, with what this stage adds or changes."""
+        raise NotImplementedError
+
+
 class Chain(Stage):
     """Stages in a row.
 
