@@ -38,7 +38,10 @@ def refusal(error: "ValidationError", record: type) -> str:
 
 
 def _sentence(entry: dict[str, Any], record: type) -> str:
-    place, kind = entry["loc"], entry["type"]
+    kind = entry["type"]
+    place = tuple(
+        key for key in entry["loc"] if key != "[key]"
+    )  # pydantic's word for a key of a mapping itself
     path = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in place).lstrip(".")
     if kind in ("unexpected_keyword_argument", "extra_forbidden"):
         known = _known_keys(place, record)

@@ -128,7 +128,10 @@ def test_adjusting_goes_offset_dead_zone_gain_limits():
         ("{", "Invalid JSON"),
         ("[]", "must be a table"),
         ('{"format": "other"}', "format = \"other\": must be 'regress-adjustment'"),
-        ('{"format": "regress-adjustment", "shapes": {"jawOpened": {}}}', "not one of the 52"),
+        (
+            '{"format": "regress-adjustment", "shapes": {"jawOpened": {}}}',
+            'shapes.jawOpened = "jawOpened": is not one of the 52',
+        ),
         (
             '{"format": "regress-adjustment", "shapes": {"jawOpen": {"gian": 1}}}',
             "did you mean 'gain'?",
