@@ -69,10 +69,6 @@ def train(
 
     Example: regress headset train datasets/out/headset-arrays --out models/headset
     """
-    importlib.import_module("torch")  # first, so that its extra is named: it brings what the others need
-    from regress.learning.headset.arrays import read_arrays
-    from regress.learning.headset.training import train_headset
-
     recipe = _recipe(
         {
             "architecture": architecture,
@@ -88,6 +84,10 @@ def train(
         },
         settings or [],
     )
+    importlib.import_module("torch")  # first, so that its extra is named: it brings what the others need
+    from regress.learning.headset.arrays import read_arrays
+    from regress.learning.headset.training import train_headset
+
     frames = read_arrays(arrays)
     for note in side_notes(tuple(camera.name for camera in frames.cameras)):
         say(note)

@@ -8,15 +8,16 @@ import pytest
 from regress.cli import app
 from tests.facegen.cli.commands import ROOT, sub_commands
 
-HEAVY = {"cv2", "matplotlib", "onnx", "onnxruntime", "pyarrow", "pydantic", "scipy", "sklearn", "torch"}
+HEAVY = {"cv2", "matplotlib", "numpy", "onnx", "onnxruntime", "pyarrow", "scipy", "sklearn", "torch"}
+"""pydantic is not among them: Typer itself imports it for a command's options."""
 
 PROGRAM = f"""
-import sys, time
+import sys
 from regress.cli import main
 try:
     main()
 finally:
-    print({HEAVY!r} & set(sys.modules), time.process_time(), file=sys.stderr)
+    print({HEAVY!r} & set(sys.modules), file=sys.stderr)
 """
 
 
@@ -27,7 +28,4 @@ def test_help_imports_nothing_heavy(words: tuple[str, ...]):
     )
     assert shown.returncode == 0
     assert "Usage: " in shown.stdout
-    imported, seconds = shown.stderr.rsplit(maxsplit=1)
-    assert imported == "set()"
-    # 0.3 where little else runs; a busy machine may take twice as long, and what is heavy takes a second more
-    assert float(seconds) < 0.8
+    assert shown.stderr.strip() == "set()"
