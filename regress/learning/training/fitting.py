@@ -185,7 +185,7 @@ def _fit_groups(
         try:
             return tuple(threads.map(fit, _GROUPS))
         except BaseException:
-            stage.stopped.set()  # Ctrl-C arrives in this thread alone: the others stop at their next step
+            stage.stop()  # Ctrl-C arrives in this thread alone: the others stop at their next step
             raise
 
 
@@ -198,13 +198,18 @@ class _Stage:
     """Counts the steps of all groups of one stage, and tells them to stop."""
 
     def __init__(self, progress: Progress | None, name: str, steps: int) -> None:
-        self.stopped = threading.Event()
+        self._stopped = False
         self._progress, self._name = progress, name
         self._steps, self._done = steps, 0
         self._lock = threading.Lock()
 
+    def stop(self) -> None:
+        """End the groups at their next step; nothing is said of progress any more."""
+        with self._lock:
+            self._stopped = True
+
     def step(self, number: int, going: int) -> None:
-        if self.stopped.is_set():
+        if self._stopped:
             raise Interrupted("training was stopped; no model was written")
         self._advance(1)
 
@@ -214,5 +219,5 @@ class _Stage:
     def _advance(self, steps: int) -> None:
         with self._lock:
             self._done += steps
-            if self._progress is not None:
+            if self._progress is not None and not self._stopped:
                 self._progress(self._name, self._done, self._steps * len(_GROUPS))
