@@ -153,10 +153,10 @@ def test_a_file_that_is_no_checkpoint_is_refused(arrays: HeadsetArrays, tmp_path
 
 
 def test_a_state_that_cannot_be_written_is_said(arrays: HeadsetArrays, tmp_path: Path, monkeypatch):
-    def full(self, *_):
+    def full(*_):
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(Path, "replace", full)
+    monkeypatch.setattr("facegen.files.os.replace", full)
     with pytest.raises(OutputError, match=r"model\.checkpoint: no space left; free some"):
         train_headset(arrays, QUICK, tmp_path / "model")
     assert list(tmp_path.iterdir()) == []
