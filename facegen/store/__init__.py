@@ -20,7 +20,7 @@ from facegen.store.keypoint_table import (
 from facegen.store.merging import Merged, merge
 from facegen.store.record import sample_record
 from facegen.store.reference import labels_reference
-from facegen.store.stage import is_alive, place, staging, sweep
+from facegen.store.stage import staging, sweep
 
 __all__ = [
     "Dataset",
@@ -31,13 +31,11 @@ __all__ = [
     "commit_file",
     "commit_folder",
     "exr_bytes",
-    "is_alive",
     "keypoint_schema",
     "keypoint_table",
     "labels_reference",
     "merge",
     "open_dataset",
-    "place",
     "png_bytes",
     "read_exr",
     "read_json",

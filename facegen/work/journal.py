@@ -12,7 +12,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from facegen.files import output_errors
-from facegen.store import DatasetFolder, place
+from facegen.machine import machine_name
+from facegen.store import DatasetFolder
 from facegen.work.tasks import Task
 
 LOGS_PER_FOLDER = 1000
@@ -48,7 +49,7 @@ class Journal:
     """File of one run, ``logs/run-….jsonl``; begun by its first line."""
 
     def __init__(self, folder: DatasetFolder) -> None:
-        self.path = folder.path / "logs" / f"run-{place()}-{os.getpid()}-{time.time_ns()}.jsonl"
+        self.path = folder.path / "logs" / f"run-{machine_name()}-{os.getpid()}-{time.time_ns()}.jsonl"
 
     def add(self, attempt: Attempt) -> None:
         """Append one attempt.
@@ -79,7 +80,7 @@ def read_journals(folder: DatasetFolder) -> Iterator[Attempt]:
 
 def attempt_log(folder: DatasetFolder, task: Task) -> Path:
     """Name of a new attempt's log: of this task, at this place and time."""
-    name = f"{task.name}-{place()}-{os.getpid()}-{time.time_ns()}.log"
+    name = f"{task.name}-{machine_name()}-{os.getpid()}-{time.time_ns()}.log"
     return folder.path / "logs" / f"{task.number // LOGS_PER_FOLDER:03d}" / name
 
 

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import psutil
 
-from facegen.store import DatasetFolder, place
+from facegen.machine import machine_name
+from facegen.store import DatasetFolder
 from facegen.work.child import Assignment, Phase, Ready, Report
 from facegen.work.journal import attempt_log
 from facegen.work.tasks import Task
@@ -46,7 +47,7 @@ class WorkerProcess:
         """Start a child that serves the dataset in ``folder``."""
         context = multiprocessing.get_context("spawn")
         ours, theirs = context.Pipe()
-        log = folder.path / "logs" / f"worker-{place()}-{os.getpid()}-{time.time_ns()}.log"
+        log = folder.path / "logs" / f"worker-{machine_name()}-{os.getpid()}-{time.time_ns()}.log"
         arguments = (theirs, str(folder.path), str(log), threads, os.getpid())
         process = context.Process(target=target, args=arguments, daemon=True)
         process.start()

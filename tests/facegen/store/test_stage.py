@@ -5,7 +5,8 @@ import subprocess
 import sys
 import time
 
-from facegen.store import DatasetFolder, is_alive, place, staging, sweep
+from facegen.machine import is_alive, machine_name
+from facegen.store import DatasetFolder, staging, sweep
 
 
 def leftover(folder: DatasetFolder, name: str, *, age_s: float = 0.0):
@@ -22,15 +23,15 @@ def test_only_the_dead_and_the_old_are_swept(tmp_path):
     dead.wait()
     now = time.time_ns()
     gone = [
-        leftover(folder, f"sample-1-{place()}-{dead.pid}-{now}"),
+        leftover(folder, f"sample-1-{machine_name()}-{dead.pid}-{now}"),
         leftover(
-            folder, f"sample-2-{place()}-{os.getpid()}-{now - 10**15}"
+            folder, f"sample-2-{machine_name()}-{os.getpid()}-{now - 10**15}"
         ),  # an earlier process of that number
         leftover(folder, f"sample-3-node7.0123abcd-17-{now}", age_s=90_000),
         leftover(folder, "no-name-of-ours", age_s=90_000),
     ]
     kept = [
-        leftover(folder, f"sample-4-{place()}-{os.getpid()}-{now}"),
+        leftover(folder, f"sample-4-{machine_name()}-{os.getpid()}-{now}"),
         leftover(folder, f"sample-5-node7.0123abcd-17-{now}"),
     ]
     with staging(folder, "sample-6") as stage:

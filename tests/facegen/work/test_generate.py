@@ -14,8 +14,9 @@ import pytest
 
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import InputError, OutputError
+from facegen.machine import is_alive
 from facegen.spec import load_spec, parse_spec
-from facegen.store import begin, column_array, is_alive, open_dataset, resolve
+from facegen.store import begin, column_array, open_dataset, resolve
 from facegen.work import generate, plan_work
 
 ROOT = Path(__file__).resolve().parents[3]
