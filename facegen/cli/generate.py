@@ -1,12 +1,13 @@
 """Defines ``facegen generate``."""
 
-import signal
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from facegen.children import answer_stops, ignore_stops
 from facegen.cli.tables import print_table
 from facegen.console import progress, say
 from facegen.errors import ExitCode
@@ -60,10 +61,9 @@ def generate(
 
     Example: facegen generate datasets/tiny.toml --out datasets/out/tiny
     """
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, _stop_early)  # until workers run there is nothing to drain
+    answer_stops(_leave)
     from facegen.spec import load_spec
-    from facegen.store import resolve
+    from facegen.store import begin, resolve
     from facegen.work import Limits, plan_work
     from facegen.work import generate as make
 
@@ -84,6 +84,8 @@ def generate(
             as_json=as_json,
         )
         return
+    begin(dataset)
+    answer_stops(_stop_early)  # a terminal gets its cursor back
     with progress(style=progress_style) as show:
 
         def show_done(done: int) -> None:
@@ -100,6 +102,7 @@ def generate(
             retry_quarantined=retry_quarantined,
             on_progress=show_done,
         )
+    ignore_stops()  # what they asked for is done
     names = [task.name for task in summary.quarantined]
     print_table(
         {
@@ -120,5 +123,11 @@ def generate(
         raise typer.Exit(ExitCode.INVALID)
 
 
+def _leave(_signal: int, _frame: object) -> None:
+    """End while modules load and there is nothing to drain: some make an error of their own of any exception."""
+    os._exit(ExitCode.DRAINED)
+
+
 def _stop_early(_signal: int, _frame: object) -> None:
+    """End between the first file and the first worker, whose supervisor answers stops itself."""
     sys.exit(int(ExitCode.DRAINED))

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Protocol
 
 from facegen.farm.job import Job, Submission
@@ -37,6 +38,9 @@ class Engine(Protocol):
 
     def files(self, job: Job) -> dict[str, str]:
         """Scripts or bundle of a job: texts by path below the job's folder. Pure."""
+
+    def check(self, folder: Path) -> None:
+        """Refuse a job whose files, written below ``folder``, the scheduler or a shell would not take."""
 
     def instructions(self, job: Job) -> list[str]:
         """Commands that start the job by hand, for ``--dry-run``."""

@@ -3,18 +3,21 @@
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Annotated
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import Field, TypeAdapter, ValidationError
 
 from facegen.errors import InputError
 from facegen.farm.chunks import Chunk
-from facegen.farm.resources import Resources
+from facegen.farm.resources import Resources, refuse_control
 from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
 from facegen.store import DatasetFolder
 
 STEPS = ("generate", "validate", "pack", "train", "export")
 """What a job can do, each after the one before it."""
+
+JOB_NAME = r"^job-[0-9]{3,9}$"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +40,7 @@ class Job:
         What was missing when the job was made.
     """
 
-    name: str
+    name: Annotated[str, Field(pattern=JOB_NAME)]
     engine: str
     out: str
     packed: str
@@ -47,6 +50,10 @@ class Job:
     shards: str | None
     chunks: tuple[Chunk, ...]
     resources: Resources
+
+    def __post_init__(self) -> None:
+        for what, folder in (("--out", self.out), ("--packed", self.packed), ("--model", self.model)):
+            refuse_control(folder, what=what)
 
     @property
     def folder(self) -> Path:
@@ -58,7 +65,7 @@ class Job:
 class Submission:
     """Record of a submission: the engine's numbers of the job's steps, none where the engine gives none."""
 
-    ids: dict[str, str] = field(default_factory=dict)
+    ids: dict[str, Annotated[str, Field(pattern=r"^[0-9]{1,20}$")]] = field(default_factory=dict)
 
 
 def parse_steps(text: str) -> tuple[str, ...]:
@@ -83,7 +90,7 @@ def new_job_name(folder: DatasetFolder) -> str:
     farm = folder.path / "farm"
     with output_errors(farm):
         farm.mkdir(parents=True, exist_ok=True)
-        taken = [int(match[1]) for path in farm.iterdir() if (match := re.fullmatch(r"job-(\d+)", path.name))]
+        taken = [int(path.name[4:]) for path in farm.iterdir() if re.match(JOB_NAME, path.name)]
         number = max(taken, default=0)
         while True:
             number += 1

@@ -15,6 +15,7 @@ from facegen.errors import InputError
 from facegen.farm.commands import generate_command, later_command
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, Submission
+from facegen.farm.shell import check_setup
 from facegen.spec import format_ranges, sample_numbers
 
 NOTIFY_S = 10
@@ -22,6 +23,11 @@ NOTIFY_S = 10
 
 RETRIES = 5
 """Tries of a failed task on Deadline Cloud; a drained worker's exit code 75 counts as a failure there."""
+
+LONGEST_NAME = 128
+"""Characters of a job's name that OpenJD allows."""
+
+_CHECK_TIMEOUT_S = 60
 
 _PICTURES, _KEYPOINTS = "Pictures", "Keypoints"
 
@@ -43,11 +49,18 @@ def job_template(job: Job) -> dict[str, Any]:
     return {
         "specificationVersion": "jobtemplate-2023-09",
         "extensions": ["TASK_CHUNKING"],
-        "name": f"facegen {Path(job.out).name} {job.name}",
+        "name": _job_name(job),
         "description": "Makes a dataset; what is there is skipped, so every task may run twice, or again.",
         "parameterDefinitions": parameters,
         "steps": steps,
     }
+
+
+def _job_name(job: Job) -> str:
+    """Name of at most `LONGEST_NAME` characters; a folder's braces would be read as a parameter's."""
+    folder = Path(job.out).name.replace("{{", "((").replace("}}", "))")
+    room = LONGEST_NAME - len(f"facegen  {job.name}")
+    return f"facegen {folder if len(folder) <= room else folder[: room - 1] + '…'} {job.name}"
 
 
 def parameter_values(job: Job) -> dict[str, Any]:
@@ -165,6 +178,7 @@ def _script(job: Job, command: list[str]) -> dict[str, Any]:
         action["timeout"] = resources.time_s
     files = []
     if resources.env_setup is not None:
+        check_setup(resources)
         if "{{" in resources.env_setup:
             raise InputError(
                 "--env-setup: OpenJD would read '{{' as the start of a parameter; put it into a script"
@@ -202,6 +216,19 @@ class OpenJD:
             if source.is_file():
                 texts[f"bundle/{name}"] = source.read_text(encoding="utf-8")
         return texts
+
+    def check(self, folder: Path) -> None:
+        """Let OpenJD's own reader make the job of the template and its parameters, where it is installed."""
+        template, values = folder / "bundle" / "template.json", folder / "parameters.json"
+        command = [_openjd(), "summary", str(template), "-p", f"file://{values}"]
+        if shutil.which(command[0]) is None:
+            return
+        read = subprocess.run(
+            command, capture_output=True, text=True, errors="replace", timeout=_CHECK_TIMEOUT_S
+        )
+        if read.returncode:
+            words = " ".join(f"{read.stdout} {read.stderr}".replace(str(template), "the template").split())
+            raise InputError(f"OpenJD does not take the job: {words}")
 
     def instructions(self, job: Job) -> list[str]:
         """Commands for this machine, and for Deadline Cloud."""
@@ -241,14 +268,15 @@ class OpenJD:
         )
 
     def _run_command(self, job: Job) -> list[str]:
-        beside = Path(sys.executable).with_name("openjd")
         mapping = ["--path-mapping-rules", f"file://{job.folder / 'path_mapping.json'}"]
         return [
-            *(
-                str(beside) if beside.is_file() else "openjd",
-                "run",
-                str(job.folder / "bundle" / "template.json"),
-            ),
+            *(_openjd(), "run", str(job.folder / "bundle" / "template.json")),
             *("-p", f"file://{job.folder / 'parameters.json'}"),
             *(mapping if job.resources.path_map else []),
         ]
+
+
+def _openjd() -> str:
+    """The command-line program of this Python, or another one."""
+    beside = Path(sys.executable).with_name("openjd")
+    return str(beside) if beside.is_file() else "openjd"

@@ -6,6 +6,12 @@ from pathlib import Path
 
 from facegen.errors import InputError
 
+MOST_GRACE_S = 24 * 3600.0
+"""No task takes a day, so none needs longer to end."""
+
+_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
+"""What ends a line or has no bytes in UTF-8, as parts of names that are not UTF-8: no script can hold it."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Resources:
@@ -44,6 +50,15 @@ class Resources:
     path_map: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
+        if not 0 <= self.grace_s <= MOST_GRACE_S:
+            raise InputError(f"--grace {self.grace_s:g}: must be from 0 to {MOST_GRACE_S:g} seconds")
+        refuse_control(self.python, what="--python")
+        for name in (name for pair in self.path_map for name in pair):
+            refuse_control(name, what="--map")
+        for argument in self.sbatch_args:
+            refuse_control(argument, what="--sbatch-arg")
+        # a setup may have several lines
+        refuse_control(re.sub("[\n\t]", " ", self.env_setup or ""), what="--env-setup")
         if self.time_s is not None and self.time_s < 60:
             raise InputError(f"--time {self.time}: is less than a minute")
         _ = self.mem_mib  # refused here rather than while scripts are written
@@ -68,6 +83,22 @@ class Resources:
         return text
 
 
+def refuse_control(text: str, *, what: str) -> None:
+    """Refuse text that a line of a script cannot hold; ``what`` names its origin.
+
+    Raises
+    ------
+    InputError
+        If there is a line break, another control character, or a byte that is not UTF-8.
+    """
+    match = _CONTROL.search(text)
+    if match is not None:
+        raise InputError(
+            f"{what} {text!a}: has the character {match[0]!a}, which scripts of a farm cannot hold; names with line "
+            "breaks, control characters or bytes that are not UTF-8 have to be changed first"
+        )
+
+
 def parse_path_pair(text: str) -> tuple[str, str]:
     """Both names of a folder, from ``--map FROM=TO``."""
     source, equals, target = text.partition("=")
@@ -77,7 +108,7 @@ def parse_path_pair(text: str) -> tuple[str, str]:
 
 
 def _seconds(text: str) -> int:
-    match = re.fullmatch(r"(?:(\d+)-)?(\d+)(?::(\d+))?(?::(\d+))?", text)
+    match = re.fullmatch(r"(?:(\d{1,9})-)?(\d{1,9})(?::(\d{1,9}))?(?::(\d{1,9}))?", text, re.ASCII)
     if match is None:
         raise InputError(f"--time {text!r}: write minutes, HH:MM:SS or D-HH:MM:SS, as Slurm does")
     days, *parts = match.groups()
@@ -91,7 +122,7 @@ def _seconds(text: str) -> int:
 
 
 def _mebibytes(text: str) -> int:
-    match = re.fullmatch(r"(\d+)([KMGT]?)B?", text, re.IGNORECASE)
+    match = re.fullmatch(r"(\d{1,15})([KMGT]?)B?", text, re.IGNORECASE | re.ASCII)
     if match is None:
         raise InputError(f"--mem {text!r}: write a whole number with K, M, G or T, for example 4G")
     return max(

@@ -15,6 +15,7 @@ from facegen.errors import FacegenError, InputError
 from facegen.farm.commands import chunk_lines, generate_command, later_command
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, Submission
+from facegen.farm.shell import check_setup, check_shell
 
 NOTICE_S = 60
 """Slurm looks at time limits every 30 s and documents its notice as up to 60 s early or late."""
@@ -77,6 +78,7 @@ def sbatch_script(job: Job, step: str) -> str:
         One of ``job.steps``.
     """
     resources, on_farm = job.resources, job.resources.on_farm
+    check_setup(resources)
     folder, out = on_farm(job.folder), on_farm(job.out)
     if step == "generate":
         command = shlex.join(generate_command(job, spec=f"{out}/spec.toml", out=out, what=())) + " $what"
@@ -108,8 +110,8 @@ def _directives(job: Job, step: str, folder: str) -> list[str]:
     lines += [f"--mem={resources.mem}"] if resources.mem else []
     lines += [f"--time={resources.time}"] if resources.time else []
     log = f"{folder}/logs/{step}{'-%a' if step == 'generate' else ''}.out"
-    if '"' in folder or "\n" in folder:
-        raise InputError(f"{folder!r}: Slurm's scripts cannot name a folder with a quote or a line break")
+    if '"' in folder or "\\" in folder:
+        raise InputError(f"{folder!r}: Slurm's scripts cannot name a folder with a quote or a backslash")
     lines += ["--requeue", "--open-mode=append", f"--signal=B:USR1@{round(resources.grace_s) + NOTICE_S}"]
     return [*lines, f'--output="{_percent(folder)}{log[len(folder) :]}"']
 
@@ -127,6 +129,11 @@ class Slurm:
             f"{step}.sh": sbatch_script(job, step) for step in job.steps if step != "generate" or job.chunks
         }
         return ({"chunks.txt": chunk_lines(job.chunks)} if job.chunks else {}) | scripts
+
+    def check(self, folder: Path) -> None:
+        """Let bash read every script."""
+        for path in sorted(folder.glob("*.sh")):
+            check_shell(path.read_text(encoding="utf-8"), what=f"the script of the step {path.stem!r}")
 
     def instructions(self, job: Job) -> list[str]:
         """Write the sbatch commands, with names for the numbers that Slurm will give."""

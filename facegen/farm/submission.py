@@ -1,11 +1,12 @@
 """Submits a job: cuts what is missing into tasks, writes them as scripts or a bundle, hands them to the engine."""
 
-from dataclasses import dataclass
+import tempfile
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from facegen.errors import FacegenError, InputError
 from facegen.farm.chunks import cut_chunks
-from facegen.farm.engine import Activity
+from facegen.farm.engine import Activity, Engine
 from facegen.farm.engines import ENGINES
 from facegen.farm.job import Job, Resources, Submission, list_jobs, new_job_name, write_record
 from facegen.files import output_errors
@@ -76,15 +77,15 @@ def prepare(
     Raises
     ------
     InputError
-        If ``chunk`` makes too many tasks, or the folder holds another dataset.
+        If ``chunk`` makes too many tasks, the folder holds another dataset, or the engine or a shell would not take
+        what would be written.
     OutputError
         If the folder cannot be written.
     """
     chunks = cut_chunks(what.shards, what.samples, chunk=chunk) if "generate" in steps else ()
-    begin(dataset)
     out = dataset.folder.path.resolve()
-    job = Job(
-        name=new_job_name(dataset.folder),
+    draft = Job(
+        name="job-000",
         engine=engine,
         out=str(out),
         packed=str(Path(packed).resolve() if packed else out.with_name(f"{out.name}-packed")),
@@ -96,19 +97,36 @@ def prepare(
         chunks=chunks,
         resources=resources,
     )
+    with tempfile.TemporaryDirectory() as folder:  # what is refused leaves nothing in the dataset
+        _write_files(draft, Path(folder))
+        _engine(draft).check(Path(folder))
+    begin(dataset)
+    job = replace(draft, name=new_job_name(dataset.folder))
     with output_errors(job.folder):
         (job.folder / "logs").mkdir(exist_ok=True)
-        for name, text in ENGINES[engine].files(job).items():
-            path = job.folder / name
-            path.parent.mkdir(exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+        _write_files(job, job.folder)
     write_record(job.folder / "job.json", job)
     return job
 
 
+def _write_files(job: Job, folder: Path) -> None:
+    for name, text in _engine(job).files(job).items():
+        path = folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+def _engine(job: Job) -> Engine:
+    if job.engine not in ENGINES:
+        raise InputError(
+            f"{job.folder}: {job.name} is of the engine {job.engine!r}, none of {', '.join(ENGINES)}"
+        )
+    return ENGINES[job.engine]
+
+
 def submit(job: Job) -> Submission:
     """Hand a prepared job to its engine, and write down under which numbers."""
-    submission = ENGINES[job.engine].submit(job)
+    submission = _engine(job).submit(job)
     write_record(job.folder / "submission.json", submission)
     return submission
 
@@ -129,10 +147,10 @@ def cancel(folder: DatasetFolder) -> list[str]:
     for job, submission in list_jobs(folder):
         if submission is None:
             continue
-        activity = ENGINES[job.engine].activity(job, submission)
+        activity = _engine(job).activity(job, submission)
         if activity is None or activity.anything:
             try:
-                ENGINES[job.engine].cancel(job, submission)
+                _engine(job).cancel(job, submission)
             except FacegenError as refusal:
                 refusals.append(str(refusal))
             else:
@@ -150,7 +168,7 @@ def engine_logs(folder: DatasetFolder) -> list[Path]:
 def activities(folder: DatasetFolder) -> list[tuple[Job, Activity | None]]:
     """All submitted jobs with what their engines do with them."""
     return [
-        (job, ENGINES[job.engine].activity(job, submission))
+        (job, _engine(job).activity(job, submission))
         for job, submission in list_jobs(folder)
         if submission is not None
     ]

@@ -4,13 +4,13 @@ import collections
 import concurrent.futures
 import multiprocessing
 import os
-import signal
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from typing import Literal
 
+from facegen.children import born_deaf, ignore_stops
 from facegen.errors import OutputError
 from facegen.store import Dataset, open_dataset
 from facegen.validation.finding import Finding
@@ -60,7 +60,7 @@ def check_batches(
         initargs=(str(dataset.folder.path),),
     )
     try:
-        yield from _in_order(batches, lambda batch: pool.submit(_check, batch), ahead=workers * WAITING)
+        yield from _in_order(batches, lambda batch: _submit(pool, batch), ahead=workers * WAITING)
     except BrokenProcessPool:
         raise OutputError(
             f"{dataset.folder.path}: a checking process died, most likely for want of memory; "
@@ -68,6 +68,11 @@ def check_batches(
         ) from None
     finally:
         pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _submit(pool: concurrent.futures.ProcessPoolExecutor, batch: CheckBatch) -> concurrent.futures.Future:
+    with born_deaf():  # the first call starts the processes
+        return pool.submit(_check, batch)
 
 
 def _in_order(
@@ -102,7 +107,7 @@ _dataset: Dataset | None = None
 
 def _begin(path: str) -> None:
     global _dataset
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the parent decides
+    ignore_stops()
     threading.Thread(target=_end_with_parent, daemon=True).start()
     _dataset = open_dataset(path)
 

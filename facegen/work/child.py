@@ -16,6 +16,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Literal, Protocol
 
+from facegen.children import ignore_stops
 from facegen.errors import FacegenError, OutputError
 from facegen.store import DatasetFolder, open_dataset, staging
 from facegen.work.tasks import Task
@@ -94,9 +95,7 @@ def serve(pipe: Connection, out: str, log: str, threads: int, parent: int) -> No
         The supervisor's process.
     """
     die_with_parent(parent)
-    # Ctrl-C reaches the whole group, and scancel all processes of a job: the supervisor decides, and kills
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    ignore_stops()  # the supervisor decides, and kills
     _redirect_output(Path(log))
     from facegen.work.worker import Worker
 

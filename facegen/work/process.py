@@ -11,6 +11,7 @@ from pathlib import Path
 
 import psutil
 
+from facegen.children import born_deaf
 from facegen.machine import machine_name
 from facegen.store import DatasetFolder
 from facegen.work.child import Assignment, Phase, Ready, Report
@@ -50,7 +51,8 @@ class WorkerProcess:
         log = folder.path / "logs" / f"worker-{machine_name()}-{os.getpid()}-{time.time_ns()}.log"
         arguments = (theirs, str(folder.path), str(log), threads, os.getpid())
         process = context.Process(target=target, args=arguments, daemon=True)
-        process.start()
+        with born_deaf():
+            process.start()
         theirs.close()
         return cls(process, ours, log)
 

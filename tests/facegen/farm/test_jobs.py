@@ -34,6 +34,8 @@ class Told:
     def files(self, job: Job) -> dict[str, str]:
         return {}
 
+    def check(self, folder: Path) -> None: ...
+
     def instructions(self, job: Job) -> list[str]:
         return []
 
