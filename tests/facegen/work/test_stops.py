@@ -1,0 +1,59 @@
+"""Ctrl-C and a scheduler's TERM at any moment: one exit code, no traceback of any process, nothing half-made left."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from facegen.children import born_deaf
+
+ROOT = Path(__file__).resolve().parents[3]
+CHILD = [sys.executable, "-c", "import time; time.sleep(0.5); print('lives')"]
+
+
+@pytest.mark.slow
+@pytest.mark.blender
+@pytest.mark.usefixtures("anny")
+@pytest.mark.parametrize("tenths", range(4, 34, 3))
+def test_a_stop_in_the_first_seconds_is_silent(tmp_path, tenths):
+    arguments = ["generate", "datasets/tiny.toml", "--out", str(tmp_path / "out"), "--workers", "2"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "facegen", *arguments, "--grace", "0"],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    time.sleep(tenths / 10)
+    # as from a terminal, to the program and all its children
+    os.killpg(process.pid, signal.SIGINT if tenths % 2 else signal.SIGTERM)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 75, said
+    assert "Traceback" not in said
+    assert "Exception" not in said
+    assert not list((tmp_path / "out").glob("tmp/*"))
+
+
+def test_a_child_that_is_born_deaf_hears_no_stop():
+    with born_deaf():
+        child = subprocess.Popen(CHILD, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        child.send_signal(number)
+    assert child.communicate(timeout=60) == ("lives\n", "")
+
+
+def test_the_parent_hears_after_the_birth_what_came_in_it(monkeypatch):
+    heard = []
+    previous = signal.signal(signal.SIGTERM, lambda number, _frame: heard.append(number))
+    try:
+        with born_deaf():
+            os.kill(os.getpid(), signal.SIGTERM)
+            assert not heard
+        assert heard == [signal.SIGTERM]
+    finally:
+        signal.signal(signal.SIGTERM, previous)
