@@ -1,21 +1,20 @@
-"""Shows a person at the terminal lines and progress, and ends a program with an exit code for every error."""
+"""Shows a person at the terminal lines and progress, on standard error."""
 
 import os
 import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Annotated, TextIO
+from contextlib import contextmanager
+from typing import TextIO
 
-from facegen.errors import FacegenError, InputError
-from facegen.extras import Extra, missing_extra
-
-if TYPE_CHECKING:
-    import typer
+from facegen.errors import InputError
 
 LINE_EVERY_S = 10.0
 """Without a terminal a line of progress is written at most this often, and at a stage's end."""
+
+MOST_CHARACTERS = 500
+"""Of a line for people; a file that is no text can stand in a message whole."""
 
 ProgressCall = Callable[[str, int, int], None]
 """Takes the name of a stage, the number of finished things, and how many there are."""
@@ -24,114 +23,28 @@ ProgressCall = Callable[[str, int, int], None]
 def say(message: str) -> None:
     """Write one line to standard error; a listener who has gone stops no work."""
     try:
-        sys.stderr.write(f"{message}\n")
+        sys.stderr.write(f"{one_line(message)}\n")
         sys.stderr.flush()
     except BrokenPipeError:
         hang_up(sys.stderr)
 
 
+def one_line(message: str) -> str:
+    """The message in one line of at most `MOST_CHARACTERS`: what a terminal would act on is escaped, the middle cut.
+
+    The end stays, as it says what to do.
+    """
+    text = " ".join(message.split())
+    text = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    if len(text) > MOST_CHARACTERS:
+        end = MOST_CHARACTERS // 3
+        text = f"{text[: MOST_CHARACTERS - end - 3]} … {text[-end:]}"
+    return text
+
+
 def hang_up(stream: TextIO) -> None:
     """Send nowhere what is left of a stream whose reader has gone: its end would complain again."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
-
-
-def program(name: str, *, version: str, about: str, libraries: tuple[str, ...]) -> "typer.Typer":
-    """Make a program without commands; it has ``--version``, and shows its help where nothing is asked of it.
-
-    Parameters
-    ----------
-    name, version
-        Of the program.
-    about
-        Sentence at the top of its help.
-    libraries
-        Distributions that its results depend on; ``--version`` names those that are installed.
-    """
-    import typer
-
-    app = typer.Typer(
-        name=name,
-        help=about,
-        no_args_is_help=True,
-        add_completion=False,
-        pretty_exceptions_enable=False,
-        context_settings={"help_option_names": ["-h", "--help"]},
-    )
-
-    def print_version(asked: bool) -> None:
-        if asked:
-            typer.echo(f"{name} {version} ({_versions(libraries)})")
-            raise typer.Exit
-
-    flag = typer.Option(
-        "--version",
-        help="Print the versions that results depend on.",
-        callback=print_version,
-        is_eager=True,
-    )
-
-    @app.callback()
-    def options(version: Annotated[bool, flag] = False) -> None:
-        pass
-
-    return app
-
-
-def _versions(distributions: tuple[str, ...]) -> str:
-    import importlib.metadata
-
-    installed = []
-    for name in distributions:
-        with suppress(importlib.metadata.PackageNotFoundError):
-            installed.append(f"{name} {importlib.metadata.version(name)}")
-    return ", ".join([*installed, f"Python {sys.version.split()[0]}"])
-
-
-def run(app: "typer.Typer", *, extras: tuple[Extra, ...]) -> None:
-    """Run a program to its exit code, with one sentence for every error on purpose.
-
-    Parameters
-    ----------
-    app
-        The commands.
-    extras
-        Optional parts of the installation that commands may need: an absent one ends with exit code 2.
-    """
-    code: int | str | None = 0
-    try:
-        app()
-    except FacegenError as error:
-        say(f"{app.info.name}: {error}")
-        code = int(error.exit_code)
-    except ModuleNotFoundError as error:
-        sentence = missing_extra(error, _command(app), extras)
-        if sentence is None:
-            raise
-        say(f"{app.info.name}: {sentence}")
-        code = InputError.exit_code
-    except SystemExit as left:
-        if isinstance(left.__context__, BrokenPipeError):
-            hang_up(sys.stdout)  # its reader has gone, as `| head` does, of which Typer and rich make 1
-        else:
-            code = left.code
-    try:
-        sys.stdout.flush()
-    except BrokenPipeError:
-        hang_up(sys.stdout)
-    sys.exit(code)
-
-
-def _command(app: "typer.Typer") -> str:
-    """Program and sub-command that were called, ``facegen farm submit``."""
-    from typer.main import get_command
-
-    command, words = get_command(app), [app.info.name]
-    for argument in sys.argv[1:]:
-        command = getattr(command, "commands", {}).get(argument)
-        if command is None:
-            break
-        words.append(argument)
-    return " ".join(words)
 
 
 @contextmanager

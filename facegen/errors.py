@@ -11,8 +11,8 @@
     ├── OutputError        74   no space, or a place that cannot be written
     └── Drained            75   stopped on request; work remains
 
-A message says what was found, where, what is allowed and what to do, in one sentence. Libraries raise; only ``cli``
-prints.
+What nobody foresaw ends a program with 70 (`facegen.program`). A message says what was found, where, what is allowed
+and what to do, in one sentence. Libraries raise; only ``cli`` prints.
 """
 
 from enum import IntEnum
@@ -24,6 +24,7 @@ class ExitCode(IntEnum):
     OK = 0
     INVALID = 1
     BAD_INPUT = 2
+    INTERNAL = 70
     NOT_WRITABLE = 74
     DRAINED = 75
 

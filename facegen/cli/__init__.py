@@ -15,8 +15,8 @@ from facegen.cli.preview import preview
 from facegen.cli.rig import rig_app
 from facegen.cli.spec import spec_app
 from facegen.cli.validate import validate
-from facegen.console import program, run
 from facegen.extras import FACTORY
+from facegen.program import program, run
 
 app = program(
     "facegen",

@@ -3,8 +3,8 @@
 A command imports what it needs when it is called, so that ``--help`` is quick and needs none of the extras.
 """
 
-from facegen.console import program, run
 from facegen.extras import HEADSET, LEARN
+from facegen.program import program, run
 from regress import __version__
 from regress.cli.bench import bench
 from regress.cli.edges import edges

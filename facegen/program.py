@@ -1,0 +1,191 @@
+"""Makes a program of commands and runs it: every end has an exit code, and every fault is one sentence."""
+
+import errno
+import os
+import platform
+import signal
+import sys
+import tempfile
+import time
+import traceback
+from contextlib import suppress
+from typing import TYPE_CHECKING, Annotated, Any
+
+from facegen.console import hang_up, say
+from facegen.errors import ExitCode, FacegenError, InputError
+from facegen.extras import Extra, missing_extra
+
+if TYPE_CHECKING:
+    import typer
+
+_KEYBOARD_INTERRUPT = 130
+"""What Typer makes of a KeyboardInterrupt."""
+
+
+def program(name: str, *, version: str, about: str, libraries: tuple[str, ...]) -> "typer.Typer":
+    """Make a program without commands; it has ``--version``, and shows its help where nothing is asked of it.
+
+    Parameters
+    ----------
+    name, version
+        Of the program.
+    about
+        Sentence at the top of its help.
+    libraries
+        Distributions that its results depend on; ``--version`` names those that are installed.
+    """
+    import typer
+
+    app = typer.Typer(
+        name=name,
+        help=about,
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+
+    def print_version(asked: bool) -> None:
+        if asked:
+            typer.echo(f"{name} {version} ({_versions(libraries)})")
+            raise typer.Exit
+
+    flag = typer.Option(
+        "--version",
+        help="Print the versions that results depend on.",
+        callback=print_version,
+        is_eager=True,
+    )
+
+    @app.callback()
+    def options(version: Annotated[bool, flag] = False) -> None:
+        pass
+
+    return app
+
+
+def _versions(distributions: tuple[str, ...]) -> str:
+    import importlib.metadata
+
+    installed = []
+    for name in distributions:
+        with suppress(importlib.metadata.PackageNotFoundError):
+            installed.append(f"{name} {importlib.metadata.version(name)}")
+    return ", ".join([*installed, f"Python {sys.version.split()[0]}"])
+
+
+def run(app: "typer.Typer", *, extras: tuple[Extra, ...]) -> None:
+    """Run a program to its exit code, with one sentence for every error.
+
+    Ctrl-C and SIGTERM stop it with 75. What nobody foresaw ends it with 70, and its traceback lies in a file that the
+    sentence names: a traceback's exit code is 1, by which farms would take it for quarantined samples.
+
+    Parameters
+    ----------
+    app
+        The commands.
+    extras
+        Optional parts of the installation that commands may need: an absent one ends with exit code 2.
+    """
+    with suppress(ValueError):  # not the main thread, where signals are nobody's
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if sys.stdout is not None:
+        with suppress(AttributeError, ValueError):
+            sys.stdout.reconfigure(errors="surrogateescape")  # names that are no UTF-8 come out as they are
+    try:
+        code = _called(app, extras)
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except BrokenPipeError:  # the reader has gone, as `| head` does
+        hang_up(sys.stdout)
+        code = ExitCode.OK
+    except OSError as error:
+        code = _fault(app, error)
+    sys.exit(int(code))
+
+
+def _called(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
+    """Exit code of the command that was asked for; its error has been said."""
+    import typer
+
+    name, usage_error = (
+        app.info.name,
+        typer.BadParameter.__mro__[2],
+    )  # click's, of which Typer has its own copy
+    try:
+        code = app(standalone_mode=False)
+    except FacegenError as error:
+        say(f"{name}: {error}")
+        return error.exit_code
+    except usage_error as error:
+        return _misused(app, error)
+    except typer.Abort:
+        code = _KEYBOARD_INTERRUPT
+    except KeyboardInterrupt:
+        code = _KEYBOARD_INTERRUPT
+    except SystemExit as left:
+        if isinstance(left.__context__, BrokenPipeError):  # of which Typer and rich make 1
+            raise left.__context__ from None
+        code = left.code
+    except ModuleNotFoundError as error:
+        sentence = missing_extra(error, _command(app), extras)
+        if sentence is None:
+            return _fault(app, error)
+        say(f"{name}: {sentence}")
+        return InputError.exit_code
+    except BrokenPipeError:
+        raise
+    except Exception as error:
+        return _fault(app, error)
+    if code == _KEYBOARD_INTERRUPT:
+        say(f"{name}: stopped; run the same command again")
+        return ExitCode.DRAINED
+    return code if isinstance(code, int) else ExitCode.OK
+
+
+def _misused(app: "typer.Typer", error: Any) -> int:
+    """Say what is wrong with the words that the program was called with; without any, show its help."""
+    if type(error).__name__ == "NoArgsIsHelpError":
+        error.show()
+    else:
+        say(f"{app.info.name}: {error.format_message().rstrip('.')}; see {_command(app)} --help")
+    return InputError.exit_code
+
+
+def _fault(app: "typer.Typer", error: Exception) -> int:
+    """Say in one sentence what nobody foresaw, and keep its traceback in a file."""
+    name = app.info.name
+    if isinstance(error, OSError) and error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", None)):
+        hang_up(sys.stdout)  # what could not be written would be tried again at the end
+        say(
+            f"{name}: {error.filename or 'standard output'}: no space left; free some and run the same command again"
+        )
+        return ExitCode.NOT_WRITABLE
+    try:
+        handle, path = tempfile.mkstemp(prefix=f"{name}-fault-", suffix=".txt")
+        with open(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
+            file.write(f"{name}, {time.strftime('%FT%T%z')}, {platform.platform()}, Python {sys.version}\n")
+            file.write(f"{sys.argv}\n{os.getcwd()}\n\n")
+            file.write("".join(traceback.format_exception(error)))
+        kept = f"details are in {path}; please report it with them"
+    except OSError:
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        kept = f"in {os.path.basename(frame.filename)}, line {frame.lineno}; please report it"
+    if isinstance(error, MemoryError):
+        say(f"{name}: memory ran out; give it more, or less to do at once ({kept})")
+    else:
+        say(f"{name}: internal error ({type(error).__name__}: {str(error)[:200]}); {kept}")
+    return ExitCode.INTERNAL
+
+
+def _command(app: "typer.Typer") -> str:
+    """Program and sub-command that were called, ``facegen farm submit``."""
+    from typer.main import get_command
+
+    command, words = get_command(app), [app.info.name]
+    for argument in sys.argv[1:]:
+        command = getattr(command, "commands", {}).get(argument)
+        if command is None:
+            break
+        words.append(argument)
+    return " ".join(words)
