@@ -1,6 +1,7 @@
 """Progress, and what a program says of a part of the installation that is absent."""
 
 import importlib.metadata
+import os
 import subprocess
 import sys
 import time
@@ -38,10 +39,10 @@ MAY_WORK_ALONE = ("headset", "rig", "spec")
 """Groups with commands that read text files alone."""
 
 
-def python(program: str, *arguments: str) -> subprocess.CompletedProcess:
-    return subprocess.run(
-        [sys.executable, "-c", program, *arguments], cwd=ROOT, capture_output=True, text=True, timeout=60
-    )
+def python(program: str, *arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-c", program, *arguments]
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=60)
 
 
 @pytest.mark.parametrize("words", sub_commands(app), ids=" ".join)
@@ -69,7 +70,7 @@ def test_the_base_alone_says_what_there_is(arguments):
 @pytest.mark.parametrize("words", calls(app, Path()), ids=" ".join)
 @pytest.mark.usefixtures("anny")
 def test_a_command_works_or_says_how_to_get_what_it_needs(words, tmp_path):
-    called = python(HIDING, *words, *calls(app, tmp_path)[words])
+    called = python(HIDING, *words, *calls(app, tmp_path)[words], folder=tmp_path)
     if words[0] in MAY_WORK_ALONE and called.returncode == 0:
         assert called.stderr == ""
         return
