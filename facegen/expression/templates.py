@@ -5,7 +5,6 @@ mouthClose holds the *closing*: the share of jawOpen over which the lips stay cl
 made weaker without its lips parting.
 """
 
-import tomllib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -13,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.documents import load_toml
 
 CLOSING = BLENDSHAPE_INDEX["mouthClose"]
 """Column that holds the closing until the lips are closed."""
@@ -62,7 +62,7 @@ class Emotions:
 @cache
 def load_templates(family: str) -> Templates:
     """The family ``"visemes"``, ``"mouth"``, ``"eyes"`` or ``"action_units"``."""
-    table = tomllib.loads((_FOLDER / f"{family}.toml").read_text(encoding="utf-8"))
+    table = load_toml(_FOLDER / f"{family}.toml")
     rows = [_row(entry["weights"], entry.get("close", 1.0)) for entry in table.values()]
     return Templates(names=tuple(table), weights=np.array(rows))
 
@@ -70,7 +70,7 @@ def load_templates(family: str) -> Templates:
 @cache
 def load_emotions() -> Emotions:
     """All emotions of ``templates/emotions.toml``."""
-    table = tomllib.loads((_FOLDER / "emotions.toml").read_text(encoding="utf-8"))
+    table = load_toml(_FOLDER / "emotions.toml")
     units = load_templates("action_units")
 
     def mask(key: str) -> np.ndarray:

@@ -1,11 +1,12 @@
 """Finds headset files by name and reads them; says in one sentence what is wrong with one."""
 
-import tomllib
+import os
 from pathlib import Path
 
 from pydantic import TypeAdapter, ValidationError
 
-from facegen.errors import FormatError, InputError, MissingAsset
+from facegen.documents import load_toml
+from facegen.errors import InputError, MissingAsset
 from facegen.headsets.headset import Headset
 from facegen.refusals import refusal
 
@@ -28,16 +29,12 @@ def load_headset(name_or_path: str | Path) -> Headset:
     MissingAsset
         Where there is no such headset.
     FormatError
-        Where the file is not TOML.
+        Where the file is not TOML that can be taken in.
     InputError
         Where a key is unknown or missing, or a value impossible; the message names the key's path.
     """
     path = headset_path(name_or_path)
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FormatError(f"{path} is not TOML: {error}") from error
-    return parse_headset(content, source=path.name)
+    return parse_headset(load_toml(path), source=path.name)
 
 
 def parse_headset(content: dict, *, source: str) -> Headset:
@@ -53,7 +50,7 @@ def headset_path(name_or_path: str | Path) -> Path:
     path = Path(name_or_path)
     if path.suffix != ".toml":
         path = HEADSET_FOLDER / f"{name_or_path}.toml"
-    if not path.is_file():
+    if not os.path.isfile(path):  # False for names that no file can have, too
         known = ", ".join(list_headsets()) or "none"
         raise MissingAsset(
             f"there is no headset {str(name_or_path)!r}; known are {known}, or give the path of a .toml file"

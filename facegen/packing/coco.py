@@ -8,7 +8,7 @@ import numpy as np
 from facegen.formats.coco import LabelledImage, write_coco
 from facegen.packing.plan import Options, PackFile, PackFormat
 from facegen.packing.rendered import chosen_views, read_rendered
-from facegen.store import Dataset, read_json
+from facegen.store import Dataset, read_description
 
 
 def view_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> list[PackFile]:
@@ -35,9 +35,9 @@ def write_view(dataset: Dataset, part: PackFile, _options: Options, path: Path) 
                 visibility=np.array(view["visibility"]),
             )
 
-    described = read_json(dataset.folder.dataset_json)
+    described = read_description(dataset.folder)
     about = f"facegen dataset {dataset.hash}, camera {part.view} of headset {dataset.headset.name}"
-    info = {"description": about, "version": described["versions"]["facegen"]}
+    info = {"description": about, "version": described["versions"].get("facegen", "unknown")}
     write_coco(path, images, info=info, licence=described["licence"])
 
 

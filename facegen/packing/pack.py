@@ -21,6 +21,7 @@ from facegen.store import (
     Dataset,
     DatasetFolder,
     commit_file,
+    read_description,
     read_json,
     staging,
     sweep,
@@ -149,7 +150,7 @@ def _flags(form: PackFormat) -> str:
 
 
 def _description(plan: PackPlan) -> dict:
-    described = read_json(plan.dataset.folder.dataset_json)
+    described = read_description(plan.dataset.folder)
     options = {key: list(v) if isinstance(v, tuple) else v for key, v in asdict(plan.options).items()}
     return {
         "format": plan.name,

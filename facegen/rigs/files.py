@@ -11,12 +11,17 @@ import json
 import os
 import zipfile
 from pathlib import Path
+from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from facegen.conventions import Part
-from facegen.errors import InputError, MissingAsset
+from facegen.archives import MOST_BYTES, check_shapes, parse_npz
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, Part
+from facegen.documents import load_json, read_bytes
+from facegen.errors import FormatError, InputError, MissingAsset
 from facegen.files import output_errors, write_whole
+from facegen.refusals import refusal
 from facegen.rigs.rig import Rig
 
 RIG_FORMAT = 1
@@ -31,6 +36,28 @@ _ARRAYS = (
     *("eye_center", "eye_center_identity", "eye_radius", "eye_radius_identity"),
     *("upper_lid", "lower_lid", "lid_vertices"),
 )
+
+
+_Count = Annotated[int, Field(ge=1, le=10_000_000)]
+
+
+class _Record(BaseModel):
+    """What `load_rig` relies on in ``NAME.json``; further keys are for people."""
+
+    model_config = ConfigDict(strict=True, extra="allow")
+
+    name: str
+    format: Literal[RIG_FORMAT]
+    sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+    licence: str
+    source: str
+    version: str
+    vertices: _Count
+    faces: _Count
+    cage_vertices: _Count
+    identity_components: Annotated[int, Field(ge=0, le=10_000)]
+    traits: list[Literal["one", "female", "age", "african", "asian"]]
+    missing: list[Literal[BLENDSHAPES]]
 
 
 def assets_folder() -> Path:
@@ -76,23 +103,23 @@ def read_record(name: str, folder: Path | None = None) -> dict:
     """
     folder = Path(folder) if folder is not None else rigs_folder()
     path = folder / f"{name}.json"
-    if not path.is_file() or not path.with_suffix(".npz").is_file():
+    if not os.path.isfile(path) or not os.path.isfile(path.with_suffix(".npz")):
         built = ", ".join(sorted(file.stem for file in folder.glob("*.npz"))) or "none"
         raise MissingAsset(
             f"There is no rig {name!r} in {folder} (built: {built}); make it with: facegen rig build {name}, "
             "or of your own head with: facegen rig add"
         )
+    again = f"build it again with: facegen rig build {name} --force"
     try:
-        record = json.loads(path.read_text())
-        if record["format"] != RIG_FORMAT:
-            raise InputError(
-                f"{path} has format {record['format']}, this version reads {RIG_FORMAT}; "
-                f"build it again with: facegen rig build {name} --force"
-            )
-    except (ValueError, KeyError, TypeError) as error:
-        raise InputError(
-            f"{path} is damaged; build it again with: facegen rig build {name} --force"
-        ) from error
+        record = load_json(path)
+    except FormatError as error:
+        raise FormatError(f"{error}; {again}") from None
+    if isinstance(record, dict) and type(record.get("format")) is int and record["format"] != RIG_FORMAT:
+        raise InputError(f"{path} has format {record['format']}, this version reads {RIG_FORMAT}; {again}")
+    try:
+        _Record.model_validate(record)
+    except ValidationError as error:
+        raise FormatError(f"{path} is damaged ({refusal(error, _Record)}); {again}") from None
     return record
 
 
@@ -116,14 +143,15 @@ def load_rig(name: str, folder: Path | None = None) -> Rig:
     folder = Path(folder) if folder is not None else rigs_folder()
     record = read_record(name, folder)
     path = folder / f"{name}.npz"
-    content = path.read_bytes()
-    if hashlib.sha256(content).hexdigest() != record.get("sha256"):
+    content = read_bytes(path, most_bytes=2 * MOST_BYTES)
+    if hashlib.sha256(content).hexdigest() != record["sha256"]:
         raise InputError(
             f"{path} is not the file that was built (its SHA-256 differs from {name}.json's); "
             f"build it again with: facegen rig build {name} --force"
         )
-    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
-        values = {key: _in_memory(key, arrays[key]) for key in _ARRAYS}
+    arrays = parse_npz(content, where=str(path))
+    _check_arrays(arrays, record, where=str(path))
+    values = {key: _in_memory(key, arrays[key]) for key in _ARRAYS}
     texts = {key: record[key] for key in _TEXTS}
     return Rig(
         name=record["name"],
@@ -134,6 +162,45 @@ def load_rig(name: str, folder: Path | None = None) -> Rig:
         **texts,
         **values,
     )
+
+
+def _check_arrays(arrays: dict[str, np.ndarray], record: dict, *, where: str) -> None:
+    """Refuse arrays that do not fit each other, or whose indices point outside them."""
+    components, faces = record["identity_components"], record["faces"]
+    vertices, traits, shapes = record["vertices"], len(record["traits"]), len(BLENDSHAPES)
+    wanted = {
+        "vertices": (vertices, 3),
+        "faces": (faces, 4),
+        "cage_faces": (None, 4),
+        "uv": (faces, 4, 2),
+        "part": (faces,),
+        "identity": (components, vertices, 3),
+        "identity_from_traits": (components, traits),
+        "identity_residual": (components, components),
+        "expression": (shapes, vertices, 3),
+        "landmark_vertices": (LANDMARK_COUNT, None),
+        "landmark_weights": (LANDMARK_COUNT, None),
+        "eye_center": (2, 3),
+        "eye_center_identity": (components, 2, 3),
+        "eye_radius": (2,),
+        "eye_radius_identity": (components, 2),
+        "upper_lid": (2, None),
+        "lower_lid": (2, None),
+        "lid_vertices": (2, None),
+    }
+    check_shapes(arrays, wanted, where=where)
+    if arrays["landmark_vertices"].shape != arrays["landmark_weights"].shape:
+        raise FormatError(f"{where}: landmark_vertices and landmark_weights must have one shape")
+    caged = record["cage_vertices"]
+    for name in _INDICES:
+        # triangles and lists of unequal length are padded
+        low = -1 if name in ("faces", "cage_faces", "lid_vertices") else 0
+        high = vertices if name in ("faces", "lid_vertices") else caged
+        array = arrays[name]
+        if array.dtype.kind not in "iu" or not array.size or array.min() < low or array.max() >= high:
+            raise FormatError(f"{where}: array {name!r} must hold whole numbers from {low} to {high - 1}")
+    if not np.isin(arrays["part"], [int(part) for part in Part]).all():
+        raise FormatError(f"{where}: array 'part' has a number that stands for no part of a head")
 
 
 def _on_disk(name: str, array: np.ndarray) -> np.ndarray:

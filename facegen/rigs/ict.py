@@ -3,13 +3,13 @@
 Not subdivided: the mesh is fine enough. Modes are principal components in units of their standard deviation.
 """
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
+from facegen.documents import load_json
 from facegen.errors import InputError
 from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.files import assets_folder
@@ -47,9 +47,7 @@ def build_ict(clone: Path, *, components: int = MOST_COMPONENTS) -> Rig:
     if not (folder / f"{_NEUTRAL}.obj").is_file():
         raise InputError(f"{clone} holds no FaceXModel/{_NEUTRAL}.obj; --path wants a clone of ICT-FaceKit")
     data = assets_folder() / "rigs" / "ict"
-    parts, points, gains = (
-        json.loads((data / f"{name}.json").read_text()) for name in ("parts", "landmarks", "gains")
-    )
+    parts, points, gains = (load_json(data / f"{name}.json") for name in ("parts", "landmarks", "gains"))
     mesh = _read_obj(folder / f"{_NEUTRAL}.obj")
     part_of = np.zeros(len(mesh.vertices), np.uint8)
     for name, ranges in parts["parts"].items():

@@ -1,11 +1,11 @@
 """Reads the JSON file that marks up a user's own head: landmarks, eyes, lids and parts, which no 3D format names."""
 
-import json
 from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from facegen.documents import load_json
 from facegen.errors import InputError
 from facegen.refusals import refusal
 
@@ -91,15 +91,11 @@ def read_markup(path: Path) -> HeadMarkup:
         It is missing, is no JSON, or a key or value is not allowed; says which.
     """
     try:
-        return HeadMarkup.model_validate(json.loads(path.read_text(encoding="utf-8")))
-    except OSError as error:
-        raise InputError(
-            f"{path} cannot be read ({error.strerror}); --landmarks wants a JSON file"
-        ) from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path} is not text; --landmarks wants a JSON file") from error
-    except json.JSONDecodeError as error:
-        raise InputError(f"{path} is not valid JSON: {error}") from error
+        content = load_json(path)
+    except InputError as error:
+        raise InputError(f"{error}; --landmarks wants a JSON file") from None
+    try:
+        return HeadMarkup.model_validate(content)
     except ValidationError as error:
         sentence = refusal(error, HeadMarkup)
         raise InputError(f"{path}: {sentence} (docs/adding-a-rig.md lists what is allowed)") from error

@@ -4,7 +4,7 @@ import dataclasses
 import hashlib
 import json
 import operator
-import tomllib
+import os
 from collections.abc import Iterator
 from functools import reduce
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import Any, get_args
 from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import is_pydantic_dataclass
 
+from facegen.documents import load_toml
 from facegen.errors import InputError
 from facegen.expression import COMPONENTS
 from facegen.number_ranges import parse_ranges
@@ -49,17 +50,11 @@ def load_spec(path: str | Path) -> Spec:
         If the file cannot be read, is not TOML, or a key or value is not allowed; says which, and what is.
     """
     path = Path(path)
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
+    if not os.path.lexists(path):
         raise InputError(
             f"{path}: there is no such spec; the ones that come with facegen are datasets/*.toml"
-        ) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read as a spec ({error})") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path}: is not valid TOML: {error}") from None
-    spec = parse_spec(table, where=str(path))
+        )
+    spec = parse_spec(load_toml(path), where=str(path))
     if spec.playback is not None:
         recording = _beside(path, "playback.recording", spec.playback.recording)
         spec = dataclasses.replace(spec, playback=dataclasses.replace(spec.playback, recording=recording))
@@ -72,7 +67,7 @@ def load_spec(path: str | Path) -> Spec:
 def _beside(spec: Path, key: str, name: str) -> str:
     """Absolute path of a file that a spec names, relative to the spec."""
     path = spec.parent / name
-    if not path.is_file():
+    if not os.path.isfile(path):  # False for names that no file can have, too
         raise InputError(f"{spec}: {key} = {name!r}: there is no file {path}")
     return str(path.resolve())
 

@@ -1,6 +1,7 @@
 """Datasets on disk."""
 
 from facegen.store.dataset import Dataset, begin, open_dataset, resolve
+from facegen.store.description import read_description
 from facegen.store.folder import (
     DatasetFolder,
     commit_file,
@@ -37,6 +38,7 @@ __all__ = [
     "merge",
     "open_dataset",
     "png_bytes",
+    "read_description",
     "read_exr",
     "read_json",
     "read_png",

@@ -3,6 +3,7 @@
 import hashlib
 import importlib.metadata
 import json
+import os
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +22,7 @@ from facegen.refusals import refusal
 from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset
 from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_hash, spec_table
+from facegen.store.description import FORMAT, read_description
 from facegen.store.folder import DatasetFolder, commit_file, read_json, write_json
 from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
 from facegen.store.stage import staging
@@ -71,7 +73,7 @@ class Dataset:
     @property
     def licence(self) -> str:
         """Licence of the pictures, as ``dataset.json`` has it."""
-        return read_json(self.folder.dataset_json)["licence"]
+        return read_description(self.folder)["licence"]
 
     @property
     def keypoint_schema(self) -> pa.Schema:
@@ -156,11 +158,11 @@ def begin(dataset: Dataset) -> None:
     with output_errors(folder.path):
         others = folder.path.is_dir() and any(p.name not in _FIRST_THINGS for p in folder.path.iterdir())
     # looked at after the listing: another worker may be just beginning, and then this file is there by now
-    if folder.dataset_json.is_file():
-        stored_hash = read_json(folder.dataset_json).get("spec_hash")
+    if os.path.lexists(folder.dataset_json):
+        stored_hash = read_description(folder)["spec_hash"]
         if stored_hash != dataset.hash:
             raise InputError(
-                f"{folder.path}: holds a dataset of another spec (its hash is {str(stored_hash)[:12]}, this spec's "
+                f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
                 f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
             )
         return
@@ -192,20 +194,20 @@ def open_dataset(path: str | Path) -> Dataset:
         If there is none, or its rig is no longer the one it was made with.
     """
     folder = DatasetFolder(Path(path))
-    described = read_json(folder.dataset_json)
+    described = read_description(folder)
     spec = load_spec(folder.spec_toml)
     dataset = resolve(spec, path)
-    if dataset.hash != described.get("spec_hash"):
+    if dataset.hash != described["spec_hash"]:
         raise InputError(
             f"{path}: was made with another version of rig {spec.rig!r}, of its headset.toml or of facegen's labels "
-            f"({described.get('label_version')}, now {LABEL_VERSION}); build that again, or make the dataset anew"
+            f"({described['label_version']}, now {LABEL_VERSION}); build that again, or make the dataset anew"
         )
     return dataset
 
 
 def _description(dataset: Dataset) -> dict:
     return {
-        "format": 1,
+        "format": FORMAT,
         "spec_hash": dataset.hash,
         "label_version": LABEL_VERSION,
         "seed": dataset.spec.seed,

@@ -7,10 +7,21 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from facegen.conventions import SHARD_ROWS
-from facegen.errors import InputError
+from facegen.documents import load_json
+from facegen.errors import FormatError, InputError
 from facegen.files import sync
 
 SAMPLES_PER_FOLDER = 1000
+
+NAMES_OF_JSON = {
+    list: "a list",
+    str: "a text",
+    bool: "a truth value",
+    int: "a number",
+    float: "a number",
+    type(None): "nothing (null)",
+}
+"""What people call values of JSON that are no tables, by Python's type."""
 
 
 @dataclass(frozen=True)
@@ -97,18 +108,18 @@ def write_json(path: Path, content: object) -> None:
 
 
 def read_json(path: Path) -> dict:
-    """Read JSON.
+    """Read a table of JSON.
 
     Raises
     ------
     InputError
-        If there is no such file or it is not JSON.
+        If there is no such file, it cannot be taken in, or it holds no table.
     """
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError(
-            f"{path}: there is no such file, so {path.parent} is not a facegen dataset"
-        ) from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read as JSON ({error})") from None
+    if not os.path.lexists(path):
+        raise InputError(f"{path}: there is no such file, so {path.parent} is not a facegen dataset")
+    content = load_json(path)
+    if not isinstance(content, dict):
+        raise FormatError(
+            f"{path}: holds {NAMES_OF_JSON[type(content)]}, but must hold a table of keys and values"
+        )
+    return content

@@ -10,7 +10,8 @@ from pathlib import Path
 from facegen.errors import InputError, InvalidData
 from facegen.files import output_errors
 from facegen.store.dataset import Dataset, open_dataset
-from facegen.store.folder import DatasetFolder, commit_file, commit_folder, read_json
+from facegen.store.description import read_description
+from facegen.store.folder import DatasetFolder, commit_file, commit_folder
 from facegen.store.stage import staging, sweep
 
 _FIRST_THINGS = ("tmp", "spec.toml", "headset.toml", "recording.csv")
@@ -65,7 +66,7 @@ def merge(
     for dataset in datasets[1:]:
         _check_spec(first, dataset.folder, dataset.hash)
     if target.dataset_json.is_file():
-        _check_spec(first, target, read_json(target.dataset_json).get("spec_hash"))
+        _check_spec(first, target, read_description(target)["spec_hash"])
         datasets.insert(0, open_dataset(out))
     elif target.path.is_dir() and any(entry.name not in _FIRST_THINGS for entry in target.path.iterdir()):
         raise InputError(f"{target.path}: is not empty and holds no facegen dataset; choose another folder")
@@ -88,10 +89,10 @@ def merge(
     return Merged(taken=taken, found=len(origins) - taken)
 
 
-def _check_spec(first: Dataset, folder: DatasetFolder, found: object) -> None:
+def _check_spec(first: Dataset, folder: DatasetFolder, found: str) -> None:
     if found != first.hash:
         raise InputError(
-            f"{folder.path}: holds a dataset of another spec (its hash is {str(found)[:12]}) than "
+            f"{folder.path}: holds a dataset of another spec (its hash is {found[:12]}) than "
             f"{first.folder.path} ({first.hash[:12]}); only runs of one spec can be merged"
         )
 

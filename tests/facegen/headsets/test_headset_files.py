@@ -120,7 +120,7 @@ def test_missing_and_damaged_files(tmp_path):
         load_headset("nothing")
     path = tmp_path / "bad.toml"
     path.write_text("name = ")
-    with pytest.raises(FormatError, match="is not TOML"):
+    with pytest.raises(FormatError, match="is not valid TOML"):
         load_headset(path)
 
 
