@@ -1,6 +1,15 @@
-"""Runs the ``facegen`` command as ``python -m facegen``."""
+"""Runs the command line, also as ``python -m facegen``."""
 
-from facegen.cli import main
+from facegen.program import end_on_stops
+
+
+def main() -> None:
+    """Entry point of the console script: stops are answered before the libraries load."""
+    end_on_stops("facegen")
+    from facegen.cli import main as run_commands
+
+    run_commands()
+
 
 if __name__ == "__main__":
     main()

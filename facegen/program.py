@@ -1,16 +1,19 @@
 """Makes a program of commands and runs it: every end has an exit code, and every fault is one sentence."""
 
 import errno
+import math
 import os
 import platform
-import signal
 import sys
 import tempfile
 import time
 import traceback
+from collections.abc import Callable
 from contextlib import suppress
+from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any
 
+from facegen.children import answer_stops
 from facegen.console import hang_up, say
 from facegen.errors import ExitCode, FacegenError, InputError
 from facegen.extras import Extra, missing_extra
@@ -20,6 +23,11 @@ if TYPE_CHECKING:
 
 _KEYBOARD_INTERRUPT = 130
 """What Typer makes of a KeyboardInterrupt."""
+
+_IMPORTS = "<frozen importlib._bootstrap>"
+"""File of the code that is at work while a module loads."""
+
+_STOPPED = "stopped; run the same command again"
 
 
 def program(name: str, *, version: str, about: str, libraries: tuple[str, ...]) -> "typer.Typer":
@@ -87,8 +95,7 @@ def run(app: "typer.Typer", *, extras: tuple[Extra, ...]) -> None:
     extras
         Optional parts of the installation that commands may need: an absent one ends with exit code 2.
     """
-    with suppress(ValueError):  # not the main thread, where signals are nobody's
-        signal.signal(signal.SIGTERM, signal.default_int_handler)
+    end_on_stops(app.info.name)
     if sys.stdout is not None:
         with suppress(AttributeError, ValueError):
             sys.stdout.reconfigure(errors="surrogateescape")  # names that are no UTF-8 come out as they are
@@ -104,16 +111,33 @@ def run(app: "typer.Typer", *, extras: tuple[Extra, ...]) -> None:
     sys.exit(int(code))
 
 
+def end_on_stops(name: str) -> None:
+    """Let Ctrl-C and SIGTERM end this process as `run` says; to be called before the first library loads."""
+
+    def stop(_number: int, frame: FrameType | None) -> None:
+        while frame is not None:
+            if frame.f_code.co_filename == _IMPORTS:
+                # compiled modules make an error of their own of what is raised while they load; nothing is half-made
+                say(f"{name}: {_STOPPED}")
+                os._exit(ExitCode.DRAINED)
+            frame = frame.f_back
+        raise KeyboardInterrupt
+
+    with suppress(ValueError):  # not the main thread, where signals are nobody's
+        answer_stops(stop)
+
+
 def _called(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
     """Exit code of the command that was asked for; its error has been said."""
     import typer
+    from typer.main import get_command
 
     name, usage_error = (
         app.info.name,
         typer.BadParameter.__mro__[2],
     )  # click's, of which Typer has its own copy
     try:
-        code = app(standalone_mode=False)
+        code = _finite_numbers(get_command(app))(standalone_mode=False)
     except FacegenError as error:
         say(f"{name}: {error}")
         return error.exit_code
@@ -138,9 +162,32 @@ def _called(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
     except Exception as error:
         return _fault(app, error)
     if code == _KEYBOARD_INTERRUPT:
-        say(f"{name}: stopped; run the same command again")
+        say(f"{name}: {_STOPPED}")
         return ExitCode.DRAINED
     return code if isinstance(code, int) else ExitCode.OK
+
+
+def _finite_numbers(command: Any) -> Any:
+    """Let no option of a command or of those below it take infinity or NaN, which pass bounds and mean nothing."""
+    for parameter in command.params:
+        parameter.process_value = _finite(parameter)
+    for inner in getattr(command, "commands", {}).values():
+        _finite_numbers(inner)
+    return command
+
+
+def _finite(parameter: Any) -> Callable[[Any, Any], Any]:
+    import typer
+
+    process = parameter.process_value
+
+    def finite(context: Any, value: Any) -> Any:
+        processed = process(context, value)
+        if isinstance(processed, float) and not math.isfinite(processed):
+            raise typer.BadParameter(f"{value!r} is not a finite number.", ctx=context, param=parameter)
+        return processed
+
+    return finite
 
 
 def _misused(app: "typer.Typer", error: Any) -> int:

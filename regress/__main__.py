@@ -1,6 +1,15 @@
-"""``python -m regress`` is the ``regress`` command."""
+"""Runs the command line, also as ``python -m regress``."""
 
-from regress.cli import main
+from facegen.program import end_on_stops
+
+
+def main() -> None:
+    """Entry point of the console script: stops are answered before the libraries load."""
+    end_on_stops("regress")
+    from regress.cli import main as run_commands
+
+    run_commands()
+
 
 if __name__ == "__main__":
     main()

@@ -212,3 +212,26 @@ def test_the_end_of_a_long_message_stays():
     assert len(line) == MOST_CHARACTERS
     assert line.startswith("a" * 330)
     assert line.endswith("b; do this")
+
+
+@pytest.mark.parametrize("program", ["facegen", "regress"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_stop_while_modules_load_is_one_line(program, number, tmp_path):
+    # as a compiled module that makes an ImportError of whatever is raised while it loads
+    (tmp_path / "typer.py").write_text(
+        f"import os\ntry:\n    os.kill(os.getpid(), {int(number)})\n    print('went on')\n"
+        "except BaseException:\n    raise ImportError('initialization failed') from None\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
+    done = subprocess.run([sys.executable, "-m", program], env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (75, "")
+    assert done.stderr == f"{program}: stopped; run the same command again\n"
+
+
+@pytest.mark.parametrize("value", ["inf", "-inf", "nan", "1e999", "Infinity"])
+def test_a_number_that_is_not_finite_is_refused(value):
+    command = [sys.executable, "-m", "facegen", "develop", "no", "--out", "no", "--exposure", value]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.startswith("facegen: ")
+    assert done.stderr.count("\n") == 1

@@ -18,7 +18,7 @@ CHILD = [sys.executable, "-c", "import time; time.sleep(0.5); print('lives')"]
 @pytest.mark.slow
 @pytest.mark.blender
 @pytest.mark.usefixtures("anny")
-@pytest.mark.parametrize("tenths", range(4, 34, 3))
+@pytest.mark.parametrize("tenths", range(3, 34, 3))
 def test_a_stop_in_the_first_seconds_is_silent(tmp_path, tenths):
     arguments = ["generate", "datasets/tiny.toml", "--out", str(tmp_path / "out"), "--workers", "2"]
     process = subprocess.Popen(
