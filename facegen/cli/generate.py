@@ -71,25 +71,25 @@ def generate(
     shards = "" if shards == "none" else shards
     work = plan_work(dataset, samples, shards=shards, retry_quarantined=retry_quarantined)
     if dry_run:
-        missing_shards = sum(task.kind == "shard" for task in work.missing)
         print_table(
             {
                 "out": str(out),
                 "spec_hash": dataset.hash,
-                "missing_shards": missing_shards,
-                "missing_renders": len(work.missing) - missing_shards,
+                "missing_shards": work.left("shard"),
+                "missing_renders": work.left("sample"),
                 "found": work.done,
                 "quarantined": len(work.quarantined),
             },
             as_json=as_json,
         )
         return
+    missing = len(work.missing)
     begin(dataset)
     answer_stops(_stop_early)  # a terminal gets its cursor back
     with progress(style=progress_style) as show:
 
         def show_done(done: int) -> None:
-            show("shards and rendered samples", done, len(work.missing))
+            show("shards and rendered samples", done, missing)
 
         show_done(0)
         summary = make(

@@ -17,13 +17,11 @@ def check(spec: Annotated[Path, typer.Argument(help="A spec, for example dataset
     Example: facegen spec check datasets/default.toml
     """
     from facegen.sampling import plan_dataset
-    from facegen.spec import load_spec, sample_numbers
+    from facegen.spec import load_spec, sample_ranges
 
     checked = load_spec(spec)
     plan = plan_dataset(checked)
-    rendered = len(
-        sample_numbers(checked.render.samples, total=plan.samples, where=f"{spec}: render.samples")
-    )
+    rendered = len(sample_ranges(checked.render.samples, total=plan.samples, where=f"{spec}: render.samples"))
     print(f"{spec}: good; {checked.people} people, {plan.samples} samples, {rendered} of them rendered")
 
 

@@ -72,9 +72,10 @@ def farm_state(dataset: Dataset) -> FarmState:
     """Look at the disk, and ask the engines."""
     jobs = asked_jobs(dataset.folder)
     requests = {(job.samples, job.shards) for job in jobs} or {(None, None)}
-    requested = {task for request in requests for task in wanted_tasks(dataset, *request)}
-    done = done_tasks(dataset, requested)
-    quarantined = quarantined_tasks(dataset, requested - done)
+    wanted = [wanted_tasks(dataset, *request) for request in requests]
+    requested = {task for some in wanted for task in some.tasks()}
+    done = {task for some in wanted for task in done_tasks(dataset, some)}
+    quarantined = {task for some in wanted for task in quarantined_tasks(dataset, some)} - done
     missing = requested - done - quarantined
     known = [(job, activity) for job, activity in activities(dataset.folder) if activity is not None]
     attempts = list(read_journals(dataset.folder))

@@ -93,7 +93,7 @@ def prepare(
         steps=steps,
         # the spec's own samples are written out: a later version of the spec may name others
         samples=dataset.spec.render.samples if samples is None else samples,
-        shards=format_ranges(list(range(dataset.shards))) if samples is None else shards,
+        shards=format_ranges(range(dataset.shards)) if samples is None else shards,
         chunks=chunks,
         resources=resources,
     )

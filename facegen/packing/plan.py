@@ -9,7 +9,8 @@ import pyarrow as pa
 
 from facegen.conventions import SHARD_ROWS, SPLITS
 from facegen.errors import InputError
-from facegen.store import Dataset, read_shard
+from facegen.spec import without
+from facegen.store import Dataset, read_shard, shards_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,21 +117,21 @@ def chosen_samples(dataset: Dataset, options: Options, *, rendered: bool) -> Seq
         rendered_samples = dataset.folder.rendered()
         asked = dataset.samples_to_render(options.samples)
         numbers: Sequence[int] = asked if options.samples is not None else rendered_samples
-        missing = sorted(set(asked) - set(rendered_samples))
+        missing = without(asked, rendered_samples)
         if missing:
             raise InputError(
-                f"{dataset.folder.path}: {len(missing)} of the rendered samples to pack are missing, the "
-                f"first is sample {missing[0]}; make them with facegen generate, or choose with --samples"
+                f"{dataset.folder.path}: {sum(map(len, missing))} of the rendered samples to pack are missing, the "
+                f"first is sample {missing[0][0]}; make them with facegen generate, or choose with --samples"
             )
     else:
         if options.samples is None:
             numbers, needed = range(dataset.plan.samples), range(dataset.shards)
         else:
             numbers = dataset.samples_to_render(options.samples)
-            needed = sorted({number // SHARD_ROWS for number in numbers})
-        absent = [path for path in map(dataset.folder.shard, needed) if not path.is_file()]
-        if absent:
-            raise InputError(f"{absent[0]}: is missing; make it with facegen generate")
+            needed = shards_of(numbers)
+        absent = next((path for path in map(dataset.folder.shard, needed) if not path.is_file()), None)
+        if absent is not None:
+            raise InputError(f"{absent}: is missing; make it with facegen generate")
     if options.split is not None:
         numbers = _of_split(dataset, numbers, options.split)
     if not len(numbers):

@@ -1,6 +1,6 @@
 """Specs: what a dataset is, in TOML."""
 
-from facegen.number_ranges import format_ranges, sample_numbers
+from facegen.number_ranges import format_ranges, format_runs, listed, sample_numbers, sample_ranges, without
 from facegen.spec.distribution import Distribution, draw
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
 from facegen.spec.reference import spec_reference
@@ -17,11 +17,15 @@ __all__ = [
     "Spec",
     "draw",
     "format_ranges",
+    "format_runs",
+    "listed",
     "load_spec",
     "parse_spec",
     "sample_numbers",
+    "sample_ranges",
     "spec_hash",
     "spec_reference",
     "spec_schema",
     "spec_table",
+    "without",
 ]

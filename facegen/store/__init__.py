@@ -8,6 +8,7 @@ from facegen.store.folder import (
     commit_folder,
     read_json,
     shard_samples,
+    shards_of,
     write_json,
 )
 from facegen.store.images import exr_bytes, png_bytes, read_exr, read_png
@@ -46,6 +47,7 @@ __all__ = [
     "resolve",
     "sample_record",
     "shard_samples",
+    "shards_of",
     "staging",
     "sweep",
     "write_json",

@@ -5,6 +5,7 @@ import importlib.metadata
 import json
 import os
 import shutil
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,7 +22,7 @@ from facegen.headsets import Headset, headset_path, load_headset
 from facegen.refusals import refusal
 from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset
-from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_numbers, spec_hash, spec_table
+from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_ranges, spec_hash, spec_table
 from facegen.store.description import FORMAT, read_description
 from facegen.store.folder import DatasetFolder, commit_file, read_json, write_json
 from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
@@ -80,11 +81,14 @@ class Dataset:
         """Columns of the keypoint shards."""
         return keypoint_schema(self.spec, self.rig.components)
 
-    def samples_to_render(self, ranges: str | None = None) -> list[int]:
-        """Numbers of the samples to render: ``ranges`` (``"0-99,140"``) or, without, the spec's own."""
+    def samples_to_render(self, ranges: str | None = None) -> Sequence[int]:
+        """Sorted numbers of the samples to render: ``ranges`` (``"0-99,140"``) or, without, the spec's own.
+
+        One range stays a range, which may count more than fit into memory.
+        """
         text = self.spec.render.samples if ranges is None else ranges
         where = "render.samples" if ranges is None else "--samples"
-        return sample_numbers(text, total=self.plan.samples, where=where)
+        return sample_ranges(text, total=self.plan.samples, where=where)
 
     def keypoints(self) -> pa.Table:
         """All finished keypoint shards as one Arrow table.

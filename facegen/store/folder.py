@@ -3,6 +3,8 @@
 import errno
 import json
 import os
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +24,10 @@ NAMES_OF_JSON = {
     type(None): "nothing (null)",
 }
 """What people call values of JSON that are no tables, by Python's type."""
+
+
+_SHARD = re.compile(r"shard-[0-9]{5,15}\.parquet")
+_RENDER = re.compile("[0-9]{6,15}")
 
 
 @dataclass(frozen=True)
@@ -64,16 +70,24 @@ class DatasetFolder:
 
     def shards(self) -> list[Path]:
         """Finished shards, in order."""
-        return sorted((self.path / "keypoints").glob("shard-*.parquet"))
+        return sorted(p for p in (self.path / "keypoints").glob("shard-*") if _SHARD.fullmatch(p.name))
 
     def rendered(self) -> list[int]:
         """Numbers of the finished rendered samples, in order."""
-        return sorted(int(p.name) for p in (self.path / "renders").glob("[0-9]*/[0-9]*") if p.name.isdigit())
+        folders = (self.path / "renders").glob("[0-9]*/[0-9]*")
+        return sorted(int(p.name) for p in folders if _RENDER.fullmatch(p.name))
 
 
 def shard_samples(index: int, *, total: int) -> range:
     """Samples in a shard of a dataset of ``total`` samples."""
     return range(index * SHARD_ROWS, min((index + 1) * SHARD_ROWS, total))
+
+
+def shards_of(samples: Sequence[int]) -> Sequence[int]:
+    """Numbers of the shards that hold samples, sorted."""
+    if isinstance(samples, range) and samples.step == 1:
+        return range(samples.start // SHARD_ROWS, -(-samples.stop // SHARD_ROWS))
+    return sorted({number // SHARD_ROWS for number in samples})
 
 
 def commit_file(source: Path, target: Path) -> None:

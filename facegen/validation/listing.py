@@ -13,7 +13,7 @@ from pathlib import Path
 from facegen.store import Dataset
 from facegen.validation.finding import Finding
 
-_SHARD = re.compile(r"shard-(\d+)\.parquet")
+_SHARD = re.compile(r"shard-([0-9]{5,15})\.parquet")
 
 
 @dataclass(frozen=True, kw_only=True)

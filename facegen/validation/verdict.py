@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from facegen.conventions import BLOCK
-from facegen.spec import format_ranges
+from facegen.spec import format_runs, without
 from facegen.store import Dataset
 from facegen.validation.finding import Finding
 from facegen.validation.listing import Listing, list_dataset
@@ -83,14 +83,14 @@ def validate(
         take(batch_findings)
         done += len(batch.numbers)
         on_progress(done)
-    missing_shards = sorted(set(range(dataset.shards)) - set(listing.shards))
-    missing_renders = sorted(set(dataset.samples_to_render()) - set(listing.renders))
+    missing_shards = without(range(dataset.shards), listing.shards)
+    missing_renders = without(dataset.samples_to_render(), listing.renders)
     return Verdict(
         shards=len(listing.shards),
         renders=len(listing.renders),
-        missing_shards=format_ranges(missing_shards),
-        missing_renders=format_ranges(missing_renders),
-        missing=len(missing_shards) + len(missing_renders),
+        missing_shards=format_runs(missing_shards),
+        missing_renders=format_runs(missing_renders),
+        missing=sum(map(len, (*missing_shards, *missing_renders))),
         wrong=dict(sorted(counts.items())),
         findings=tuple(findings),
         invalid=tuple(sorted(removable)),

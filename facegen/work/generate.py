@@ -3,12 +3,14 @@
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal
 
 from facegen.store import Dataset, begin, staging, sweep
 from facegen.work.allocation import available_cpus, available_memory
 from facegen.work.limits import Limits
 from facegen.work.supervisor import Supervisor
-from facegen.work.tasks import Task, done_tasks, quarantined_tasks, wanted_tasks
+from facegen.work.tasks import Task, Wanted, done_tasks, quarantined_tasks, wanted_tasks
 
 DEFAULT_GRACE_S = 30.0
 MEMORY_SHARE = 0.8
@@ -17,11 +19,33 @@ MEMORY_SHARE = 0.8
 
 @dataclass(frozen=True, kw_only=True)
 class Work:
-    """Tasks that a run has to make, and how many were there already."""
+    """Tasks of a run, those of them that were there already, and those that failed for good."""
 
-    missing: tuple[Task, ...]
-    done: int
+    wanted: Wanted
+    found: frozenset[Task]
     quarantined: tuple[Task, ...]
+
+    @property
+    def done(self) -> int:
+        """How many were there already."""
+        return len(self.found)
+
+    def left(self, kind: Literal["shard", "sample"]) -> int:
+        """Count what has to be made of a kind, without listing it."""
+        wanted = self.wanted.shards if kind == "shard" else self.wanted.samples
+        return len(wanted) - sum(task.kind == kind for task in (*self.found, *self.quarantined))
+
+    @cached_property
+    def missing(self) -> tuple[Task, ...]:
+        """What has to be made, listed.
+
+        Raises
+        ------
+        InputError
+            If that is more than `facegen.number_ranges.MOST_LISTED`.
+        """
+        others = self.found.union(self.quarantined)
+        return tuple(task for task in self.wanted.tasks() if task not in others)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,15 +62,11 @@ def plan_work(
     dataset: Dataset, ranges: str | None, *, shards: str | None = None, retry_quarantined: bool = False
 ) -> Work:
     """List what `generate` would do; reads the folder, writes nothing."""
-    tasks = wanted_tasks(dataset, ranges, shards)
-    done = done_tasks(dataset, tasks)
-    missing = [task for task in tasks if task not in done]
-    quarantined = set() if retry_quarantined else quarantined_tasks(dataset, missing)
-    return Work(
-        missing=tuple(task for task in missing if task not in quarantined),
-        done=len(done),
-        quarantined=tuple(task for task in missing if task in quarantined),
-    )
+    wanted = wanted_tasks(dataset, ranges, shards)
+    done = done_tasks(dataset, wanted)
+    quarantined = set() if retry_quarantined else quarantined_tasks(dataset, wanted) - done
+    in_order = sorted(quarantined, key=lambda task: (task.kind != "shard", task.number))
+    return Work(wanted=wanted, found=frozenset(done), quarantined=tuple(in_order))
 
 
 def generate(
@@ -92,16 +112,17 @@ def generate(
         If processes cannot start, or fail at nearly everything.
     """
     work = plan_work(dataset, ranges, shards=shards, retry_quarantined=retry_quarantined)
+    missing = work.missing  # refused before anything is written where that is too much
     begin(dataset)
-    if not work.missing:
+    if not missing:
         return Summary(made=0, found=work.done, quarantined=work.quarantined, left=0)
     _check_writable(dataset)
     sweep(dataset.folder)
     if retry_quarantined:
-        for task in work.missing:
+        for task in missing:
             shutil.rmtree(dataset.folder.quarantine(task.name), ignore_errors=True)
     cpus = available_cpus()
-    workers = min(workers or cpus, len(work.missing))
+    workers = min(workers or cpus, len(missing))
     share = int(MEMORY_SHARE * available_memory() / workers)
     supervisor = Supervisor(
         dataset=dataset,
@@ -112,14 +133,14 @@ def generate(
         on_progress=on_progress,
     )
     try:
-        outcome = supervisor.run(list(work.missing))
+        outcome = supervisor.run(list(missing))
     finally:
         sweep(dataset.folder)  # what killed workers had begun
     return Summary(
         made=outcome.made,
         found=work.done + outcome.found,
         quarantined=(*work.quarantined, *outcome.quarantined),
-        left=len(work.missing) - outcome.made - outcome.found - len(outcome.quarantined),
+        left=len(missing) - outcome.made - outcome.found - len(outcome.quarantined),
     )
 
 

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -171,3 +172,29 @@ def test_root_may_write_anywhere_else_the_message_names_the_place(tmp_path):
     (tmp_path / "locked").mkdir(mode=0o500)
     with pytest.raises(OutputError, match="locked"):
         generate(keypoints_dataset(tmp_path / "locked" / "out"), workers=1)
+
+
+GIGANTIC = {
+    "people": 100_000_000,
+    "still": {"sessions": 1000, "neutral": 1, "faces": 9_999_999},
+    "render": {"samples": "0-99999999999"},
+}
+
+
+def test_what_nobody_could_list_is_counted(tmp_path):
+    dataset = keypoints_dataset(tmp_path / "a", **GIGANTIC)
+    folder = dataset.folder
+    folder.render(99_999_999_999).mkdir(parents=True)
+    folder.quarantine("shard-000007").mkdir(parents=True)
+    tracemalloc.start()
+    work = plan_work(dataset, None)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 10_000_000, "bytes"
+    assert (work.left("shard"), work.left("sample"), work.done) == (10**14 - 1, 10**11 - 1, 1)
+    with pytest.raises(InputError, match="of which at most"):
+        generate(dataset, workers=1)
+    assert not folder.dataset_json.exists()
+    assert [task.number for task in plan_work(dataset, "99999999998-99999999999", shards="").missing] == [
+        99_999_999_998
+    ]

@@ -92,7 +92,9 @@ def test_a_sample_whose_worker_dies_or_hangs_is_made_by_the_next_one(make):
     ):
         dataset, summary = make(target, str(number), **limits)
         assert (summary.made, summary.quarantined) == (1, ()), target
-        log = attempt_logs(dataset.folder, wanted_tasks(dataset, str(number), "")[0])[0].read_text()
+        log = attempt_logs(dataset.folder, next(wanted_tasks(dataset, str(number), "").tasks()))[
+            0
+        ].read_text()
         assert "died with exit code -9" in log
         assert ("killed by its supervisor" in log) == bool(limits)
     assert not list((dataset.folder.path / "tmp").iterdir())
