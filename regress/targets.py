@@ -1,8 +1,12 @@
 """Lists what is predicted: 31 networks grouped by face region, and which shapes 68 points can show."""
 
+import re
 from dataclasses import dataclass
 
-from facegen.conventions import BLENDSHAPES
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+
+_WORD = re.compile(r"[a-z][a-z0-9_]{0,39}")
+"""What a region or a network is called: exports, tables and records have these names."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,6 +26,20 @@ class Network:
     region: str
     name: str
     outputs: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        """Refuse names that are no words, and shapes that nobody knows or that come twice."""
+        for word in (self.region, self.name):
+            if not _WORD.fullmatch(word):
+                raise ValueError(
+                    f"{word[:60]!r} is no name of a region or a network: up to 40 small letters, digits and "
+                    f"underscores, a letter first"
+                )
+        unknown = [name for name in self.outputs if name not in BLENDSHAPE_INDEX]
+        if unknown:
+            raise ValueError(f"network {self.key} gives {unknown[0][:60]!r}, which is none of the 52 shapes")
+        if not self.outputs or len(set(self.outputs)) < len(self.outputs):
+            raise ValueError(f"network {self.key} gives no shape, or one of them twice")
 
     @property
     def key(self) -> str:

@@ -1,7 +1,11 @@
-"""Opens graphs in onnxruntime on one core, with its telemetry switched off."""
+"""Opens graphs in onnxruntime on one core, with its telemetry switched off, and makes one sentence of its errors."""
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
+
+from regress.errors import ModelError
 
 if TYPE_CHECKING:
     import onnxruntime
@@ -24,5 +28,19 @@ def open_session(graph: bytes) -> "onnxruntime.InferenceSession":
     onnxruntime.disable_telemetry_events()  # for a program that had imported onnxruntime by itself before
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
-    options.log_severity_level = 3
+    options.log_severity_level = 4  # what it would log on standard error beside its exceptions spans lines
     return onnxruntime.InferenceSession(graph, options, providers=["CPUExecutionProvider"])
+
+
+@contextmanager
+def session_errors(what: str) -> Iterator[None]:
+    """Turn what onnxruntime raises into `ModelError`: what it is about, and the first line of the reason."""
+    from onnxruntime.capi import onnxruntime_pybind11_state as state
+
+    # its classes share no base but Exception
+    kinds = [kind for kind in vars(state).values() if isinstance(kind, type) and issubclass(kind, Exception)]
+    try:
+        yield
+    except (*kinds, RuntimeError, ValueError, MemoryError) as error:
+        reason = next(iter(str(error).splitlines()), "") or type(error).__name__
+        raise ModelError(f"{what}: {reason}") from error

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from regress.errors import OutputError
-from regress.runtime.model import HEADSET, KEYPOINTS, Model, check_place, load_model, save_model
+from regress.runtime.model import HEADSET, KEYPOINTS, Model, check_place, load_model, place, save_model
 from tests.regress.headset.tiny import write_tiny_model
 
 
@@ -102,7 +102,42 @@ def test_a_rename_that_fails_brings_the_old_model_back(
             raise OSError("the disk is gone")
         return rename(self, target)
 
+    monkeypatch.setattr(place, "swap_folders", lambda first, second: False)  # as where the system cannot
     monkeypatch.setattr(Path, "rename", failing)
     with pytest.raises(OutputError, match="the disk is gone"):
         save_model(quick_model, folder)
     assert contents(tmp_path) == before
+
+
+def test_two_folders_change_places_in_two_steps_where_the_system_cannot_in_one(
+    quick_model: Model, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    write_tiny_model(tmp_path / "model")
+    fresh = contents(write_tiny_model(tmp_path / "other", gain=2.0))
+    monkeypatch.setattr(place, "swap_folders", lambda first, second: False)
+    write_tiny_model(tmp_path / "model", gain=2.0)
+    assert contents(tmp_path / "model") == fresh
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["model", "other"]
+
+
+def test_a_link_to_a_model_stays_one_and_modes_stay(tmp_path: Path):
+    folder = write_tiny_model(tmp_path / "disk" / "model")
+    folder.chmod(0o750)
+    (folder / "model.json").chmod(0o600)
+    link = tmp_path / "link"
+    link.symlink_to(folder)
+    write_tiny_model(link, gain=2.0)
+    assert link.is_symlink()
+    assert [path.name for path in folder.parent.iterdir()] == ["model"]
+    assert (folder.stat().st_mode & 0o777, (folder / "model.json").stat().st_mode & 0o777) == (0o750, 0o600)
+    assert contents(link) == contents(write_tiny_model(tmp_path / "fresh", gain=2.0))
+
+
+def test_a_hidden_folder_of_somebody_else_is_not_swept(tmp_path: Path):
+    mine = [tmp_path / ".model-backup", tmp_path / ".model-old-host-1-2"]
+    for path in mine:
+        path.mkdir()
+        (path / "notes.txt").write_text("mine")
+        os.utime(path, (0, 0))
+    write_tiny_model(tmp_path / "model")
+    assert all((path / "notes.txt").is_file() for path in mine)

@@ -1,22 +1,43 @@
 """Reads a folder that ``facegen pack --format arrays`` wrote: pictures memory-mapped, labels in memory."""
 
-import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
+from annotated_types import Interval, Len
 
+from facegen.archives import load_npy, load_npz
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, VIEW_POINTS
 from regress.errors import InputError
 from regress.learning.headset.geometry import FaceGeometry
-from regress.runtime.headset.model import CameraInput
+from regress.learning.labels import Columns, read_labels
+from regress.runtime.documents import checked, read_document
+from regress.runtime.headset.model import MOST_CAMERAS, CameraInput
 
 VERSION = 3
 """Of arrays.json."""
+
+MOST_ROWS = 100_000_000
+"""Of a folder: their weights alone are 20 GB."""
+
+MOST_DOCUMENT_BYTES = 2**20
+"""Of arrays.json: it is a page long."""
+
+MOST_FACE_BYTES = 2**30
+"""Of face.npz: 1.6 million vertices."""
+
+_METRES = 10.0
+"""Any vertex of a face is nearer to the eyes than this, whatever moves it."""
+
+_SINGLE = {
+    **dict.fromkeys(("sample", "person", "session", "clip", "frame"), "whole"),
+    "time_s": "number",
+    "neutral": "truth",
+    **dict.fromkeys(("split", "component"), "word"),
+}
+"""Columns with one value a row, and what it is."""
 
 _ONE_REGION = ("neutral", "upper_face", "lower_face")
 
@@ -138,6 +159,25 @@ class HeadsetArrays:
         return np.flatnonzero(keep)
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Description:
+    """What is read of arrays.json; every other key is for people."""
+
+    cameras: Annotated[tuple[CameraInput, ...], Len(1, MOST_CAMERAS)]
+    rows: Annotated[int, Interval(ge=1, le=MOST_ROWS)]
+    headset: str
+    seed: int | None = None
+    dataset_hash: str = ""
+    rig: str = ""
+    licence: str | list[str] = ""
+
+    def __post_init__(self) -> None:
+        """Refuse cameras of one name."""
+        names = [camera.name for camera in self.cameras]
+        if len(set(names)) < len(names):
+            raise ValueError(f"two cameras have the same name, of {', '.join(names)}")
+
+
 def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
     """Read labels and map pictures of a folder written by ``facegen pack --format arrays``.
 
@@ -150,59 +190,64 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
     path = folder / "arrays.json"
     if not path.is_file():
         raise InputError(f"{path} does not exist; facegen pack DATASET --format arrays writes it")
-    try:
-        description = json.loads(path.read_text())
-        cameras = tuple(
-            CameraInput(name=entry["name"], width=entry["width"], height=entry["height"])
-            for entry in description["cameras"]
-        )
-        version, count = description["version"], description["rows"]
-    except (ValueError, KeyError, TypeError) as error:
-        raise InputError(f"{path} does not describe arrays: {error}") from error
+    document = read_document(path, most_bytes=MOST_DOCUMENT_BYTES)
+    version = document.get("version")
     if version != VERSION:
         raise InputError(
             f"{path} has version {version!r}; this version reads {VERSION}: pack the dataset again with facegen pack"
         )
     try:
-        table = pq.read_table(folder / "labels.parquet")
-        with np.load(folder / "face.npz", allow_pickle=False) as face:
-            geometry = FaceGeometry(displacement=face["displacement"], rest=face["rest"])
-        return HeadsetArrays(
-            description=description,
-            cameras=cameras,
-            pictures={camera.name: _pictures(folder, camera, count) for camera in cameras},
-            face=geometry,
-            weights=_lists(table, "weights", len(BLENDSHAPES)),
-            points={
-                camera.name: _lists(table, f"points_{camera.name}", 2 * len(VIEW_POINTS)).reshape(
-                    count, -1, 2
-                )
-                for camera in cameras
-            },
-            gaze=_lists(table, "gaze", 4),
-            split=np.asarray(table["split"].to_pylist(), dtype=str),
-            component=np.asarray(table["component"].to_pylist(), dtype=str),
-            **{
-                name: table[name].to_numpy()
-                for name in ("sample", "person", "session", "clip", "frame", "time_s", "neutral")
-            },
+        about = checked(_Description, document)
+    except InputError as error:
+        raise InputError(f"{path} does not describe arrays: {error}") from error
+    # pictures first: their files cannot be smaller than what arrays.json claims, and then nor can labels be larger
+    pictures = {camera.name: _pictures(folder, camera, about.rows) for camera in about.cameras}
+    points = {f"points_{name}": 2 * len(VIEW_POINTS) for name in pictures}
+    columns = Columns(
+        single=_SINGLE, lists={"weights": len(BLENDSHAPES), "gaze": 4, **points}, gaps=frozenset(points)
+    )
+    labels = read_labels(
+        folder / "labels.parquet",
+        columns,
+        most_rows=about.rows,
+        damaged="pack the dataset again with facegen pack",
+    )
+    if len(labels["sample"]) != about.rows:
+        raise InputError(
+            f"{folder / 'labels.parquet'} has {len(labels['sample']):,} rows; arrays.json says {about.rows:,}"
         )
-    except (OSError, ValueError, KeyError, pa.ArrowException) as error:
-        raise InputError(f"{folder} is not a complete folder of arrays: {error}") from error
+    labels |= {name: np.asarray(labels[name], dtype=np.float32) for name in columns.lists}
+    return HeadsetArrays(
+        description=document,
+        cameras=about.cameras,
+        pictures=pictures,
+        face=_face(folder / "face.npz"),
+        points={name: labels.pop(f"points_{name}").reshape(about.rows, -1, 2) for name in pictures},
+        **labels,
+    )
+
+
+def _face(path: Path) -> FaceGeometry:
+    arrays = load_npz(path, most_bytes=MOST_FACE_BYTES)
+    lacking = [name for name in ("displacement", "rest") if name not in arrays]
+    if lacking:
+        raise InputError(f"{path} lacks the array {lacking[0]}; pack the dataset again with facegen pack")
+    displacement, rest = arrays["displacement"], arrays["rest"]
+    shapes = {"displacement": (len(BLENDSHAPES), len(rest), 3), "rest": (len(rest), 3)} if rest.ndim else {}
+    for name, array in (("displacement", displacement), ("rest", rest)):
+        if array.shape != shapes.get(name) or not array.size:
+            raise InputError(
+                f"{path} has {name} of the shape {array.shape}; (52, V, 3) and (V, 3) are needed"
+            )
+        if array.dtype.kind != "f" or not (np.abs(array) <= _METRES).all():
+            raise InputError(f"{path} has numbers in {name} that are no places within {_METRES:g} m")
+    return FaceGeometry(displacement=displacement, rest=rest)
 
 
 def _pictures(folder: Path, camera: CameraInput, count: int) -> np.ndarray:
     path = folder / f"{camera.name}.npy"
-    pictures = np.load(path, mmap_mode="r", allow_pickle=False)
+    pictures = load_npy(path, mmap=True)
     needed = (count, camera.height, camera.width)
     if pictures.shape != needed or pictures.dtype != np.uint8:
         raise InputError(f"{path} holds {pictures.dtype} {pictures.shape}; arrays.json says uint8 {needed}")
     return pictures
-
-
-def _lists(table: pa.Table, name: str, width: int) -> np.ndarray:
-    column = table[name].combine_chunks()
-    values = np.asarray(column.flatten(), dtype=np.float32)
-    if len(values) != width * len(table):
-        raise InputError(f"column {name} of labels.parquet does not hold {width} numbers a row")
-    return values.reshape(-1, width)

@@ -4,11 +4,10 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, SHARD_ROWS
 from regress.errors import InputError
+from regress.learning.labels import Columns, read_labels
 
 _WIDTHS = {
     "weights": len(BLENDSHAPES),
@@ -131,38 +130,27 @@ def read_faces(folder: Path) -> ProbeFaces:
         raise InputError(
             f"{Path(folder) / 'keypoints'} holds no shard-*.parquet; facegen generate writes them"
         )
-    table = pa.concat_tables([_table(shard) for shard in shards])
-    values = {
-        name: table.column(name).combine_chunks().flatten().to_numpy().astype(np.float64).reshape(-1, width)
-        for name, width in _WIDTHS.items()
-    }
+    columns = Columns(single={"person": "whole", "neutral": "truth", "split": "word"}, lists=_WIDTHS)
+    advice = "leave --data out, or give a dataset as facegen generate writes it"
+    read = [
+        read_labels(
+            shard,
+            columns,
+            most_rows=SHARD_ROWS,
+            without=f", which a report with data needs; {advice}",
+            damaged=advice,
+        )
+        for shard in shards
+    ]
+    labels = {name: np.concatenate([shard[name] for shard in read]) for name in columns.names}
+    values = {name: labels[name].astype(np.float64) for name in _WIDTHS}
     return ProbeFaces(
         points_px=values["points_2d"].reshape(-1, LANDMARK_COUNT, 2),
         points_m=values["points_3d"].reshape(-1, LANDMARK_COUNT, 3),
         camera_from_head=values["camera_from_head"].reshape(-1, 4, 4),
         intrinsics=values["intrinsics"],
         weights=values["weights"],
-        person=table.column("person").to_numpy(),
-        neutral=table.column("neutral").to_numpy().astype(bool),
-        split=np.array(table.column("split").to_pylist()),
+        person=labels["person"],
+        neutral=labels["neutral"],
+        split=labels["split"],
     )
-
-
-def _table(shard: Path) -> pa.Table:
-    columns = [*_WIDTHS, "person", "neutral", "split"]
-    try:
-        file = pq.ParquetFile(shard, page_checksum_verification=True)
-        missing = [name for name in columns if name not in file.schema_arrow.names]
-        if missing:
-            raise InputError(
-                f"{shard} lacks the column {missing[0]!r}, which a report with data needs; leave --data out, or "
-                "give a dataset as facegen generate writes it"
-            )
-        table = file.read(columns=columns)
-    except (pa.ArrowException, OSError) as error:
-        raise InputError(f"{shard} is not a readable Parquet file: {error}") from error
-    for name, width in _WIDTHS.items():
-        kind = table.schema.field(name).type
-        if not pa.types.is_fixed_size_list(kind) or kind.list_size != width:
-            raise InputError(f"{shard}: column {name!r} is {kind}; lists of {width} numbers are needed")
-    return table

@@ -1,7 +1,6 @@
 """Reads keypoints and weights of a facegen dataset (DESIGN: a dataset on disk)."""
 
 import hashlib
-import json
 import os
 from collections.abc import Collection
 from dataclasses import dataclass, replace
@@ -9,13 +8,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, SPLITS
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, SHARD_ROWS, SPLITS
+from facegen.documents import read_bytes
 from regress.errors import InputError
+from regress.learning.labels import Columns, read_labels
+from regress.runtime.documents import read_document
+from regress.runtime.features import align_affine, edge_distances, load_reference_shape
 
-_WIDTHS = {"weights": len(BLENDSHAPES), "detected_2d": LANDMARK_COUNT * 2, "points_2d": LANDMARK_COUNT * 2}
+MOST_SHARD_BYTES = 2**28
+"""Of one shard of 10,000 rows; ours have 40 MB."""
+
+_REPAIR = "run facegen validate --repair, then facegen generate"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,36 +109,40 @@ def read_dataset(
     shards = sorted((folder / "keypoints").glob("shard-*.parquet"))
     if not shards:
         raise InputError(f"{folder / 'keypoints'} holds no shard-*.parquet; facegen generate writes them")
+    columns = Columns(
+        single={"person": "whole", "neutral": "truth", "split": "word"},
+        lists={"weights": len(BLENDSHAPES), points: 2 * LANDMARK_COUNT},
+        gaps=frozenset({points}),
+    )
     digest = hashlib.sha256()
-    tables = []
+    read = []
     for shard in shards:
-        content = shard.read_bytes()
+        content = read_bytes(shard, most_bytes=MOST_SHARD_BYTES)
         digest.update(content)
-        tables.append(_table(shard, content, points))
-    table = pa.concat_tables(tables)
-    landmarks = _column(table, points).reshape(-1, LANDMARK_COUNT, 2)
+        read.append(read_labels(shard, columns, most_rows=SHARD_ROWS, damaged=_REPAIR, content=content))
+    labels = {name: np.concatenate([shard[name] for shard in read]) for name in columns.names}
+    landmarks = labels[points].astype(np.float64).reshape(-1, LANDMARK_COUNT, 2)
     has_face = ~np.isnan(landmarks).all(
         axis=(1, 2)
     )  # frames in which the detector finds no face teach nothing
     if not has_face.any():
         raise InputError(f"{folder / 'keypoints'}: no row has a face; all of {points} is NaN")
-    table, landmarks = table.filter(has_face), landmarks[has_face]
-    weights = _column(table, "weights")
-    if not (np.isfinite(landmarks).all() and np.isfinite(weights).all()):
-        raise InputError(f"{folder / 'keypoints'} holds points or weights that are not finite numbers")
-    split = np.array(table.column("split").to_pylist())
+    landmarks, split = landmarks[has_face], labels["split"][has_face]
+    if not np.isfinite(landmarks).all():
+        raise InputError(f"{folder / 'keypoints'} holds points that are not finite numbers")
+    _check_faces(landmarks, np.flatnonzero(has_face), folder / "keypoints")
     for name in splits:
         if not np.any(split == name):
             raise InputError(
                 f"{folder} has no sample in the {name} split; people are needed in {', '.join(splits)}"
             )
     return KeypointDataset(
-        name=folder.resolve().name,
+        name=os.fsencode(folder.resolve().name).decode("utf-8", "replace"),
         points=landmarks,
-        weights=weights,
+        weights=labels["weights"][has_face].astype(np.float64),
         split=split,
-        person=table.column("person").to_numpy(),
-        neutral=table.column("neutral").to_numpy().astype(bool),
+        person=labels["person"][has_face],
+        neutral=labels["neutral"][has_face],
         description=description,
         sha256=digest.hexdigest(),
     )
@@ -143,37 +151,16 @@ def read_dataset(
 def _description(path: Path) -> dict[str, Any]:
     if not path.is_file():
         raise InputError(f"{path} does not exist; a dataset is a folder that facegen generate has made")
-    try:
-        description = json.loads(path.read_text(encoding="utf-8"))
-    except (ValueError, OSError) as error:
-        raise InputError(f"{path} is not readable JSON: {error}") from error
-    if not isinstance(description, dict):
-        raise InputError(f"{path} holds {type(description).__name__}; a JSON object is needed")
+    description = read_document(path)
+    spec_hash = description.get("spec_hash")
+    if spec_hash is not None and not isinstance(spec_hash, str):
+        raise InputError(f"{path}: spec_hash is no text; facegen generate writes one")
     return description
 
 
-def _table(shard: Path, content: bytes, points: str) -> pa.Table:
-    columns = ["person", "neutral", "split", "weights", points]
-    try:
-        file = pq.ParquetFile(pa.BufferReader(content), page_checksum_verification=True)
-        missing = [name for name in columns if name not in file.schema_arrow.names]
-        if missing:
-            raise InputError(
-                f"{shard} lacks the column {missing[0]!r}; it holds {', '.join(file.schema_arrow.names)}"
-            )
-        table = file.read(columns=columns)
-    except (pa.ArrowException, OSError) as error:
-        raise InputError(
-            f"{shard} cannot be read as Parquet ({error}); run facegen validate --repair, then facegen generate"
-        ) from error
-    for name in ("weights", points):
-        width = _WIDTHS[name]
-        kind = table.schema.field(name).type
-        if not pa.types.is_fixed_size_list(kind) or kind.list_size != width:
-            raise InputError(f"{shard}: column {name!r} is {kind}; lists of {width} numbers are needed")
-    return table
-
-
-def _column(table: pa.Table, name: str) -> np.ndarray:
-    flat = table.column(name).combine_chunks().flatten().to_numpy()
-    return flat.reshape(-1, _WIDTHS[name]).astype(np.float64)
+def _check_faces(landmarks: np.ndarray, rows: np.ndarray, where: Path) -> None:
+    """Refuse faces whose outer points lie on one line: they have no width, or no alignment."""
+    laid = edge_distances(align_affine(landmarks, load_reference_shape().points[:, :2]), np.array([[0, 16]]))
+    flat = ~np.isfinite(laid[:, 0])
+    if flat.any():
+        raise InputError(f"{where}: the points of row {rows[flat][0]} lie on one line, or on one another")

@@ -1,7 +1,15 @@
 """Holds a headset network's figures on frames with exact labels, as model.json and reports have them."""
 
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Annotated, Any
+
+from annotated_types import Ge
+
+from facegen.conventions import BLENDSHAPES
+
+Count = Annotated[int, Ge(0)]
+Size = Annotated[float, Ge(0)]
+"""Of an error; none is below 0."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,13 +34,13 @@ class Summary:
         The same of open eyes: nobody sees where a closed eye looks.
     """
 
-    rows: int
-    geometry_mm: float
+    rows: Count
+    geometry_mm: Size
     r2: float | None
-    mae: float
-    rmse: float
+    mae: Size
+    rmse: Size
     blink_r2: float | None
-    gaze_deg: float
+    gaze_deg: Size
     gaze_open_deg: float | None = None
 
 
@@ -46,7 +54,7 @@ class ClipSummary(Summary):
         Root mean square change of a weight's error from frame to frame.
     """
 
-    shake: float
+    shake: Size
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,8 +62,8 @@ class ShapeFigures:
     """Figures of one shape; ``r2`` is None where it never moves."""
 
     r2: float | None
-    mae: float
-    rmse: float
+    mae: Size
+    rmse: Size
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,8 +78,8 @@ class GroupErrors:
         By condition.
     """
 
-    rows: int
-    mm: dict[str, float]
+    rows: Count
+    mm: dict[str, Size]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,9 +129,9 @@ class Evaluation:
     """
 
     split: str
-    rows: int
-    people: int
-    people_in_training: int = 0
+    rows: Count
+    people: Count
+    people_in_training: Count = 0
     unseen: bool = False
     dataset_hash: str = ""
     conditions: dict[str, Summary]
@@ -135,6 +143,23 @@ class Evaluation:
     people_mm: dict[str, GroupErrors]
     deviation: DeviationFigures
     seat: dict[str, float]
+
+    def __post_init__(self) -> None:
+        """Refuse tables that lack a shape, and groups that were not measured under the same conditions."""
+        for what, table in (("shapes", self.shapes), *((f"cameras.{k}", v) for k, v in self.cameras.items())):
+            lacking = [name for name in BLENDSHAPES if name not in table]
+            if lacking:
+                raise ValueError(f"{what} has no {lacking[0]}")
+        groups = {
+            "shapes": list(self.shapes.values()),
+            "components": [group.mm for group in self.components.values()],
+            "people_mm": [group.mm for group in self.people_mm.values()],
+        }
+        for what, entries in groups.items():
+            if any(entry.keys() != entries[0].keys() or "uncalibrated" not in entry for entry in entries):
+                raise ValueError(f"{what} are not all of the same conditions, uncalibrated among them")
+        if not self.floors.keys() <= {"mean", "rest"}:
+            raise ValueError("floors may be mean and rest")
 
 
 _GROUPED = ("components", "people_mm")
@@ -150,10 +175,22 @@ def evaluation_to_json(evaluation: Evaluation) -> dict[str, Any]:
     return document
 
 
-def evaluation_from_json(document: dict[str, Any]) -> dict[str, Any]:
+def evaluation_from_json(document: Any) -> Any:
     """The same data with the keys of `Evaluation` and its records, not yet checked."""
+    if not isinstance(document, dict):
+        return document
     grouped = {}
     for name in _GROUPED:
-        groups = {key: dict(group) for key, group in document.get(name, {}).items()}
-        grouped[name] = {key: {"rows": group.pop("rows", None), "mm": group} for key, group in groups.items()}
+        groups = document.get(name, {})
+        grouped[name] = (
+            {key: _group(group) for key, group in groups.items()} if isinstance(groups, dict) else groups
+        )
     return {**document, **grouped}
+
+
+def _group(group: object) -> object:
+    """A group's errors beside its rows; what is no table is left to the check."""
+    if not isinstance(group, dict):
+        return group
+    errors = {name: value for name, value in group.items() if name != "rows"}
+    return {"rows": group.get("rows"), "mm": errors}

@@ -7,14 +7,18 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
+from facegen.documents import read_bytes
 from facegen.files import write_whole
 from regress.errors import InputError, ModelError
-from regress.runtime.documents import checked
+from regress.runtime.documents import checked, read_document
 from regress.runtime.headset.figures import evaluation_from_json, evaluation_to_json
 from regress.runtime.headset.model import HeadsetModel
 from regress.runtime.model import HEADSET, KEYPOINTS, write_folder
 
 VERSION = 1
+
+MOST_GRAPH_BYTES = 2**28
+"""Of network.onnx: eighty times the largest network that the recipes make."""
 
 
 def save_headset_model(model: HeadsetModel, graph: bytes, folder: str | os.PathLike[str]) -> HeadsetModel:
@@ -75,17 +79,21 @@ def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
             f"{needed} does not exist; a headset model is a folder with model.json and network.onnx"
         )
     try:
-        document = json.loads(path.read_text())
-        kind, version = document.pop("kind", KEYPOINTS.name), document.pop("version", None)
-    except (ValueError, AttributeError, TypeError, OSError) as error:
+        document = read_document(path)
+    except InputError as error:
         raise ModelError(f"{path} is not a model's description: {error}") from error
+    try:
+        content = read_bytes(graph, most_bytes=MOST_GRAPH_BYTES)
+    except InputError as error:
+        raise ModelError(str(error)) from error
+    kind, version = document.pop("kind", KEYPOINTS.name), document.pop("version", None)
     if (kind, version) != (HEADSET.name, VERSION):
         raise ModelError(
             f"{path} describes a model of kind {kind!r}, version {version!r}; "
             f"kind {HEADSET.name!r}, version {VERSION} is needed"
         )
     model = _model(document, path)
-    if hashlib.sha256(graph.read_bytes()).hexdigest() != model.network_sha256:
+    if hashlib.sha256(content).hexdigest() != model.network_sha256:
         raise ModelError(f"{graph} is damaged or belongs to another model: its SHA-256 is not model.json's")
     return model
 
@@ -99,8 +107,8 @@ def _text(model: HeadsetModel) -> str:
 
 
 def _model(document: dict[str, Any], path: Path) -> HeadsetModel:
+    scores = document.get("scores")
     try:
-        scores = document.get("scores")
         return checked(HeadsetModel, {**document, "scores": evaluation_from_json(scores) if scores else None})
-    except (InputError, TypeError, AttributeError, ValueError) as error:
+    except InputError as error:
         raise ModelError(f"{path} is not a headset model's description: {error}") from error

@@ -1,18 +1,25 @@
 """Runs the trained graph in onnxruntime on one core."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
+from facegen.conventions import BLENDSHAPES
+from facegen.documents import read_bytes
 from regress.errors import InputError, ModelError
-from regress.runtime.headset.estimates import GRAPH_OUTPUTS, Estimates, points_output
+from regress.runtime.headset.estimates import GRAPH_OUTPUTS, POINTS, Estimates, points_output
+from regress.runtime.headset.folder import MOST_GRAPH_BYTES
 from regress.runtime.headset.model import CameraInput
-from regress.runtime.onnx_session import open_session
+from regress.runtime.onnx_file import graph_fault
+from regress.runtime.onnx_session import open_session, session_errors
 
 _BLOCK_ROWS = 64
 """Frames run at a time: more need more memory and are no faster."""
+
+_FRAMES = "n"
+"""Stands for the frames in the table of shapes; a graph may call them otherwise."""
 
 
 class HeadsetGraph:
@@ -24,25 +31,66 @@ class HeadsetGraph:
         Path of network.onnx, or its bytes.
     cameras
         The model's cameras, in its order.
+    points
+        By camera what it traces, where the model says so; without, any number of points.
 
     Raises
     ------
     ModelError
-        Where onnxruntime cannot read the graph, or it lacks an input of a camera.
+        Where the graph is not run (`graph_fault`), onnxruntime cannot read it, or its inputs and outputs are not those
+        of the cameras.
     """
 
-    def __init__(self, source: str | os.PathLike[str] | bytes, cameras: tuple[CameraInput, ...]) -> None:
-        data = source if isinstance(source, bytes) else Path(source).read_bytes()
-        try:
+    def __init__(
+        self,
+        source: str | os.PathLike[str] | bytes,
+        cameras: tuple[CameraInput, ...],
+        points: Mapping[str, Sequence[str]] | None = None,
+    ) -> None:
+        data = source if isinstance(source, bytes) else read_bytes(Path(source), most_bytes=MOST_GRAPH_BYTES)
+        fault = graph_fault(data)
+        if fault is not None:
+            raise ModelError(f"network.onnx {fault}")
+        with session_errors("network.onnx is not a graph that onnxruntime reads"):
             self._session = open_session(data)
-        except Exception as error:  # onnxruntime's own classes share no public base
-            raise ModelError(f"network.onnx is not a graph that onnxruntime reads: {error}") from error
         self._cameras = cameras
-        inputs = {value.name for value in self._session.get_inputs()}
         self._outputs = {value.name for value in self._session.get_outputs()}
-        lost = {f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")} - inputs
+        self._shapes = _output_shapes(cameras, points or {})
+        self._check_interface()
+
+    @property
+    def outputs(self) -> frozenset[str]:
+        """Names of all that it answers with."""
+        return frozenset(self._outputs)
+
+    def _check_interface(self) -> None:
+        """Refuse a graph whose inputs or outputs are not those that model.json speaks of."""
+        given = {value.name: (value.type, tuple(value.shape)) for value in self._session.get_inputs()}
+        needed = _input_shapes(self._cameras)
+        lost = sorted(needed.keys() - given.keys())
         if lost:
-            raise ModelError(f"network.onnx has no input {', '.join(sorted(lost))}; model.json names them")
+            raise ModelError(f"network.onnx has no input {', '.join(lost)}; model.json names them")
+        more = sorted(given.keys() - needed.keys())
+        if more:
+            raise ModelError(f"network.onnx has an input {more[0][:60]!r}, which model.json does not name")
+        for name, (kind, shape) in given.items():
+            if kind != needed[name][0] or not _fits(shape, needed[name][1]):
+                raise ModelError(
+                    f"network.onnx has an input {name} of {kind} {list(shape)}; model.json makes it "
+                    f"{' '.join(map(str, needed[name]))}"
+                )
+        for value in self._session.get_outputs():
+            shape = self._shapes.get(value.name)
+            if shape is not None and not (
+                value.type == _FLOAT and len(value.shape) == len(shape) and _fits(value.shape, shape)
+            ):
+                raise ModelError(
+                    f"network.onnx has an output {value.name} of {value.type} {value.shape}; model.json makes it "
+                    f"{_FLOAT} {shape}"
+                )
+        lacking = [name for name in GRAPH_OUTPUTS if name not in self._outputs]
+        if lacking:
+            raise ModelError(f"network.onnx has no output {lacking[0]}; a headset network gives it")
 
     def run(
         self,
@@ -122,8 +170,54 @@ class HeadsetGraph:
                 blank = np.zeros((len(with_neutral[block]), camera.height, camera.width), np.uint8)
                 feed[f"pictures_{camera.name}"] = _rows(pictures, camera.name, block, blank)
                 feed[f"neutral_{camera.name}"] = _rows(neutral or {}, camera.name, block, blank)
-            blocks.append(self._session.run(names, feed))
+            with session_errors("network.onnx cannot be run"):
+                blocks.append(self._session.run(names, feed))
+            self._check_answers(dict(zip(names, blocks[-1], strict=True)), rows=len(with_neutral[block]))
         return [np.concatenate(arrays) for arrays in zip(*blocks, strict=True)]
+
+    def _check_answers(self, answers: Mapping[str, np.ndarray], *, rows: int) -> None:
+        """Refuse answers of other shapes than model.json's: what a graph declares it need not keep."""
+        for name, answer in answers.items():
+            shape = [rows if side == _FRAMES else side for side in self._shapes.get(name, ())]
+            if len(shape) != answer.ndim or not _fits(answer.shape, shape) or answer.dtype != np.float32:
+                raise ModelError(
+                    f"network.onnx answers with {name} of {answer.dtype} {list(answer.shape)}; model.json makes it "
+                    f"float32 {shape}"
+                )
+
+
+_FLOAT = "tensor(float)"
+
+
+def _input_shapes(cameras: Sequence[CameraInput]) -> dict[str, tuple[str, list[str | int]]]:
+    """Type and shape of each input, in onnxruntime's words."""
+    pictures = {
+        f"{kind}_{camera.name}": ("tensor(uint8)", [_FRAMES, camera.height, camera.width])
+        for camera in cameras
+        for kind in ("pictures", "neutral")
+    }
+    return {**pictures, "present": (_FLOAT, [_FRAMES, len(cameras)]), "calibrated": (_FLOAT, [_FRAMES])}
+
+
+def _output_shapes(
+    cameras: Sequence[CameraInput], points: Mapping[str, Sequence[str]]
+) -> dict[str, list[str | int]]:
+    """Shape of each output that there may be; words stand for any number."""
+    counts = {"cameras": len(cameras), "shapes": len(BLENDSHAPES)}
+    shapes = {name: [counts.get(side, side) for side in one.shape] for name, one in GRAPH_OUTPUTS.items()}
+    for camera in cameras:
+        count = len(points[camera.name]) if camera.name in points else "points"
+        shapes[points_output(camera.name)] = [count if side == "points" else side for side in POINTS.shape]
+    return shapes
+
+
+def _fits(shape: Sequence[str | int | None], needed: Sequence[str | int]) -> bool:
+    """Whether sides that both know are equal; a graph may leave open how many frames, or how long a side is."""
+    return len(shape) == len(needed) and all(
+        given == side
+        for given, side in zip(shape, needed, strict=True)
+        if isinstance(given, int) and isinstance(side, int)
+    )
 
 
 def _rows(arrays: dict[str, np.ndarray], name: str, block: slice, blank: np.ndarray) -> np.ndarray:

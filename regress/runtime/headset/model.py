@@ -1,19 +1,40 @@
 """Describes a trained headset network: its cameras, its outputs, and how it was trained and evaluated."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar, Literal
 
-from annotated_types import Ge, Le, Len
+from annotated_types import Ge, Gt, Interval, Le, Len
 
-from facegen.conventions import BLENDSHAPES
-from regress.runtime.headset.estimates import GRAPH_OUTPUTS
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, VIEW_POINTS
+from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
 from regress.runtime.headset.figures import ClipSummary, Evaluation
 from regress.runtime.headset.typical import TYPICAL_SIDE
 
 GreyRow = Annotated[tuple[Annotated[int, Ge(0), Le(255)], ...], Len(TYPICAL_SIDE, TYPICAL_SIDE)]
 GreySquare = Annotated[tuple[GreyRow, ...], Len(TYPICAL_SIDE, TYPICAL_SIDE)]
 """24 x 24 grey levels, whole numbers from 0 to 255."""
+
+Side = Annotated[int, Interval(ge=8, le=8192)]
+"""Pixels, as a headset file allows them."""
+
+MOST_CAMERAS = 64
+"""Seven times as many as any headset here has; a graph is fed so many blank pictures."""
+
+TAPS = 5
+"""The frame itself, and the four before it (the second paper's)."""
+
+_CAMERA = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
+"""What a camera may be called: files of pictures and inputs of graphs have its name."""
+
+Count = Annotated[int, Ge(0)]
+Row = Annotated[tuple[float, ...], Len(TAPS, TAPS)]
+Weighted = Annotated[tuple[float, ...], Len(len(BLENDSHAPES), len(BLENDSHAPES))]
+Gaze = Annotated[tuple[float, ...], Len(4, 4)]
+"""Numbers of yaw and pitch, left and right."""
+
+_OUTPUTS = len(BLENDSHAPES) + 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,9 +52,17 @@ class CameraInput:
     """
 
     name: str
-    width: int
-    height: int
+    width: Side
+    height: Side
     mirrored_of: str | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse names that are no file's and no graph input's."""
+        if not _CAMERA.fullmatch(self.name):
+            raise ValueError(
+                f"camera {self.name[:60]!r} must be called by up to 64 letters, digits, '_', '-' and '.', a letter or "
+                f"digit first"
+            )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,9 +81,9 @@ class Temporal:
         Figures on other people's clips: of one frame alone, of the mean of as many frames, and of the taps.
     """
 
-    fps: float
-    taps: tuple[tuple[float, ...], ...]
-    people: int
+    fps: Annotated[float, Gt(0), Le(10_000)]
+    taps: Annotated[tuple[Row, ...], Len(_OUTPUTS, _OUTPUTS)]
+    people: Count
     dataset_hash: str
     scores: dict[str, ClipSummary] = field(default_factory=dict)
 
@@ -89,16 +118,16 @@ class HeadsetTraining:
 
     recipe: dict[str, Any] = field(default_factory=dict)
     data_seed: int | None = None
-    rows: int = 0
-    people: int = 0
-    parameters: int | None = None
+    rows: Count = 0
+    people: Count = 0
+    parameters: Count | None = None
     history: tuple[dict[str, float], ...] = ()
     cpu_s: float | None = None
     resumed_after_epochs: int = 0
     onnx_difference: float | None = None
-    deviation_scale: tuple[float, ...] | None = None
-    mean_weights: tuple[float, ...] | None = None
-    mean_gaze: tuple[float, ...] | None = None
+    deviation_scale: Annotated[tuple[float, ...], Len(_OUTPUTS, _OUTPUTS)] | None = None
+    mean_weights: Weighted | None = None
+    mean_gaze: Gaze | None = None
     versions: dict[str, str] = field(default_factory=dict)
 
 
@@ -149,7 +178,7 @@ class HeadsetModel:
     __pydantic_config__: ClassVar[Mapping[str, str]] = {"extra": "forbid"}
 
     headset: str
-    cameras: tuple[CameraInput, ...]
+    cameras: Annotated[tuple[CameraInput, ...], Len(1, MOST_CAMERAS)]
     parts: dict[str, tuple[str, ...]]
     modulation: float
     architecture: str
@@ -167,11 +196,31 @@ class HeadsetModel:
     network_sha256: str = ""
 
     def __post_init__(self) -> None:
-        """Refuse typical pictures of cameras that the model does not have."""
-        for name in self.typical:
-            if name not in self.camera_names:
-                cameras = ", ".join(self.camera_names)
-                raise ValueError(f"typical has a picture of {name}, and the cameras are {cameras}")
+        """Refuse what speaks of cameras, shapes, points or outputs that the model does not have."""
+        names = self.camera_names
+        if len(set(names)) < len(names):
+            raise ValueError(f"two cameras have the same name, of {', '.join(names)}")
+        if self.weights != BLENDSHAPES:
+            raise ValueError("weights must be the 52 names of blendshapes in their order")
+        for what, table, known in (
+            ("parts", self.parts, BLENDSHAPE_INDEX),
+            ("points", self.points, VIEW_POINTS),
+            ("typical", dict.fromkeys(self.typical, ()), ()),
+        ):
+            for name, entries in table.items():
+                if name not in names:
+                    raise ValueError(f"{what} has {name[:60]!r}, and the cameras are {', '.join(names)}")
+                if not set(entries) <= set(known) or len(set(entries)) < len(entries):
+                    raise ValueError(f"{what}.{name} names what there is not, or something twice")
+        strangers = [
+            camera.mirrored_of for camera in self.cameras if camera.mirrored_of not in (None, *names)
+        ]
+        if strangers:
+            raise ValueError(f"cameras mirror {strangers[0][:60]!r}, and the cameras are {', '.join(names)}")
+        traced = {points_output(name) for name in self.points}
+        if not GRAPH_OUTPUTS.keys() <= set(self.outputs) <= GRAPH_OUTPUTS.keys() | traced:
+            needed = ", ".join((*GRAPH_OUTPUTS, *sorted(traced)))
+            raise ValueError(f"outputs must be those of {needed}, points alone may be lacking")
 
     @property
     def camera_names(self) -> tuple[str, ...]:

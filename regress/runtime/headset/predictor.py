@@ -1,12 +1,13 @@
 """Loads a headset network ready to be used: its description, and its graph."""
 
-import json
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from regress.errors import InputError, ModelError
+from regress.runtime.documents import read_document
 from regress.runtime.headset.estimates import Estimates
 from regress.runtime.headset.folder import read_headset_model
 from regress.runtime.headset.graph import HeadsetGraph
@@ -78,9 +79,10 @@ class HeadsetPredictor:
 def is_headset_model(folder: str | os.PathLike[str]) -> bool:
     """Whether a folder says of itself that it is a headset network's; False as well where it says nothing."""
     try:
-        return json.loads((model_folder(folder) / "model.json").read_bytes()).get("kind") == HEADSET.name
-    except (OSError, ValueError, AttributeError):
+        document = read_document(model_folder(folder) / "model.json")
+    except InputError:
         return False
+    return document.get("kind") == HEADSET.name
 
 
 def load_headset_predictor(folder: str | os.PathLike[str]) -> HeadsetPredictor:
@@ -93,4 +95,8 @@ def load_headset_predictor(folder: str | os.PathLike[str]) -> HeadsetPredictor:
     """
     folder = model_folder(folder)
     model = read_headset_model(folder)
-    return HeadsetPredictor(model=model, graph=HeadsetGraph(folder / "network.onnx", model.cameras))
+    graph = HeadsetGraph(folder / "network.onnx", model.cameras, model.points)
+    lost = sorted(set(model.outputs) - graph.outputs)
+    if lost:
+        raise ModelError(f"{folder / 'network.onnx'} has no output {lost[0]}; model.json names it")
+    return HeadsetPredictor(model=model, graph=graph)

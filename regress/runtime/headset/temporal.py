@@ -8,8 +8,7 @@ is held stays as it is.
 
 import numpy as np
 
-TAPS = 5
-"""The frame itself, and the four before it (the second paper's)."""
+from regress.runtime.headset.model import TAPS
 
 
 def convolve(values: np.ndarray, starts: np.ndarray, taps: np.ndarray) -> np.ndarray:

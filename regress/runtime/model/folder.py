@@ -7,14 +7,18 @@ import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
+from annotated_types import Ge, Len, Lt
 
-from facegen.conventions import BLENDSHAPES
+from facegen.archives import MOST_BYTES, parse_npz
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
+from facegen.documents import read_bytes
 from regress.errors import InputError, ModelError
-from regress.runtime.documents import checked
+from regress.runtime.documents import checked, read_document
 from regress.runtime.features import Features
+from regress.runtime.model.arrays import CALIBRATED, DENOISING, YOUNGER, Sizes, array_fault
 from regress.runtime.model.model import Calibrated, Model, Normalisation
 from regress.runtime.model.place import KEYPOINTS, write_folder
 from regress.runtime.model.record import TrainingRecord, record_to_json
@@ -26,13 +30,6 @@ SCHEMAS = (1, 2, 3, 4)
 """Those read; the last one is written. 1 knows no array ``depth``: its readers would take turned heads as they are. 2
 knows no arrays ``denoising_*``: its readers would show networks what they cannot read. 3 knows no surplus: its readers
 would take a face unlike those trained on for one without noise."""
-
-_CALIBRATED = "calibrated_"
-"""Begins the names of the arrays that compare with a neutral frame."""
-
-
-_DENOISING = "denoising_"
-"""Begins the names of the arrays that shrink features."""
 
 _INFERENCE = (
     "clip(w2 tanh(w1 features + b1) + b2, 0, 1); features are raw, z-scores are folded in",
@@ -73,21 +70,40 @@ def load_model(folder: str | os.PathLike[str]) -> Model:
             raise ModelError(f"{folder} is a model of headset pictures; `regress headset` commands take it")
         raise ModelError(f"{path} does not exist; a model is a folder with model.json and weights.npz")
     document = _read_document(document_path)
-    weights = weights_path.read_bytes()
-    if hashlib.sha256(weights).hexdigest() != document.weights_sha256:
-        raise ModelError(
-            f"{weights_path} is damaged or belongs to another model: its SHA-256 is not model.json's"
-        )
-    with np.load(io.BytesIO(weights), allow_pickle=False) as arrays:
-        return _model(document, {name: arrays[name] for name in arrays.files}, weights_path)
+    arrays = _read_arrays(weights_path, document.weights_sha256)
+    sizes = Sizes(
+        edges=len(document.features.edges), outputs=[len(network.outputs) for network in document.networks]
+    )
+    fault = array_fault(arrays, sizes)
+    if fault is not None:
+        raise ModelError(f"{weights_path} {fault}; train or export the model again")
+    return _model(document, arrays)
+
+
+def _read_arrays(path: Path, sha256: str) -> dict[str, np.ndarray]:
+    try:
+        weights = read_bytes(path, most_bytes=MOST_BYTES)
+        if hashlib.sha256(weights).hexdigest() == sha256:
+            return parse_npz(weights, where=str(path))
+    except InputError as error:
+        raise ModelError(str(error)) from error
+    raise ModelError(f"{path} is damaged or belongs to another model: its SHA-256 is not model.json's")
+
+
+_Landmark = Annotated[int, Ge(0), Lt(LANDMARK_COUNT)]
 
 
 @dataclass(frozen=True, kw_only=True)
 class _FeaturesDocument:
     alignment: Literal["affine", "none"]
-    edges: list[tuple[int, int]]
+    edges: Annotated[list[tuple[_Landmark, _Landmark]], Len(1, LANDMARK_COUNT * (LANDMARK_COUNT - 1) // 2)]
     reference_name: str
     reference_sha256: str
+
+    def __post_init__(self) -> None:
+        """Refuse edges from a landmark to itself, turned ones and those that come twice."""
+        if not all(first < second for first, second in self.edges) or len(set(self.edges)) < len(self.edges):
+            raise ValueError("edges must be pairs of landmarks, the lower first, none twice")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,18 +111,27 @@ class _Document:
     """What is read of model.json; the rest of it is for people."""
 
     recipe: str
-    networks: tuple[Network, ...]
+    networks: Annotated[tuple[Network, ...], Len(1, len(BLENDSHAPES))]
     features: _FeaturesDocument
     weights_sha256: str
     record: TrainingRecord | None
 
+    def __post_init__(self) -> None:
+        """Refuse shapes and names that two networks have."""
+        for what, names in (
+            ("shape", [name for network in self.networks for name in network.outputs]),
+            ("name", [network.key for network in self.networks]),
+        ):
+            if len(set(names)) < len(names):
+                raise ValueError(f"two networks have the same {what}")
+
 
 def _read_document(path: Path) -> _Document:
     try:
-        document = json.loads(path.read_text())
-        schema = document["schema"]
-    except (ValueError, KeyError, TypeError, OSError) as error:
+        document = read_document(path)
+    except InputError as error:
         raise ModelError(f"{path} is not a model's description: {error}") from error
+    schema = document.get("schema")
     if schema not in SCHEMAS:
         raise ModelError(
             f"{path} has schema {schema!r}; this version reads {' and '.join(map(str, SCHEMAS))}"
@@ -145,7 +170,7 @@ def _arrays(model: Model) -> dict[str, np.ndarray]:
     arrays = {**_fields(model.networks), **_fields(model.normalisation)}
     if model.calibrated is not None:
         calibrated = {**_fields(model.calibrated.networks), **_fields(model.calibrated.normalisation)}
-        arrays |= {_CALIBRATED + name: array for name, array in calibrated.items()}
+        arrays |= {CALIBRATED + name: array for name, array in calibrated.items()}
     depth = {} if model.features.depth is None else {"depth": model.features.depth}
     return {**arrays, "mean_shape": model.features.mean_shape, **depth}
 
@@ -154,7 +179,7 @@ def _fields(record: FoldedNetworks | Normalisation | Denoising) -> dict[str, np.
     values = {field.name: getattr(record, field.name) for field in dataclasses.fields(record)}
     denoising = values.pop("denoising", None)
     if denoising is not None:
-        values |= {_DENOISING + name: array for name, array in _fields(denoising).items()}
+        values |= {DENOISING + name: array for name, array in _fields(denoising).items()}
     return values
 
 
@@ -164,46 +189,42 @@ def _weights_bytes(model: Model) -> bytes:
     return buffer.getvalue()
 
 
-def _model(document: _Document, arrays: dict[str, np.ndarray], path: Path) -> Model:
-    try:
-        return Model(
-            recipe=document.recipe,
-            table=document.networks,
-            features=Features(
-                alignment=document.features.alignment,
-                mean_shape=arrays["mean_shape"],
-                edges=np.array(document.features.edges, dtype=np.int64),
-                reference_name=document.features.reference_name,
-                reference_sha256=document.features.reference_sha256,
-                depth=arrays.get("depth"),
-            ),
-            normalisation=_taken(Normalisation, arrays),
-            networks=_networks(arrays),
-            record=document.record,
-            calibrated=_calibrated(arrays),
-        )
-    except (KeyError, TypeError, ValueError) as error:
-        raise ModelError(f"{path} lacks a part of the model: {error}") from error
+def _model(document: _Document, arrays: dict[str, np.ndarray]) -> Model:
+    return Model(
+        recipe=document.recipe,
+        table=document.networks,
+        features=Features(
+            alignment=document.features.alignment,
+            mean_shape=arrays["mean_shape"],
+            edges=np.array(document.features.edges, dtype=np.int64),
+            reference_name=document.features.reference_name,
+            reference_sha256=document.features.reference_sha256,
+            depth=arrays.get("depth"),
+        ),
+        normalisation=_taken(Normalisation, arrays),
+        networks=_networks(arrays),
+        record=document.record,
+        calibrated=_calibrated(arrays),
+    )
 
 
 def _calibrated(arrays: dict[str, np.ndarray]) -> Calibrated | None:
-    named = {
-        name.removeprefix(_CALIBRATED): array
-        for name, array in arrays.items()
-        if name.startswith(_CALIBRATED)
-    }
+    named = _beginning(arrays, CALIBRATED)
     if not named:
         return None
     return Calibrated(normalisation=_taken(Normalisation, named), networks=_networks(named))
 
 
 def _networks(arrays: dict[str, np.ndarray]) -> FoldedNetworks:
-    named = {
-        name.removeprefix(_DENOISING): array for name, array in arrays.items() if name.startswith(_DENOISING)
-    }
-    if named and "surplus" not in named:  # schema 3
+    named = _beginning(arrays, DENOISING)
+    if named and not YOUNGER & named.keys():  # schema 3
         named |= {"surplus": np.zeros(len(named["axes"])), "usual": np.zeros(())}
     return _taken(FoldedNetworks, {**arrays, "denoising": _taken(Denoising, named) if named else None})
+
+
+def _beginning(arrays: dict[str, np.ndarray], prefix: str) -> dict[str, np.ndarray]:
+    """Those whose names begin so, by the rest of their names."""
+    return {name.removeprefix(prefix): array for name, array in arrays.items() if name.startswith(prefix)}
 
 
 def _taken(kind: type, arrays: dict[str, np.ndarray]) -> Any:

@@ -1,14 +1,15 @@
-"""Checks what a model's folder holds before a new model replaces it, and replaces it by one rename."""
+"""Checks what a model's folder holds before a new model replaces it, and replaces it in one step."""
 
-import json
+import hashlib
 import os
-import tempfile
+import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from facegen.files import output_errors, write_whole
-from regress.errors import OutputError
+from facegen.files import output_errors, staging, swap_folders, sweep, sync, write_whole
+from regress.errors import InputError, OutputError
+from regress.runtime.documents import read_document
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +74,10 @@ def check_place(folder: str | os.PathLike[str], kind: ModelKind) -> None:
 
 
 def write_folder(folder: Path, kind: ModelKind, files: Mapping[str, bytes]) -> None:
-    """Write a model's folder whole: into a temporary folder beside it, then one rename.
+    """Write a model's folder whole: into a private folder beside it, then in one step into its place.
+
+    Where the system can exchange two names (Linux, macOS), there is no moment without a model. A link to a folder
+    stays a link; folder and files keep their modes. What killed writers left is removed.
 
     Parameters
     ----------
@@ -89,22 +93,45 @@ def write_folder(folder: Path, kind: ModelKind, files: Mapping[str, bytes]) -> N
     """
     check_place(folder, kind)
     with output_errors(folder):
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        # The temporary folder holds the new model and later the old one; it goes, whatever happens.
-        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
-            new, old = Path(temporary, "new"), Path(temporary, "old")
+        place = Path(os.path.realpath(folder))
+        place.parent.mkdir(parents=True, exist_ok=True)
+        prefix = _stage(place)
+        with staging(place.parent, prefix) as stage:
+            sweep(place.parent, f"{prefix}-*")
+            new = stage / "new"
             new.mkdir()
             for name, content in files.items():
                 write_whole(new / name, content)
-            replaced = folder.exists()
-            if replaced:
-                folder.rename(old)  # a folder cannot be renamed over a full one
-            try:
-                new.rename(folder)
-            except BaseException:
-                if replaced:
-                    old.rename(folder)
-                raise
+            if place.exists():
+                _keep_modes(place, new)
+            sync(new)
+            _put(new, place, aside=stage / "old")
+            sync(place.parent)
+
+
+def _stage(place: Path) -> str:
+    """Begins the names of half-made models; nobody else's hidden folder begins so, however long the model's name is."""
+    return f".model-{hashlib.sha256(os.fsencode(place.name)).hexdigest()[:12]}"
+
+
+def _keep_modes(old: Path, new: Path) -> None:
+    shutil.copymode(old, new)
+    for path in new.iterdir():
+        if (old / path.name).is_file():
+            shutil.copymode(old / path.name, path)
+
+
+def _put(new: Path, place: Path, *, aside: Path) -> None:
+    """Give a folder its place; what stands there lies behind one of the other names afterwards."""
+    if not place.exists():
+        new.rename(place)
+    elif not swap_folders(new, place):
+        place.rename(aside)  # a folder cannot be renamed over a full one
+        try:
+            new.rename(place)
+        except BaseException:
+            aside.rename(place)
+            raise
 
 
 def _check_old(folder: Path, kind: ModelKind) -> None:
@@ -132,10 +159,8 @@ def _check_old(folder: Path, kind: ModelKind) -> None:
 def _kind_of(path: Path) -> ModelKind | None:
     """Of the model that a model.json describes; None where it is not of this package."""
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    if not isinstance(document, dict):
+        document = read_document(path)
+    except InputError:
         return None
     name = document.get("kind", KEYPOINTS.name)
     return next(

@@ -1,7 +1,20 @@
 """Holds how a model of 68 points was trained and how well it does, as model.json has it under ``record``."""
 
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Annotated, Any
+
+from annotated_types import Ge, Len
+
+Count = Annotated[int, Ge(0)]
+
+MOST_STEPS = 100_000
+"""Of one network's training: a hundred times what the longest recipe has."""
+
+MOST_CELLS = 200
+"""Of a regression's counts, each way: pages draw each of them."""
+
+Errors = Annotated[list[Annotated[float, Ge(0)]], Len(0, MOST_STEPS)]
+"""Mean squares, one a step."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,19 +59,27 @@ class Regression:
         Correlation; None where no weight or no prediction moves.
     """
 
-    counts: list[list[int]]
+    counts: Annotated[list[list[Count]], Len(2, MOST_CELLS)]
     slope: float | None
     intercept: float | None
     pearson: float | None
+
+    def __post_init__(self) -> None:
+        """Refuse counts that are not as many one way as the other."""
+        sides = {len(self.counts), *map(len, self.counts)}
+        if len(sides) != 1:
+            raise ValueError(
+                f"counts are {len(self.counts)} rows of {sorted(map(len, self.counts))[:3]} cells"
+            )
 
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorCurves:
     """Mean squared error in z-scored targets from the start (step 0) on, by split."""
 
-    train: list[float]
-    validation: list[float]
-    test: list[float]
+    train: Errors
+    validation: Errors
+    test: Errors
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,8 +104,8 @@ class NetworkTraining:
     search: dict[str, float]
     outcome: str
     reason: str
-    steps: int
-    best_step: int
+    steps: Count
+    best_step: Count
     curves: ErrorCurves
 
 
@@ -111,9 +132,9 @@ class DatasetRecord:
     keypoints_sha256: str
     rig: Any
     licence: Any
-    samples: dict[str, int]
-    people: int
-    people_in_training: dict[str, int] = field(default_factory=dict)
+    samples: dict[str, Count]
+    people: Count
+    people_in_training: dict[str, Count] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,7 +171,7 @@ class TrainingRecord:
     recipe: dict[str, Any]
     seed: int
     dataset: DatasetRecord
-    training_rows: int
+    training_rows: Count
     licence: str
     versions: dict[str, str]
     floors: dict[str, str] = field(default_factory=dict)
