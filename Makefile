@@ -2,6 +2,8 @@
 PYTHON  ?= python3.11
 SPEC    ?= datasets/default.toml
 WORKERS ?=
+MINUTES ?= 60
+SEED    ?=
 
 NAME    := $(basename $(notdir $(SPEC)))
 VENV    := .venv
@@ -19,7 +21,7 @@ TESTED  := headset-test headset-slip
 TWO     := --numprocesses 2 --dist loadfile
 
 .DEFAULT_GOAL := help
-.PHONY: help setup rig dataset train export headset models samples wheel test test-farm test-headset test-quick lint format \
+.PHONY: help setup rig dataset train export headset models samples wheel test test-farm test-headset test-quick fuzz lint format \
   clean distclean
 .DELETE_ON_ERROR:
 
@@ -73,6 +75,9 @@ test-headset: $(TESTER) models/headset-tiny/report.html  ## Headset networks: th
 
 test-quick: $(TESTER) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)
 	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not slow and not blender"
+
+fuzz: $(TESTER) $(RIG)  ## Damaged inputs, new ones for MINUTES=60 (SEED= repeats); tests/hostile/corpus keeps what fails
+	$(BIN)/python -m tests.hostile fuzz --minutes $(MINUTES) $(if $(SEED),--seed $(SEED))
 
 lint: $(TESTER)  ## Style, and the direction of imports
 	$(BIN)/ruff check .

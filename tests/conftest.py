@@ -8,6 +8,7 @@ from hypothesis import settings
 
 from facegen.rigs import Rig, load_rig
 from facegen.rigs.building import build_rig
+from tests.hostile import summary
 
 
 def pytest_configure() -> None:
@@ -28,6 +29,15 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="fail where a Python that the wheel is tried on is missing",
     )
     parser.addoption("--update-golden", action="store_true", help="write golden files anew, to be read over")
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Counts of the hostile cases by reader and verdict; this file's, as the collecting process reads no other."""
+    reports = [report for reports in terminalreporter.stats.values() for report in reports]
+    properties = [pair for report in reports for pair in getattr(report, "user_properties", ())]
+    verdicts = [verdict for name, found in properties if name == "hostile" for verdict in found]
+    for line in summary.lines(verdicts):
+        terminalreporter.write_line(line)
 
 
 @pytest.fixture(scope="session")

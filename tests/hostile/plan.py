@@ -1,0 +1,22 @@
+"""Which cases `make test` tries: some seeds of every mutator of every reader, the same each time."""
+
+from tests.hostile.readers.reader import Reader
+from tests.hostile.trial import Case, mutators_of
+
+SEEDS = 4
+"""Of a mutator that knows the reader's format, or changes its place or name."""
+
+VALUES = 8
+"""Of an option, whose values are all that is tried."""
+
+
+def cases_of(reader: Reader, mutator: str) -> list[Case]:
+    """Seeded cases of one mutator: fewer of what is slow."""
+    seeds = VALUES if mutator == "value" else SEEDS
+    count = max(1, round(seeds * reader.weight))
+    return [Case(reader=reader, mutator=mutator, seed=seed) for seed in range(count)]
+
+
+def pairs(readers: dict[str, Reader]) -> list[tuple[Reader, str]]:
+    """Every reader with every mutator that fits it."""
+    return [(reader, mutator) for reader in readers.values() for mutator in mutators_of(reader)]

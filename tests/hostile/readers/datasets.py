@@ -1,0 +1,230 @@
+"""Readers of data sets: what `regress` reads of them, and what the commands of `facegen` do with them."""
+
+from pathlib import Path
+
+from tests.hostile.readers.reader import Reader
+from tests.hostile.workshop import Workshop, copied
+
+
+def _keypoints(folder: Path, workshop: Workshop) -> None:
+    copied(workshop.keypoints, folder / "data")
+
+
+def _rendered(folder: Path, workshop: Workshop) -> None:
+    copied(workshop.rendered, folder / "data")
+
+
+def _two(folder: Path, workshop: Workshop) -> None:
+    _rendered(folder, workshop)
+    copied(workshop.rendered, folder / "other")
+
+
+def _farmed(folder: Path, workshop: Workshop) -> None:
+    copied(workshop.farmed, folder / "data")
+
+
+_SHARD = "data/keypoints/shard-00000.parquet"
+_SAMPLE = "data/renders/000/000000"
+_ACCEPTED = (0, 1, 75)
+"""Of `validate` and `farm status`: wrong or missing data are what they are asked for."""
+
+
+def _data(name: str, command: str, target: str, kind: str, **more) -> Reader:
+    return Reader(name=name, command=command, make=_rendered, target=target, kind=kind, **more)
+
+
+def _recorded(folder: Path, workshop: Workshop) -> None:
+    copied(workshop.recorded, folder / "data")
+
+
+def _logged(folder: Path, workshop: Workshop) -> None:
+    _farmed(folder, workshop)
+    log = folder / "data" / "logs" / "000" / "sample-000001-1.log"
+    log.parent.mkdir(parents=True, exist_ok=True)
+    log.write_text("rendering\nfailed: no memory\n")
+
+
+def _pack(name: str, target: str, kind: str, **more) -> Reader:
+    return _data(
+        f"pack-{name}",
+        f"facegen pack in/data --format {name} --out out/pack",
+        target,
+        kind,
+        covers=(f"pack:{name}",),
+        weight=0.5,
+        **more,
+    )
+
+
+READERS = (
+    Reader(
+        name="evaluate-dataset",
+        command="regress evaluate {landmark_model} in/data",
+        make=_keypoints,
+        target="data/dataset.json",
+        kind="json",
+    ),
+    Reader(
+        name="evaluate-shards",
+        command="regress evaluate {landmark_model} in/data",
+        make=_keypoints,
+        target="data/keypoints/*.parquet",
+        kind="parquet",
+    ),
+    Reader(
+        name="report-shards",
+        command="regress report {landmark_model} --data in/data --out out/report.html",
+        make=_keypoints,
+        target="data/keypoints/*.parquet",
+        kind="parquet",
+        weight=0.4,
+    ),
+    _data(
+        "validate-dataset",
+        "facegen validate in/data --workers 1",
+        "data/dataset.json",
+        "json",
+        accepts=_ACCEPTED,
+        weight=0.25,
+    ),
+    _data(
+        "validate-spec",
+        "facegen validate in/data --workers 1",
+        "data/spec.toml",
+        "toml",
+        accepts=_ACCEPTED,
+        weight=0.25,
+    ),
+    _data(
+        "validate-sample",
+        "facegen validate in/data --workers 1",
+        f"{_SAMPLE}/sample.json",
+        "json",
+        accepts=_ACCEPTED,
+        weight=0.25,
+    ),
+    _data(
+        "validate-shard",
+        "facegen validate in/data --workers 1",
+        _SHARD,
+        "parquet",
+        accepts=_ACCEPTED,
+        weight=0.25,
+    ),
+    _data(
+        "validate-picture",
+        "facegen validate in/data --workers 1",
+        f"{_SAMPLE}/*.png",
+        "png",
+        accepts=_ACCEPTED,
+        weight=0.25,
+    ),
+    _data(
+        "validate-exr",
+        "facegen validate in/data --workers 1",
+        f"{_SAMPLE}/*.exr",
+        "binary",
+        accepts=_ACCEPTED,
+        weight=0.25,
+    ),
+    _data("develop-exr", "facegen develop in/data --out out/new", f"{_SAMPLE}/*.exr", "binary"),
+    _data("develop-sample", "facegen develop in/data --out out/new", f"{_SAMPLE}/sample.json", "json"),
+    _data("develop-headset", "facegen develop in/data --out out/new", "data/headset.toml", "toml"),
+    _data(
+        "preview-shard",
+        "facegen preview in/data --out out/page.html",
+        _SHARD,
+        "parquet",
+        memory_bytes=3_000_000_000,  # matplotlib's figures and the fonts' tables
+        weight=0.25,
+    ),
+    _data(
+        "preview-sample",
+        "facegen preview in/data --out out/sheet.png",
+        f"{_SAMPLE}/sample.json",
+        "json",
+        weight=0.4,
+    ),
+    _data(
+        "preview-picture",
+        "facegen preview in/data --out out/sheet.png",
+        f"{_SAMPLE}/*.png",
+        "png",
+        weight=0.4,
+    ),
+    _pack("webdataset", f"{_SAMPLE}/sample.json", "json"),
+    _pack("parquet", f"{_SAMPLE}/sample.json", "json"),
+    _pack("arrays", f"{_SAMPLE}/*.png", "png"),
+    _pack("coco", _SHARD, "parquet"),
+    _pack("keypoints", _SHARD, "parquet"),
+    *(
+        Reader(
+            name=f"pack-{name}",
+            command=f"facegen pack in/data --format {name} --out out/pack",
+            make=_recorded,
+            target=_SHARD,
+            kind="parquet",
+            covers=(f"pack:{name}",),
+            weight=0.5,
+        )
+        for name in ("livelink", "openface")
+    ),
+    Reader(
+        name="merge-dataset",
+        command="facegen merge in/data in/other --out out/all",
+        make=_two,
+        target="data/dataset.json",
+        kind="json",
+        weight=0.5,
+    ),
+    Reader(
+        name="merge-sample",
+        command="facegen merge in/data in/other --out out/all",
+        make=_two,
+        target=f"{_SAMPLE}/sample.json",
+        kind="json",
+        weight=0.5,
+    ),
+    Reader(
+        name="farm-status",
+        command="facegen farm status in/data --json",
+        make=_farmed,
+        target="data/farm/job-001/job.json",
+        kind="json",
+        accepts=_ACCEPTED,
+        covers=("engine:openjd",),
+    ),
+    Reader(
+        name="farm-submission",
+        command="facegen farm status in/data",
+        make=_farmed,
+        target="data/farm/job-001/submission.json",
+        kind="json",
+        accepts=_ACCEPTED,
+    ),
+    Reader(
+        name="farm-resume",
+        command="facegen farm resume in/data --dry-run",
+        make=_farmed,
+        target="data/farm/job-001/job.json",
+        kind="json",
+        changes=True,
+    ),
+    Reader(
+        name="farm-cancel",
+        command="facegen farm cancel in/data",
+        make=_farmed,
+        honest="refused",
+        target="data/farm/job-001/job.json",
+        kind="json",
+        changes=True,
+    ),
+    Reader(
+        name="farm-logs",
+        command="facegen farm logs in/data sample-000001",
+        make=_logged,
+        target="data/logs/000/*.log",
+        kind="lines",
+        weight=0.3,
+    ),
+)
