@@ -80,7 +80,7 @@ def _sweep(words: list[str]) -> int:
         server, workshop = Server(), Workshop(Path(scratch))
         for name in names:
             reader, began, tried = READERS[name], time.monotonic(), 0
-            cases = [Case(reader=reader, mutator=HONEST, seed=0)]
+            cases = [Case(reader=reader, mutator=HONEST, seed=0)] if reader.kind else []
             for mutator in mutators_of(reader):
                 seeds = len(cases_of(reader, mutator)) if asked.cases is None else asked.cases
                 cases += [Case(reader=reader, mutator=mutator, seed=asked.first + n) for n in range(seeds)]

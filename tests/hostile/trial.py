@@ -54,6 +54,8 @@ def mutators_of(reader: Reader) -> tuple[str, ...]:
     """Names of all that can be done to a reader's input."""
     if not reader.kind:
         return ("value",)
+    if reader.only:
+        return reader.only
     return (*FAMILIES[reader.kind], "kind", "name")
 
 
@@ -113,7 +115,7 @@ def try_case(
         program=words[0],
         stderr=stderr,
         accepts=reader.accepts,
-        names=(*_names(reader, target, words), *([one_line(value)[:60]] if value else [])),
+        names=(*_names(reader, target, words), *_names_of_value(value, case)),
         written=tuple(written),
         half_made=tuple(name for name in written if _is_half_made(name)),
         touched=() if reader.changes else _changed(before, after),
@@ -165,6 +167,14 @@ def _names(reader: Reader, target: Path | None, words: list[str]) -> tuple[str, 
     options += [one_line(word)[:60] for word in words if word.startswith("in/")]
     files = [] if target is None else [one_line(target.name)[:60]]
     return (*options, *files, *(["line "] if reader.stdin else []))
+
+
+def _names_of_value(value: str, case: Case) -> tuple[str, ...]:
+    """Forms in which a refusal may have a value; of one of a sign or less, any will do."""
+    if case.mutator != "value":
+        return ()
+    option = value[:2] if value.startswith("-") else value
+    return (one_line(value)[:40], repr(value)[1:40], option[:40]) if len(value.strip(".- ")) else ("",)
 
 
 def _listing(folder: Path) -> dict[str, tuple]:

@@ -194,7 +194,7 @@ def _made(table: dict, folder: Path, renderer: object = None) -> Path:
     begin(dataset)
     worker = Worker(dataset, threads=1)
     worker._renderer = renderer
-    for task in wanted_tasks(dataset, None):
+    for task in wanted_tasks(dataset, None).tasks():
         worker.make(task)
     return folder
 

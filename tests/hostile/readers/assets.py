@@ -90,7 +90,8 @@ READERS = (
         make=_headset,
         target="mine.toml",
         kind="toml",
-        weight=0.3,
+        only=("number", "replace", "extreme"),
+        weight=0.25,
     ),
     Reader(
         name="head",
@@ -99,7 +100,7 @@ READERS = (
         target="head.glb",
         kind="glb",
         environment={"FACEGEN_RIGS": "out"},
-        weight=0.5,
+        weight=0.25,
     ),
     Reader(
         name="head-markup",
@@ -108,6 +109,7 @@ READERS = (
         target="head.json",
         kind="json",
         environment={"FACEGEN_RIGS": "out"},
+        weight=0.25,
     ),
     Reader(
         name="rig-json",

@@ -42,6 +42,8 @@ class Reader:
         Makes checksums right again after the damage.
     changes
         Whether the command may write in its input, as `validate --repair` does.
+    only
+        The mutators to try, where trying all would take too long; without, all that fit.
     memory_bytes
         Address space that the command may take.
     weight
@@ -61,6 +63,7 @@ class Reader:
     environment: dict[str, str] = field(default_factory=dict)
     reseal: Callable[[Path], None] | None = None
     changes: bool = False
+    only: tuple[str, ...] = ()
     memory_bytes: int = MEMORY_BYTES
     weight: float = 1.0
 
