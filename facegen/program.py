@@ -143,7 +143,11 @@ def _called(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
         return error.exit_code
     except usage_error as error:
         return _misused(app, error)
-    except typer.Abort:
+    except typer.Abort as error:
+        if isinstance(
+            error.__cause__, EOFError
+        ):  # Typer takes a file that ends too soon for a person who leaves
+            return _fault(app, error.__cause__)
         code = _KEYBOARD_INTERRUPT
     except KeyboardInterrupt:
         code = _KEYBOARD_INTERRUPT

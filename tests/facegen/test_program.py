@@ -37,7 +37,13 @@ run(app, extras=())
 
 FULL = "no space left; free some and run the same command again"
 
-FAULTS = ("{}['key']", "raise RecursionError('a\\nb')", "from facegen import typo", "import typo")
+FAULTS = (
+    "{}['key']",
+    "raise EOFError('cut')",
+    "raise RecursionError('a\\nb')",
+    "from facegen import typo",
+    "import typo",
+)
 
 
 def called(body: str, *arguments: str, **options) -> subprocess.CompletedProcess:
