@@ -156,11 +156,7 @@ def _called(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
             raise left.__context__ from None
         code = left.code
     except ModuleNotFoundError as error:
-        sentence = missing_extra(error, _command(app), extras)
-        if sentence is None:
-            return _fault(app, error)
-        say(f"{name}: {sentence}")
-        return InputError.exit_code
+        return _absent(app, error, extras)
     except BrokenPipeError:
         raise
     except Exception as error:
@@ -192,6 +188,15 @@ def _finite(parameter: Any) -> Callable[[Any, Any], Any]:
         return processed
 
     return finite
+
+
+def _absent(app: "typer.Typer", error: ModuleNotFoundError, extras: tuple[Extra, ...]) -> int:
+    """Say how to get a part of the installation; a module that belongs to none is a fault."""
+    sentence = missing_extra(error, _command(app), extras)
+    if sentence is None:
+        return _fault(app, error)
+    say(f"{app.info.name}: {sentence}")
+    return InputError.exit_code
 
 
 def _misused(app: "typer.Typer", error: Any) -> int:
