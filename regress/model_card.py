@@ -99,10 +99,14 @@ def _texts(folder: Path) -> dict[str, str]:
             raise ModelError(f"{folder} was not judged: its model.json has no scores on a test split")
         return _headset_texts(model, model.scores)
     record = load_model(folder).record
-    if record is None or not {"network", "calibrated"} <= record.as_detected.keys():
+    sets = {"network", "calibrated"}
+    if record is None or not (sets <= record.as_detected.keys() and sets <= record.summary.keys()):
         raise ModelError(
             f"{folder} was not judged as a detector puts landmarks: its model.json has no such scores"
         )
+    lacking = {"train", "test"} - record.dataset.samples.keys()
+    if lacking:
+        raise ModelError(f"{folder} does not say how many {min(lacking)} samples it saw")
     return _keypoint_texts(record)
 
 

@@ -106,6 +106,8 @@ def write_headset_report(
         if model.scores is None:
             raise ModelError("the model has no figures of its own; give --data to measure some")
         judged = [Judged(title="the test split of its training data", figures=model.scores)]
+    for one in judged:
+        _check_complete(one.figures)
     page = rendered(
         "headset.html",
         name=name,
@@ -125,6 +127,24 @@ def write_headset_report(
     with output_errors(path):
         path.parent.mkdir(parents=True, exist_ok=True)
     return write_whole(path, page)
+
+
+def _check_complete(figures: Evaluation) -> None:
+    """Refuse figures without what the page is made of; a model's own are as its model.json has them."""
+    lacking = [
+        what
+        for what, there in (
+            ("conditions.uncalibrated", "uncalibrated" in figures.conditions),
+            ("floors.rest", "rest" in figures.floors),
+            ("components", figures.components),
+            ("people_mm", figures.people_mm),
+        )
+        if not there
+    ]
+    if lacking:
+        raise ModelError(
+            f"the model's figures have no {lacking[0]}, which a report needs; give --data to measure them"
+        )
 
 
 def _section(judged: Judged, name: str) -> Section:

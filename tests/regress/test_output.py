@@ -125,8 +125,8 @@ def test_adjusting_goes_offset_dead_zone_gain_limits():
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("{", "Invalid JSON"),
-        ("[]", "must be a table"),
+        ("{", "is not JSON"),
+        ("[]", "a JSON object is needed"),
         ('{"format": "other"}', "format = \"other\": must be 'regress-adjustment'"),
         (
             '{"format": "regress-adjustment", "shapes": {"jawOpened": {}}}',
@@ -142,6 +142,27 @@ def test_adjusting_goes_offset_dead_zone_gain_limits():
         ),
         ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"dead_zone": 1}}}', "must be less than 1"),
         ('{"format": "regress-adjustment", "shapes": {"jawOpen": {"low": 2}}}', "low 2.0 is above high 1.0"),
+        (
+            '{"format": "regress-adjustment", "shapes": {"jawOpen": {"gain": Infinity}}}',
+            "jawOpen.gain is a number",
+        ),
+        (
+            '{"format": "regress-adjustment", "shapes": {"*": {"offset": NaN}}}',
+            "offset is a number that is not",
+        ),
+        (
+            '{"format": "regress-adjustment", "shapes": {"*": {"high": 1e308}}}',
+            "is not finite or beyond 1e+100",
+        ),
+        (
+            '{"format": "regress-adjustment", "shapes": {"*": {"gain": -1e9}}}',
+            "must be greater than or equal to",
+        ),
+        ("[" * 100_000, "nested too deeply"),
+        ("5", "a JSON object is needed"),
+        ("null", "a JSON object is needed"),
+        (f'{{"format": {"1" * 5000}}}', "too many digits"),
+        (" " * 2_000_000, "at most 1,048,576 are read here"),
     ],
 )
 def test_a_bad_adjustment_file_is_refused(content: str, said: str, tmp_path):

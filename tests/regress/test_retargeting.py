@@ -68,7 +68,7 @@ def test_a_file_of_ones_own_mixes_limits_and_leaves_empty_rows(tmp_path):
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("[shapes", "not a readable TOML"),
+        ("[shapes", "is not valid TOML"),
         ("", "key 'shapes' is missing"),
         ("[shapes]", "shapes = {}: "),
         ("shapes = 3", "shapes = 3: must be a"),
@@ -83,6 +83,11 @@ def test_a_file_of_ones_own_mixes_limits_and_leaves_empty_rows(tmp_path):
             "limits.A = [0.1, 1]: must be two numbers [low, high] about 0",
         ),
         ("[shapes]\nA = {}\n[limits]\nA = [0]", "limits.A"),
+        ("[shapes]\nA = {}\n[limits]\nA = [-inf, inf]", "must be a finite number"),
+        ("[shapes]\nA = { jawOpen = 1e300 }", "must be less than or equal to 1000"),
+        ("[shapes]\n'' = {}", "must"),
+        ("[shapes]\n" + "\n".join(f"A{number} = {{}}" for number in range(3000)), "at most 2000"),
+        ("a" + ".a" * 20_000 + " = 1", "parts between dots"),
     ],
 )
 def test_a_bad_file_is_refused(content: str, said: str, tmp_path):

@@ -22,7 +22,16 @@ from pydantic import (
 from facegen.conventions import BLENDSHAPES
 from facegen.refusals import refusal
 from regress.errors import InputError
+from regress.runtime.documents import read_document
 from regress.runtime.stages.adjustment import ShapeAdjustment
+
+MOST_BYTES = 2**20
+"""Of the file: 53 entries are some 5 kB."""
+
+LARGEST = 1000.0
+"""Of a factor, an addend or a limit, either way: a gain of it makes a switch of a weight."""
+
+_Number = Annotated[FiniteFloat, Field(ge=-LARGEST, le=LARGEST)]
 
 
 def _known_shape(name: str) -> str:
@@ -34,11 +43,11 @@ def _known_shape(name: str) -> str:
 class _Shape(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
-    gain: FiniteFloat = 1.0
-    offset: FiniteFloat = 0.0
+    gain: _Number = 1.0
+    offset: _Number = 0.0
     dead_zone: Annotated[FiniteFloat, Field(ge=0, lt=1)] = 0.0
-    low: FiniteFloat = 0.0
-    high: FiniteFloat = 1.0
+    low: _Number = 0.0
+    high: _Number = 1.0
 
     @model_validator(mode="after")
     def _ordered(self) -> "_Shape":
@@ -66,9 +75,7 @@ def read_adjustments(path: str | os.PathLike[str]) -> dict[str, ShapeAdjustment]
     """
     path = Path(path)
     try:
-        document = _AdjustmentFile.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise InputError(f"{path} is not a readable JSON file: {error}") from error
+        document = _AdjustmentFile.model_validate(read_document(path, most_bytes=MOST_BYTES))
     except ValidationError as error:
         raise InputError(f"{path}: {refusal(error, _AdjustmentFile)}") from error
     return {name: ShapeAdjustment(**entry.model_dump()) for name, entry in document.shapes.items()}

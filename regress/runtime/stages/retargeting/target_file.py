@@ -14,7 +14,7 @@
     JawSide = [-1.0, 1.0]
 """
 
-import sys
+import os
 from pathlib import Path
 from typing import Annotated
 
@@ -30,15 +30,17 @@ from pydantic import (
 )
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.documents import load_toml
 from facegen.refusals import refusal
 from regress.errors import InputError
 from regress.runtime.stages.retargeting.matrix import Retargeting
 from regress.runtime.stages.retargeting.shipped import TARGETS, shipped_targets
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+MOST_SHAPES = 2000
+"""Of a target: columns of every table; avatars have some hundreds."""
+
+LARGEST = 1000.0
+"""Of a factor or a limit, either way: a factor of it makes a switch of a weight."""
 
 
 def _arkit_name(name: str) -> str:
@@ -53,7 +55,8 @@ def _about_zero(limits: tuple[float, float]) -> tuple[float, float]:
     return limits
 
 
-_Number = Annotated[FiniteFloat, Field(strict=True)]
+_Number = Annotated[FiniteFloat, Field(strict=True, ge=-LARGEST, le=LARGEST)]
+_Shape = Annotated[str, Field(min_length=1, max_length=200)]
 
 
 class _TargetFile(BaseModel):
@@ -62,7 +65,8 @@ class _TargetFile(BaseModel):
     title: str = ""
     source: str = ""
     shapes: Annotated[
-        dict[str, dict[Annotated[str, AfterValidator(_arkit_name)], _Number]], Field(min_length=1)
+        dict[_Shape, dict[Annotated[str, AfterValidator(_arkit_name)], _Number]],
+        Field(min_length=1, max_length=MOST_SHAPES),
     ]
     limits: dict[str, Annotated[tuple[_Number, _Number], AfterValidator(_about_zero)]] = Field(
         default_factory=dict
@@ -85,17 +89,13 @@ def read_retargeting(name: str) -> Retargeting:
         Where there is no such target or file, or the file says something that is not known.
     """
     shipped = shipped_targets()
-    path = TARGETS / f"{name}.toml" if name in shipped else Path(name)
+    path = Path(str(TARGETS / f"{name}.toml")) if name in shipped else Path(name)
+    if name not in shipped and not os.path.lexists(path):
+        raise InputError(f"no target {name!r}: {', '.join(shipped)} are known, or give a .toml file")
     try:
-        document = _TargetFile.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
-    except FileNotFoundError as error:
-        raise InputError(
-            f"no target {name!r}: {', '.join(shipped)} are known, or give a .toml file"
-        ) from error
+        document = _TargetFile.model_validate(load_toml(path))
     except ValidationError as error:
         raise InputError(f"{path}: {refusal(error, _TargetFile)}") from error
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path} is not a readable TOML file: {error}") from error
     bounds = [document.limits.get(shape, (0.0, 1.0)) for shape in document.shapes]
     low, high = np.array(bounds, dtype=np.float64).T
     columns = [[factors.get(name, 0.0) for name in BLENDSHAPES] for factors in document.shapes.values()]
