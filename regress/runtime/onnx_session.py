@@ -19,10 +19,10 @@ the temporary folder, and upload both to Microsoft. This variable stops all of t
 def open_session(graph: bytes) -> "onnxruntime.InferenceSession":
     """Open the bytes of an .onnx file on one core of the CPU.
 
-    This is the only place that imports onnxruntime: the import takes a fifth of a second, which commands without a
-    graph need not wait for.
+    This module alone imports onnxruntime: the import takes a fifth of a second, which commands without a graph need
+    not wait for.
     """
-    os.environ[_OPT_OUT] = "1"
+    _opt_out()
     import onnxruntime
 
     onnxruntime.disable_telemetry_events()  # for a program that had imported onnxruntime by itself before
@@ -32,9 +32,15 @@ def open_session(graph: bytes) -> "onnxruntime.InferenceSession":
     return onnxruntime.InferenceSession(graph, options, providers=["CPUExecutionProvider"])
 
 
+def _opt_out() -> None:
+    """To be called before any import of onnxruntime."""
+    os.environ[_OPT_OUT] = "1"
+
+
 @contextmanager
 def session_errors(what: str) -> Iterator[None]:
     """Turn what onnxruntime raises into `ModelError`: what it is about, and the first line of the reason."""
+    _opt_out()
     from onnxruntime.capi import onnxruntime_pybind11_state as state
 
     # its classes share no base but Exception
