@@ -15,13 +15,20 @@ READY   := $(VENV)/.ready
 TESTER  := $(VENV)/.tester
 LEARNER := $(VENV)/.learner
 MADE    := $(OUT)/.made
-INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+PIP     := $(BIN)/python -m pip install --quiet --disable-pip-version-check
+INSTALL := $(PIP) --constraint constraints.txt
+# what comes is what was locked: a file of another content, also of the same version, is refused
+LOCKED  := $(PIP) --no-deps --require-hashes --only-binary :all: --requirement
+# setuptools is among what was locked, so nothing else comes along
+SELF    := $(PIP) --no-deps --no-build-isolation --editable .
+LOCK    := $(BIN)/python -m uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes --no-annotate \
+  --custom-compile-command 'make lock' --constraint constraints.txt pyproject.toml -
 TESTED  := headset-test headset-slip
 # a file's tests stay together, and share what they made
 TWO     := --numprocesses 2 --dist loadfile
 
 .DEFAULT_GOAL := help
-.PHONY: help setup rig dataset train export headset models samples wheel test test-farm test-headset test-quick fuzz lint format \
+.PHONY: help setup lock rig dataset train export headset models samples wheel test test-farm test-headset test-quick fuzz lint format \
   clean distclean
 .DELETE_ON_ERROR:
 
@@ -33,6 +40,11 @@ help:  ## Say what the targets are
 	@echo "  PYTHON=$(PYTHON)  SPEC=$(SPEC)  WORKERS=$(if $(WORKERS),$(WORKERS),one per processor)"
 
 setup: $(READY)  ## Make the virtual environment (.venv)
+
+lock: | $(BIN)/python  ## Lock the versions of constraints.txt anew, with the hashes of every platform's files
+	$(INSTALL) uv
+	echo setuptools | $(LOCK) --extra factory --extra learn --output-file requirements.lock
+	echo setuptools | $(LOCK) --extra dev --output-file requirements-dev.lock
 
 rig: $(RIG)  ## Build the default rig
 
@@ -99,18 +111,20 @@ $(BIN)/python:
 	  { echo "facegen needs Python 3.11 (Blender's module is built for no other); give one with PYTHON=/path/to/python3.11" >&2; exit 2; }
 	$(PYTHON) -m venv $(VENV)
 
-$(READY): pyproject.toml constraints.txt | $(BIN)/python
-	$(INSTALL) --editable '.[factory,learn]'
+$(READY): pyproject.toml requirements.lock | $(BIN)/python
+	$(LOCKED) requirements.lock
+	$(SELF)
 	@touch $@
 
-$(TESTER): $(READY)
-	$(INSTALL) --editable '.[dev]'
+$(TESTER): $(READY) requirements-dev.lock
+	$(LOCKED) requirements-dev.lock
 	@touch $@
 
 # PyTorch trains headset networks; all else does without. On Linux it brings 2 GB of libraries for GPUs, unless pip
-# is told of the index of builds for processors alone, which PyTorch's own page names.
+# is told of the index of builds for processors alone, which PyTorch's own page names. Those are other files of the same
+# version, so no hashes are asked of it.
 $(LEARNER): $(READY)
-	$(INSTALL) --editable '.[factory,headset]'
+	$(INSTALL) --no-build-isolation --editable '.[factory,headset]'
 	@touch $@
 
 $(RIG): $(READY) $(wildcard facegen/rigs/*.py blender_assets/rigs/anny/*)

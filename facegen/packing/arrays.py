@@ -8,19 +8,18 @@ millimetres: ``displacement`` (52, V, 3) and ``rest`` (V, 3), float32, head fram
 from collections.abc import Sequence
 from pathlib import Path
 
-import cv2
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, SIDES, VIEW_POINTS, Part
-from facegen.errors import InvalidData
+from facegen.errors import FormatError, InvalidData
 from facegen.geometry import angles_from_direction
 from facegen.packing.plan import Options, PackFile, PackFormat
 from facegen.packing.rendered import chosen_views, read_rendered
 from facegen.packing.view_points import view_points
 from facegen.rigs import Rig, evaluate
-from facegen.store import Dataset, write_json
+from facegen.store import Dataset, parse_png, write_json
 
 ABOUT, LABELS, FACE = "arrays.json", "labels.parquet", "face.npz"
 VERSION = 3
@@ -118,14 +117,14 @@ def _write_pictures(dataset: Dataset, part: PackFile, path: Path) -> None:
         header = {"descr": "|u1", "fortran_order": False, "shape": (len(part.samples), *shape)}
         np.lib.format.write_array_header_1_0(file, header)
         for sample in read_rendered(dataset, part.samples, [f"{part.view}.png"]):
-            content = np.frombuffer(sample.pictures[f"{part.view}.png"], np.uint8)
-            picture = cv2.imdecode(content, cv2.IMREAD_UNCHANGED)
-            if picture is None or picture.shape != shape or picture.dtype != np.uint8:
-                folder = dataset.folder.render(sample.number)
-                raise InvalidData(
-                    f"{folder / part.view}.png: is no 8-bit grey picture of {shape[1]} x {shape[0]} pixels; run "
-                    f"facegen validate --repair, then facegen generate"
-                )
+            path = f"{dataset.folder.render(sample.number) / part.view}.png"
+            advice = "run facegen validate --repair, then facegen generate"
+            try:
+                picture = parse_png(sample.pictures[f"{part.view}.png"], where=path)
+            except FormatError as error:
+                raise InvalidData(f"{error}; {advice}") from None
+            if picture.shape != shape:
+                raise InvalidData(f"{path}: is no picture of {shape[1]} x {shape[0]} pixels; {advice}")
             file.write(picture.tobytes())
 
 

@@ -12,10 +12,12 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from facegen.conventions import BLENDSHAPES
+from facegen.errors import InvalidData
 from facegen.labels import VIEW_LABEL_KEYS, further_columns
 from facegen.packing.plan import Options, PackFile, PackFormat, shards
 from facegen.packing.rendered import RenderedFiles, chosen_views, read_rendered
 from facegen.store import Dataset
+from facegen.store.sample import ADVICE
 
 SHARD_SAMPLES = 1000
 ROW_GROUP = 100
@@ -57,11 +59,18 @@ def write_rows(dataset: Dataset, part: PackFile, options: Options, path: Path) -
     with pq.ParquetWriter(path, schema, compression="zstd", write_page_checksum=True) as writer:
         for start in range(0, len(part.samples), ROW_GROUP):
             numbers = part.samples[start : start + ROW_GROUP]
-            rows = [
-                _row(s, views, _keypoints(dataset))
-                for s in read_rendered(dataset, numbers, [f"{view}.png" for view in views])
-            ]
-            writer.write_table(pa.Table.from_pylist(rows, schema=schema), row_group_size=ROW_GROUP)
+            samples = read_rendered(dataset, numbers, [f"{view}.png" for view in views])
+            rows = [_table(dataset, sample, views, schema) for sample in samples]
+            writer.write_table(pa.concat_tables(rows).combine_chunks(), row_group_size=ROW_GROUP)
+
+
+def _table(dataset: Dataset, sample: RenderedFiles, views: tuple[str, ...], schema: pa.Schema) -> pa.Table:
+    """Table of one sample; labels that its columns cannot hold are its damage."""
+    try:
+        return pa.Table.from_pylist([_row(sample, views, _keypoints(dataset))], schema=schema)
+    except (KeyError, TypeError, ValueError, OverflowError, pa.ArrowException) as error:
+        path = dataset.folder.render(sample.number) / "sample.json"
+        raise InvalidData(f"{path}: has labels that no column can hold ({error!r}); {ADVICE}") from None
 
 
 def _keypoints(dataset: Dataset) -> tuple[str, ...]:

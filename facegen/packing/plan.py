@@ -10,7 +10,7 @@ import pyarrow as pa
 from facegen.conventions import SHARD_ROWS, SPLITS
 from facegen.errors import InputError
 from facegen.spec import without
-from facegen.store import Dataset, read_shard, shards_of
+from facegen.store import Dataset, shards_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +96,7 @@ def read_rows(dataset: Dataset, numbers: Sequence[int], columns: Sequence[str]) 
     """Keypoint columns of samples by ascending number, a table a shard; one shard in memory at a time."""
     numbers = np.asarray(numbers, np.int64)
     for shard in np.unique(numbers // SHARD_ROWS):
-        table = read_shard(dataset.folder.shard(int(shard)), columns)
+        table = dataset.read_shard(dataset.folder.shard(int(shard)), columns)
         yield table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS))
 
 
@@ -150,7 +150,7 @@ def _of_split(dataset: Dataset, numbers: Sequence[int], split: str) -> list[int]
             raise InputError(
                 f"{path}: is missing, so the split of its samples is unknown; run facegen generate"
             )
-        splits = read_shard(path, ["split"]).column("split").to_numpy(zero_copy_only=False)
+        splits = dataset.read_shard(path, ["split"]).column("split").to_numpy(zero_copy_only=False)
         inside = chosen[chosen // SHARD_ROWS == shard]
         kept += inside[splits[inside % SHARD_ROWS] == split].tolist()
     return kept

@@ -1,13 +1,16 @@
 """Reads rendered samples for packs, one after the other, each checked on the way."""
 
 import hashlib
-import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from facegen.documents import MOST_JSON_BYTES, read_bytes
 from facegen.errors import InputError, InvalidData
 from facegen.packing.plan import Options
 from facegen.store import Dataset
+
+MOST_PICTURE_BYTES = 2 * 1024**3
+"""Of one PNG or EXR file; 4096 x 4096 pixels of an EXR's channels are 0.6 GB before they are compressed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,13 +50,11 @@ def read_rendered(dataset: Dataset, numbers: Sequence[int], names: Sequence[str]
         folder = dataset.folder.render(number)
         advice = "run facegen validate --repair, then facegen generate"
         try:
-            text = (folder / "sample.json").read_bytes()
-            record = json.loads(text)
-            pictures = {name: (folder / name).read_bytes() for name in names}
-        except (OSError, ValueError) as error:
-            raise InvalidData(f"{folder}: cannot be read ({error}); {advice}") from None
-        if record.get("spec_hash") != dataset.hash:
-            raise InvalidData(f"{folder / 'sample.json'}: was made from another spec; {advice}")
+            record = dataset.sample(number)
+            text = read_bytes(folder / "sample.json", most_bytes=MOST_JSON_BYTES)
+            pictures = {name: read_bytes(folder / name, most_bytes=MOST_PICTURE_BYTES) for name in names}
+        except InputError as error:
+            raise InvalidData(f"{error}; {advice}") from None
         for name, content in pictures.items():
             if hashlib.sha256(content).hexdigest() != record["sha256"].get(name):
                 raise InvalidData(f"{folder / name}: is not what was written (SHA-256 differs); {advice}")

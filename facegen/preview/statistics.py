@@ -9,7 +9,7 @@ from facegen.conventions import SHARD_ROWS, Visibility
 from facegen.geometry import angles_from_direction, angles_from_rotation
 from facegen.rigs import eye_centers
 from facegen.sampling.cameras import FACING
-from facegen.store import Dataset, column_array, read_shard
+from facegen.store import Dataset, column_array
 
 MOST_ROWS = 100_000
 """Rows read at most: whole shards, evenly spread over the dataset. Percentiles do not move with more."""
@@ -119,7 +119,7 @@ def _read(dataset: Dataset) -> pa.Table:
     shards = dataset.made_shards()
     count = min(len(shards), MOST_ROWS // SHARD_ROWS)
     chosen = np.linspace(0, len(shards) - 1, count).round().astype(int)
-    return pa.concat_tables([read_shard(shards[index], _COLUMNS) for index in chosen])
+    return pa.concat_tables([dataset.read_shard(shards[index], _COLUMNS) for index in chosen])
 
 
 def _counts(values: np.ndarray) -> dict[str, int]:

@@ -11,7 +11,7 @@ from facegen.store.folder import (
     shards_of,
     write_json,
 )
-from facegen.store.images import exr_bytes, png_bytes, read_exr, read_png
+from facegen.store.images import exr_bytes, parse_png, png_bytes, read_exr, read_png
 from facegen.store.keypoint_table import (
     column_array,
     keypoint_schema,
@@ -38,6 +38,7 @@ __all__ = [
     "labels_reference",
     "merge",
     "open_dataset",
+    "parse_png",
     "png_bytes",
     "read_description",
     "read_exr",

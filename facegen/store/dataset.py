@@ -24,8 +24,9 @@ from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset
 from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_ranges, spec_hash, spec_table
 from facegen.store.description import FORMAT, read_description
-from facegen.store.folder import DatasetFolder, commit_file, read_json, write_json
+from facegen.store.folder import DatasetFolder, commit_file, shard_samples, write_json
 from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
+from facegen.store.sample import read_sample
 from facegen.store.stage import staging
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
@@ -100,7 +101,19 @@ class Dataset:
         InvalidData
             If a shard is damaged.
         """
-        return pa.concat_tables([read_shard(shard) for shard in self.made_shards()])
+        return pa.concat_tables([self.read_shard(shard) for shard in self.made_shards()])
+
+    def read_shard(self, path: Path, columns: Sequence[str] | None = None) -> pa.Table:
+        """Keypoint shard at a path in this dataset, or some of its columns.
+
+        Raises
+        ------
+        InvalidData
+            If it is damaged, or has other columns or rows than a shard of this dataset.
+        """
+        number = int(path.stem.removeprefix("shard-"))
+        rows = shard_samples(number, total=self.plan.samples)
+        return read_shard(path, columns, schema=self.keypoint_schema, rows=len(rows))
 
     def made_shards(self) -> list[Path]:
         """Files of the finished keypoint shards, in order.
@@ -119,8 +132,15 @@ class Dataset:
         return column_array(self.keypoints(), column)
 
     def sample(self, number: int) -> dict:
-        """``sample.json`` of a rendered sample."""
-        return read_json(self.folder.render(number) / "sample.json")
+        """``sample.json`` of a rendered sample.
+
+        Raises
+        ------
+        InvalidData
+            If it is damaged, or another sample's.
+        """
+        path = self.folder.render(number) / "sample.json"
+        return read_sample(path, number=number, spec_hash=self.hash, views=self.headset.camera_names)
 
 
 def resolve(spec: Spec, out: str | Path) -> Dataset:

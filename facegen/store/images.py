@@ -4,6 +4,7 @@ Both are made here rather than by Blender, whose files carry times: the same arr
 bytes.
 """
 
+import struct
 import tempfile
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import cv2
 import numpy as np
 import OpenEXR
 
+from facegen.documents import read_bytes
 from facegen.errors import FormatError
 from facegen.scene.scene import Layers
 
@@ -24,6 +26,15 @@ EXR_PARTS: dict[str, dict[str, type[np.generic]]] = {
 """Parts of an EXR file and the types of their channels; radiance comes first, for simple readers."""
 
 
+MOST_PIXELS = 4096 * 16384
+"""Of a picture: specs allow 4096 px of width, and no camera is four times as high."""
+
+MOST_BYTES = 2 * MOST_PIXELS
+"""Of a PNG file: noise does not become smaller, nor twice as large."""
+
+_PNG = b"\x89PNG\r\n\x1a\n"
+
+
 def png_bytes(grey: np.ndarray) -> bytes:
     """A PNG file of a grey picture (h, w) uint8."""
     done, encoded = cv2.imencode(".png", grey, [cv2.IMWRITE_PNG_COMPRESSION, 6])
@@ -33,11 +44,35 @@ def png_bytes(grey: np.ndarray) -> bytes:
 
 
 def read_png(path: str | Path) -> np.ndarray:
-    """The grey picture (h, w) uint8 of a PNG file."""
-    picture = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    """The grey picture (h, w) uint8 of a PNG file.
+
+    Raises
+    ------
+    InputError
+        Where there is no such file.
+    FormatError
+        Where it is no such picture, or has more than `MOST_PIXELS`.
+    """
+    return parse_png(read_bytes(path, most_bytes=MOST_BYTES), where=str(path))
+
+
+def parse_png(content: bytes, *, where: str) -> np.ndarray:
+    """The grey picture (h, w) uint8 of a PNG file's content; ``where`` begins the sentence of an error."""
+    if content[:8] != _PNG or len(content) < 26 or content[12:16] != b"IHDR":
+        raise FormatError(f"{where} is not an 8-bit grey PNG")
+    width, height = struct.unpack(">II", content[16:24])
+    _check_size(width, height, where)
+    picture = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
     if picture is None or picture.ndim != 2 or picture.dtype != np.uint8:
-        raise FormatError(f"{path} is not an 8-bit grey PNG")
+        raise FormatError(f"{where} is not an 8-bit grey PNG")
     return picture
+
+
+def _check_size(width: int, height: int, where: str) -> None:
+    if not 0 < width * height <= MOST_PIXELS:
+        raise FormatError(
+            f"{where} claims {width} x {height} pixels, but has at most {MOST_PIXELS:,} in a dataset"
+        )
 
 
 def exr_bytes(layers: Layers) -> bytes:
@@ -59,6 +94,12 @@ def exr_bytes(layers: Layers) -> bytes:
         return path.read_bytes()
 
 
+def _size(window: tuple[np.ndarray, np.ndarray]) -> tuple[int, int]:
+    """Width and height of an EXR part, whose first and last pixel are given."""
+    first, last = window
+    return int(last[0]) - int(first[0]) + 1, int(last[1]) - int(first[1]) + 1
+
+
 def read_exr(path: str | Path) -> Layers:
     """The layers of a file that `exr_bytes` made.
 
@@ -70,10 +111,18 @@ def read_exr(path: str | Path) -> Layers:
     if not Path(path).is_file():
         raise FormatError(f"there is no file {path}")
     try:
+        with OpenEXR.File(str(path), header_only=True) as file:
+            sizes = {_size(part.header["dataWindow"]) for part in file.parts}
+        for width, height in sizes:
+            _check_size(width, height, str(path))
+        if len(sizes) != 1:
+            raise FormatError(f"{path} has parts of {len(sizes)} sizes, but all must have one")
         with OpenEXR.File(str(path), separate_channels=True) as file:
             channels_of = {
                 part.name(): {name: c.pixels for name, c in part.channels.items()} for part in file.parts
             }
+    except FormatError:
+        raise
     except Exception as error:  # the library raises plain RuntimeErrors and its own types
         raise FormatError(f"{path} is not a readable EXR file: {error}") from error
     images = {}

@@ -13,6 +13,11 @@ from facegen.sampling import Samples
 from facegen.spec import Spec
 from facegen.store.columns import shard_columns
 
+MOST_ROW_BYTES = 16 * 1024
+"""Of one row, unpacked: it has some 900 numbers and three words, about 4 kB."""
+MOST_HEADER_BYTES = 1024**2
+"""Of a file, beside its rows."""
+
 
 def keypoint_schema(spec: Spec, components: int) -> pa.Schema:
     """Columns of a spec's shards, whose rig has that many identity components; each says its unit and shape."""
@@ -64,22 +69,64 @@ def write_shard(table: pa.Table, path: Path) -> None:
     )
 
 
-def read_shard(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
+def read_shard(
+    path: Path,
+    columns: Sequence[str] | None = None,
+    *,
+    schema: pa.Schema | None = None,
+    rows: int | None = None,
+) -> pa.Table:
     """Read a shard, or some of its columns; the checksums of all pages read are verified.
+
+    Parameters
+    ----------
+    path
+        The file.
+    columns
+        Names; all without.
+    schema
+        What the dataset's shards have; other columns are refused before any are read.
+    rows
+        How many it has to hold.
 
     Raises
     ------
     InvalidData
-        If the file cannot be read, or is not what was written.
+        If the file cannot be read, is not what was written, or has other columns or rows.
     """
+    advice = "run facegen validate --repair, then facegen generate"
     try:
-        return pq.read_table(
-            path, columns=None if columns is None else list(columns), page_checksum_verification=True
-        )
-    except (OSError, pa.ArrowException) as error:
-        raise InvalidData(
-            f"{path}: cannot be read as Parquet ({error}); run facegen validate --repair, then facegen generate"
-        ) from error
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:
+            wrong = _other_content(file, schema, rows)
+            if wrong is None:
+                return file.read(columns=None if columns is None else list(columns))
+    except (OSError, ValueError, KeyError, OverflowError, MemoryError, pa.ArrowException) as error:
+        raise InvalidData(f"{path}: cannot be read as Parquet ({_one_line(error)}); {advice}") from None
+    raise InvalidData(f"{path}: {wrong}; {advice}")
+
+
+def _other_content(file: pq.ParquetFile, schema: pa.Schema | None, rows: int | None) -> str | None:
+    """What the file's own description has instead of a shard's columns and rows."""
+    if schema is not None and not has_columns(file.schema_arrow, schema):
+        return "has other columns than this version of facegen writes"
+    total = file.metadata.num_rows
+    if rows is not None and total != rows:
+        return f"has {total} rows, but should have {rows}"
+    size = sum(file.metadata.row_group(group).total_byte_size for group in range(file.num_row_groups))
+    if size > MOST_ROW_BYTES * total + MOST_HEADER_BYTES:
+        return f"unpacks to {size:,} bytes, which {total} rows cannot have"
+    return None
+
+
+def has_columns(schema: pa.Schema, expected: pa.Schema) -> bool:
+    """Whether names, types and descriptions are as expected; reading adds metadata of its own."""
+    return schema.equals(expected, check_metadata=False) and all(
+        field.metadata.items() <= (schema.field(field.name).metadata or {}).items() for field in expected
+    )
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())
 
 
 def column_array(table: pa.Table, name: str) -> np.ndarray:

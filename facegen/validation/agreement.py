@@ -1,6 +1,7 @@
 """Compares stored labels with labels made anew."""
 
 from collections.abc import Iterator
+from math import isfinite
 
 import numpy as np
 
@@ -10,6 +11,9 @@ TOLERANCE = 1e-6
 Labels are float32: their last bit is 6e-8 of their size, and another processor's sine may move it; 1e-6 m is
 0.001 mm, 1e-6 of 640 px is 0.0006 px.
 """
+
+MOST_DIMENSIONS = 4
+"""Of a label's numbers; the deepest are matrices."""
 
 
 def differing_rows(stored: np.ndarray, made: np.ndarray) -> np.ndarray:
@@ -39,8 +43,8 @@ def disagreements(stored: object, made: object, name: str = "") -> Iterator[tupl
                 yield inner, "is missing"
             else:
                 yield from disagreements(stored[key], value, inner)
-        for key in sorted(stored.keys() - made.keys()) if name else ():
-            yield f"{name}.{key}", "is no label of this version of facegen"
+        for key in sorted(stored.keys() - made.keys()):
+            yield f"{name}.{key}" if name else key, "is no label of this version of facegen"
     elif isinstance(made, list):
         yield from _list_disagreement(stored, made, name)
     elif not _same(stored, made):
@@ -74,16 +78,35 @@ def _list_disagreement(stored: object, made: list, name: str) -> Iterator[tuple[
 
 
 def _numbers(values: object) -> np.ndarray | None:
+    """Nested lists as an array; None where they hold anything but numbers and null, or are no grid of them."""
+    if not all(map(_is_number, _leaves(values))):
+        return None
     try:
         return np.array(values, np.float64)  # None, JSON's stand-in for NaN, becomes NaN
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return None
 
 
+def _leaves(values: object) -> Iterator[object]:
+    """What stands in nested lists of at most `MOST_DIMENSIONS` levels."""
+    level = [values]
+    for _ in range(MOST_DIMENSIONS):
+        yield from (value for value in level if not isinstance(value, list))
+        level = [inner for value in level if isinstance(value, list) for inner in value]
+    yield from level
+
+
+def _is_number(value: object) -> bool:
+    """Whether a value of JSON is null or a number that is written out: NaN and Infinity are no JSON, true is no 1."""
+    if isinstance(value, float):
+        return isfinite(value)
+    return value is None or (type(value) is int and abs(value) < 2**63)
+
+
 def _same(stored: object, made: object) -> bool:
-    if isinstance(made, bool) or not isinstance(made, int | float) or isinstance(stored, bool):
+    if isinstance(made, bool) or not isinstance(made, int | float):
         return type(stored) is type(made) and stored == made
-    if not isinstance(stored, int | float):
+    if stored is None or not _is_number(stored):
         return False
     return not differing_rows(np.array([float(stored)]), np.array([float(made)]))[0]
 

@@ -4,13 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 from facegen.conventions import BLOCK
+from facegen.errors import InvalidData
 from facegen.geometry import apply_transform, project_pinhole
 from facegen.labels import label_keypoints
 from facegen.sampling import draw_samples
-from facegen.store import Dataset, column_array, keypoint_table, shard_samples
+from facegen.store import Dataset, column_array, keypoint_table, read_shard, shard_samples
+from facegen.store.keypoint_table import has_columns
 from facegen.validation.agreement import differing_rows
 from facegen.validation.finding import Finding
 from facegen.validation.ranges import impossible
@@ -32,12 +33,12 @@ def check_shard(dataset: Dataset, number: int) -> Iterator[Finding]:
         return Finding(where + at, what, kind, remove=where)
 
     try:
-        table = pq.read_table(path, page_checksum_verification=True)
-    except (OSError, pa.ArrowException) as error:
+        table = read_shard(path)
+    except InvalidData as error:
         kind = "checksum" if "crc" in str(error).lower() else "unreadable"
-        yield finding(f"cannot be read as Parquet ({error})", kind)
+        yield finding(str(error).removeprefix(f"{path}: "), kind)
         return
-    if not _has_columns(table.schema, dataset.keypoint_schema):
+    if not has_columns(table.schema, dataset.keypoint_schema):
         yield finding("has other columns than this version of facegen writes", "label")
         return
     expected = shard_samples(number, total=dataset.plan.samples)
@@ -48,13 +49,6 @@ def check_shard(dataset: Dataset, number: int) -> Iterator[Finding]:
     for check in (_projections, _ranges, _labels):
         for sample, what, kind in check(dataset, table):
             yield finding(what, kind, at=f", sample {sample}")
-
-
-def _has_columns(schema: pa.Schema, expected: pa.Schema) -> bool:
-    """Whether names, types and descriptions are as expected; reading adds metadata of its own."""
-    return schema.equals(expected, check_metadata=False) and all(
-        field.metadata.items() <= (schema.field(field.name).metadata or {}).items() for field in expected
-    )
 
 
 def _projections(_dataset: Dataset, table: pa.Table) -> Iterator[tuple[int, str, str]]:

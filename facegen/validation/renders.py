@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, BLOCK, LANDMARK_COUNT, SIDES, Part, Visibility
+from facegen.errors import InputError
 from facegen.geometry import Camera, project
 from facegen.labels import label_rendered
 from facegen.sampling import Samples, draw_samples
 from facegen.scene import Layers
 from facegen.scene.beards import LENGTH_M
 from facegen.sessions import draw_sample_scene
-from facegen.store import Dataset, read_exr, read_png, sample_record
+from facegen.store import Dataset, read_exr, read_json, read_png, sample_record
 from facegen.validation.agreement import disagreements
 from facegen.validation.finding import Finding, FindingKind
 from facegen.validation.keypoints import FAR_SHARE, REPROJECTION_PX
@@ -28,6 +29,16 @@ STRANDS_M = {Part.LASHES: 12e-3, Part.HAIR: max(high for _, high in LENGTH_M.val
 and the longest beard's."""
 
 SIDECAR = "sample.json"
+
+RENDER_SETTINGS = {
+    "engine": str,
+    "blender": str,
+    "device": str,
+    "samples_per_pixel": int,
+    "denoise": bool,
+    "subsurface": bool,
+}
+"""Keys of ``render`` in ``sample.json`` (`facegen.work.worker`), and Python's types of their values."""
 
 
 def check_renders(dataset: Dataset, numbers: tuple[int, ...]) -> Iterator[Finding]:
@@ -79,11 +90,17 @@ def _check_sidecar(
     samples: Samples,
 ) -> _Wrong:
     try:
-        record = json.loads((folder / SIDECAR).read_text(encoding="utf-8"))
-        checksums = dict(record["sha256"])
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        yield SIDECAR, f"cannot be read ({error!r})", "unreadable"
+        record = read_json(folder / SIDECAR)
+    except InputError as error:
+        yield SIDECAR, str(error).removeprefix(f"{folder / SIDECAR}: "), "unreadable"
         return
+    checksums = record.get("sha256")
+    if not isinstance(checksums, dict):
+        yield SIDECAR, "has no table of checksums (sha256)", "unreadable"
+        return
+    known = {f"{view}.{kind}" for view in dataset.headset.camera_names for kind in dataset.picture_kinds}
+    for name in sorted(checksums.keys() - known):
+        yield SIDECAR, f"sha256.{name}: is no file of a rendered sample", "label"
     for name in sorted(names):
         if name not in checksums:
             yield SIDECAR, f"has no checksum of {name}", "checksum"
@@ -118,13 +135,28 @@ def _check_labels(dataset: Dataset, record: dict, samples: Samples) -> _Wrong:
         dataset_hash=dataset.hash,
         rig=dataset.rig.name,
     )
-    for name, what in disagreements(record, json.loads(json.dumps(made))):
+    labels = {key: value for key, value in record.items() if key not in ("render", "sha256")}
+    for name, what in disagreements(labels, json.loads(json.dumps(made))):
         yield name, what, "label"
+    for what in _wrong_settings(record.get("render")):
+        yield "render", what, "label"
     try:
         for name, _, what in _impossible(dataset, record):
             yield name, what, "range"
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
         yield "labels", f"cannot be used ({error!r})", "unreadable"
+
+
+def _wrong_settings(settings: object) -> Iterator[str]:
+    """What is wrong with the record of who rendered a sample and how."""
+    if not isinstance(settings, dict):
+        yield "should be a table of how the sample was rendered"
+        return
+    for key in sorted(settings.keys() - RENDER_SETTINGS.keys()):
+        yield f"{key}: is unknown; known are {', '.join(RENDER_SETTINGS)}"
+    for key, kind in RENDER_SETTINGS.items():
+        if key in settings and type(settings[key]) is not kind:
+            yield f"{key}: must be {'a text' if kind is str else 'a whole number' if kind is int else 'true or false'}"
 
 
 def _impossible(dataset: Dataset, record: dict) -> Iterator[tuple[str, int, str]]:
@@ -150,7 +182,7 @@ def _check_view(record: dict, name: str, grey: np.ndarray, layers: Layers | None
         visible = np.array(view["visibility"]).reshape(LANDMARK_COUNT) == Visibility.VISIBLE
         with np.errstate(invalid="ignore"):
             error = np.linalg.norm(project(camera, points) - labelled, axis=-1)
-    except (KeyError, TypeError, ValueError, AttributeError) as unusable:
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as unusable:
         yield SIDECAR, f"views.{name} cannot be used ({unusable!r})", "unreadable"
         return
     shapes = [grey.shape, *([layers.depth.shape] if layers else ())]

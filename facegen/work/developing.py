@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.errors import InputError
+from facegen.errors import InputError, InvalidData
 from facegen.files import output_errors
 from facegen.sampling import Shot, draw_shot
 from facegen.sensor import develop_view
@@ -119,7 +119,13 @@ def develop_sample(
         shot = draw_shot(spec, view, leds, **place, seed=settings.seed)
         noise = shot.noise if settings.noise is None else settings.noise
         shots[view] = replace(shot, noise=noise, dropped_led=rendered.dropped_led)
-        layers = read_exr(dataset.folder.render(number) / f"{view}.exr")
+        path = dataset.folder.render(number) / f"{view}.exr"
+        layers = read_exr(path)
+        if layers.radiance.shape != (camera.height, camera.width):
+            raise InvalidData(
+                f"{path}: has {layers.radiance.shape[1]} x {layers.radiance.shape[0]} pixels, but camera {view!r} has "
+                f"{camera.width} x {camera.height}; run facegen validate --repair, then facegen generate"
+            )
         camera_from_head = np.array(record["views"][view]["camera_from_head"])
         pictures[view] = develop_view(layers, camera, camera_from_head, unit.sensor, shots[view])
     return pictures, shots

@@ -249,3 +249,49 @@ def test_processes_find_the_same(copy):
     one, two = (validate(open_dataset(copy), workers=n) for n in (1, 2))
     assert one == two
     assert np.sum(list(one.wrong.values())) >= 1
+
+
+EDITS: dict[str, Callable[[dict], object]] = {
+    "unknown key": lambda record: record.update(colour="red"),
+    "unknown render key": lambda record: record["render"].update(samples=4),
+    "render is a list": lambda record: record.update(render=[]),
+    "render as text": lambda record: record["render"].update(samples_per_pixel="4"),
+    "checksum of nothing": lambda record: record["sha256"].update({"nose.png": "0" * 64}),
+    "checksums are a list": lambda record: record.update(sha256=[]),
+    "number as text": lambda record: record["weights"].update(jawOpen=str(record["weights"]["jawOpen"])),
+    "numbers as texts": lambda record: record.update(identity=list(map(str, record["identity"]))),
+    "true for one": lambda record: record["headset"]["slip"].__setitem__(0, False),
+    "true for a number": lambda record: record.update(frame=False),
+    "not a number": lambda record: record["keypoints"]["points_2d"][0].__setitem__(0, float("nan")),
+    "null for a number": lambda record: record.update(age_years=None),
+    "huge": lambda record: record["headset"]["slip"].__setitem__(0, 10**400),
+    "huge label": lambda record: record.update(age_years=10**400),
+    "huge point": lambda record: record["views"]["mouth"]["points_camera"][0].__setitem__(0, 10**400),
+    "huge camera": lambda record: record["views"]["mouth"]["camera"].update(fx=10**400),
+    "nested": lambda record: record.update(identity=[[[[[[1.0]]]]]]),
+    "views are a list": lambda record: record.update(views=[]),
+    "eyes are null": lambda record: record.update(eyes=None),
+}
+
+
+@pytest.mark.parametrize("edit_of", EDITS.values(), ids=EDITS)
+def test_every_edit_of_a_record_is_found_and_no_pack_takes_one_of_another_kind(copy, tmp_path, edit_of):
+    edit(copy, edit_of)
+    assert only(found(copy), SAMPLE) <= {"label", "unreadable", "range", "checksum"}
+    for form in ("parquet", "arrays", "coco", "webdataset"):
+        result = CliRunner().invoke(app, ["pack", str(copy), "--out", str(tmp_path / form), "--format", form])
+        assert result.exception is None or isinstance(result.exception, InvalidData), (form, result.exception)
+
+
+@pytest.mark.parametrize(
+    "content", ["", "[]", "null", "5", '"a"', "[" * 100_000, "{}", '{"a": ' + "9" * 5000 + "}"]
+)
+def test_a_record_that_is_none_is_found_and_refused(copy, tmp_path, content):
+    (copy / SAMPLE / "sample.json").write_text(content)
+    assert only(found(copy), SAMPLE) <= {"unreadable", "spec-hash"}
+    for command in (
+        ["pack", str(copy), "--out", str(tmp_path / "pack")],
+        ["develop", str(copy), "--out", str(tmp_path / "developed")],
+        ["preview", str(copy), "--out", str(tmp_path / "sheet.png")],
+    ):
+        assert isinstance(CliRunner().invoke(app, command).exception, InvalidData), command
