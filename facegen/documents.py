@@ -43,7 +43,9 @@ def read_bytes(path: str | os.PathLike[str], *, most_bytes: int) -> bytes:
     try:
         with open(path, "rb") as file:
             size = os.fstat(file.fileno())
-            content = b"" if size.st_size > most_bytes else file.read(most_bytes + 1)
+            # as much is allocated as is asked for, so of a file no more than it has
+            asked = size.st_size if stat.S_ISREG(size.st_mode) and size.st_size else most_bytes
+            content = b"" if size.st_size > most_bytes else file.read(asked + 1)
     except (OSError, ValueError) as error:  # ValueError: a name with a NUL in it
         raise unreadable(path, error) from None
     if size.st_size > most_bytes or len(content) > most_bytes:

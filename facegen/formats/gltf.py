@@ -14,14 +14,27 @@ import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from facegen.errors import FormatError
+from facegen.formats.gltf_buffers import read_buffers
+from facegen.formats.gltf_container import check_amount, json_of, read_gltf_bytes
+
+MOST_VERTICES = 500_000
+"""Of a file's primitives together, ten times a head's of film studios: each takes 3 kB with 52 shapes."""
+
+MOST_TRIANGLES = 2_000_000
+"""Of a file's primitives together; a mesh has two a vertex."""
+
+MOST_NUMBERS = 100_000_000
+"""Of all accessors that a file's primitives name, each time that they do: 0.8 GB."""
 
 _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _TRIANGLES = 4
+_MOST_JOINTS = 65_536  # vertices name them in 16 bits
 _COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
 
 
@@ -61,73 +74,103 @@ def read_gltf(path: Path) -> tuple[GltfPart, ...]:
     Raises
     ------
     FormatError
-        The file is no glTF 2.0 file, is damaged, or is compressed.
+        The file is no glTF 2.0 file, is damaged, too large or compressed, or a number in it is not finite.
     """
     from pygltflib import GLTF2
 
-    if not path.is_file():
-        raise FormatError(f"{path} does not exist; a glTF file (.glb or .gltf) is needed")
     try:
-        with warnings.catch_warnings():
+        check_amount(json_of(read_gltf_bytes(path)), path)
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("error", UserWarning)  # pygltflib warns of versions it does not know
             gltf = GLTF2().load(str(path))
-        compressed = [name for name in _COMPRESSED if name in (gltf.extensionsRequired or [])]
-        if compressed:
-            raise FormatError(
-                f"{path} is compressed with {compressed[0]}, which facegen does not read; export it without "
-                "compression"
-            )
-        file = _File(gltf=gltf, buffers=[gltf.get_data_from_buffer_uri(b.uri) for b in gltf.buffers])
-        return tuple(_parts(file))
-    except FormatError:
-        raise
+            compressed = [name for name in _COMPRESSED if name in (gltf.extensionsRequired or [])]
+            if compressed:
+                raise FormatError(
+                    f"{path} is compressed with {compressed[0]}, which facegen does not read; export it without "
+                    "compression"
+                )
+            return tuple(_parts(_File(gltf, read_buffers(gltf, path.parent))))
+    except FormatError as error:
+        raise error if str(path) in str(error) else FormatError(f"{path}: {error}") from error
     # what pygltflib and NumPy raise on damage, by where it lies
-    except (OSError, ValueError, LookupError, TypeError, AttributeError, UserWarning, struct.error) as error:
+    except (
+        *(OSError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError),
+        *(UserWarning, struct.error),
+    ) as error:
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise FormatError(f"{path} cannot be read as a glTF 2.0 file ({reason})") from error
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
 class _File:
-    gltf: object
-    buffers: list[bytes]
+    """A file's records and buffers, and how much of what it may hold has been taken."""
+
+    def __init__(self, gltf: Any, buffers: list[bytes]) -> None:
+        self.gltf, self.buffers = gltf, buffers
+        self._taken = {"vertices": 0, "triangles": 0, "numbers": 0}
+
+    def take(self, what: str, count: int, most: int) -> None:
+        """Refuse a file that goes beyond a bound; a count comes before what it counts is allocated."""
+        self._taken[what] += count
+        if not 0 <= count <= most or self._taken[what] > most:
+            raise FormatError(f"it has {self._taken[what]:,} {what}, and at most {most:,} are read")
+
+    def item(self, kind: str, index: Any) -> Any:
+        """One of the file's meshes, nodes, skins and so on, by its number."""
+        records = getattr(self.gltf, kind)
+        if not isinstance(index, int) or not 0 <= index < len(records):
+            raise FormatError(f"it names number {index} of its {kind}, of which it has {len(records)}")
+        return records[index]
 
 
 def _parts(file: _File) -> Iterator[GltfPart]:
-    gltf, placed = file.gltf, _world_from_node(file.gltf)
+    placed = _world_from_node(file)
     for index, world in placed.items():
-        node = gltf.nodes[index]
+        node = file.item("nodes", index)
         if node.mesh is None:
             continue
-        mesh = gltf.meshes[node.mesh]
-        names = (mesh.extras or {}).get("targetNames", [])
+        mesh = file.item("meshes", node.mesh)
         for primitive in mesh.primitives:
-            if primitive.mode not in (None, _TRIANGLES):
-                continue
-            attributes = vars(primitive.attributes)
-            positions = _accessor(file, attributes["POSITION"])
-            deform = _skinning(file, node.skin, attributes, placed) if node.skin is not None else world[None]
-            turn = deform[:, :3, :3]
-            uv = attributes.get("TEXCOORD_0")
-            uv = np.zeros((len(positions), 2)) if uv is None else _accessor(file, uv)
-            morphs = {}
-            for name, target in zip(names, primitive.targets or [], strict=False):
-                moved = (target if isinstance(target, dict) else vars(target)).get("POSITION")
-                if moved is not None:
-                    morphs[str(name)] = _turned(turn, _accessor(file, moved))
-            yield GltfPart(
-                mesh=mesh.name or "",
-                node=node.name or "",
-                material=_material(gltf, primitive.material),
-                positions=_turned(turn, positions) + deform[:, :3, 3],
-                triangles=_triangles(file, primitive.indices, len(positions)),
-                uv=np.stack([uv[:, 0], 1.0 - uv[:, 1]], axis=1),
-                morphs=morphs,
-            )
+            if primitive.mode in (None, _TRIANGLES):
+                yield _part(file, node, mesh, primitive, world, placed)
 
 
-def _material(gltf: object, index: int | None) -> str:
-    return "" if index is None else gltf.materials[index].name or ""
+def _part(
+    file: _File, node: Any, mesh: Any, primitive: Any, world: np.ndarray, placed: dict[int, np.ndarray]
+) -> GltfPart:
+    attributes = vars(primitive.attributes)
+    count = file.item("accessors", attributes["POSITION"]).count
+    file.take("vertices", count, MOST_VERTICES)
+    positions = _accessor(file, attributes["POSITION"], "VEC3")
+    deform = _skinning(file, node.skin, attributes, placed, count) if node.skin is not None else world[None]
+    turn = deform[:, :3, :3]
+    uv = attributes.get("TEXCOORD_0")
+    uv = np.zeros((count, 2)) if uv is None else _accessor(file, uv, "VEC2", count)
+    morphs = {}
+    for name, target in zip(
+        (mesh.extras or {}).get("targetNames", []), primitive.targets or [], strict=False
+    ):
+        moved = (target if isinstance(target, dict) else vars(target)).get("POSITION")
+        if moved is not None:
+            morphs[str(name)] = _turned(turn, _accessor(file, moved, "VEC3", count))
+    material = None if primitive.material is None else file.item("materials", primitive.material)
+    part = GltfPart(
+        mesh=_name(mesh),
+        node=_name(node),
+        material=_name(material),
+        positions=_turned(turn, positions) + deform[:, :3, 3],
+        triangles=_triangles(file, primitive.indices, count),
+        uv=np.stack([uv[:, 0], 1.0 - uv[:, 1]], axis=1),
+        morphs=morphs,
+    )
+    if not all(np.isfinite(array).all() for array in (part.positions, part.uv, *morphs.values())):
+        raise FormatError(
+            f"mesh {part.mesh!r} has a position, a texture coordinate or a shape that is not finite"
+        )
+    return part
+
+
+def _name(record: Any) -> str:
+    return record.name if record is not None and isinstance(record.name, str) else ""
 
 
 def _turned(turn: np.ndarray, vectors: np.ndarray) -> np.ndarray:
@@ -135,26 +178,30 @@ def _turned(turn: np.ndarray, vectors: np.ndarray) -> np.ndarray:
 
 
 def _triangles(file: _File, index: int | None, vertices: int) -> np.ndarray:
-    order = np.arange(vertices) if index is None else _accessor(file, index)[:, 0].astype(int)
-    if order.size and order.max() >= vertices:
-        raise FormatError(f"a triangle names vertex {order.max()}, its mesh has {vertices}")
-    return order.reshape(-1, 3)
+    order = np.arange(vertices) if index is None else _accessor(file, index, "SCALAR")[:, 0]
+    file.take("triangles", len(order) // 3, MOST_TRIANGLES)
+    outside = order[~((order >= 0) & (order < vertices))]
+    if len(outside):
+        raise FormatError(f"a triangle names vertex {outside[0]:g}, its mesh has {vertices}")
+    return order.astype(int).reshape(-1, 3)
 
 
-def _world_from_node(gltf: object) -> dict[int, np.ndarray]:
+def _world_from_node(file: _File) -> dict[int, np.ndarray]:
     """Matrices (4, 4) of the scene's nodes, in the order in which the scene is walked."""
+    gltf = file.gltf
     children = {child for node in gltf.nodes for child in node.children or []}
     roots = [index for index in range(len(gltf.nodes)) if index not in children]
     if gltf.scenes:
-        roots = gltf.scenes[gltf.scene or 0].nodes or roots
+        roots = file.item("scenes", gltf.scene or 0).nodes or roots
     world: dict[int, np.ndarray] = {}
     waiting = [(index, np.eye(4)) for index in reversed(roots)]
     while waiting:
         index, parent = waiting.pop()
         if index in world:
             raise FormatError(f"node {index} stands in the scene twice")
-        world[index] = parent @ _local(gltf.nodes[index])
-        waiting += [(child, world[index]) for child in reversed(gltf.nodes[index].children or [])]
+        node = file.item("nodes", index)
+        world[index] = parent @ _local(node)
+        waiting += [(child, world[index]) for child in reversed(node.children or [])]
     return world
 
 
@@ -175,24 +222,33 @@ def _local(node: object) -> np.ndarray:
     return matrix
 
 
-def _skinning(file: _File, skin: int, attributes: dict, placed: dict[int, np.ndarray]) -> np.ndarray:
+def _skinning(
+    file: _File, index: int, attributes: dict, placed: dict[int, np.ndarray], vertices: int
+) -> np.ndarray:
     """(V, 4, 4): each vertex's mean of its joints' matrices; the node's own place does not count [1]_."""
-    skin = file.gltf.skins[skin]
+    skin = file.item("skins", index)
+    if not 0 < len(skin.joints) <= _MOST_JOINTS:
+        raise FormatError(f"skin {index} has {len(skin.joints)} joints; 1 to {_MOST_JOINTS:,} can be named")
     joints = np.stack([placed.get(joint, np.eye(4)) for joint in skin.joints])
     if skin.inverseBindMatrices is not None:
-        joints = joints @ _accessor(file, skin.inverseBindMatrices).reshape(-1, 4, 4).transpose(0, 2, 1)
-    chosen, share = (
-        _accessor(file, attributes["JOINTS_0"]).astype(int),
-        _accessor(file, attributes["WEIGHTS_0"]),
-    )
+        inverse = _accessor(file, skin.inverseBindMatrices, "MAT4")[: len(joints)]
+        joints = joints @ inverse.reshape(-1, 4, 4).transpose(0, 2, 1)
+    chosen = _accessor(file, attributes["JOINTS_0"], "VEC4", vertices)
+    share = _accessor(file, attributes["WEIGHTS_0"], "VEC4", vertices)
+    if not ((chosen >= 0) & (chosen < len(joints))).all():
+        raise FormatError(f"a vertex names a joint that its skin, of {len(joints)} joints, does not have")
     share = share / np.maximum(share.sum(axis=1, keepdims=True), 1e-12)
-    return np.einsum("vj,vjab->vab", share, joints[chosen])
+    return np.einsum("vj,vjab->vab", share, joints[chosen.astype(int)])
 
 
-def _accessor(file: _File, index: int) -> np.ndarray:
+def _accessor(file: _File, index: int, kind: str, count: int | None = None) -> np.ndarray:
     """Values (count, width) in float64, sparse ones filled in, normalised integers divided by their range."""
-    accessor = file.gltf.accessors[index]
-    dtype, width = np.dtype(_DTYPES[accessor.componentType]), _WIDTHS[accessor.type]
+    accessor = file.item("accessors", index)
+    if accessor.type != kind or (count is not None and accessor.count != count):
+        wish = kind if count is None else f"{count} {kind}"
+        raise FormatError(f"accessor {index} has {accessor.count} {accessor.type} where {wish} are needed")
+    dtype, width = np.dtype(_DTYPES[accessor.componentType]), _WIDTHS[kind]
+    file.take("numbers", accessor.count * width, MOST_NUMBERS)
     if accessor.bufferView is None:
         values = np.zeros((accessor.count, width), dtype)
     else:
@@ -200,22 +256,23 @@ def _accessor(file: _File, index: int) -> np.ndarray:
     sparse = accessor.sparse
     if sparse is not None:
         where, what = sparse.indices, sparse.values
-        rows = _view(
-            file,
-            where.bufferView,
-            where.byteOffset,
-            np.dtype(_DTYPES[where.componentType]),
-            (sparse.count, 1),
-        )
+        kind_of_row = np.dtype(_DTYPES[where.componentType])
+        rows = _view(file, where.bufferView, where.byteOffset, kind_of_row, (sparse.count, 1))[:, 0]
+        if len(rows) and not 0 <= rows.min() <= rows.max() < accessor.count:
+            raise FormatError(f"accessor {index} replaces a row that it does not have")
         values = values.copy()
-        values[rows[:, 0]] = _view(file, what.bufferView, what.byteOffset, dtype, (sparse.count, width))
+        values[rows] = _view(file, what.bufferView, what.byteOffset, dtype, (sparse.count, width))
     if accessor.normalized and dtype.kind in "iu":
         return np.maximum(values / np.iinfo(dtype).max, -1.0)
     return values.astype(np.float64)
 
 
 def _view(file: _File, index: int, offset: int | None, dtype: np.dtype, shape: tuple[int, int]) -> np.ndarray:
-    view = file.gltf.bufferViews[index]
+    view = file.item("bufferViews", index)
+    if not isinstance(view.buffer, int) or not 0 <= view.buffer < len(file.buffers):
+        raise FormatError(
+            f"it names number {view.buffer} of its buffers, of which it has {len(file.buffers)}"
+        )
     stride = view.byteStride or shape[1] * dtype.itemsize
     return np.ndarray(
         shape,

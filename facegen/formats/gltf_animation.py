@@ -10,8 +10,6 @@ References
 """
 
 import base64
-import json
-import struct
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,9 +17,12 @@ from typing import Any
 import numpy as np
 
 from facegen.errors import FormatError
+from facegen.formats.gltf_container import BIN, MOST_BYTES, glb_bytes, open_glb, padded
 
-_MAGIC, _JSON, _BIN = b"glTF", b"JSON", b"BIN\0"
 _FLOAT = 5126
+
+_MOST_WEIGHT = 1e30
+"""Of a target at rest: more is no number in float32, in which an animation has it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -66,24 +67,26 @@ def animate_avatar(
     FormatError
         The file is no .glb file, has no morph target of these names, or no row has weights.
     """
-    document, chunks = _open(path)
+    document, chunks = open_glb(path)
     known = ~np.isnan(weights).any(axis=1)
     times = time_s[known].astype("<f4")
     if not len(times) or times[0] < 0 or not (np.diff(times) > 0).all():
         raise FormatError(f"no animation for {path}: rows with weights need times that start at 0 s and grow")
     columns = {_key(name): weights[known, column] for column, name in enumerate(names)}
     animation: dict[str, Any] = {"name": title, "channels": [], "samplers": []}
-    file = _Additions(document)
+    meshes, nodes = (_records(document, key, path) for key in ("meshes", "nodes"))
+    file = _Additions(document, path)
     clock = file.accessor(times, min=[float(times[0])], max=[float(times[-1])])
     matched: set[str] = set()
-    for index, node in enumerate(document.get("nodes", [])):
-        mesh = document["meshes"][node["mesh"]] if "mesh" in node else {}
-        keys = [_key(name) for name in _target_names(mesh)]
+    for index, node in enumerate(nodes):
+        mesh = _mesh_of(node, index, meshes, path)
+        keys = [_key(name) for name in _target_names(mesh, path)]
         moved = columns.keys() & set(keys)
         if not moved:
             continue
         matched |= moved
-        rest = node.get("weights") or mesh.get("weights") or [0.0] * len(keys)
+        rest = _at_rest(node, mesh, len(keys), index, path)
+        file.check_room(len(times) * len(keys))
         values = np.stack(
             [columns.get(key, np.full(len(times), at)) for key, at in zip(keys, rest, strict=True)], axis=1
         )
@@ -98,26 +101,36 @@ def animate_avatar(
             f"{path} has no morph target called {names[0]}, {names[1]} or like any other of the {len(names)} "
             "shapes; a retargeting to its own names may help"
         )
-    document.setdefault("animations", []).append(animation)
+    document["animations"] = [*_records(document, "animations", path), animation]
     chunks = file.stored(chunks)
     return AnimatedAvatar(
-        content=_closed(document, chunks),
+        content=glb_bytes(document, chunks, path),
         missing=tuple(name for name in names if _key(name) not in matched),
     )
 
 
 class _Additions:
-    """Accessors more, whose data wait for a buffer."""
+    """Accessors more in a document, whose data wait for a buffer."""
 
-    def __init__(self, document: dict[str, Any]) -> None:
-        self._document = document
+    def __init__(self, document: dict[str, Any], path: Path) -> None:
+        self._path = path
+        self._lists = {
+            key: list(_records(document, key, path)) for key in ("bufferViews", "accessors", "buffers")
+        }
+        document.update(self._lists)
         self._views: list[dict[str, Any]] = []
-        self._data = b""
+        self._data = bytearray()
+
+    def check_room(self, count: int) -> None:
+        """Refuse more float32 than a file takes, before they are made."""
+        if len(self._data) + 4 * count > MOST_BYTES:
+            raise FormatError(
+                f"an animation of {self._path} would take more than {MOST_BYTES:,} bytes; give the take in parts"
+            )
 
     def accessor(self, values: np.ndarray, **bounds: list[float]) -> int:
         """Index of a new accessor to scalars."""
-        views = self._document.setdefault("bufferViews", [])
-        accessors = self._document.setdefault("accessors", [])
+        views, accessors = self._lists["bufferViews"], self._lists["accessors"]
         view = {"byteOffset": len(self._data), "byteLength": values.nbytes}
         self._views.append(view)
         self._data += values.tobytes()
@@ -130,12 +143,17 @@ class _Additions:
 
     def stored(self, chunks: list[tuple[bytes, bytes]]) -> list[tuple[bytes, bytes]]:
         """The file's chunks with the data behind its binary one, or in a buffer of their own without one."""
-        buffers = self._document.setdefault("buffers", [])
+        buffers = self._lists["buffers"]
         start = 0
-        if chunks and chunks[0][0] == _BIN and buffers and "uri" not in buffers[0]:
-            buffer, old = 0, _padded(chunks[0][1][: buffers[0]["byteLength"]], b"\0")
-            start, data = len(old), old + self._data
-            chunks = [(_BIN, data), *chunks[1:]]
+        if chunks and chunks[0][0] == BIN and buffers and "uri" not in buffers[0]:
+            length = buffers[0].get("byteLength")
+            if not isinstance(length, int) or not 0 <= length <= len(chunks[0][1]):
+                raise FormatError(
+                    f"{self._path} is damaged: its buffer claims {length} of its {len(chunks[0][1])} bytes"
+                )
+            buffer, old = 0, padded(chunks[0][1][:length], b"\0")
+            start, data = len(old), old + bytes(self._data)
+            chunks = [(BIN, data), *chunks[1:]]
             buffers[0]["byteLength"] = len(data)
         else:
             buffer = len(buffers)
@@ -147,46 +165,47 @@ class _Additions:
         return chunks
 
 
-def _open(path: Path) -> tuple[dict[str, Any], list[tuple[bytes, bytes]]]:
-    """The JSON document and the chunks after it, as (kind, content)."""
-    if not path.is_file():
-        raise FormatError(f"{path} does not exist; an avatar's .glb file is needed")
-    data = path.read_bytes()
-    if data[:4] != _MAGIC or struct.unpack_from("<I", data.ljust(8, b"\0"), 4)[0] != 2:
-        raise FormatError(f"{path} is not a binary glTF 2.0 file (.glb or .vrm)")
-    chunks, place = [], 12
-    try:
-        while place < len(data):
-            length, kind = struct.unpack_from("<I4s", data, place)
-            if place + 8 + length > len(data):
-                raise FormatError(f"{path} is cut off: a chunk of {length} bytes begins at {place}")
-            chunks.append((kind, data[place + 8 : place + 8 + length]))
-            place += 8 + length
-        document = json.loads(chunks[0][1])
-    except (struct.error, IndexError, ValueError) as error:
-        raise FormatError(f"{path} is damaged: {error}") from error
-    if chunks[0][0] != _JSON or not isinstance(document, dict):
-        raise FormatError(f"{path} is damaged: its first chunk is not a glTF document")
-    return document, chunks[1:]
+def _records(record: dict[str, Any], key: str, path: Path) -> list[dict[str, Any]]:
+    """A list of records under a key; none where it is absent or null."""
+    found = record.get(key) or []
+    if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
+        raise FormatError(f"{path} is damaged: its {key} are no list of records")
+    return found
 
 
-def _closed(document: dict[str, Any], chunks: list[tuple[bytes, bytes]]) -> bytes:
-    text = json.dumps(document, separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode()
-    padded = [(_JSON, _padded(text, b" ")), *((kind, _padded(content, b"\0")) for kind, content in chunks)]
-    body = b"".join(struct.pack("<I4s", len(content), kind) + content for kind, content in padded)
-    return _MAGIC + struct.pack("<II", 2, 12 + len(body)) + body
+def _mesh_of(node: dict[str, Any], number: int, meshes: list[dict[str, Any]], path: Path) -> dict[str, Any]:
+    """A node's mesh; an empty one where it has none."""
+    index = node.get("mesh")
+    if index is None:
+        return {}
+    if not isinstance(index, int) or not 0 <= index < len(meshes):
+        raise FormatError(f"{path} is damaged: node {number} has mesh {index}, and there are {len(meshes)}")
+    return meshes[index]
 
 
-def _padded(content: bytes, filler: bytes) -> bytes:
-    return content + filler * (-len(content) % 4)
+def _at_rest(
+    node: dict[str, Any], mesh: dict[str, Any], targets: int, number: int, path: Path
+) -> list[float]:
+    """Weights of a node's morph targets as the file has them."""
+    rest = node.get("weights") or mesh.get("weights") or [0.0] * targets
+    known = isinstance(rest, list) and all(
+        isinstance(one, int | float) and abs(one) < _MOST_WEIGHT for one in rest
+    )
+    if not known or len(rest) != targets:
+        raise FormatError(
+            f"{path} is damaged: node {number} has {targets} morph targets, and no {targets} numbers for their weights"
+        )
+    return rest
 
 
-def _target_names(mesh: dict[str, Any]) -> list[str]:
+def _target_names(mesh: dict[str, Any], path: Path) -> list[str]:
     """Names of a mesh's morph targets; some exporters keep them with the first primitive."""
-    first = (mesh.get("primitives") or [{}])[0]
+    first = next(iter(_records(mesh, "primitives", path)), {})
+    targets = first.get("targets")
     for place in (mesh, first):
-        names = (place.get("extras") or {}).get("targetNames")
-        if names and len(names) == len(first.get("targets", [])):
+        extras = place.get("extras")
+        names = extras.get("targetNames") if isinstance(extras, dict) else None
+        if names and isinstance(names, list) and isinstance(targets, list) and len(names) == len(targets):
             return list(map(str, names))
     return []
 

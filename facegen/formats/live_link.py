@@ -4,9 +4,9 @@ The header's second column is ``BlendShapeCount`` or ``BlendshapeCount``; JawRig
 their left partners, which is why columns are never read by number.
 """
 
-import csv
 import os
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import FormatError
+from facegen.formats.csv_rows import CsvRows, numbers_in
 
 TIMECODE_RATE = 60
 """The app counts 60 timecode frames a second, also where it writes 30 rows a second (seen in two takes)."""
@@ -33,7 +34,7 @@ ROTATIONS: tuple[str, ...] = tuple(
 )
 """The last nine columns: angles of head and eyes."""
 
-_TIMECODE = re.compile(r"(\d+):(\d+):(\d+):(\d+(?:\.\d+)?)")
+_TIMECODE = re.compile(r"(\d{1,9}):(\d{1,9}):(\d{1,9}):(\d{1,9}(?:\.\d{1,20})?)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,32 +72,25 @@ def read_live_link(path: str | os.PathLike[str], *, fps: float | None = None) ->
         Where a blendshape's column is missing, a row is too short or a cell is no number.
     """
     path = Path(path)
-    with open(path, encoding="utf-8-sig", newline="") as file:
-        try:
-            header, *rows = [row for row in csv.reader(file) if row] or [[]]
-        except (UnicodeDecodeError, csv.Error) as error:
-            raise FormatError(f"{path} is not a CSV file: {error}") from error
-    columns = {name.strip().lower(): column for column, name in enumerate(header)}
-    missing = [name for name in BLENDSHAPES if name.lower() not in columns]
-    if missing or "timecode" not in columns:
-        lacking = missing[0] if missing else "Timecode"
-        raise FormatError(
-            f"{path} is not a Live Link Face recording: column {lacking} is missing"
-            + (f" and {len(missing) - 1} more" if len(missing) > 1 else "")
-        )
-    if not rows:
-        raise FormatError(f"{path} has a header and no rows")
-    for number, row in enumerate(rows, start=2):
-        if len(row) < len(header):
-            raise FormatError(f"{path}: row {number} has {len(row)} cells; the header names {len(header)}")
-    picked = [columns[name.lower()] for name in BLENDSHAPES]
-    try:
-        weights = np.array([[float(row[column].strip() or "nan") for column in picked] for row in rows])
-    except ValueError as error:
-        raise FormatError(f"{path}: a weight is not a number ({error})") from error
-    timecodes = tuple(row[columns["timecode"]].strip() for row in rows)
-    time_s = _timecode_seconds(timecodes, path) if fps is None else np.arange(len(rows)) / fps
-    return LiveLinkTake(weights=weights, timecodes=timecodes, time_s=time_s)
+    with CsvRows(path) as table:
+        columns = {name.lower(): column for name, column in table.columns.items()}
+        missing = [name for name in BLENDSHAPES if name.lower() not in columns]
+        if missing or "timecode" not in columns:
+            lacking = missing[0] if missing else "Timecode"
+            raise FormatError(
+                f"{path} is not a Live Link Face recording: column {lacking} is missing"
+                + (f" and {len(missing) - 1} more" if len(missing) > 1 else "")
+            )
+        picked = [columns[name.lower()] for name in BLENDSHAPES]
+        weights, timecodes = [], []
+        for row in table:
+            try:
+                weights.append(numbers_in(row, picked))
+            except ValueError as error:
+                raise FormatError(f"{path}: a weight is not a number ({error})") from error
+            timecodes.append(row[columns["timecode"]].strip())
+    time_s = _timecode_seconds(timecodes, path) if fps is None else np.arange(len(weights)) / fps
+    return LiveLinkTake(weights=np.array(weights), timecodes=tuple(timecodes), time_s=time_s)
 
 
 def live_link_csv(weights: np.ndarray, time_s: np.ndarray, *, rotations: np.ndarray | None = None) -> str:
@@ -131,7 +125,7 @@ def _timecode(time_s: float) -> str:
     return f"{hours % 24:02d}:{minute:02d}:{second:02d}:{frame:02d}.{thousandths:03d}"
 
 
-def _timecode_seconds(timecodes: tuple[str, ...], path: Path) -> np.ndarray:
+def _timecode_seconds(timecodes: Sequence[str], path: Path) -> np.ndarray:
     seconds = np.empty(len(timecodes))
     for row, timecode in enumerate(timecodes):
         match = _TIMECODE.fullmatch(timecode)

@@ -1,6 +1,5 @@
 """Reads blendshape weights over time: Live Link Face recordings, or any CSV with the 52 ARKit columns."""
 
-import csv
 import os
 from pathlib import Path
 
@@ -8,6 +7,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import FormatError
+from facegen.formats.csv_rows import CsvRows, numbers_in
 from facegen.formats.live_link import read_live_link
 
 DEFAULT_FPS = 30.0
@@ -40,35 +40,23 @@ def read_weight_table(
         Where the file cannot be read, a blendshape's column is missing, there are no rows, or a cell is no number.
     """
     path = Path(path)
-    try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            header, *rows = [row for row in csv.reader(file) if row] or [[]]
-    except FileNotFoundError:
-        raise FormatError(
-            f"{path}: there is no such file; a CSV with the 52 ARKit columns is needed"
-        ) from None
-    except OSError as error:
-        raise FormatError(f"{path}: cannot be read ({error.strerror or error})") from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise FormatError(f"{path} is not a CSV file: {error}") from error
-    columns = {name.strip().lower(): column for column, name in enumerate(header)}
-    if "timecode" in columns:
-        take = read_live_link(path, fps=fps)
-        return take.weights, take.time_s
-    missing = [name for name in BLENDSHAPES if name.lower() not in columns]
-    if missing:
-        raise FormatError(
-            f"{path}: column {missing[0]} is missing ({len(missing)} of the 52 ARKit columns are)"
-        )
-    if not rows:
-        raise FormatError(f"{path} has a header and no rows")
-    names = [*BLENDSHAPES, *(["time_s"] if "time_s" in columns else [])]
-    picked = [columns[name.lower()] for name in names]
-    try:
-        values = np.array([[float(row[column].strip() or "nan") for column in picked] for row in rows])
-    except (ValueError, IndexError) as error:
-        raise FormatError(f"{path}: a cell is missing or no number ({error})") from error
+    with CsvRows(path) as table:
+        columns = {name.lower(): column for name, column in table.columns.items()}
+        if "timecode" in columns:
+            take = read_live_link(path, fps=fps)
+            return take.weights, take.time_s
+        missing = [name for name in BLENDSHAPES if name.lower() not in columns]
+        if missing:
+            raise FormatError(
+                f"{path}: column {missing[0]} is missing ({len(missing)} of the 52 ARKit columns are)"
+            )
+        names = [*BLENDSHAPES, *(["time_s"] if "time_s" in columns else [])]
+        picked = [columns[name.lower()] for name in names]
+        try:
+            values = np.array([numbers_in(row, picked) for row in table])
+        except ValueError as error:
+            raise FormatError(f"{path}: a cell is no number ({error})") from error
     weights = values[:, : len(BLENDSHAPES)]
     if fps is None and "time_s" in columns:
         return weights, values[:, -1] - values[0, -1]
-    return weights, np.arange(len(rows)) / (fps or DEFAULT_FPS)
+    return weights, np.arange(len(values)) / (fps or DEFAULT_FPS)

@@ -3,15 +3,15 @@
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from facegen.documents import load_json
 from facegen.errors import InputError
 from facegen.refusals import refusal
 
 Vertex = Annotated[int, Field(ge=0)]
-Position = tuple[float, float, float]
-Point = Vertex | Annotated[list[tuple[Vertex, float]], Field(min_length=1)] | Position
+Position = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
+Point = Vertex | Annotated[list[tuple[Vertex, FiniteFloat]], Field(min_length=1)] | Position
 """A vertex of the head's mesh, weighted vertices ``[[vertex, weight], ...]``, or the vertex nearest a position."""
 PartName = Literal["teeth", "gums", "tongue", "lashes", "mouth_cavity", "eye_cavity"]
 
@@ -24,7 +24,7 @@ class Ball(_Model):
     """An eyeball given by its ``center`` and ``radius``, in the file's frame and unit."""
 
     center: Position
-    radius: Annotated[float, Field(gt=0)]
+    radius: Annotated[FiniteFloat, Field(gt=0)]
 
 
 class EyeMarks(_Model):
@@ -77,7 +77,7 @@ class HeadMarkup(_Model):
     head: str | None = None
     lids: LidMarks | None = None
     parts: dict[PartName, list[str]] = Field(default_factory=dict)
-    metres_per_unit: Annotated[float, Field(gt=0)] = 1.0
+    metres_per_unit: Annotated[FiniteFloat, Field(gt=0)] = 1.0
     licence: str = "not stated"
     source: str = "not stated"
 

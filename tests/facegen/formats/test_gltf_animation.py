@@ -1,17 +1,22 @@
 """Animations added to an avatar, read again by pygltflib and by Blender."""
 
 import base64
+import contextlib
 import json
+import re
 import struct
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from pygltflib import GLTF2
 
 from facegen.conventions import BLENDSHAPES
-from facegen.errors import FormatError
+from facegen.errors import FormatError, InputError
 from facegen.formats.gltf_animation import animate_avatar
+from tests.facegen.formats.test_gltf import VALUES, changed, places_of
 
 HEAD = ["jawOpen", "EyeBlink_L", "eyeblinkright", "Brow_Down_Left", "myFang"]
 TEETH = ["JAWOPEN"]
@@ -174,6 +179,77 @@ def test_what_cannot_be_animated_is_refused(tmp_path: Path, weights: np.ndarray)
     for said, (path, values, times) in cases.items():
         with pytest.raises(FormatError, match=said):
             animate_avatar(path, BLENDSHAPES, values, times, title="take")
+
+
+def _rewritten(path: Path, document: dict) -> Path:
+    """The avatar with another document and its binary chunk."""
+    content = path.read_bytes()
+    rest = content[20 + struct.unpack_from("<I", content, 12)[0] :]
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    body = struct.pack("<I4s", len(text), b"JSON") + text + rest
+    path.write_bytes(b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body)
+    return path
+
+
+MISFITS = {
+    "a mesh that is not there": ("nodes.0.mesh", 99, "node 0 has mesh 99, and there are 4"),
+    "a mesh from the end": ("nodes.0.mesh", -1, "node 0 has mesh -1"),
+    "a mesh by name": ("nodes.0.mesh", "face", "node 0 has mesh face"),
+    "too few weights": ("meshes.0.weights", [0.5], "no 5 numbers for their weights"),
+    "weights of words": ("nodes.0.weights", ["a"] * 5, "no 5 numbers for their weights"),
+    "weights without bound": ("nodes.0.weights", [10**400] * 5, "no 5 numbers for their weights"),
+    "weights that are none": ("nodes.0.weights", [float("nan")] * 5, "no 5 numbers for their weights"),
+    "nodes that are none": ("nodes", [1], "nodes are no list of records"),
+    "meshes that are none": ("meshes", 5, "meshes are no list of records"),
+    "views that are none": ("bufferViews", {}, None),
+    "accessors that are none": ("accessors", [[]], "accessors are no list of records"),
+    "animations that are none": ("animations", "walk", "animations are no list of records"),
+    "a buffer beyond its chunk": ("buffers.0.byteLength", 10**9, "its buffer claims 1000000000"),
+    "a buffer of less than nothing": ("buffers.0.byteLength", -4, "its buffer claims -4"),
+    "NaN elsewhere": ("materials.0.unknownKey", float("nan"), "infinite or NaN"),
+    "half a character": ("materials.0.name", "\ud800", None),
+    "names of numbers": ("meshes.0.extras.targetNames", [1, 2, 3, 4, 5], None),
+    "no names": ("meshes.0.extras", [], None),
+}
+
+
+@pytest.mark.parametrize("name", MISFITS)
+def test_records_that_do_not_fit_are_named(name: str, tmp_path: Path, weights: np.ndarray):
+    place, value, said = MISFITS[name]
+    path = avatar(tmp_path / "a.glb")
+    _rewritten(path, changed(_document(path.read_bytes()), place, value))
+    if said is None:
+        assert _document(animate_avatar(path, BLENDSHAPES, weights, TIMES, title="take").content)
+        return
+    with pytest.raises(FormatError, match=re.escape(said)) as caught:
+        animate_avatar(path, BLENDSHAPES, weights, TIMES, title="take")
+    assert "a.glb" in str(caught.value)
+
+
+@given(data=st.data())
+def test_no_value_of_any_record_is_a_traceback(data: st.DataObject, tmp_path_factory: pytest.TempPathFactory):
+    path = avatar(tmp_path_factory.mktemp("avatar") / "a.glb")
+    document = _document(path.read_bytes())
+    for _ in range(data.draw(st.integers(1, 2))):
+        document = changed(
+            document, data.draw(st.sampled_from(places_of(document))), data.draw(st.sampled_from(VALUES))
+        )
+    _rewritten(path, document)
+    still = np.zeros((len(TIMES), len(BLENDSHAPES)))
+    with contextlib.suppress(InputError):
+        assert _document(animate_avatar(path, BLENDSHAPES, still, TIMES, title="\udcff").content)
+
+
+def test_many_nodes_of_one_mesh_do_not_make_gigabytes(
+    tmp_path: Path, weights: np.ndarray, monkeypatch: pytest.MonkeyPatch
+):
+    path = avatar(tmp_path / "a.glb")
+    document = _document(path.read_bytes())
+    _rewritten(path, changed(document, "nodes", [{"mesh": 0}] * 1000))
+    monkeypatch.setattr("facegen.formats.gltf_animation.MOST_BYTES", 50_000)
+    with pytest.raises(FormatError, match="more than 50,000 bytes; give the take in parts"):
+        animate_avatar(path, BLENDSHAPES, weights, TIMES, title="take")
 
 
 @pytest.mark.blender

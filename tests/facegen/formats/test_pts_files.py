@@ -50,5 +50,5 @@ def test_what_is_no_pts_file_is_refused(tmp_path: Path, text: str, said: str):
 def test_binary_is_refused(tmp_path: Path):
     path = tmp_path / "bad.pts"
     path.write_bytes(b"\xff\xfe\x00\x81")
-    with pytest.raises(FormatError, match="not text"):
+    with pytest.raises(FormatError, match="not UTF-8 text"):
         read_pts(path)
