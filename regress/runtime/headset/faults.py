@@ -38,6 +38,7 @@ class Fault(Enum):
 
     MISSING = "no picture"
     UNREADABLE = "a file that is no picture"
+    LARGE = "a file or picture that is too large"
     SHAPE = "a picture of another shape"
     BLACK = "a black picture"
     FLAT = "a picture of one grey"

@@ -9,7 +9,7 @@ import numpy as np
 from regress.errors import InputError
 from regress.runtime.calm import calm_frames
 from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.recordings import PICTURES, read_picture
+from regress.runtime.headset.pictures import PICTURES, read_picture
 
 _AGREEMENT = 0.15
 """Mean difference of weights, over the shapes that move, by which early and late calm frames may differ."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.parts import is_symmetric, mirror_partner
-from regress.runtime.headset.recordings import ASPECT
+from regress.runtime.headset.pictures import ASPECT
 from regress.runtime.headset.typical import typical_picture
 
 _ALIKE, _MARGIN = 0.5, 0.1

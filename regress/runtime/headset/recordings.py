@@ -1,22 +1,30 @@
 """One camera's pictures from a folder, a film or a dataset's renders, at the size that a network takes."""
 
+import os
 import re
+import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
+from itertools import count
 from pathlib import Path
 
 import cv2
 import numpy as np
 
+from facegen.documents import unreadable
+from facegen.formats.picture_size import MOST_PIXELS
 from regress.errors import InputError
-from regress.runtime.headset.faults import Fault, picture_fault
+from regress.runtime.headset.faults import Fault
+from regress.runtime.headset.pictures import PICTURES, FittedPicture, fit_picture, read_picture
 
-PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
 FILMS = (".mp4", ".avi", ".mkv", ".mov", ".webm", ".m4v")
 
-ASPECT = 0.02
-"""Relative difference of aspect ratios up to which a picture is only scaled: 400 x 400 for 96 x 96, not 640 x 400."""
+MOST_FRAMES = 500_000
+"""Of one camera's recording, which is held in memory: 92 minutes at 90 a second, 4.6 GB at 96 x 96."""
+
+_MOST_NUMBER = 2**62
+"""A frame's number is less: nanoseconds since 1970 are, and differences of numbers still fit 64 bits."""
 
 _NUMBER = re.compile(r"(.*?)(\d+)\D*", re.DOTALL)
 """What stands before the last number of a file's name, and that number, before its ending."""
@@ -71,25 +79,32 @@ def read_recording(path: Path, camera: str, *, width: int, height: int, bits: in
     Raises
     ------
     InputError
-        Where the path is missing, is no folder or film, or holds no pictures; see ``read_picture``.
+        Where the path is missing, is no folder or film, holds no pictures or too many; see ``read_picture``.
     """
-    if path.is_dir():
-        files = [file for file in path.iterdir() if file.suffix.lower() in PICTURES]
+    try:
+        kind = path.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        raise InputError(
+            f"{path} does not exist; a folder of {camera}'s pictures or a film of them is needed"
+        ) from None
+    except OSError as error:
+        raise unreadable(path, error) from None
+    if stat.S_ISDIR(kind):
+        files = _pictures_in(path)
         if not files:
             raise InputError(f"{path} has no pictures of {camera}; {', '.join(PICTURES)} can be read")
+        _check_count(len(files), path)
         numbers, files = _in_order(files)
         fitted = [read_picture(file, width=width, height=height, bits=bits) for file in files]
         return _recording(camera, path, numbers, fitted)
-    if not path.exists():
-        raise InputError(
-            f"{path} does not exist; a folder of {camera}'s pictures or a film of them is needed"
-        )
-    if path.suffix.lower() not in FILMS:
+    if not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS:
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
-    film = cv2.VideoCapture(str(path))
+    film = cv2.VideoCapture(os.fspath(path))
     try:
         fps = film.get(cv2.CAP_PROP_FPS)
-        fitted = [fit_picture(frame, width=width, height=height) for frame in _film_frames(film)]
+        fitted = [fit_picture(frame, width=width, height=height) for frame in _film_frames(film, path)]
+    except cv2.error as error:
+        raise InputError(f"{path} cannot be read as a film ({error.err})") from error
     finally:
         film.release()
     if not fitted:
@@ -105,88 +120,16 @@ def read_rendered(dataset: Path, camera: str, *, width: int, height: int) -> Rec
     InputError
         Where the dataset has no such pictures.
     """
-    files = {int(file.parent.name): file for file in dataset.glob(f"renders/*/*/{camera}.png")}
+    files = {
+        int(file.parent.name): file
+        for file in dataset.glob(f"renders/*/*/{camera}.png")
+        if file.parent.name.isdecimal() and int(file.parent.name) < _MOST_NUMBER
+    }
     if not files:
         raise InputError(f"{dataset} has no rendered pictures of {camera} (renders/000/000000/{camera}.png)")
+    _check_count(len(files), dataset)
     fitted = [read_picture(files[number], width=width, height=height) for number in sorted(files)]
     return _recording(camera, dataset, sorted(files), fitted)
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class FittedPicture:
-    """A picture at the network's size.
-
-    Parameters
-    ----------
-    picture : (h, w) uint8
-        0 where it is at fault.
-    fault
-        What is wrong with it.
-    scaled_from
-        Its own width and height, where it was scaled.
-    """
-
-    picture: np.ndarray
-    fault: Fault | None
-    scaled_from: tuple[int, int] | None
-
-
-def read_picture(path: Path, *, width: int, height: int, bits: int | None = None) -> FittedPicture:
-    """Read a picture in grey and bring it to a size; a file that is no picture is a fault of it.
-
-    Parameters
-    ----------
-    bits
-        How many of its 16 bits the camera uses, where the picture has so many: files do not say.
-
-    Raises
-    ------
-    InputError
-        Where a picture has 16 bits and ``bits`` is not given, or a level that they do not hold; where it has numbers of
-        another kind.
-    """
-    try:
-        data = np.frombuffer(path.read_bytes(), dtype=np.uint8)
-        grey = cv2.imdecode(data, cv2.IMREAD_GRAYSCALE | cv2.IMREAD_ANYDEPTH) if len(data) else None
-    except (OSError, cv2.error):
-        grey = None
-    if grey is not None and grey.dtype != np.uint8:
-        grey = _eight_bits(grey, path, bits)
-    return fit_picture(grey, width=width, height=height)
-
-
-def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
-    if grey.dtype != np.uint16:
-        raise InputError(f"{path} has pixels of type {grey.dtype}; pictures of 8 or 16 bits can be read")
-    if bits is None:
-        raise InputError(
-            f"{path} has 16 bits a pixel, and the brightest is {grey.max()}; --bits says how many of them the camera "
-            f"uses (10 for levels to 1023)"
-        )
-    if grey.max() >= 1 << bits:
-        raise InputError(
-            f"{path} has the level {grey.max()}, and --bits {bits} holds levels to {(1 << bits) - 1}; give more, or 16 "
-            f"where the camera's bits are the upper ones"
-        )
-    return (grey >> (bits - 8)).astype(np.uint8)
-
-
-def fit_picture(grey: np.ndarray | None, *, width: int, height: int) -> FittedPicture:
-    """Bring a grey picture, or None for an unreadable one, to a size, if only the size differs."""
-    scaled_from, fault = None, None
-    if grey is None:
-        fault = Fault.UNREADABLE
-    elif grey.shape != (height, width):
-        scaled_from = grey.shape[1], grey.shape[0]
-        if abs(scaled_from[0] * height / (scaled_from[1] * width) - 1) > ASPECT:
-            fault = Fault.SHAPE
-        else:
-            grey = cv2.resize(grey, (width, height), interpolation=cv2.INTER_AREA)
-    fault = fault or picture_fault(grey)
-    picture = np.zeros((height, width), dtype=np.uint8) if fault else grey
-    return FittedPicture(
-        picture=picture, fault=fault, scaled_from=None if fault is Fault.SHAPE else scaled_from
-    )
 
 
 def _in_order(files: list[Path]) -> tuple[list[int], list[Path]]:
@@ -199,7 +142,7 @@ def _in_order(files: list[Path]) -> tuple[list[int], list[Path]]:
     clock = all(_CLOCK.fullmatch(file.stem) for file in files)
     if not clock and all(found) and len({match[1] for match in found}) == 1:
         numbers = [int(match[2]) for match in found]
-        if len(set(numbers)) == len(files):
+        if len(set(numbers)) == len(files) and max(numbers) < _MOST_NUMBER:
             pairs = sorted(zip(numbers, files, strict=True))
             return [number for number, _ in pairs], [file for _, file in pairs]
     if all(_DECIMAL.fullmatch(file.stem) for file in files):
@@ -212,11 +155,29 @@ def _natural(name: str) -> list[str | int]:
     return [int(part) if part.isdecimal() else part for part in re.split(r"(\d+)", name)]
 
 
-def _film_frames(film: cv2.VideoCapture) -> Iterator[np.ndarray]:
-    while True:
+def _pictures_in(folder: Path) -> list[Path]:
+    try:
+        return [file for file in folder.iterdir() if file.suffix.lower() in PICTURES]
+    except OSError as error:
+        raise unreadable(folder, error) from None
+
+
+def _check_count(frames: int, path: Path) -> None:
+    if frames > MOST_FRAMES:
+        raise InputError(f"{path} has more than {MOST_FRAMES:,} frames of a camera; give it in parts")
+
+
+def _film_frames(film: cv2.VideoCapture, path: Path) -> Iterator[np.ndarray]:
+    width, height = (film.get(side) for side in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT))
+    if width * height > MOST_PIXELS:
+        raise InputError(
+            f"{path} has frames of {width:g} x {height:g} pixels; at most {MOST_PIXELS:,} are read"
+        )
+    for number in count(1):
         there, frame = film.read()
         if not there:
             return
+        _check_count(number, path)
         yield cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY) if frame.ndim == 3 else frame
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from regress.runtime.headset.faults import Fault, FrozenWatch
-from regress.runtime.headset.recordings import fit_picture
+from regress.runtime.headset.pictures import fit_picture
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 

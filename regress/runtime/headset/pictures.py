@@ -1,0 +1,115 @@
+"""Reads one picture in grey and brings it to the size that a network takes."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from facegen.documents import read_bytes
+from facegen.formats import FormatError
+from facegen.formats.picture_size import MOST_PIXELS, picture_size
+from regress.errors import InputError
+from regress.runtime.headset.faults import Fault, picture_fault
+
+PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
+
+ASPECT = 0.02
+"""Relative difference of aspect ratios up to which a picture is only scaled: 400 x 400 for 96 x 96, not 640 x 400."""
+
+MOST_PICTURE_BYTES = 256 * 1024**2
+"""Of a picture's file: the most pixels that are read, with 16 bits and two channels, not compressed."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FittedPicture:
+    """A picture at the network's size.
+
+    Parameters
+    ----------
+    picture : (h, w) uint8
+        0 where it is at fault.
+    fault
+        What is wrong with it.
+    scaled_from
+        Its own width and height, where it was scaled.
+    """
+
+    picture: np.ndarray
+    fault: Fault | None
+    scaled_from: tuple[int, int] | None
+
+
+def read_picture(path: Path, *, width: int, height: int, bits: int | None = None) -> FittedPicture:
+    """Read a picture in grey and bring it to a size; a file that is no picture is a fault of it.
+
+    Parameters
+    ----------
+    bits
+        How many of its 16 bits the camera uses, where the picture has so many: files do not say.
+
+    Raises
+    ------
+    InputError
+        Where a picture has 16 bits and ``bits`` is not given, or a level that they do not hold; where it has numbers of
+        another kind.
+    """
+    grey = _decoded(path)
+    if isinstance(grey, Fault):
+        return FittedPicture(picture=np.zeros((height, width), dtype=np.uint8), fault=grey, scaled_from=None)
+    if grey.dtype != np.uint8:
+        grey = _eight_bits(grey, path, bits)
+    return fit_picture(grey, width=width, height=height)
+
+
+def _decoded(path: Path) -> np.ndarray | Fault:
+    """Grey levels (h, w) of a picture's file, or what is wrong with it."""
+    try:
+        if not path.is_file():  # a pipe would never end
+            return Fault.UNREADABLE
+        content = read_bytes(path, most_bytes=MOST_PICTURE_BYTES)
+    except FormatError:
+        return Fault.LARGE
+    except (OSError, InputError):
+        return Fault.UNREADABLE
+    size = picture_size(content)
+    if size is not None and size[0] * size[1] > MOST_PIXELS:
+        return Fault.LARGE
+    try:
+        data = np.frombuffer(content, dtype=np.uint8)
+        grey = None if size is None else cv2.imdecode(data, cv2.IMREAD_GRAYSCALE | cv2.IMREAD_ANYDEPTH)
+    except cv2.error:
+        grey = None
+    return Fault.UNREADABLE if grey is None else grey
+
+
+def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
+    if grey.dtype != np.uint16:
+        raise InputError(f"{path} has pixels of type {grey.dtype}; pictures of 8 or 16 bits can be read")
+    if bits is None:
+        raise InputError(
+            f"{path} has 16 bits a pixel, and the brightest is {grey.max()}; --bits says how many of them the camera "
+            f"uses (10 for levels to 1023)"
+        )
+    if grey.max() >= 1 << bits:
+        raise InputError(
+            f"{path} has the level {grey.max()}, and --bits {bits} holds levels to {(1 << bits) - 1}; give more, or 16 "
+            f"where the camera's bits are the upper ones"
+        )
+    return (grey >> (bits - 8)).astype(np.uint8)
+
+
+def fit_picture(grey: np.ndarray, *, width: int, height: int) -> FittedPicture:
+    """Bring a grey picture to a size, if only the size differs."""
+    scaled_from, fault = None, None
+    if grey.shape != (height, width):
+        scaled_from = grey.shape[1], grey.shape[0]
+        if abs(scaled_from[0] * height / (scaled_from[1] * width) - 1) > ASPECT:
+            fault = Fault.SHAPE
+        else:
+            grey = cv2.resize(grey, (width, height), interpolation=cv2.INTER_AREA)
+    fault = fault or picture_fault(grey)
+    picture = np.zeros((height, width), dtype=np.uint8) if fault else grey
+    return FittedPicture(
+        picture=picture, fault=fault, scaled_from=None if fault is Fault.SHAPE else scaled_from
+    )
