@@ -1,6 +1,5 @@
 """``regress edges``: make the reference shape's file from 68 points of a face."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,13 +13,18 @@ if TYPE_CHECKING:
     import numpy as np
 
 
+_MOST_BYTES = 1024**2
+"""Of 68 points, which take 10,000 as text."""
+
+
 def edges(
     points: Annotated[Path, typer.Argument(help="68 points in 3D, head frame, metres: .npy or .json.")],
     out: Annotated[Path, typer.Option("--out", help="File to write.")],
     name: Annotated[str, typer.Option("--name", help="Whose face it is.")] = "anny mean face",
     source: Annotated[str, typer.Option("--source", help="How the points were made.")] = "",
     tilt_deg: Annotated[
-        float | None, typer.Option("--tilt-deg", help="Tilt about x before projection; 1.5 if not given.")
+        float | None,
+        typer.Option("--tilt-deg", min=-90, max=90, help="Tilt about x before projection; 1.5 if not given."),
     ] = None,
 ) -> None:
     """Triangulate a reference face; the package ships the result and copies it into each model.
@@ -38,11 +42,14 @@ def edges(
 def _read(path: Path) -> "np.ndarray":
     import numpy as np
 
+    from facegen.archives import load_npy
+    from facegen.documents import load_json
+
+    if path.suffix not in (".npy", ".json"):
+        raise InputError(f"{path} is neither .npy nor .json")
+    read = load_npy if path.suffix == ".npy" else load_json
+    points = read(path, most_bytes=_MOST_BYTES)
     try:
-        if path.suffix == ".npy":
-            return np.load(path, allow_pickle=False)
-        if path.suffix == ".json":
-            return np.array(json.loads(path.read_text(encoding="utf-8")), dtype=np.float64)
-    except (OSError, ValueError, TypeError) as error:
-        raise InputError(f"{path} cannot be read: {error}") from error
-    raise InputError(f"{path} is neither .npy nor .json")
+        return np.asarray(points).astype(np.float64, casting="same_kind")
+    except (ValueError, TypeError, OverflowError) as error:
+        raise InputError(f"{path} holds something else than numbers ({error})") from error

@@ -91,7 +91,8 @@ def predict(
     cutoff_hz: OneEuroOption = None,
     beta: BetaOption = OneEuro.beta,
     fps: Annotated[
-        float | None, typer.Option("--fps", min=1e-3, help="Frames a second; goes before a film's own.")
+        float | None,
+        typer.Option("--fps", min=1e-3, max=1e6, help="Frames a second; goes before a film's own."),
     ] = None,
     adjust: Annotated[
         Path | None,
@@ -102,7 +103,8 @@ def predict(
         ),
     ] = None,
     amplify_eyes: Annotated[
-        float, typer.Option("--amplify-eyes", min=0, help="Factor on blink, wide and squint of each eye.")
+        float,
+        typer.Option("--amplify-eyes", min=0, max=1000, help="Factor on blink, wide and squint of each eye."),
     ] = 1.0,
     left_right_blend: BlendOption = 0.0,
     mirror: MirrorOption = False,

@@ -14,7 +14,7 @@ from regress.cli.options import TableFormat
 from regress.cli.results import needs_times, write_prediction
 from regress.cli.rows import sound_rows
 from regress.errors import InputError
-from regress.runtime.inputs import Frames, read_frames, read_lines
+from regress.runtime.inputs import Frames, read_frames, read_lines, text_lines
 from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.ready_made import LANDMARKS
@@ -71,16 +71,11 @@ def predict_pipe(model: Model, neutral: str, output: Output, *, fps: float | Non
     """Predict lines of standard input, each as it comes, and write rows to standard output."""
     if neutral not in ("auto", "none"):
         model = model.calibrate(_neutral_file(neutral, "standard input").points)
-    samples = read_lines(sys.stdin, fps=fps)
+    samples = read_lines(text_lines(sys.stdin), fps=fps)
     answers = predict_stream(samples, model, output, auto=neutral == "auto", say=say)
-    try:
-        for line in csv_lines(_told(answers, strict=strict), output.names):
-            sys.stdout.write(line)
-            sys.stdout.flush()  # the reader wants each frame as it comes
-    except UnicodeDecodeError as error:
-        raise InputError(
-            f"standard input is not text ({error}); lines of 136 numbers are needed, and files are read by name"
-        ) from error
+    for line in csv_lines(_told(answers, strict=strict), output.names):
+        sys.stdout.write(line)
+        sys.stdout.flush()  # the reader wants each frame as it comes
 
 
 def _told(answers: Iterable[Sample], *, strict: bool) -> Iterator[Sample]:

@@ -47,15 +47,19 @@ TrustOption = Annotated[
     typer.Option("--confidence", help="CSV to write with the trust in each ARKit weight, 0 to 1."),
 ]
 
-SmoothOption = Annotated[int, typer.Option("--smooth", min=1, help="Frames of a moving average over time.")]
+SmoothOption = Annotated[
+    int, typer.Option("--smooth", min=1, max=10_000, help="Frames of a moving average over time.")
+]
 
 OneEuroOption = Annotated[
     float | None,
-    typer.Option("--one-euro", min=1e-3, help="One-Euro smoothing with this cutoff in Hz at rest; try 1."),
+    typer.Option(
+        "--one-euro", min=1e-3, max=1e6, help="One-Euro smoothing with this cutoff in Hz at rest; try 1."
+    ),
 ]
 
 BetaOption = Annotated[
-    float, typer.Option("--beta", min=0, help="One-Euro: Hz more for each unit of weight a second.")
+    float, typer.Option("--beta", min=0, max=1e6, help="One-Euro: Hz more for each unit of weight a second.")
 ]
 
 BlendOption = Annotated[

@@ -55,6 +55,7 @@ def predict(
             "--smooth-landmarks",
             metavar="HZ",
             min=1e-3,
+            max=1e6,
             help="One-Euro smoothing of the landmarks themselves, with this cutoff at rest; try 1.",
         ),
     ] = None,
@@ -62,7 +63,8 @@ def predict(
     cutoff_hz: OneEuroOption = None,
     beta: BetaOption = OneEuro.beta,
     fps: Annotated[
-        float | None, typer.Option("--fps", min=1e-3, help="Frames a second; goes before times in INPUT.")
+        float | None,
+        typer.Option("--fps", min=1e-3, max=1e6, help="Frames a second; goes before times in INPUT."),
     ] = None,
     adjust: Annotated[
         Path | None,

@@ -3,7 +3,7 @@
 import json
 
 import numpy as np
-from scipy.spatial import Delaunay
+from scipy.spatial import Delaunay, QhullError
 
 from facegen.conventions import LANDMARK_COUNT, MIRRORED_LANDMARKS
 from regress.errors import InputError
@@ -12,6 +12,9 @@ from regress.runtime.features.reference_shape import ReferenceShape, edges_sha25
 EDGE_COUNT = 178
 TILT_DEG = 1.5
 """Tilt about x before projection: from 0.5 to 3 degrees the hull has 23 points (178 edges), at 0 only 176."""
+
+LARGEST = 1e6
+"""Of a coordinate, in whatever unit of length: a face in nanometres does not pass, one in micrometres does."""
 
 
 def delaunay_edges(points: np.ndarray) -> np.ndarray:
@@ -46,15 +49,23 @@ def make_reference_shape(
     Raises
     ------
     InputError
-        Where the points are not 68 in 3D, or do not give 178 edges of which one has no mirror partner.
+        Where the points are not 68 in 3D, are on one line or too far out, or do not give 178 edges of which one has
+        no mirror partner.
     """
     points = np.asarray(points, dtype=np.float64)
-    if points.shape != (LANDMARK_COUNT, 3) or not np.isfinite(points).all():
-        raise InputError(f"the reference shape needs finite points of shape (68, 3), found {points.shape}")
+    if points.shape != (LANDMARK_COUNT, 3) or not (np.abs(points) <= LARGEST).all():
+        raise InputError(
+            f"the reference shape needs points of shape (68, 3), none beyond {LARGEST:g}, found {points.shape}"
+        )
     points = (points + points[list(MIRRORED_LANDMARKS)] * [-1, 1, 1]) / 2
     tilt = np.deg2rad(tilt_deg)
     projected = np.stack([points[:, 0], points[:, 1] * np.cos(tilt) - points[:, 2] * np.sin(tilt)], axis=1)
-    edges = delaunay_edges(projected)
+    try:
+        edges = delaunay_edges(projected)
+    except QhullError as error:
+        raise InputError(
+            f"the points of {name!r} are on one line or in one place: no edges join them"
+        ) from error
     lonely = int(np.sum(mirrored_edges(edges) < 0))
     if len(edges) != EDGE_COUNT or lonely != 1:
         raise InputError(

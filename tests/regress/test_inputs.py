@@ -213,7 +213,7 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
         "empty.npy": "no usable frame",
         "flat.npy": "shape (5, 136)",
         "words.npy": "numbers are needed",
-        "no.npy": "not a readable .npy file",
+        "no.npy": "no .npy file that can be read",
         "other.csv": "lacks 136 of the columns x_0",
         "nothing.csv": "lacks 136 of the columns",
         "header.csv": "a header and no rows",

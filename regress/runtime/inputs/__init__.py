@@ -7,7 +7,7 @@ from regress.runtime.inputs.faults import (
     fault_sentences,
 )
 from regress.runtime.inputs.frames import Frames
-from regress.runtime.inputs.lines import read_lines
+from regress.runtime.inputs.lines import read_lines, text_lines
 from regress.runtime.inputs.readers import READERS, Reader, read_frames
 
 __all__ = [
@@ -20,4 +20,5 @@ __all__ = [
     "fault_sentences",
     "read_frames",
     "read_lines",
+    "text_lines",
 ]

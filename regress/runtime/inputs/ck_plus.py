@@ -5,10 +5,14 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
+from facegen.documents import read_text
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames
+from regress.runtime.inputs.frames import Frames, stacked
 
 _ENDING = "_landmarks.txt"
+
+_MOST_BYTES = 64 * 1024
+"""Of one face: 16 times what CK+ writes."""
 
 
 def is_ck_plus(path: Path) -> bool:
@@ -25,14 +29,13 @@ def read_ck_plus(path: Path) -> Frames:
     """
     files = sorted(path.rglob(f"*{_ENDING}")) if path.is_dir() else [path]
     labels = tuple(file.name.removesuffix(_ENDING) for file in files)
-    return Frames(
-        points=np.stack([_face(file) for file in files]), labels=labels, time_s=None, source=str(path)
-    )
+    return Frames(points=stacked(map(_face, files), path), labels=labels, time_s=None, source=str(path))
 
 
 def _face(path: Path) -> np.ndarray:
+    lines = [line for line in read_text(path, most_bytes=_MOST_BYTES).splitlines() if line.strip()]
     try:
-        points = np.loadtxt(path, dtype=np.float64, ndmin=2)
+        points = np.loadtxt(lines, dtype=np.float64, ndmin=2) if lines else np.empty((0, 0))
     except ValueError as error:
         raise InputError(f"{path} holds something that is not a number ({error})") from error
     if points.shape != (LANDMARK_COUNT, 2):

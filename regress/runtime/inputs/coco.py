@@ -1,16 +1,44 @@
 """COCO keypoints in JSON: 68 triples (x, y, v) in ``keypoints``, or in COCO-WholeBody's ``face_kpts``."""
 
-import json
+from collections import Counter
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
+from facegen.documents import load_json
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames
+from regress.runtime.documents import checked
+from regress.runtime.inputs.frames import Frames, stacked
 
-_KEYS = ("keypoints", "face_kpts")
+_MOST_BYTES = 256 * 1024**2
+"""Some 100,000 annotations; as Python's numbers they take four times as much memory."""
+
+_Id = int | str
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Image:
+    id: _Id
+    file_name: _Id | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Annotation:
+    id: _Id
+    image_id: _Id
+    keypoints: Any = None
+    face_kpts: Any = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Coco:
+    """What is read of such a file; the rest is left alone."""
+
+    annotations: tuple[_Annotation, ...]
+    images: tuple[_Image, ...] = ()
 
 
 def is_coco(path: Path) -> bool:
@@ -24,32 +52,40 @@ def read_coco(path: Path) -> Frames:
     A frame is called by its picture's file name, or ``name/ID`` where a picture has several annotations.
     """
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-        names = {
-            image["id"]: str(image.get("file_name", image["id"])) for image in document.get("images", [])
-        }
-        annotations = sorted(document["annotations"], key=lambda entry: (entry["image_id"], entry["id"]))
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(f"{path} is not a COCO keypoints file: {error!r}") from error
-    if not annotations:
+        document = checked(_Coco, load_json(path, most_bytes=_MOST_BYTES))
+    except InputError as error:
+        raise InputError(f"{path} is not a COCO keypoints file: {error}") from error
+    if not document.annotations:
         raise InputError(f"{path} has no annotation")
-    images = [entry["image_id"] for entry in annotations]
+    names = {
+        image.id: str(image.id if image.file_name is None else image.file_name) for image in document.images
+    }
+    annotations = sorted(document.annotations, key=lambda entry: (_order(entry.image_id), _order(entry.id)))
+    faces = Counter(entry.image_id for entry in annotations)
     labels = []
     for entry in annotations:
-        name = names.get(entry["image_id"], str(entry["image_id"]))
-        labels.append(name if images.count(entry["image_id"]) == 1 else f"{name}/{entry['id']}")
-    points = np.stack([_face(entry, path) for entry in annotations])
+        name = names.get(entry.image_id, str(entry.image_id))
+        labels.append(name if faces[entry.image_id] == 1 else f"{name}/{entry.id}")
+    points = stacked((_face(entry, path) for entry in annotations), path)
     return Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
 
 
-def _face(entry: dict[str, Any], path: Path) -> np.ndarray:
-    values = next((entry[key] for key in _KEYS if len(entry.get(key) or ()) == 3 * LANDMARK_COUNT), None)
+def _order(key: _Id) -> tuple[bool, _Id]:
+    """Numbers before names: the two cannot be compared."""
+    return isinstance(key, str), key
+
+
+def _face(entry: _Annotation, path: Path) -> np.ndarray:
+    given = (entry.keypoints, entry.face_kpts)
+    values = next((one for one in given if isinstance(one, list) and len(one) == 3 * LANDMARK_COUNT), None)
     if values is None:
         raise InputError(
-            f"{path}: annotation {entry['id']} has no {3 * LANDMARK_COUNT} numbers in {' or '.join(_KEYS)}"
+            f"{path}: annotation {entry.id} has no {3 * LANDMARK_COUNT} numbers in keypoints or face_kpts"
         )
     try:
         triples = np.array(values, dtype=np.float64).reshape(LANDMARK_COUNT, 3)
-    except (ValueError, TypeError) as error:
-        raise InputError(f"{path}: annotation {entry['id']} holds something that is not a number") from error
+    except (ValueError, TypeError, OverflowError) as error:
+        raise InputError(
+            f"{path}: annotation {entry.id} holds something that is not a number ({error})"
+        ) from error
     return np.where(triples[:, 2:] > 0, triples[:, :2], np.nan)

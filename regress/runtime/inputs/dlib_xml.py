@@ -1,13 +1,17 @@
 """Training files of dlib: images, boxes and named parts in XML; several faces a picture."""
 
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from xml.etree import ElementTree
+from xml.parsers import expat
 
 import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames
+from regress.runtime.inputs.frames import Frames, stacked
+
+_CHUNK_BYTES = 64 * 1024
+"""Read at a time: nothing but faces is kept, whatever else the file holds."""
 
 
 def is_dlib_xml(path: Path) -> bool:
@@ -20,29 +24,79 @@ def read_dlib_xml(path: Path) -> Frames:
 
     A box without parts has no face; parts are counted from 0 by name, missing ones are NaN.
     """
-    try:
-        root = ElementTree.parse(path).getroot()
-    except ElementTree.ParseError as error:
-        raise InputError(f"{path} is not XML: {error}") from error
-    faces, labels = [], []
-    for image in root.iter("image"):
-        name = image.get("file", "")
-        for number, box in enumerate(image.iter("box"), start=1):
-            faces.append(_face(box, path, name))
-            labels.append(name if number == 1 else f"{name}/{number}")
-    if not faces:
-        raise InputError(f"{path} holds no image with a box; dlib's training files do")
-    return Frames(points=np.stack(faces), labels=tuple(labels), time_s=None, source=str(path))
+    labels: list[str] = []
+
+    def faces() -> Iterator[np.ndarray]:
+        for label, face in _boxes(path):
+            labels.append(label)
+            yield face
+
+    points = stacked(faces(), path)
+    return Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
 
 
-def _face(box: ElementTree.Element, path: Path, name: str) -> np.ndarray:
-    points = np.full((LANDMARK_COUNT, 2), np.nan)
-    for part in box.iter("part"):
+class _Reading:
+    """What of the file has been seen so far: faces that wait to be taken, and the box that is being read."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.whole: list[tuple[str, np.ndarray]] = []
+        self.found = False
+        self._image: str | None = None
+        self._boxes = 0
+        self._face: np.ndarray | None = None
+
+    def doctype(self, *_: object) -> None:
+        raise InputError(
+            f"{self.path} declares a document type, in which entities can hide gigabytes; dlib's files have none: "
+            "take its line <!DOCTYPE ...> out"
+        )
+
+    def start(self, tag: str, attributes: Mapping[str, str]) -> None:
+        if tag == "image" and self._image is None:
+            self._image, self._boxes = attributes.get("file", ""), 0
+        elif tag == "box" and self._image is not None and self._face is None:
+            self._boxes += 1
+            self._face = np.full((LANDMARK_COUNT, 2), np.nan)
+        elif tag == "part" and self._face is not None:
+            self._take_part(attributes)
+
+    def end(self, tag: str) -> None:
+        if tag == "box" and self._face is not None:
+            name = self._image if self._boxes == 1 else f"{self._image}/{self._boxes}"
+            self.whole.append((name, self._face))
+            self.found, self._face = True, None
+        elif tag == "image" and self._face is None:
+            self._image = None
+
+    def _take_part(self, attributes: Mapping[str, str]) -> None:
+        name, x, y = (attributes.get(key, "") for key in ("name", "x", "y"))
         try:
-            index, x, y = int(part.get("name", "")), float(part.get("x", "")), float(part.get("y", ""))
+            index, place = int(name), (float(x), float(y))
         except ValueError as error:
-            raise InputError(f"{path}: a part of {name} lacks a number: {part.attrib}") from error
+            raise InputError(
+                f"{self.path}: a part of {self._image} lacks a number: {dict(attributes)}"
+            ) from error
         if not 0 <= index < LANDMARK_COUNT:
-            raise InputError(f"{path}: {name} has a part {index}; the iBUG order of 0 to 67 is needed")
-        points[index] = x, y
-    return points
+            raise InputError(
+                f"{self.path}: {self._image} has a part {index}; the iBUG order of 0 to 67 is needed"
+            )
+        self._face[index] = place
+
+
+def _boxes(path: Path) -> Iterator[tuple[str, np.ndarray]]:
+    """Name and face (68, 2) of each box, as the file is read."""
+    reading, parser = _Reading(path), expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = reading.doctype
+    parser.StartElementHandler, parser.EndElementHandler = reading.start, reading.end
+    with open(path, "rb") as file:
+        try:
+            while chunk := file.read(_CHUNK_BYTES):
+                parser.Parse(chunk, False)
+                yield from reading.whole
+                reading.whole.clear()
+            parser.Parse(b"", True)
+        except (expat.ExpatError, LookupError, ValueError) as error:  # the latter two: encodings
+            raise InputError(f"{path} is not XML: {error}") from error
+    if not reading.found:
+        raise InputError(f"{path} holds no image with a box; dlib's training files do")

@@ -36,6 +36,7 @@ class Fault(Enum):
     """What is wrong with a row; the value says what it has."""
 
     MISSING = "no face"
+    UNREADABLE = "something else than 136 numbers, or 137 with the time before them"
     COLLAPSED = "all points in one place or on one line"
     MIRRORED = "left and right exchanged, or y pointing up"
     DISORDER = "a time that is not later than those before"

@@ -8,7 +8,7 @@ import numpy as np
 from facegen.conventions import LANDMARK_COUNT
 from facegen.formats import read_pts
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames
+from regress.runtime.inputs.frames import Frames, stacked
 
 
 def is_pts(path: Path) -> bool:
@@ -29,7 +29,7 @@ def read_folder(path: Path) -> Frames:
     files = sorted((file for file in path.rglob("*") if is_pts(file)), key=lambda file: _natural(path, file))
     if not files:
         raise InputError(f"{path} holds no .pts file")
-    points = np.stack([_face(file) for file in files])
+    points = stacked(map(_face, files), path)
     labels = tuple(file.relative_to(path).with_suffix("").as_posix() for file in files)
     return Frames(points=points, labels=labels, time_s=None, source=str(path))
 
@@ -43,4 +43,4 @@ def _face(path: Path) -> np.ndarray:
 
 def _natural(folder: Path, file: Path) -> list[tuple[int, str]]:
     pieces = re.split(r"(\d+)", file.relative_to(folder).as_posix())
-    return [(int(piece), "") if piece.isdigit() else (-1, piece) for piece in pieces]
+    return [(int(piece), "") if piece.isdecimal() else (-1, piece) for piece in pieces]

@@ -1,10 +1,13 @@
 """The table of input formats, and the choice among them."""
 
+import dataclasses
 import os
+import stat
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from facegen.documents import unreadable
 from regress.errors import InputError
 from regress.runtime.inputs import arrays, ck_plus, coco, dlib_xml, pts, tables
 from regress.runtime.inputs.frames import Frames
@@ -53,8 +56,14 @@ def read_frames(path: str | os.PathLike[str]) -> Frames:
         has all its landmarks.
     """
     path = Path(path)
-    if not path.exists():
-        raise InputError(f"{path} does not exist")
+    try:
+        kind = path.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        raise InputError(f"{path} does not exist") from None
+    except OSError as error:
+        raise unreadable(path, error) from None
+    if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
+        raise InputError(f"{path} is a pipe or a device; give a file, or - for lines on standard input")
     reader = next((reader for reader in READERS.values() if reader.matches(path)), None)
     if reader is None:
         known = ", ".join(reader.description for reader in READERS.values())
@@ -63,8 +72,14 @@ def read_frames(path: str | os.PathLike[str]) -> Frames:
         frames = reader.read(path)
     except OSError as error:
         raise InputError(f"{path} cannot be read: {error.strerror or error}") from error
+    frames = dataclasses.replace(frames, labels=tuple(map(_printable, frames.labels)))
     if not frames.usable.any():
         raise InputError(
             f"{path} holds no usable frame: each of its {len(frames.points)} has missing landmarks"
         )
     return frames
+
+
+def _printable(label: str) -> str:
+    """A label that is text in UTF-8: names of files need not be, nor strings in JSON."""
+    return label.encode(errors="surrogatepass").decode(errors="replace")

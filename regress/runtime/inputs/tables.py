@@ -4,38 +4,21 @@ OpenFace puts a blank before each column's name, all x before all y, ``success``
 py-feat leaves cells empty there.
 """
 
-import csv
-from dataclasses import dataclass
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
+from facegen.formats.csv_rows import CsvRows, number_in, numbers_in
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames
+from regress.runtime.inputs.frames import Frames, stacked
 
+_POINTS = tuple(f"{axis}_{index}" for index in range(LANDMARK_COUNT) for axis in "xy")
+_OTHERS = ("frame", "face_id", "timestamp", "success")
 
-@dataclass(frozen=True, kw_only=True)
-class Table:
-    """A CSV file: column numbers by stripped name, and rows of cells."""
-
-    path: Path
-    columns: dict[str, int]
-    rows: list[list[str]]
-
-    def numbers(self, name: str) -> np.ndarray:
-        """A column as (n,) float64; empty cells are NaN."""
-        column = self.columns[name]
-        try:
-            return np.array([float(row[column].strip() or "nan") for row in self.rows])
-        except ValueError as error:
-            raise InputError(
-                f"{self.path}: column {name} holds something that is not a number ({error})"
-            ) from error
-
-    def text(self, name: str) -> list[str]:
-        """A column as text."""
-        return [row[self.columns[name]].strip() for row in self.rows]
+_LATEST_S = 1e19
+"""Of a time: nanoseconds since 1970 are less."""
 
 
 def is_table(path: Path) -> bool:
@@ -44,56 +27,70 @@ def is_table(path: Path) -> bool:
 
 
 def read_table(path: Path) -> Frames:
-    """Frames of an OpenFace or py-feat CSV, told apart by their columns."""
-    table = _open(path)
-    if "success" in table.columns:
-        return read_openface(table)
-    return read_pyfeat(table)
+    """Frames of an OpenFace or py-feat CSV, told apart by the column ``success``, which OpenFace has.
+
+    In OpenFace's a frame without success has no face, and several faces are rows of their own. Labels are the column
+    ``frame``, or count from 0.
+    """
+    with CsvRows(path) as table:
+        missing = [name for axis in "xy" for name in _POINTS if name[0] == axis and name not in table.columns]
+        if missing:
+            raise InputError(
+                f"{path} lacks {len(missing)} of the columns x_0 .. x_67, y_0 .. y_67, first {missing[0]}; "
+                "OpenFace and py-feat write them"
+            )
+        table.check((*_POINTS, *_OTHERS))
+        return _frames(table)
 
 
-def read_openface(table: Table) -> Frames:
-    """Frames of OpenFace: without success a frame has no face. Several faces are rows of their own."""
-    points = _points(table)
-    points[table.numbers("success") == 0] = np.nan
-    labels = table.text("frame") if "frame" in table.columns else _count(table)
-    if "face_id" in table.columns and len(set(labels)) < len(labels):
-        labels = [f"{frame}/{face}" for frame, face in zip(labels, table.text("face_id"), strict=True)]
-    time_s = table.numbers("timestamp") if "timestamp" in table.columns else None
-    return Frames(points=points, labels=tuple(labels), time_s=time_s, source=str(table.path))
+def _frames(table: CsvRows) -> Frames:
+    columns = table.columns
+    openface = "success" in columns
+    timed, several = openface and "timestamp" in columns, openface and "face_id" in columns
+    names = (*_POINTS, *(["success"] if openface else []), *(["timestamp"] if timed else []))
+    picked = [columns[name] for name in names]
+    labels: list[str] = []
+    face_ids: list[str] = []
+    time_s: list[float] = []
+
+    def faces() -> Iterator[np.ndarray]:
+        for number, row in enumerate(table):
+            numbers = _numbers(table, row, names, picked)
+            labels.append(row[columns["frame"]].strip() if "frame" in columns else str(number))
+            if several:
+                face_ids.append(row[columns["face_id"]].strip())
+            if timed:
+                time_s.append(numbers[-1])
+            points = numbers[: len(_POINTS)].reshape(LANDMARK_COUNT, 2)
+            yield np.full_like(points, np.nan) if openface and numbers[len(_POINTS)] == 0 else points
+
+    points = stacked(faces(), table.path)
+    if any(abs(time) > _LATEST_S for time in time_s):
+        raise InputError(f"{table.path}: a timestamp is beyond {_LATEST_S:g} s")
+    if several and len(set(labels)) < len(labels):
+        labels = [f"{frame}/{face}" for frame, face in zip(labels, face_ids, strict=True)]
+    return Frames(
+        points=points,
+        labels=tuple(labels),
+        time_s=np.array(time_s) if timed else None,
+        source=str(table.path),
+    )
 
 
-def read_pyfeat(table: Table) -> Frames:
-    """Frames of py-feat; labels are its ``frame`` column, or count from 0."""
-    labels = table.text("frame") if "frame" in table.columns else _count(table)
-    return Frames(points=_points(table), labels=tuple(labels), time_s=None, source=str(table.path))
-
-
-def _open(path: Path) -> Table:
+def _numbers(table: CsvRows, row: list[str], names: tuple[str, ...], picked: list[int]) -> np.ndarray:
+    """Numbers of a row under these names, which stand in the columns ``picked``."""
     try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            header, *rows = [row for row in csv.reader(file) if row] or [[]]
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"{path} is not a CSV file: {error}") from error
-    columns = {name.strip(): column for column, name in enumerate(header)}
-    wanted = [f"{axis}_{index}" for axis in "xy" for index in range(LANDMARK_COUNT)]
-    missing = [name for name in wanted if name not in columns]
-    if missing:
+        return numbers_in(row, picked)
+    except ValueError as error:
+        name = next(name for name, column in zip(names, picked, strict=True) if not _is_number(row[column]))
         raise InputError(
-            f"{path} lacks {len(missing)} of the columns x_0 .. x_67, y_0 .. y_67, first {missing[0]}; "
-            "OpenFace and py-feat write them"
-        )
-    if not rows:
-        raise InputError(f"{path} has a header and no rows")
-    for number, row in enumerate(rows, start=2):
-        if len(row) < len(header):
-            raise InputError(f"{path}: row {number} has {len(row)} cells; the header names {len(header)}")
-    return Table(path=path, columns=columns, rows=rows)
+            f"{table.path}: column {name} holds something that is not a number ({error})"
+        ) from error
 
 
-def _points(table: Table) -> np.ndarray:
-    axes = [[table.numbers(f"{axis}_{index}") for index in range(LANDMARK_COUNT)] for axis in "xy"]
-    return np.moveaxis(np.array(axes), (0, 1, 2), (2, 1, 0)).copy()
-
-
-def _count(table: Table) -> list[str]:
-    return [str(row) for row in range(len(table.rows))]
+def _is_number(cell: str) -> bool:
+    try:
+        number_in(cell)
+    except ValueError:
+        return False
+    return True

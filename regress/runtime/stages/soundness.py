@@ -44,4 +44,7 @@ class Soundness(BatchStage):
             fault = self._order.step(sample.time_s)
         if fault is None:
             return sample
+        fault = sample.faults.get(
+            "points", fault
+        )  # what its reader found says more than that no face is there
         return replace(sample, points=np.full_like(sample.points, np.nan), faults={"points": fault})
