@@ -8,19 +8,17 @@
 """
 
 import argparse
-import json
 import os
 import sys
 import tempfile
 import time
-from collections import Counter
 from pathlib import Path
 
 from tests.hostile.fuzz import Fuzz
-from tests.hostile.plan import cases_of
 from tests.hostile.readers import READERS
 from tests.hostile.running import Server
-from tests.hostile.trial import HONEST, Case, clear, mutators_of, try_case
+from tests.hostile.sweep import sweep
+from tests.hostile.trial import Case, clear, try_case
 from tests.hostile.workshop import Workshop
 
 
@@ -67,45 +65,16 @@ def _fuzz(words: list[str]) -> int:
 
 
 def _sweep(words: list[str]) -> int:
-    """Try every mutator of the readers some times; print what failed, once a cause."""
+    """Every mutator of the readers, some times; what fails is printed once a cause."""
     parser = argparse.ArgumentParser(prog="python -m tests.hostile sweep")
     parser.add_argument("--readers")
     parser.add_argument("--cases", type=int, help="of each mutator; without, those that make test tries")
     parser.add_argument("--first", type=int, default=0)
     asked = parser.parse_args(words)
+    seeds = None if asked.cases is None else range(asked.first, asked.first + asked.cases)
     names = asked.readers.split(",") if asked.readers else list(READERS)
-    counts: Counter[str] = Counter()
-    causes: dict[tuple[str, str, str], list[str]] = {}
     with tempfile.TemporaryDirectory() as scratch:
-        server, workshop = Server(), Workshop(Path(scratch))
-        for name in names:
-            reader, began, tried = READERS[name], time.monotonic(), 0
-            cases = [Case(reader=reader, mutator=HONEST, seed=0)] if reader.kind else []
-            for mutator in mutators_of(reader):
-                seeds = len(cases_of(reader, mutator)) if asked.cases is None else asked.cases
-                cases += [Case(reader=reader, mutator=mutator, seed=asked.first + n) for n in range(seeds)]
-            for case in cases:
-                folder = Path(scratch) / "case"
-                outcome = try_case(case, server, workshop, folder)
-                clear(folder)
-                tried += 1
-                counts[outcome.verdict.kind] += 1
-                wrong = not outcome.verdict.good or (
-                    case.mutator == HONEST and outcome.verdict.kind != reader.honest
-                )
-                if wrong:
-                    key = (name, outcome.verdict.kind, outcome.verdict.detail)
-                    causes.setdefault(key, []).append(f"{case}")
-            print(f"# {name}: {tried} cases in {time.monotonic() - began:.1f} s", file=sys.stderr, flush=True)
-        server.close()
-    for (name, kind, detail), found in sorted(causes.items()):
-        print(f"{name}\t{kind}\t{detail}\t{len(found)}x\tpython -m tests.hostile {found[0]}")
-    print(f"# {dict(counts)}")
-    print(
-        "# pairs:",
-        json.dumps(sorted({" ".join(case.split()[:2]) for found in causes.values() for case in found})),
-    )
-    return bool(causes)
+        return bool(sweep([READERS[name] for name in names], Path(scratch), seeds=seeds))
 
 
 if __name__ == "__main__":

@@ -1,18 +1,24 @@
 """Which cases `make test` tries: some seeds of every mutator of every reader, the same each time."""
 
+from tests.hostile.mutators.octets import OCTETS, TEXT
 from tests.hostile.readers.reader import Reader
 from tests.hostile.trial import Case, mutators_of
 
 SEEDS = 4
-"""Of a mutator that knows the reader's format, or changes its place or name."""
+"""Of a mutator that knows the reader's format."""
+
+BLIND_SEEDS = 2
+"""Of one that knows nothing, and of other kinds of files and names."""
 
 VALUES = 8
 """Of an option, whose values are all that is tried."""
 
+_BLIND = {*OCTETS, *TEXT, "kind", "name"}
+
 
 def cases_of(reader: Reader, mutator: str) -> list[Case]:
     """Seeded cases of one mutator: fewer of what is slow."""
-    seeds = VALUES if mutator == "value" else SEEDS
+    seeds = VALUES if mutator == "value" else BLIND_SEEDS if mutator in _BLIND else SEEDS
     count = max(1, round(seeds * reader.weight))
     return [Case(reader=reader, mutator=mutator, seed=seed) for seed in range(count)]
 

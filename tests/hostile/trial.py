@@ -165,8 +165,9 @@ def _names(reader: Reader, target: Path | None, words: list[str]) -> tuple[str, 
     """Words of which a refusal has to have one."""
     options = [word.partition("=")[0] for word in words if word.startswith("--")]
     options += [one_line(word)[:60] for word in words if word.startswith("in/")]
+    options += [value for value in reader.environment.values() if value.startswith("in/")]
     files = [] if target is None else [one_line(target.name)[:60]]
-    return (*options, *files, *(["line "] if reader.stdin else []))
+    return (*options, *files, *(["line ", "standard input"] if reader.stdin else []))
 
 
 def _names_of_value(value: str, case: Case) -> tuple[str, ...]:

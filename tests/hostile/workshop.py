@@ -2,6 +2,8 @@
 
 import json
 import shutil
+import subprocess
+import sys
 from functools import cached_property
 from pathlib import Path
 
@@ -118,24 +120,19 @@ class Workshop:
         return folder
 
     @cached_property
+    def packed(self) -> Path:
+        """The clips as a pack of keypoints."""
+        return self._facegen("pack", self.recorded, "--format", "keypoints", out="packed")
+
+    @cached_property
+    def developed(self) -> Path:
+        """The picture developed anew."""
+        return self._facegen("develop", self.rendered, out="developed")
+
+    @cached_property
     def farmed(self) -> Path:
         """A data set that was begun and handed to farms, without a task done."""
-        import subprocess
-        import sys
-
-        words = (
-            "farm",
-            "submit",
-            "datasets/tiny.toml",
-            "--out",
-            self.folder / "farmed",
-            "--engine",
-            "openjd",
-        )
-        subprocess.run(
-            [sys.executable, "-m", "facegen", *map(str, words)], cwd=ROOT, check=True, capture_output=True
-        )
-        return self.folder / "farmed"
+        return self._facegen("farm", "submit", "datasets/tiny.toml", "--engine", "openjd", out="farmed")
 
     @cached_property
     def head(self) -> tuple[Path, Path]:
@@ -175,6 +172,12 @@ class Workshop:
         from tests.regress.drawn import drawn_faces
 
         return drawn_faces(np.random.default_rng(1), 6)
+
+    def _facegen(self, *words: object, out: str) -> Path:
+        """What a command makes."""
+        command = [sys.executable, "-m", "facegen", *map(str, words), "--out", str(self.folder / out)]
+        subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+        return self.folder / out
 
     def complete(self) -> None:
         """Make all of it now: threads that share a workshop must not make things at the same time."""

@@ -30,6 +30,15 @@ def _rig(folder: Path, workshop: Workshop) -> None:
     copied(workshop.rigs, folder / "rigs")
 
 
+def _clone(folder: Path, workshop: Workshop) -> None:
+    """A clone of ICT-FaceKit with one triangle in the place of its 26,719 vertices: honest in form alone."""
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
+    for name in ("generic_neutral_mesh", "identity000", "jawOpen"):
+        path = folder / "clone" / "FaceXModel" / f"{name}.obj"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
 def _playback(folder: Path, workshop: Workshop) -> None:
     _live_link(folder, workshop)
     (folder / "spec.toml").write_text(
@@ -151,5 +160,14 @@ READERS = (
         target="weights.csv",
         kind="csv",
         weight=0.5,
+    ),
+    Reader(
+        name="ict-clone",
+        command="facegen rig build ict --path in/clone",
+        make=_clone,
+        target="clone/FaceXModel/*.obj",
+        kind="lines",
+        honest="refused",
+        environment={"FACEGEN_RIGS": "out"},
     ),
 )

@@ -1,9 +1,10 @@
 """Readers of data sets: what `regress` reads of them, and what the commands of `facegen` do with them."""
 
+import json
 from pathlib import Path
 
 from tests.hostile.readers.reader import Reader
-from tests.hostile.workshop import Workshop, copied
+from tests.hostile.workshop import ROOT, Workshop, copied
 
 
 def _keypoints(folder: Path, workshop: Workshop) -> None:
@@ -25,12 +26,16 @@ def _farmed(folder: Path, workshop: Workshop) -> None:
 
 _SHARD = "data/keypoints/shard-00000.parquet"
 _SAMPLE = "data/renders/000/000000"
+_SHARE = 0.4
+"""Of the cases of other readers: loading the rig takes a fifth of a second."""
 _ACCEPTED = (0, 1, 75)
 """Of `validate` and `farm status`: wrong or missing data are what they are asked for."""
 
 
 def _data(name: str, command: str, target: str, kind: str, **more) -> Reader:
-    return Reader(name=name, command=command, make=_rendered, target=target, kind=kind, **more)
+    return Reader(
+        name=name, command=command, make=_rendered, target=target, kind=kind, **{"weight": _SHARE, **more}
+    )
 
 
 def _recorded(folder: Path, workshop: Workshop) -> None:
@@ -44,6 +49,33 @@ def _logged(folder: Path, workshop: Workshop) -> None:
     log.write_text("rendering\nfailed: no memory\n")
 
 
+def _journal(folder: Path, workshop: Workshop) -> None:
+    from dataclasses import asdict
+
+    from facegen.work.journal import Attempt
+
+    _farmed(folder, workshop)
+    line = {name: 1 for name in Attempt.__dataclass_fields__} | {"task": "sample-000001", "outcome": "done"}
+    assert asdict(Attempt(**line))
+    (folder / "data" / "logs").mkdir(exist_ok=True)
+    (folder / "data" / "logs" / "run-1.jsonl").write_text(json.dumps(line) + "\n")
+
+
+def _packed(folder: Path, workshop: Workshop) -> None:
+    _recorded(folder, workshop)
+    copied(workshop.packed, folder / "pack")
+
+
+def _developed(folder: Path, workshop: Workshop) -> None:
+    _rendered(folder, workshop)
+    copied(workshop.developed, folder / "new")
+
+
+def _begun(folder: Path, workshop: Workshop) -> None:
+    copied(ROOT / "datasets" / "tiny.toml", folder / "spec.toml")
+    _farmed(folder, workshop)
+
+
 def _pack(name: str, target: str, kind: str, **more) -> Reader:
     return _data(
         f"pack-{name}",
@@ -51,7 +83,7 @@ def _pack(name: str, target: str, kind: str, **more) -> Reader:
         target,
         kind,
         covers=(f"pack:{name}",),
-        weight=0.5,
+        weight=_SHARE,
         **more,
     )
 
@@ -77,7 +109,7 @@ READERS = (
         make=_keypoints,
         target="data/keypoints/*.parquet",
         kind="parquet",
-        weight=0.4,
+        weight=_SHARE,
     ),
     _data(
         "validate-dataset",
@@ -143,14 +175,14 @@ READERS = (
         "facegen preview in/data --out out/sheet.png",
         f"{_SAMPLE}/sample.json",
         "json",
-        weight=0.4,
+        weight=_SHARE,
     ),
     _data(
         "preview-picture",
         "facegen preview in/data --out out/sheet.png",
         f"{_SAMPLE}/*.png",
         "png",
-        weight=0.4,
+        weight=_SHARE,
     ),
     _pack("webdataset", f"{_SAMPLE}/sample.json", "json"),
     _pack("parquet", f"{_SAMPLE}/sample.json", "json"),
@@ -165,7 +197,7 @@ READERS = (
             target=_SHARD,
             kind="parquet",
             covers=(f"pack:{name}",),
-            weight=0.5,
+            weight=_SHARE,
         )
         for name in ("livelink", "openface")
     ),
@@ -175,7 +207,7 @@ READERS = (
         make=_two,
         target="data/dataset.json",
         kind="json",
-        weight=0.5,
+        weight=_SHARE,
     ),
     Reader(
         name="merge-sample",
@@ -183,7 +215,7 @@ READERS = (
         make=_two,
         target=f"{_SAMPLE}/sample.json",
         kind="json",
-        weight=0.5,
+        weight=_SHARE,
     ),
     Reader(
         name="farm-status",
@@ -193,6 +225,7 @@ READERS = (
         kind="json",
         accepts=_ACCEPTED,
         covers=("engine:openjd",),
+        weight=_SHARE,
     ),
     Reader(
         name="farm-submission",
@@ -201,6 +234,7 @@ READERS = (
         target="data/farm/job-001/submission.json",
         kind="json",
         accepts=_ACCEPTED,
+        weight=_SHARE,
     ),
     Reader(
         name="farm-resume",
@@ -209,6 +243,7 @@ READERS = (
         target="data/farm/job-001/job.json",
         kind="json",
         changes=True,
+        weight=_SHARE,
     ),
     Reader(
         name="farm-cancel",
@@ -218,6 +253,7 @@ READERS = (
         target="data/farm/job-001/job.json",
         kind="json",
         changes=True,
+        weight=_SHARE,
     ),
     Reader(
         name="farm-logs",
@@ -226,5 +262,49 @@ READERS = (
         target="data/logs/000/*.log",
         kind="lines",
         weight=0.3,
+    ),
+    Reader(
+        name="farm-journal",
+        command="facegen farm status in/data",
+        make=_journal,
+        target="data/logs/*.jsonl",
+        kind="json",
+        accepts=_ACCEPTED,
+        weight=_SHARE,
+    ),
+    Reader(
+        name="generate-again",
+        command="facegen generate in/spec.toml --out in/data --dry-run",
+        make=_begun,
+        target="data/dataset.json",
+        kind="json",
+        weight=_SHARE,
+    ),
+    Reader(
+        name="pack-again",
+        command="facegen pack in/data --format keypoints --out in/pack",
+        make=_packed,
+        target="pack/*.json",
+        kind="json",
+        changes=True,
+        weight=_SHARE,
+    ),
+    Reader(
+        name="develop-again",
+        command="facegen develop in/data --out in/new",
+        make=_developed,
+        target="new/develop.json",
+        kind="json",
+        changes=True,
+        weight=_SHARE,
+    ),
+    Reader(
+        name="preview-clip",
+        command="facegen preview in/data --clip 0 --frames 0 --size 64 --out out/strip.png",
+        make=_recorded,
+        target=_SHARD,
+        kind="parquet",
+        only=("columns", "flip", "cut"),
+        weight=_SHARE,
     ),
 )
