@@ -14,7 +14,7 @@ from regress.errors import InputError
 from regress.learning.headset.geometry import FaceGeometry
 from regress.learning.labels import Columns, read_labels
 from regress.runtime.documents import checked, read_document
-from regress.runtime.headset.model import MOST_CAMERAS, CameraInput
+from regress.runtime.headset.model import MOST_CAMERAS, MOST_FPS, CameraInput
 
 VERSION = 3
 """Of arrays.json."""
@@ -24,9 +24,6 @@ MOST_ROWS = 100_000_000
 
 MOST_DOCUMENT_BYTES = 2**20
 """Of arrays.json: it is a page long."""
-
-MOST_FACE_BYTES = 2**30
-"""Of face.npz: 1.6 million vertices."""
 
 _METRES = 10.0
 """Any vertex of a face is nearer to the eyes than this, whatever moves it."""
@@ -48,6 +45,8 @@ class HeadsetArrays:
 
     Parameters
     ----------
+    folder
+        Where they lie.
     description
         Content of arrays.json.
     cameras
@@ -70,6 +69,7 @@ class HeadsetArrays:
         The rig's face skin.
     """
 
+    folder: Path
     description: dict[str, Any]
     cameras: tuple[CameraInput, ...]
     pictures: dict[str, np.ndarray]
@@ -99,8 +99,20 @@ class HeadsetArrays:
         return np.concatenate([[True], ~follows])
 
     def frames_a_second(self) -> float:
-        """Of clips: from the times of frames that follow one another."""
-        return 1 / float(np.median(np.diff(self.time_s)[~self.clip_starts()[1:]]))
+        """Of clips: from the times of frames that follow one another.
+
+        Raises
+        ------
+        InputError
+            Where time stands still in them, runs back, or no camera is so fast or slow.
+        """
+        step_s = float(np.median(np.diff(self.time_s)[~self.clip_starts()[1:]]))
+        if not 1 / MOST_FPS <= step_s <= MOST_FPS:
+            raise InputError(
+                f"{self.folder / 'labels.parquet'}: frames follow one another by {step_s:g} s in time_s, and clips of "
+                f"up to {MOST_FPS:,} frames a second are needed"
+            )
+        return 1 / step_s
 
     def neutral_rows(self, *, other_seat: bool = False) -> np.ndarray:
         """(n,) int64: for each row a neutral row of its person, -1 where there is none.
@@ -153,7 +165,7 @@ class HeadsetArrays:
             keep &= np.isin(self.person, np.unique(self.person[keep])[:people])
         if not keep.any():
             raise InputError(
-                f"the {split} split has no row with withhold {withhold!r}; it has components "
+                f"{self.folder}: the {split} split has no row with withhold {withhold!r}; it has components "
                 f"{', '.join(np.unique(self.component[self.split == split])) or 'none'}"
             )
         return np.flatnonzero(keep)
@@ -218,6 +230,7 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
         )
     labels |= {name: np.asarray(labels[name], dtype=np.float32) for name in columns.lists}
     return HeadsetArrays(
+        folder=folder,
         description=document,
         cameras=about.cameras,
         pictures=pictures,
@@ -228,7 +241,7 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
 
 
 def _face(path: Path) -> FaceGeometry:
-    arrays = load_npz(path, most_bytes=MOST_FACE_BYTES)
+    arrays = load_npz(path)
     lacking = [name for name in ("displacement", "rest") if name not in arrays]
     if lacking:
         raise InputError(f"{path} lacks the array {lacking[0]}; pack the dataset again with facegen pack")

@@ -61,7 +61,7 @@ def compare(
     """
     rows = np.flatnonzero((arrays.split == split) & ~arrays.neutral)
     if not len(rows):
-        raise InputError(f"the arrays have no {split} row with an expression; choose another split")
+        raise InputError(f"{arrays.folder} has no {split} row with an expression; choose another split")
     shared = conditions(rival.model, arrays, rows)
     both = {name: how for name, how in conditions(predictor.model, arrays, rows).items() if name in shared}
     errors = {

@@ -56,7 +56,7 @@ def estimate(
     source = arrays.neutral_rows(other_seat=condition.calibration == "other_seat")[rows]
     if (source < 0).any():
         raise InputError(
-            f"sample {arrays.sample[rows][source < 0][0]} has no neutral picture of "
+            f"{arrays.folder}: sample {arrays.sample[rows][source < 0][0]} has no neutral picture of "
             f"{condition.calibration.replace('_', ' ')}; evaluate without calibration"
         )
     neutral = {name: arrays.pictures[name][source] for name in pictures}
@@ -83,7 +83,7 @@ def evaluate(
     _check_cameras(model, arrays)
     rows = np.flatnonzero((arrays.split == split) & ~arrays.neutral)
     if not len(rows):
-        raise InputError(f"the arrays have no {split} row with an expression; choose another split")
+        raise InputError(f"{arrays.folder} has no {split} row with an expression; choose another split")
     people = np.unique(arrays.person[rows])
     in_training = int(np.isin(people, arrays.person[arrays.split == "train"]).sum())
     combined = arrays.component[rows] == COMBINED
@@ -154,7 +154,7 @@ def _check_cameras(model: HeadsetModel, arrays: HeadsetArrays) -> None:
         if sizes.get(name) != (width, height):
             has = ", ".join(f"{other} {w}x{h}" for other, (w, h) in sizes.items())
             raise InputError(
-                f"the model needs camera {name} of {width}x{height} pixels; the arrays have {has}"
+                f"the model needs camera {name} of {width}x{height} pixels; {arrays.folder} has {has}"
             )
 
 

@@ -50,13 +50,13 @@ def fit_temporal(predictor: HeadsetPredictor, arrays: HeadsetArrays) -> Temporal
     """
     if arrays.clip_starts().all():
         raise InputError(
-            'the arrays hold no frames that follow one another; pack a dataset of kind "sequence" '
+            f'{arrays.folder} holds no frames that follow one another; pack a dataset of kind "sequence" '
             "(datasets/headset-clips.toml)"
         )
     rows = {split: arrays.rows(split) for split in ("train", "test")}
     for split, numbers in rows.items():
         if not len(numbers):
-            raise InputError(f"the clips have no {split} people; split_shares in their spec gives some")
+            raise InputError(f"{arrays.folder} has no {split} people; split_shares in its spec gives some")
     estimates = {
         split: estimate(predictor.graph, predictor.model, arrays, numbers, Condition())
         for split, numbers in rows.items()

@@ -25,6 +25,9 @@ MOST_CAMERAS = 64
 TAPS = 5
 """The frame itself, and the four before it (the second paper's)."""
 
+MOST_FPS = 10_000
+"""Frames a second; no camera of a headset has a tenth of it."""
+
 _CAMERA = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 """What a camera may be called: files of pictures and inputs of graphs have its name."""
 
@@ -81,7 +84,7 @@ class Temporal:
         Figures on other people's clips: of one frame alone, of the mean of as many frames, and of the taps.
     """
 
-    fps: Annotated[float, Gt(0), Le(10_000)]
+    fps: Annotated[float, Gt(0), Le(MOST_FPS)]
     taps: Annotated[tuple[Row, ...], Len(_OUTPUTS, _OUTPUTS)]
     people: Count
     dataset_hash: str

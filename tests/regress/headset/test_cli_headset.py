@@ -133,7 +133,7 @@ def test_arrays_of_other_cameras_are_refused(run, arrays_folder: Path, tmp_path:
     other = write_tiny_model(tmp_path / "other")
     code, _, said = run("headset", "evaluate", other, arrays_folder)
     assert code == 2
-    assert "the model needs camera left_eye of 16x12 pixels; the arrays have left_eye 24x24" in said
+    assert f"the model needs camera left_eye of 16x12 pixels; {arrays_folder} has left_eye 24x24" in said
 
 
 def test_an_export_runs_by_what_its_description_says(run, model: Path, tmp_path: Path):

@@ -149,7 +149,7 @@ def test_a_models_taps_are_judged_on_other_people(as_clips: HeadsetArrays):
     ("changes", "message"),
     [
         ({"frame": 0}, "no frames that follow one another"),
-        ({"split": "train"}, "have no test people"),
+        ({"split": "train"}, "has no test people"),
     ],
 )
 def test_arrays_that_cannot_tell_are_refused(as_clips: HeadsetArrays, changes: dict, message: str):
