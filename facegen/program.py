@@ -21,6 +21,9 @@ from facegen.extras import Extra, missing_extra
 if TYPE_CHECKING:
     import typer
 
+_UNREACHABLE = (errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES)
+"""What the system says of names that lead nowhere, wherever a command first asks whether something stands there."""
+
 _KEYBOARD_INTERRUPT = 130
 """What Typer makes of a KeyboardInterrupt."""
 
@@ -217,6 +220,9 @@ def _fault(app: "typer.Typer", error: Exception) -> int:
             f"{name}: {error.filename or 'standard output'}: no space left; free some and run the same command again"
         )
         return ExitCode.NOT_WRITABLE
+    if isinstance(error, OSError) and error.errno in _UNREACHABLE and error.filename is not None:
+        say(f"{name}: {os.fsdecode(error.filename)}: cannot be reached ({error.strerror}); name another")
+        return InputError.exit_code
     try:
         handle, path = tempfile.mkstemp(prefix=f"{name}-fault-", suffix=".txt")
         with open(handle, "w", encoding="utf-8", errors="backslashreplace") as file:

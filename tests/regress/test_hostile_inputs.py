@@ -320,3 +320,32 @@ def test_edges_are_made_of_68_points_alone(name: str, run, tmp_path: Path):
     assert code == 2, err
     assert len(err.splitlines()) == 1
     assert not (tmp_path / "out.json").exists()
+
+
+LONG = "x" * 300
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("predict", LONG, "a.npy"),
+        ("predict", "--model", LONG, "a.npy"),
+        ("predict", "a.npy", "--neutral", LONG),
+        ("predict", "a.npy", "--adjust", LONG),
+        ("predict", "a.npy", "--gltf", LONG, "--out", "b.glb", "--fps", "30"),
+        ("evaluate", LONG, LONG),
+        ("headset", "predict", LONG),
+        ("headset", "predict", "--mouth", LONG),
+        ("edges", f"{LONG}.npy", "--out", "b.json"),
+    ],
+    ids=lambda words: " ".join(word.replace(LONG, "LONG") for word in words),
+)
+def test_names_of_over_255_bytes_are_one_sentence(
+    words: tuple[str, ...], run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.chdir(tmp_path)
+    np.save("a.npy", FACES)
+    code, out, err = run(*words)
+    assert (code, out) == (2, "")
+    assert "too long" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["a.npy"]
