@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from facegen.errors import FormatError
+
 _VP9, _MPEG4_PART_2 = "VP90", "mp4v"
 
 
@@ -27,11 +29,14 @@ def encode_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None
 
     Raises
     ------
+    FormatError
+        Where the name is no text.
     OSError
         Where OpenCV has no writer for such files, or not every frame can be read back, as on a full disk.
     """
     import cv2
 
+    check_film_path(path)
     writer, written = None, 0
     try:
         for frame in frames:
@@ -53,6 +58,20 @@ def encode_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None
         raise OSError(
             f"{readable} of {written} frames can be read back: no space is left, or the disk loses what is written"
         )
+
+
+def check_film_path(path: Path) -> None:
+    """Refuse a name that is no text in UTF-8: OpenCV crashes on it.
+
+    Raises
+    ------
+    FormatError
+        Where it is none.
+    """
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        raise FormatError(f"{path}: is no name in UTF-8, and films need one; give it another") from None
 
 
 def _count_frames(path: Path) -> int:

@@ -34,7 +34,10 @@ def edges(
     from regress.learning.reference_shape import TILT_DEG, make_reference_shape, reference_shape_json
 
     tilt_deg = TILT_DEG if tilt_deg is None else tilt_deg
-    shape = make_reference_shape(_read(points), name=name, source=source, tilt_deg=tilt_deg)
+    try:
+        shape = make_reference_shape(_read(points), name=name, source=source, tilt_deg=tilt_deg)
+    except InputError as error:
+        raise error if str(points) in str(error) else InputError(f"{points}: {error}") from error
     write_whole(out, reference_shape_json(shape))
     say(f"{len(shape.edges)} edges of {shape.name}, SHA-256 {shape.sha256[:12]}, in {out}")
 

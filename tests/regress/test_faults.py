@@ -42,6 +42,9 @@ def _on_a_line(faces: np.ndarray) -> np.ndarray:
 BAD_FACES = {
     "nan": (Fault.MISSING, lambda faces: np.where(np.arange(68)[:, None] == 30, np.nan, faces)),
     "inf": (Fault.MISSING, lambda faces: np.where(np.arange(68)[:, None] == 66, np.inf, faces)),
+    "far away": (Fault.MISSING, lambda faces: np.where(np.arange(68)[:, None] == 5, -1e300, faces)),
+    "huge": (Fault.MISSING, lambda faces: faces * 1e100),
+    "tiny": (Fault.COLLAPSED, lambda faces: faces * 1e-100),
     "one place": (Fault.COLLAPSED, lambda faces: faces[:, :1] * np.ones((68, 1))),
     "on a line": (Fault.COLLAPSED, _on_a_line),
     "sides exchanged": (Fault.MIRRORED, _exchanged),

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from facegen.files import output_errors, whole_file
-from facegen.formats.film import encode_film
+from facegen.formats.film import check_film_path, encode_film
 from facegen.formats.ppm import read_ppm_stream
 from regress.errors import InputError, OutputError
 from regress.runtime.headset.footage import Footage
@@ -53,7 +53,8 @@ def write_film(
 
 
 def check_film_name(path: Path) -> None:
-    """Refuse a name whose ending is not one of those that can be written."""
+    """Refuse a name whose ending is not one of those that can be written, or that is no text."""
+    check_film_path(path)
     if path.suffix.lower() not in FILMS:
         raise InputError(f"{path} is no name of a film that can be written; these end in {', '.join(FILMS)}")
 

@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 
 from facegen.documents import unreadable
+from facegen.formats.film import check_film_path
 from facegen.formats.picture_size import MOST_PIXELS
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault
@@ -99,6 +100,7 @@ def read_recording(path: Path, camera: str, *, width: int, height: int, bits: in
         return _recording(camera, path, numbers, fitted)
     if not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS:
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
+    check_film_path(path)
     film = cv2.VideoCapture(os.fspath(path))
     try:
         fps = film.get(cv2.CAP_PROP_FPS)

@@ -32,6 +32,10 @@ Faces of the default dataset have -0.38 to -0.79, recorded ones -0.35 to -0.71, 
 """
 
 
+_FARTHEST, _SMALLEST = 1e15, 1e-15
+"""Of a coordinate and of a face's half size, in pixels: alignment takes the fourth power of both."""
+
+
 class Fault(Enum):
     """What is wrong with a row; the value says what it has."""
 
@@ -49,13 +53,13 @@ def face_faults(points: np.ndarray) -> list[Fault | None]:
     Parameters
     ----------
     points : (n, 68, 2) float64
-        Pixels, y down; NaN and infinity are missing points.
+        Pixels, y down; NaN and what lies beyond `_FARTHEST`, as infinity does, are missing points.
     """
-    usable = np.isfinite(points).all(axis=(1, 2))
+    usable = (np.abs(points) < _FARTHEST).all(axis=(1, 2))
     x, y = np.where(usable[:, None, None], points, 0.0).transpose(2, 0, 1)
     x, y = x - x.mean(axis=1, keepdims=True), y - y.mean(axis=1, keepdims=True)
     extent = np.maximum(np.abs(x).max(axis=1), np.abs(y).max(axis=1))
-    scale = 1 / np.where(extent > 0, extent, 1.0)[:, None]  # points near 1e300 would overflow when squared
+    scale = 1 / np.where(extent > _SMALLEST, extent, np.inf)[:, None]
     x, y = x * scale, y * scale
     xx, yy, xy = (np.einsum("nk,nk->n", *pair) for pair in ((x, x), (y, y), (x, y)))
     collapsed = ~(xx * yy - xy * xy > _FLAT * (xx + yy) ** 2)

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
+from facegen.errors import FormatError
 from facegen.formats.film import encode_film
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -28,6 +29,12 @@ def test_a_frame_that_fails_ends_the_film(tmp_path: Path):
         encode_film(tmp_path / "face.mp4", frames(), fps=25)
 
 
+def test_a_name_that_is_no_text_is_refused(tmp_path: Path):
+    frames = np.zeros((2, 32, 32, 3), dtype=np.uint8)
+    with pytest.raises(FormatError, match="no name in UTF-8"):  # of which OpenCV 4.11 dies
+        encode_film(tmp_path / "face\udcff.mp4", frames, fps=25)
+
+
 def test_browsers_play_webm_and_no_library_complains(tmp_path: Path, capfd: pytest.CaptureFixture):
     frames = np.zeros((3, 32, 32, 3), dtype=np.uint8)
     encode_film(tmp_path / "face.WEBM", frames, fps=25)
@@ -44,6 +51,7 @@ def test_a_film_that_finds_no_room_says_so(tmp_path: Path, suffix: str):
 import resource, signal
 import numpy as np
 from pathlib import Path
+from facegen.errors import FormatError
 from facegen.formats.film import encode_film
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))

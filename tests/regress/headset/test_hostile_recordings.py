@@ -122,9 +122,10 @@ def test_a_take_has_only_so_many_frames(tmp_path: Path, monkeypatch: pytest.Monk
         _read(tmp_path / "a.avi")
 
 
-@pytest.mark.parametrize("name", ["x" * 300, "a.mp4", "none", "pipe.mp4", "loop"])
+@pytest.mark.parametrize("name", ["x" * 300, "a.mp4", "none", "pipe.mp4", "loop", "a\udcff.avi"])
 def test_what_is_no_recording_is_refused(name: str, tmp_path: Path):
     (tmp_path / "a.mp4").write_bytes(b"hello")
+    (tmp_path / "a\udcff.avi").write_bytes(b"hello")  # of which OpenCV 4.11 dies
     os.mkfifo(tmp_path / "pipe.mp4")
     (tmp_path / "loop").symlink_to("loop")
     with pytest.raises(InputError) as caught:
