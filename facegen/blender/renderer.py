@@ -1,5 +1,7 @@
 """Renders a view of a `Scene` with Cycles to linear `Layers`, in this process and without files."""
 
+import errno
+import os
 from pathlib import Path
 
 import bpy
@@ -13,6 +15,9 @@ from facegen.blender.runtime import LENS, choose_device, quiet_stdout
 from facegen.blender.settings import set_up_cycles
 from facegen.errors import InputError
 from facegen.scene.scene import Glimpse, Layers, Scene, View
+
+_WRITING = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EIO)
+"""The system's refusals that Blender repeats in its own error."""
 
 
 class Renderer:
@@ -95,6 +100,11 @@ class Renderer:
 
         All cameras are in it, the view's own is active, and its lamps alone are lit. The other parameters are those of
         `render`.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
         """
         view = _view(scene, view_name)
         self._contents.load(scene)
@@ -107,8 +117,12 @@ class Renderer:
         source = bpy.data.texts.get(LENS.name) or bpy.data.texts.new(LENS.name)
         source.from_string(LENS.read_text(encoding="utf-8"))
         source.use_fake_user = True
-        with quiet_stdout():
-            bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True, copy=True)
+        try:
+            with quiet_stdout():
+                bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True, copy=True)
+        except RuntimeError as error:  # Blender's own, with the system's words in it
+            code = next((code for code in _WRITING if os.strerror(code) in str(error)), errno.EIO)
+            raise OSError(code, os.strerror(code), str(path)) from error
 
     def _sample(self, samples: int, seed: int, denoise: bool) -> None:
         cycles = self._scene.cycles

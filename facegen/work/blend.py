@@ -4,7 +4,7 @@ from pathlib import Path
 
 from facegen.conventions import BLOCK
 from facegen.errors import InputError
-from facegen.files import whole_file
+from facegen.files import output_errors, whole_file
 from facegen.sampling import draw_samples
 from facegen.store import Dataset
 from facegen.work.worker import draw_render_seed, label_sample
@@ -46,8 +46,9 @@ def save_blend(dataset: Dataset, number: int, path: Path, *, view: str | None = 
     spec, render = dataset.spec, dataset.spec.render
     labelled = label_sample(dataset, number, draw_samples(dataset.plan, dataset.rig, number // BLOCK))
     seed = draw_render_seed(spec.seed, view, number)
-    with whole_file(path, suffix=".blend") as part:
+    with output_errors(path):
         path.parent.mkdir(parents=True, exist_ok=True)
+    with whole_file(path, suffix=".blend") as part:
         open_renderer(subsurface=render.subsurface).save(
             labelled.sample.scene,
             view,

@@ -91,3 +91,20 @@ def test_refusals(anny, tmp_path):
     with pytest.raises(InputError, match="sample 99 does not exist; this dataset has samples 0-19"):
         blend(spec, 99, tmp_path / "a.blend")
     assert [p.name for p in tmp_path.iterdir()] == ["spec.toml"]
+
+
+@pytest.mark.blender
+@pytest.mark.slow
+def test_a_disk_that_is_full_is_said_to_be(tmp_path, anny):
+    """A limit on the size of files stands for the disk; what lay under the name stays."""
+    (tmp_path / "spec.toml").write_text(SPEC)
+    (tmp_path / "scene.blend").write_text("old")
+    limited = "import resource, runpy; resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)); "
+    command = [sys.executable, "-c", limited + "runpy.run_module('facegen', run_name='__main__')"]
+    arguments = ["blend", tmp_path / "spec.toml", "--sample", "1", "--out", tmp_path / "scene.blend"]
+    done = subprocess.run([*command, *map(str, arguments)], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 74, done.stderr
+    assert done.stderr.startswith(f"facegen: {tmp_path / 'scene.blend'}: cannot be written")
+    assert done.stderr.count("\n") == 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["scene.blend", "spec.toml"]
+    assert (tmp_path / "scene.blend").read_text() == "old"
