@@ -1,5 +1,6 @@
 """Defines ``facegen farm submit | status | logs | resume | cancel``."""
 
+import re
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -178,6 +179,10 @@ def logs(
 
     folder = DatasetFolder(dataset)
     if task is not None:
+        if re.fullmatch(r"(sample|shard)-[0-9]{6,15}", task) is None:
+            raise InputError(
+                f"{task!r} is the name of no task; names are like sample-000123 and shard-000001"
+            )
         paths = sorted((dataset / "logs").glob(f"[0-9]*/{task}-*.log"))
     else:
         paths = farm.engine_logs(folder) + sorted((dataset / "quarantine").glob("*/*.log"))

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, TypeAdapter, ValidationError
 
+from facegen.documents import MOST_JSON_BYTES, read_bytes
 from facegen.errors import InputError
 from facegen.farm.chunks import Chunk
 from facegen.farm.resources import Resources, refuse_control
@@ -129,8 +130,6 @@ def asked_jobs(folder: DatasetFolder) -> list[Job]:
 
 def _read(path: Path, kind: type):
     try:
-        return TypeAdapter(kind).validate_json(path.read_bytes())
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read as the record of a farm job ({error})") from None
+        return TypeAdapter(kind).validate_json(read_bytes(path, most_bytes=MOST_JSON_BYTES))
     except ValidationError as error:
         raise InputError(f"{path}: is not the record of a farm job ({refusal(error, kind)})") from None

@@ -10,6 +10,9 @@ import time
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field, TypeAdapter, ValidationError
 
 from facegen.files import output_errors
 from facegen.machine import machine_name
@@ -17,6 +20,11 @@ from facegen.store import DatasetFolder
 from facegen.work.tasks import Task
 
 LOGS_PER_FOLDER = 1000
+
+MOST_LINE_BYTES = 4096
+"""Of one attempt; its line has some 150."""
+
+_Seconds = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,10 +47,13 @@ class Attempt:
 
     task: str
     outcome: str
-    seconds: float
-    cpu_seconds: float
-    size: int
-    ended: float
+    seconds: _Seconds
+    cpu_seconds: _Seconds
+    size: Annotated[int, Field(ge=0)]
+    ended: _Seconds
+
+
+_ATTEMPT = TypeAdapter(Attempt)
 
 
 class Journal:
@@ -71,11 +82,12 @@ class Journal:
 def read_journals(folder: DatasetFolder) -> Iterator[Attempt]:
     """All attempts of all runs in this dataset; lines that a kill or a full disk cut short are left out."""
     for path in sorted((folder.path / "logs").glob("run-*.jsonl")):
-        for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
-            try:
-                yield Attempt(**json.loads(line))
-            except (TypeError, ValueError):
-                continue
+        with open(path, "rb") as file:
+            while line := file.readline(MOST_LINE_BYTES):
+                try:
+                    yield _ATTEMPT.validate_json(line)
+                except ValidationError:
+                    continue
 
 
 def attempt_log(folder: DatasetFolder, task: Task) -> Path:

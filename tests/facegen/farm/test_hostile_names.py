@@ -15,6 +15,7 @@ from facegen.errors import InputError
 from facegen.farm import ENGINES, Job, Resources, cut_chunks
 from facegen.farm.job import list_jobs
 from facegen.store import DatasetFolder
+from facegen.work import read_journals
 
 SPEC = 'version = 1\nkind = "still"\nseed = 3\npeople = 3\n'
 STEPS = ("generate", "validate", "pack", "train", "export")
@@ -170,3 +171,24 @@ def test_the_scheduler_itself_is_asked(tmp_path):
         (tmp_path / name).write_text(text.replace("{{Param.Python}}", "{{Param.Pythons}}"))
     with pytest.raises(InputError, match="OpenJD does not take the job"):
         ENGINES["openjd"].check(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["[]", "5", "[" * 10_000, '{"task": 1}', "9" * 5000, "\udcff", '{"cpu_seconds": "much"}', "x" * 100_000],
+)
+def test_a_line_of_a_journal_that_is_none_counts_for_nothing(tmp_path, line):
+    good = (
+        '{"task": "shard-000000", "outcome": "done", "seconds": 1, "cpu_seconds": 2, "size": 3, "ended": 4}'
+    )
+    (tmp_path / "logs").mkdir()
+    (tmp_path / "logs" / "run-1.jsonl").write_bytes(
+        os.fsencode("\n".join([line, good, good.replace("2", "1e999"), good.replace("2", '"2s"'), ""]))
+    )
+    assert [attempt.cpu_seconds for attempt in read_journals(DatasetFolder(tmp_path))] == [2.0]
+
+
+@pytest.mark.parametrize("task", ["**a", "../../x", "sample-1", "*", "sample-" + "9" * 300])
+def test_a_task_that_no_farm_has_is_refused(tmp_path, task):
+    refusal = CliRunner().invoke(app, ["farm", "logs", str(tmp_path), task]).exception
+    assert isinstance(refusal, InputError)
