@@ -16,6 +16,9 @@ MOST_ENTRIES = 3
 MOST_CHARACTERS = 60
 """A value whose JSON is longer is not repeated."""
 
+_UNKNOWN = ("unexpected_keyword_argument", "extra_forbidden")
+"""Pydantic's words for a key that is no field."""
+
 Place = tuple[str | int, ...]
 """Keys and indices from the outermost record down to a value."""
 
@@ -30,7 +33,8 @@ def refusal(error: "ValidationError", record: type) -> str:
     record
         The class that was asked for, a pydantic dataclass or model; unknown keys are held against its fields.
     """
-    entries = error.errors(include_url=False)
+    # a mistyped key is why another one is missing, and must not be among those that are only counted
+    entries = sorted(error.errors(include_url=False), key=lambda entry: entry["type"] not in _UNKNOWN)
     sentences = [_sentence(entry, record) for entry in entries[:MOST_ENTRIES]]
     if len(entries) > MOST_ENTRIES:
         sentences.append(f"and {len(entries) - MOST_ENTRIES} more")
@@ -43,7 +47,7 @@ def _sentence(entry: dict[str, Any], record: type) -> str:
         key for key in entry["loc"] if key != "[key]"
     )  # pydantic's word for a key of a mapping itself
     path = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in place).lstrip(".")
-    if kind in ("unexpected_keyword_argument", "extra_forbidden"):
+    if kind in _UNKNOWN:
         known = _known_keys(place, record)
         close = difflib.get_close_matches(str(place[-1]), known, n=1)
         hint = f"did you mean {close[0]!r}? " if close else ""

@@ -47,7 +47,7 @@ class _Record(BaseModel):
     model_config = ConfigDict(strict=True, extra="allow")
 
     name: str
-    format: Literal[RIG_FORMAT]
+    format: Annotated[int, Field(ge=RIG_FORMAT, le=RIG_FORMAT)]
     sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
     licence: str
     source: str

@@ -1,6 +1,6 @@
 """Reads and checks ``dataset.json``, which says what a dataset is."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -19,7 +19,7 @@ class _Description(BaseModel):
 
     model_config = ConfigDict(strict=True, extra="allow")
 
-    format: Literal[FORMAT]
+    format: Annotated[int, Field(ge=FORMAT, le=FORMAT)]
     spec_hash: Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
     label_version: Annotated[int, Field(ge=1, le=1_000_000)]
     licence: Text

@@ -25,7 +25,7 @@ def _list(kind: Any, length: int) -> Any:
 Pair = _list(Number | None, 2)
 """A point; null stands for NaN."""
 Points = _list(Pair, LANDMARK_COUNT)
-Visibility = _list(Literal[0, 1, 2], LANDMARK_COUNT)
+Visibility = _list(Annotated[int, Field(ge=0, le=2)], LANDMARK_COUNT)
 Transform = _list(_list(Number, 4), 4)
 Line = Annotated[list[Pair], Field(min_length=2, max_length=1000)]
 

@@ -255,3 +255,9 @@ def test_sample_numbers(text, numbers):
 def test_sample_numbers_refuses(text):
     with pytest.raises(InputError, match=r"^here: "):
         sample_numbers(text, total=10, where="here")
+
+
+def test_a_mistyped_key_is_named_first_whatever_else_is_wrong():
+    table = {"version": 2, "kind": "stil", "seed": -1, "rig": 5, "peple": 6}
+    with pytest.raises(InputError, match=r"^here: unknown key 'peple'; did you mean 'people'\?"):
+        parse_spec(table, where="here")
