@@ -20,7 +20,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.lib import format as npy_format
 
-from facegen.documents import unreadable
+from facegen.documents import read_bytes, unreadable
 from facegen.errors import FormatError
 
 MOST_BYTES = 256 * 1024**2
@@ -28,6 +28,9 @@ MOST_BYTES = 256 * 1024**2
 
 MOST_ARRAYS = 1000
 """In one archive; the largest of ours has some 200."""
+
+_DIRECTORY_BYTES = 1024**2
+"""Of an archive, beside its numbers: a thousand headers and entries take half of it."""
 
 _ZIP_ERRORS = (
     *(zipfile.BadZipFile, zlib.error, struct.error, EOFError, ValueError),
@@ -90,11 +93,9 @@ def load_npz(path: str | os.PathLike[str], *, most_bytes: int = MOST_BYTES) -> d
     FormatError
         If it is no such archive, is damaged, holds anything but plain arrays, or too much of them.
     """
-    try:
-        with open(path, "rb") as file:
-            return _arrays(file, most_bytes, where=str(path))
-    except (OSError, ValueError) as error:
-        raise unreadable(path, error) from None
+    # whole, and no more than that: in a device that goes on for ever zipfile looks for the end
+    content = read_bytes(path, most_bytes=most_bytes + _DIRECTORY_BYTES)
+    return parse_npz(content, where=str(path), most_bytes=most_bytes)
 
 
 def parse_npz(content: bytes, *, where: str, most_bytes: int = MOST_BYTES) -> dict[str, np.ndarray]:

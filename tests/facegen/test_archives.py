@@ -4,8 +4,10 @@ import contextlib
 import io
 import pickle
 import resource
+import tracemalloc
 import warnings
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -85,6 +87,17 @@ def test_an_archive_that_unpacks_to_gigabytes_is_refused_before_it_does(tmp_path
     with pytest.raises(FormatError, match=r"unpacks to 335,544,384 bytes .* at most 268,435,456 bytes"):
         load_npz(path)
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 50_000
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="the system has no such device")
+def test_a_device_without_an_end_is_no_archive():
+    tracemalloc.start()
+    try:
+        with pytest.raises(FormatError, match="at most 1,049,576 are read here"):
+            load_npz("/dev/zero", most_bytes=1000)
+        assert tracemalloc.get_traced_memory()[1] < 10_000_000
+    finally:
+        tracemalloc.stop()
 
 
 def test_what_is_no_plain_array_is_refused(tmp_path):
