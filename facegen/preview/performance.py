@@ -90,6 +90,10 @@ def clip_of_dataset(dataset: Dataset, clip: int) -> Performance:
 
 def play_weights(rig: Rig, weights: np.ndarray, time_s: np.ndarray, *, title: str) -> Performance:
     """Weights (n, 52) on a rig's mean face; where they are NaN, the face stays as it was."""
+    if np.isinf(weights).any():
+        raise InputError(
+            f"{title}: frame {np.isinf(weights).any(axis=1).argmax()} has a weight that is not finite"
+        )
     known = ~np.isnan(weights).any(axis=1)
     if not known.any():
         raise InputError(f"{title}: no row has all weights")
