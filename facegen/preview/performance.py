@@ -49,12 +49,31 @@ class Performance:
 
     @property
     def fps(self) -> float:
-        """Frames a second, by the median step of time; 30 for a single frame."""
-        return 1.0 / float(np.median(np.diff(self.time_s))) if len(self.time_s) > 1 else 30.0
+        """Frames a second, by the median step of time; 30 for a single frame.
+
+        Raises
+        ------
+        InputError
+            If times do not ascend.
+        """
+        if len(self.time_s) < 2:
+            return 30.0
+        step_s = float(np.median(np.diff(self.time_s)))
+        if not step_s > 0:
+            raise InputError(f"{self.title}: its times do not ascend, so a film of it has no rate; give --fps")
+        return 1.0 / step_s
 
     def rows(self, numbers: Sequence[int]) -> "Performance":
-        """Some of the frames."""
-        index = np.asarray(numbers)
+        """Some of the frames.
+
+        Raises
+        ------
+        InputError
+            If they are none.
+        """
+        index = np.asarray(numbers, dtype=np.int64)
+        if not len(index):
+            raise InputError(f"{self.title}: --frames chooses none of its {len(self.time_s)} frames")
         kept = {name: getattr(self, name)[index] for name in ("weights", "gaze", "rotation", "time_s")}
         return Performance(rig=self.rig, identity=self.identity, title=self.title, **kept)
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
-from facegen.documents import load_json
-from facegen.errors import InputError
+from facegen.documents import load_json, read_text
+from facegen.errors import FormatError, InputError
 from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.files import assets_folder
 from facegen.rigs.identity import fit_sphere
@@ -23,7 +23,10 @@ CENTIMETRE_M = 0.01
 VERSION = "ICT-FaceKit light, build 2"
 LICENCE = "MIT"
 SOURCE = "ICT-FaceKit light (USC Institute for Creative Technologies, 2020), github.com/ICT-VGL/ICT-FaceKit"
+MOST_OBJ_BYTES = 32 * 1024**2
+"""Of one mesh: ICT's have 4 MB."""
 _NEUTRAL = "generic_neutral_mesh"
+_VERTICES = 26_719  # of every mesh of the light face model, as the parts and landmarks count them
 _COMPOSED = ("browInnerUp", "cheekPuff")  # ICT has left and right halves, ARKit one shape
 _TEXTURE_TILES = 3  # UDIM tiles 0 to 6, laid out in a grid of 3 by 3
 
@@ -136,26 +139,47 @@ def _expression(folder: Path, neutral: np.ndarray) -> tuple[np.ndarray, tuple[st
 
 def _read_vertices(path: Path) -> np.ndarray:
     """Vertices (v, 3) of an OBJ file in metres; the fitted light model lists them before anything else."""
-    lines = [line[2:] for line in path.read_text().splitlines() if line.startswith("v ")]
-    return CENTIMETRE_M * np.array(" ".join(lines).split(), float).reshape(-1, 3)
+    lines = [line[2:] for line in _lines(path) if line.startswith("v ")]
+    try:
+        vertices = CENTIMETRE_M * np.array(" ".join(lines).split(), float).reshape(-1, 3)
+    except ValueError as error:
+        raise FormatError(f"{path}: has vertices that are not three numbers each ({error})") from None
+    if len(vertices) != _VERTICES or not np.isfinite(vertices).all():
+        raise FormatError(
+            f"{path}: has {len(vertices):,} vertices, but ICT-FaceKit's light face model has {_VERTICES:,}, all finite"
+        )
+    return vertices
+
+
+def _lines(path: Path) -> list[str]:
+    return read_text(path, most_bytes=MOST_OBJ_BYTES).splitlines()
 
 
 def _read_obj(path: Path) -> _Obj:
+    vertices = _read_vertices(path)
     texture, faces, corners = [], [], []
-    for line in path.read_text().splitlines():
-        kind, _, rest = line.partition(" ")
-        if kind == "vt":
-            texture.append(rest.split()[:2])
-        elif kind == "f":
-            pairs = [[int(value) - 1 for value in corner.split("/")[:2]] for corner in rest.split()]
-            pairs += [[-1, pairs[0][1]]] * (4 - len(pairs))
-            faces.append([vertex for vertex, _ in pairs])
-            corners.append([uv for _, uv in pairs])
-    uv = np.array(texture, float)[np.array(corners)]
+    try:
+        for line in _lines(path):
+            kind, _, rest = line.partition(" ")
+            if kind == "vt":
+                texture.append(rest.split()[:2])
+            elif kind == "f":
+                pairs = [[int(value) - 1 for value in corner.split("/")[:2]] for corner in rest.split()]
+                pairs += [[-1, pairs[0][1]]] * (4 - len(pairs))
+                faces.append([vertex for vertex, _ in pairs])
+                corners.append([uv for _, uv in pairs])
+        face, corner = np.array(faces, np.int64).reshape(-1, 4), np.array(corners, np.int64).reshape(-1, 4)
+        uv = np.array(texture, float).reshape(-1, 2)[corner]
+    except (ValueError, IndexError, OverflowError) as error:
+        raise FormatError(
+            f"{path}: has faces or texture coordinates that are not an OBJ file's ({error})"
+        ) from None
+    if not len(face) or face.max() >= _VERTICES or face.min() < -1 or not np.isfinite(uv).all():
+        raise FormatError(f"{path}: has no faces, or some of vertices that are not there")
     tile = np.floor(uv[:, :3, 0].mean(axis=1)).astype(int)
     uv[..., 0] += (tile % _TEXTURE_TILES - tile)[:, None]
     uv[..., 1] += (tile // _TEXTURE_TILES)[:, None]
-    return _Obj(vertices=_read_vertices(path), faces=np.array(faces), uv=uv / _TEXTURE_TILES)
+    return _Obj(vertices=vertices, faces=face, uv=uv / _TEXTURE_TILES)
 
 
 def _mark_tongue(part: np.ndarray, vertices: np.ndarray, faces: np.ndarray, jaw_open: np.ndarray) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.errors import InputError, InvalidData
+from facegen.errors import FormatError, InputError, InvalidData
 from facegen.files import output_errors
 from facegen.sampling import Shot, draw_shot
 from facegen.sensor import develop_view
@@ -120,7 +120,10 @@ def develop_sample(
         noise = shot.noise if settings.noise is None else settings.noise
         shots[view] = replace(shot, noise=noise, dropped_led=rendered.dropped_led)
         path = dataset.folder.render(number) / f"{view}.exr"
-        layers = read_exr(path)
+        try:
+            layers = read_exr(path)
+        except FormatError as error:  # others are there already: not the input is bad, but this sample
+            raise InvalidData(f"{error}; run facegen validate --repair, then facegen generate") from None
         if layers.radiance.shape != (camera.height, camera.width):
             raise InvalidData(
                 f"{path}: has {layers.radiance.shape[1]} x {layers.radiance.shape[0]} pixels, but camera {view!r} has "

@@ -115,6 +115,7 @@ def try_case(
         program=words[0],
         stderr=stderr,
         accepts=reader.accepts,
+        refuses=reader.refuses,
         names=(*_names(reader, target, words), *_names_of_value(value, case)),
         written=tuple(written),
         half_made=tuple(name for name in written if _is_half_made(name)),

@@ -9,8 +9,8 @@ from tests.hostile.running import CPU_S, MEMORY_BYTES, Ending
 MOST_CHARACTERS = 500
 """Of a refusal's line."""
 
-REFUSED = (2, 74)
-"""Exit codes of a refusal: bad input, or a place that cannot be written."""
+INVALID = 1
+"""Exit code of a refusal that may come when some is written: data on disk that do not agree with themselves."""
 
 GOOD = ("accepted", "refused")
 """Verdicts that operators are promised; all others are failures."""
@@ -65,6 +65,7 @@ def judge(
     program: str,
     stderr: str,
     accepts: tuple[int, ...],
+    refuses: tuple[int, ...],
     names: tuple[str, ...],
     written: tuple[str, ...],
     half_made: tuple[str, ...],
@@ -83,6 +84,8 @@ def judge(
         What it said.
     accepts
         Exit codes of success.
+    refuses
+        Exit codes of a refusal.
     names
         Words of which a refusal must have one: the damaged file, options.
     written, half_made
@@ -113,11 +116,12 @@ def judge(
     noise = [line for line in lines if _NOISE.search(line)]
     if noise:
         return Verdict(kind="noise", detail=re.sub(r"\d+", "N", noise[0])[:200])
-    if ending.code in accepts and ending.code not in REFUSED:
+    if ending.code in accepts:
         long = [line for line in lines if len(line) > 2 * MOST_CHARACTERS]
         return Verdict(kind="sentence", detail=long[0][:200]) if long else Verdict(kind="accepted")
-    if ending.code not in REFUSED:
+    if ending.code not in refuses:
         return Verdict(kind="code", detail=f"{ending.code}: {(lines or [''])[-1][:160]}")
+    written = () if ending.code == INVALID else written
     return _of_refusal(lines, program=program, names=names, written=written)
 
 

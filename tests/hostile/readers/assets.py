@@ -162,6 +162,15 @@ READERS = (
         weight=0.5,
     ),
     Reader(
+        name="weights-film",
+        command="facegen preview --weights in/weights.csv --rig anny --size 64 --frames 0-2 --out out/film.gif",
+        make=_weights,
+        target="weights.csv",
+        kind="csv",
+        only=("cell", "column", "ragged"),
+        weight=0.5,
+    ),
+    Reader(
         name="ict-clone",
         command="facegen rig build ict --path in/clone",
         make=_clone,

@@ -32,6 +32,8 @@ class Reader:
         Kind of the option's value that is tried, a key of `tests.hostile.mutators.values.VALUES`.
     accepts
         Exit codes with which the command may end well.
+    refuses
+        Exit codes of a refusal: 1 as well where data that were made are found to be invalid, maybe midway.
     honest
         Verdict on honest input.
     stdin
@@ -58,6 +60,7 @@ class Reader:
     covers: tuple[str, ...] = ()
     values: str = ""
     accepts: tuple[int, ...] = (0,)
+    refuses: tuple[int, ...] = (2, 74)
     honest: str = "accepted"
     stdin: str = ""
     environment: dict[str, str] = field(default_factory=dict)
