@@ -60,7 +60,9 @@ class Performance:
             return 30.0
         step_s = float(np.median(np.diff(self.time_s)))
         if not step_s > 0:
-            raise InputError(f"{self.title}: its times do not ascend, so a film of it has no rate; give --fps")
+            raise InputError(
+                f"{self.title}: its times do not ascend, so a film of it has no rate; give --fps"
+            )
         return 1.0 / step_s
 
     def rows(self, numbers: Sequence[int]) -> "Performance":
