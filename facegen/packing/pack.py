@@ -10,11 +10,12 @@ from facegen.errors import InputError
 from facegen.files import output_errors
 from facegen.packing.arrays import ARRAYS
 from facegen.packing.coco import COCO
-from facegen.packing.keypoints import KEYPOINTS
+from facegen.packing.keypoints import KEYPOINTS, chosen_columns
 from facegen.packing.livelink import LIVELINK
 from facegen.packing.openface import OPENFACE
 from facegen.packing.parquet import PARQUET
 from facegen.packing.plan import Options, PackFile, PackFormat, chosen_samples
+from facegen.packing.rendered import chosen_views
 from facegen.packing.webdataset import WEBDATASET
 from facegen.spec import format_ranges
 from facegen.store import (
@@ -85,6 +86,9 @@ def plan_pack(dataset: Dataset, name: str, options: Options | None = None) -> Pa
         raise InputError(f"--format: {name!r} is none of {', '.join(PACK_FORMATS)}")
     form = PACK_FORMATS[name]
     checked = _checked(form, name, options or Options())
+    # wrong names are refused here, before anything is written
+    chosen_columns(dataset, checked)
+    chosen_views(dataset, checked)
     samples = chosen_samples(dataset, checked, rendered=form.rendered)
     parts = tuple(form.parts(dataset, samples, checked))
     return PackPlan(dataset=dataset, name=name, options=checked, samples=samples, parts=parts)

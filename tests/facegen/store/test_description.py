@@ -105,3 +105,20 @@ def test_names_that_no_folder_has(anny, tmp_path, name):
             words = ["generate", str(spec), "--out", str(tmp_path / "out")]
             assert isinstance(CliRunner().invoke(app, words).exception, InputError), key
             assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("option", ["--columns", "--views"])
+def test_a_pack_of_names_that_there_are_not_writes_nothing(recorded, tmp_path, option):
+    form = "keypoints" if option == "--columns" else "webdataset"
+    words = [
+        "pack",
+        str(recorded.folder.path),
+        "--out",
+        str(tmp_path / "pack"),
+        "--format",
+        form,
+        option,
+        "nose",
+    ]
+    assert isinstance(CliRunner().invoke(app, words).exception, InputError)
+    assert not (tmp_path / "pack").exists()
