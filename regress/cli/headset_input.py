@@ -153,9 +153,14 @@ def read_neutrals(
     return [Neutral(row=row, pictures=neutral_of_frame(footage, row)) for row in rows]
 
 
+def _is_frame(footage: "Footage", named: str) -> bool:
+    """Whether this is a frame's number; those of files fit 64 bits."""
+    return named.isdecimal() and len(named) < 20 and int(named) in footage.numbers
+
+
 def _row(footage: "Footage", named: str) -> int:
     """Row of a frame by its number, where several neutral frames are named."""
-    if not (named.isdecimal() and int(named) in footage.numbers):
+    if not _is_frame(footage, named):
         first, last = footage.numbers[[0, -1]]
         raise InputError(
             f"--neutral {named!r} is no frame of {footage.source} ({first}-{last}), as each of several has to be"
@@ -178,7 +183,7 @@ def _one_neutral(
             return []
         say(f"{footage.source}: frame {footage.numbers[found.row]} is taken for neutral: {found.reason}")
         return [Neutral(row=found.row, pictures=neutral_of_frame(footage, found.row))]
-    if named.isdecimal() and int(named) in footage.numbers:
+    if _is_frame(footage, named):
         row = int(np.flatnonzero(footage.numbers == int(named))[0])
         return [Neutral(row=row, pictures=neutral_of_frame(footage, row))]
     if Path(named).is_dir():

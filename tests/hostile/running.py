@@ -13,7 +13,7 @@ MEMORY_BYTES = 1_500_000_000
 """Address space that a command may take beyond its imports: ten times what an honest small input needs."""
 CPU_S = 10
 """Processor time of a command whose honest input takes a tenth to a second."""
-WALL_S = 40.0
+WALL_S = 150.0
 """Longest wait; far over the processor's time, as tests share busy machines."""
 FILE_BYTES = 200_000_000
 """Largest file that a command may write here."""
