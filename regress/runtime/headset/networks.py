@@ -42,7 +42,7 @@ class HeadsetNetworks(Stage):
         self._confidence = HeadsetConfidence(predictor.model) if scored else None
         self._neutral: Mapping[str, np.ndarray] | None = None
         self._seat: SeatWatch | None = None
-        self._labels: deque[str] = deque(maxlen=SeatWatch(fps=fps).patience_frames)
+        self._doubted_from: str | None = None
         self.reseated: list[str] = []
         """Labels of the frames from which the seat was no longer that of the neutral pictures."""
 
@@ -50,7 +50,7 @@ class HeadsetNetworks(Stage):
         """Compare frames with these neutral pictures (h, w) uint8 by camera from now on; None: with none."""
         self._neutral = pictures
         self._seat = None if pictures is None else SeatWatch(fps=self._fps)
-        self._labels.clear()
+        self._doubted_from = None
 
     def step(self, sample: Sample) -> Sample:
         """The sample with weights (52,) in [0, 1], gaze (4,) and, for a model with scores, confidence (52,).
@@ -85,10 +85,10 @@ class HeadsetNetworks(Stage):
             return self._predictor.predict(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
         estimates = self._predictor.predict(pictures, neutral=self._neutral)
         if not self._seat.changed:
-            self._labels.append(sample.label)
             compared = self._seat.step(float(estimates.same_seat[0]))
+            self._doubted_from = None if compared else self._doubted_from or sample.label
             if self._seat.changed:
-                self.reseated.append(self._labels[0])
+                self.reseated.append(self._doubted_from)
             if not (compared or self._keep):
                 return self._predictor.predict(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
         return estimates, True

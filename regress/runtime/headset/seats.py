@@ -13,7 +13,8 @@ class SeatWatch:
 
     A frame is compared with the neutral pictures while the mean over the last `PATIENCE_S` is one half or more. Where
     the mean stays below one half for as long, the seat has changed for good, from the frame at which the mean fell. A
-    headset that comes back to its old seat exactly does not happen.
+    headset that comes back to its old seat exactly does not happen. A mean of fewer frames, as a take begins, casts
+    doubt but counts for nothing more: a blink would be most of it.
 
     Parameters
     ----------
@@ -24,7 +25,7 @@ class SeatWatch:
     def __init__(self, *, fps: float) -> None:
         self.patience_frames = max(1, round(PATIENCE_S * fps))
         self._recent: deque[float] = deque(maxlen=self.patience_frames)
-        self._doubtful = 0
+        self._doubtful_frames = 0
         self.changed = False
 
     def step(self, same_seat: float) -> bool:
@@ -36,6 +37,8 @@ class SeatWatch:
             The network's probability; frames without pictures have none, and are left out.
         """
         self._recent.append(same_seat)
-        self._doubtful = self._doubtful + 1 if np.mean(self._recent) < 0.5 else 0
-        self.changed = self.changed or self._doubtful >= self.patience_frames
-        return not (self._doubtful or self.changed)
+        doubtful = bool(np.mean(self._recent) < 0.5)
+        whole = len(self._recent) == self.patience_frames
+        self._doubtful_frames = self._doubtful_frames + 1 if doubtful and whole else 0
+        self.changed = self.changed or self._doubtful_frames >= self.patience_frames
+        return not (doubtful or self.changed)
