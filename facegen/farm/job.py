@@ -129,7 +129,10 @@ def asked_jobs(folder: DatasetFolder) -> list[Job]:
 
 
 def _read(path: Path, kind: type):
+    content = read_bytes(path, most_bytes=MOST_JSON_BYTES)
     try:
-        return TypeAdapter(kind).validate_json(read_bytes(path, most_bytes=MOST_JSON_BYTES))
+        return TypeAdapter(kind).validate_json(content)
     except ValidationError as error:
         raise InputError(f"{path}: is not the record of a farm job ({refusal(error, kind)})") from None
+    except InputError as error:  # of its resources, which speak of options
+        raise InputError(f"{path}: {error}") from None

@@ -71,18 +71,24 @@ def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Res
 def prepare_resumption(dataset: Dataset, resumption: Resumption, *, chunk: int | None = None) -> Job:
     """Write the new job as `facegen.farm.prepare` does; ``chunk`` is the number of samples a task."""
     newest, steps = resumption.newest, resumption.steps
-    return prepare(
-        dataset,
-        resumption.remaining,
-        engine=newest.engine,
-        steps=tuple(steps),
-        samples=newest.samples,
-        shards=newest.shards,
-        resources=newest.resources,
-        chunk=chunk,
-        packed=steps.get("pack", newest).packed,
-        model=steps.get("train", steps.get("export", newest)).model,
-    )
+    try:
+        return prepare(
+            dataset,
+            resumption.remaining,
+            engine=newest.engine,
+            steps=tuple(steps),
+            samples=newest.samples,
+            shards=newest.shards,
+            resources=newest.resources,
+            chunk=chunk,
+            packed=steps.get("pack", newest).packed,
+            model=steps.get("train", steps.get("export", newest)).model,
+        )
+    except InputError as error:
+        if chunk is not None:
+            raise
+        # it speaks of options, and was given none
+        raise InputError(f"{dataset.folder.path / 'farm' / newest.name / 'job.json'}: {error}") from error
 
 
 def forget_quarantined(dataset: Dataset, resumption: Resumption) -> None:

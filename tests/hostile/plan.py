@@ -24,5 +24,7 @@ def cases_of(reader: Reader, mutator: str) -> list[Case]:
 
 
 def pairs(readers: dict[str, Reader]) -> list[tuple[Reader, str]]:
-    """Every reader with every mutator that fits it."""
-    return [(reader, mutator) for reader in readers.values() for mutator in mutators_of(reader)]
+    """Every reader with every mutator that fits it, or with those that it chooses."""
+    return [
+        (reader, mutator) for reader in readers.values() for mutator in reader.only or mutators_of(reader)
+    ]

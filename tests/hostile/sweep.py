@@ -5,7 +5,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from tests.hostile.plan import cases_of
+from tests.hostile.plan import cases_of, pairs
 from tests.hostile.readers import Reader
 from tests.hostile.running import Server
 from tests.hostile.trial import HONEST, Case, clear, mutators_of, try_case
@@ -22,7 +22,7 @@ def sweep(readers: list[Reader], scratch: Path, *, seeds: range | None) -> int:
     scratch
         Folder for cases.
     seeds
-        Of every mutator; without, those that `make test` tries.
+        Of every mutator; without, what `make test` tries.
     """
     server, workshop, causes = Server(), Workshop(scratch), set()
     for reader in readers:
@@ -48,9 +48,8 @@ def sweep(readers: list[Reader], scratch: Path, *, seeds: range | None) -> int:
 def _cases(reader: Reader, seeds: range | None) -> list[Case]:
     """The honest input, where there is one, and all mutators."""
     cases = [Case(reader=reader, mutator=HONEST, seed=0)] if reader.kind else []
-    for mutator in mutators_of(reader):
-        if seeds is None:
-            cases += cases_of(reader, mutator)
-        else:
-            cases += [Case(reader=reader, mutator=mutator, seed=seed) for seed in seeds]
-    return cases
+    if seeds is None:
+        return cases + [case for pair in pairs({reader.name: reader}) for case in cases_of(*pair)]
+    return cases + [
+        Case(reader=reader, mutator=mutator, seed=seed) for mutator in mutators_of(reader) for seed in seeds
+    ]

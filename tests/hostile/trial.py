@@ -54,8 +54,6 @@ def mutators_of(reader: Reader) -> tuple[str, ...]:
     """Names of all that can be done to a reader's input."""
     if not reader.kind:
         return ("value",)
-    if reader.only:
-        return reader.only
     return (*FAMILIES[reader.kind], "kind", "name")
 
 
@@ -168,7 +166,7 @@ def _names(reader: Reader, target: Path | None, words: list[str]) -> tuple[str, 
     options += [one_line(word)[:60] for word in words if word.startswith("in/")]
     options += [value for value in reader.environment.values() if value.startswith("in/")]
     files = [] if target is None else [one_line(target.name)[:60]]
-    return (*options, *files, *(["line ", "standard input"] if reader.stdin else []))
+    return (*reader.names, *options, *files, *(["line ", "standard input"] if reader.stdin else []))
 
 
 def _names_of_value(value: str, case: Case) -> tuple[str, ...]:

@@ -109,6 +109,7 @@ READERS = (
         target="head.glb",
         kind="glb",
         environment={"FACEGEN_RIGS": "out"},
+        only=("claims", "chunks", "number", "replace", "extreme", "exchange", "flip", "cut"),
         weight=0.25,
     ),
     Reader(
@@ -118,6 +119,7 @@ READERS = (
         target="head.json",
         kind="json",
         environment={"FACEGEN_RIGS": "out"},
+        only=("replace", "extreme", "remove", "number", "resize", "exchange", "kind"),
         weight=0.25,
     ),
     Reader(

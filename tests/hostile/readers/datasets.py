@@ -118,6 +118,7 @@ _READERS = (
         "data/dataset.json",
         "json",
         accepts=_ACCEPTED,
+        only=("replace", "extreme", "remove"),
         weight=0.25,
     ),
     _data(
@@ -142,6 +143,7 @@ _READERS = (
         _SHARD,
         "parquet",
         accepts=_ACCEPTED,
+        only=("columns", "flip", "cut"),
         weight=0.25,
     ),
     _data(
@@ -150,6 +152,7 @@ _READERS = (
         f"{_SAMPLE}/*.png",
         "png",
         accepts=_ACCEPTED,
+        only=("claim", "pixels", "flip", "kind"),
         weight=0.25,
     ),
     _data(
@@ -158,6 +161,7 @@ _READERS = (
         f"{_SAMPLE}/*.exr",
         "binary",
         accepts=_ACCEPTED,
+        only=("flip", "overwrite", "cut", "kind"),
         weight=0.25,
     ),
     _data("develop-exr", "facegen develop in/data --out out/new", f"{_SAMPLE}/*.exr", "binary"),
@@ -169,6 +173,7 @@ _READERS = (
         _SHARD,
         "parquet",
         memory_bytes=3_000_000_000,  # matplotlib's figures and the fonts' tables
+        only=("columns", "cut"),
         weight=0.25,
     ),
     _data(
@@ -176,6 +181,7 @@ _READERS = (
         "facegen preview in/data --out out/sheet.png",
         f"{_SAMPLE}/sample.json",
         "json",
+        only=("replace", "extreme", "flip"),
         weight=_SHARE,
     ),
     _data(
@@ -183,6 +189,7 @@ _READERS = (
         "facegen preview in/data --out out/sheet.png",
         f"{_SAMPLE}/*.png",
         "png",
+        only=("claim", "flip", "kind"),
         weight=_SHARE,
     ),
     _pack("webdataset", f"{_SAMPLE}/sample.json", "json"),
@@ -208,6 +215,7 @@ _READERS = (
         make=_two,
         target="data/dataset.json",
         kind="json",
+        only=("replace", "extreme", "remove", "flip", "kind"),
         weight=_SHARE,
     ),
     Reader(
@@ -216,6 +224,7 @@ _READERS = (
         make=_two,
         target=f"{_SAMPLE}/sample.json",
         kind="json",
+        only=("replace", "extreme", "rename", "flip", "kind"),
         weight=_SHARE,
     ),
     Reader(
@@ -251,6 +260,7 @@ _READERS = (
         command="facegen farm cancel in/data",
         make=_farmed,
         honest="refused",
+        names=("job-001",),
         target="data/farm/job-001/job.json",
         kind="json",
         changes=True,

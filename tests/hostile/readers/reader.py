@@ -36,6 +36,8 @@ class Reader:
         Exit codes of a refusal: 1 as well where data that were made are found to be invalid, maybe midway.
     honest
         Verdict on honest input.
+    names
+        Words that name the input as well, of which a refusal must have one.
     stdin
         File that comes on standard input.
     environment
@@ -45,7 +47,7 @@ class Reader:
     changes
         Whether the command may write in its input, as `validate --repair` does.
     only
-        The mutators to try, where trying all would take too long; without, all that fit.
+        The mutators that `make test` tries, where all would take too long; `make fuzz` tries all.
     memory_bytes
         Address space that the command may take.
     weight
@@ -62,6 +64,7 @@ class Reader:
     accepts: tuple[int, ...] = (0,)
     refuses: tuple[int, ...] = (2, 74)
     honest: str = "accepted"
+    names: tuple[str, ...] = ()
     stdin: str = ""
     environment: dict[str, str] = field(default_factory=dict)
     reseal: Callable[[Path], None] | None = None
