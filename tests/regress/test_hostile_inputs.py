@@ -1,6 +1,7 @@
 """Landmark files that nobody meant well: one sentence each, in bounded time and memory, whatever is in them."""
 
 import contextlib
+import errno
 import io
 import json
 import os
@@ -349,3 +350,12 @@ def test_names_of_over_255_bytes_are_one_sentence(
     assert (code, out) == (2, "")
     assert "too long" in err
     assert [path.name for path in tmp_path.iterdir()] == ["a.npy"]
+
+
+def test_a_folder_that_changes_while_it_is_read_is_one_sentence(tmp_path, monkeypatch):
+    def vanished(*_):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(tmp_path / "gone"))
+
+    monkeypatch.setattr(Path, "rglob", vanished)  # as /proc does whenever a process ends
+    with pytest.raises(InputError, match="cannot be read: No such file or directory"):
+        read_frames(tmp_path)

@@ -64,13 +64,9 @@ def read_frames(path: str | os.PathLike[str]) -> Frames:
         raise unreadable(path, error) from None
     if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
         raise InputError(f"{path} is a pipe or a device; give a file, or - for lines on standard input")
-    reader = next((reader for reader in READERS.values() if reader.matches(path)), None)
-    if reader is None:
-        known = ", ".join(reader.description for reader in READERS.values())
-        raise InputError(f"{path} is of no known format; {known} can be read")
     try:
-        frames = reader.read(path)
-    except OSError as error:
+        frames = _reader_of(path).read(path)
+    except OSError as error:  # also a folder in which others remove files
         raise InputError(f"{path} cannot be read: {error.strerror or error}") from error
     frames = dataclasses.replace(frames, labels=tuple(map(_printable, frames.labels)))
     if not frames.usable.any():
@@ -78,6 +74,14 @@ def read_frames(path: str | os.PathLike[str]) -> Frames:
             f"{path} holds no usable frame: each of its {len(frames.points)} has missing landmarks"
         )
     return frames
+
+
+def _reader_of(path: Path) -> Reader:
+    reader = next((reader for reader in READERS.values() if reader.matches(path)), None)
+    if reader is None:
+        known = ", ".join(reader.description for reader in READERS.values())
+        raise InputError(f"{path} is of no known format; {known} can be read")
+    return reader
 
 
 def _printable(label: str) -> str:
