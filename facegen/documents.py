@@ -8,7 +8,7 @@ import os
 import re
 import stat
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from facegen.errors import FormatError, InputError
 
@@ -17,6 +17,8 @@ MOST_JSON_BYTES = 32 * 1024**2
 
 MOST_TOML_BYTES = 64 * 1024
 """Six times the largest file that comes with facegen; beyond it the parser's time grows with the square of a key."""
+
+_PIECE_BYTES = 1024**2
 
 MOST_KEY_PARTS = 100
 """Parts of a dotted key in TOML: 32,000 cost 16 s, and the deepest key of ours has five."""
@@ -43,15 +45,41 @@ def read_bytes(path: str | os.PathLike[str], *, most_bytes: int) -> bytes:
     try:
         with open(path, "rb") as file:
             size = os.fstat(file.fileno())
-            # as much is allocated as is asked for, so of a file no more than it has
-            asked = size.st_size if stat.S_ISREG(size.st_mode) and size.st_size else most_bytes
-            content = b"" if size.st_size > most_bytes else file.read(asked + 1)
+            content = b"" if size.st_size > most_bytes else _content(file, most_bytes)
     except (OSError, ValueError) as error:  # ValueError: a name with a NUL in it
         raise unreadable(path, error) from None
     if size.st_size > most_bytes or len(content) > most_bytes:
         total = f" {size.st_size:,}" if stat.S_ISREG(size.st_mode) else " more"
         raise FormatError(f"{path}: has{total} bytes, but at most {most_bytes:,} are read here")
     return content
+
+
+def _content(file: BinaryIO, most_bytes: int) -> bytes:
+    """At most one byte more than asked for; as a read allocates what it asks for, of a pipe piece by piece."""
+    pieces, left = [], most_bytes + 1
+    while left and (piece := file.read(min(left, _PIECE_BYTES))):
+        pieces.append(piece)
+        left -= len(piece)
+    return b"".join(pieces)
+
+
+def last_lines(path: str | os.PathLike[str], count: int) -> list[str]:
+    """The last lines of a log, however long it is: of its last MiB, what is no UTF-8 replaced.
+
+    Raises
+    ------
+    InputError
+        If it is no regular file, or cannot be read.
+    """
+    try:
+        if not stat.S_ISREG(os.stat(path).st_mode):  # a pipe would be waited for, a device never ends
+            raise InputError(f"{path}: is no regular file, so no log")
+        with open(path, "rb") as file:
+            size = file.seek(0, os.SEEK_END)
+            file.seek(max(0, size - _PIECE_BYTES))
+            return file.read(_PIECE_BYTES).decode(errors="replace").splitlines()[-count:]
+    except OSError as error:
+        raise unreadable(path, error) from None
 
 
 def unreadable(path: str | os.PathLike[str], error: Exception) -> InputError:

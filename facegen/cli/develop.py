@@ -16,13 +16,15 @@ def develop(
         typer.Option("--samples", help="Samples to develop: 0-99,140. Default: all rendered ones."),
     ] = None,
     exposure: Annotated[
-        float | None, typer.Option("--exposure", min=1e-9, help="Instead of the headset's sensor.exposure.")
+        float | None,
+        typer.Option("--exposure", min=1e-9, max=1e9, help="Instead of the headset's sensor.exposure."),
     ] = None,
     gain: Annotated[
-        float | None, typer.Option("--gain", min=1e-9, help="Instead of the headset's sensor.gain.")
+        float | None, typer.Option("--gain", min=1e-6, max=1e6, help="Instead of the headset's sensor.gain.")
     ] = None,
     noise: Annotated[
-        float | None, typer.Option("--noise", min=0, help="Instead of the spec's sensor.noise, a factor.")
+        float | None,
+        typer.Option("--noise", min=0, max=10, help="Instead of the spec's sensor.noise, a factor."),
     ] = None,
     seed: Annotated[
         int | None, typer.Option("--seed", min=0, help="Draw exposure, motion, noise, room and flash anew.")

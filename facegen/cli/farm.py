@@ -10,6 +10,7 @@ import typer
 
 from facegen.cli.tables import print_table
 from facegen.console import say
+from facegen.documents import last_lines
 from facegen.errors import InputError
 
 if TYPE_CHECKING:
@@ -191,9 +192,9 @@ def logs(
             f"{dataset}: has no logs{f' of {task}' if task else ''} (names are like sample-000123)"
         )
     for path in paths:
-        lines = path.read_text(errors="replace").splitlines()
+        lines = last_lines(path, tail)
         print(f"==> {path} <==")
-        print("\n".join(lines[-tail:]))
+        print("\n".join(lines))
 
 
 @farm_app.command()

@@ -58,13 +58,13 @@ class HeadsetSensor:
     reading it out by ``read_noise_electrons`` more. Motion during ``exposure_ms`` blurs.
     """
 
-    exposure: Positive
-    gain: Positive = 1.0
+    exposure: Annotated[float, Field(ge=1e-9, le=1e9)]
+    gain: Annotated[float, Field(ge=1e-6, le=1e6)] = 1.0
     black_level: Annotated[float, Field(ge=0, le=200)]
     veiling_glare: Annotated[float, Field(ge=0, le=0.5)] = 0.0
-    full_well_electrons: Annotated[float, Field(ge=100)] = 10_000.0
-    read_noise_electrons: NotNegative = 15.0
-    exposure_ms: Positive = 2.0
+    full_well_electrons: Annotated[float, Field(ge=100, le=1e9)] = 10_000.0
+    read_noise_electrons: Annotated[float, Field(ge=0, le=1e6)] = 15.0
+    exposure_ms: Annotated[float, Field(gt=0, le=1e4)] = 2.0
     bits: Literal[8] = 8
 
 

@@ -79,6 +79,8 @@ def parse_spec(table: dict[str, Any], *, where: str) -> Spec:
         spec = _ADAPTER.validate_json(json.dumps(table, default=str))
     except ValidationError as error:
         raise InputError(f"{where}: {refusal(error, Spec)}") from None
+    except ValueError:
+        raise InputError(f"{where}: a number has too many digits") from None
     if abs(sum(spec.split_shares) - 1) > 1e-9:
         raise InputError(
             f"{where}: split_shares = {list(spec.split_shares)} must add up to 1 (train, validation, test)"

@@ -16,7 +16,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from facegen import __version__
 from facegen.conventions import BLENDSHAPES, SHARD_ROWS
-from facegen.errors import InputError
+from facegen.errors import InputError, MissingAsset
 from facegen.files import output_errors
 from facegen.headsets import Headset, headset_path, load_headset
 from facegen.refusals import refusal
@@ -152,7 +152,10 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
         If the rig, the headset or the recording is missing or damaged, or the pictures get too large.
     """
     plan, rig = plan_dataset(spec), load_rig(spec.rig)
-    headset = load_headset(spec.render.headset)
+    try:
+        headset = load_headset(spec.render.headset)
+    except MissingAsset as error:
+        raise MissingAsset(f"render.headset: {error}") from None
     assets = {
         "rig": rig.sha256,
         "headset": _content_sha256(TypeAdapter(Headset).dump_python(headset, mode="json")),

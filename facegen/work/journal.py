@@ -82,6 +82,8 @@ class Journal:
 def read_journals(folder: DatasetFolder) -> Iterator[Attempt]:
     """All attempts of all runs in this dataset; lines that a kill or a full disk cut short are left out."""
     for path in sorted((folder.path / "logs").glob("run-*.jsonl")):
+        if not path.is_file():  # a folder of such a name, a pipe, or a link to nothing
+            continue
         with open(path, "rb") as file:
             while line := file.readline(MOST_LINE_BYTES):
                 try:

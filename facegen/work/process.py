@@ -12,6 +12,8 @@ from pathlib import Path
 import psutil
 
 from facegen.children import born_deaf
+from facegen.documents import last_lines
+from facegen.errors import InputError
 from facegen.machine import machine_name
 from facegen.store import DatasetFolder
 from facegen.work.child import Assignment, Phase, Ready, Report
@@ -135,6 +137,6 @@ class WorkerProcess:
     def log_tail(self, lines: int = 15) -> str:
         """Last lines of what the child printed outside tasks."""
         try:
-            return "\n".join(self.log.read_text(errors="replace").splitlines()[-lines:])
-        except OSError:
+            return "\n".join(last_lines(self.log, lines))
+        except InputError:
             return "(no log)"

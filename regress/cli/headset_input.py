@@ -67,7 +67,9 @@ def camera_paths(
         paths[name] = Path(path)
     for name in paths:
         if name not in predictor.sizes:
-            raise InputError(f"the model has no camera {name!r}; it has {', '.join(predictor.sizes)}")
+            raise InputError(
+                f"--camera {name}=…: the model has no camera {name!r}; it has {', '.join(predictor.sizes)}"
+            )
     return paths
 
 

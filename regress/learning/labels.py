@@ -92,7 +92,12 @@ def read_labels(
                 for name, width in columns.lists.items()
             },
         }
-    except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
+    except (
+        pa.ArrowException,
+        KeyError,
+        OSError,
+        UnicodeDecodeError,
+    ) as error:  # KeyError: a nested column's name
         reason = next(iter(str(error).splitlines()), type(error).__name__)
         raise InputError(f"{path} cannot be read as Parquet ({reason}); {damaged}") from error
 

@@ -10,7 +10,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from facegen.documents import MOST_JSON_BYTES, MOST_TOML_BYTES, load_json, load_toml, parse_json, read_bytes
+from facegen.documents import (
+    MOST_JSON_BYTES,
+    MOST_TOML_BYTES,
+    last_lines,
+    load_json,
+    load_toml,
+    parse_json,
+    read_bytes,
+)
 from facegen.errors import FormatError, InputError
 
 DIGITS = "1" * 5000
@@ -115,3 +123,19 @@ def _handle_of(text: str) -> int:
     os.write(writer, text.encode())
     os.close(writer)
     return reader
+
+
+def test_the_end_of_a_log_of_any_length(tmp_path):
+    log = tmp_path / "task.log"
+    with open(log, "wb") as file:
+        file.write(b"first\n")
+        file.seek(40 * 1024**3)  # a hole: nothing is stored
+        file.write(b"\nlast but \xff one\nlast\n")
+    assert last_lines(log, 2) == ["last but \ufffd one", "last"]
+
+
+def test_only_regular_files_are_logs(tmp_path):
+    os.mkfifo(tmp_path / "pipe.log")
+    for name in (tmp_path / "pipe.log", tmp_path, "/dev/zero", tmp_path / "none.log"):
+        with pytest.raises(InputError):
+            last_lines(name, 3)

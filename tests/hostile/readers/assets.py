@@ -79,6 +79,7 @@ READERS = (
     ),
     Reader(
         name="submit",
+        names=("render.headset",),
         command="facegen farm submit in/spec.toml --out out/data --engine slurm --dry-run",
         make=_spec("tiny"),
         target="spec.toml",
