@@ -9,6 +9,8 @@ from regress.cli.options import (
     AvatarOption,
     BetaOption,
     BlendOption,
+    FilterName,
+    FilterOption,
     FormatOption,
     MirrorOption,
     ModelOption,
@@ -87,6 +89,7 @@ def predict(
     strict: Annotated[
         bool, typer.Option("--strict", help="Fail where a given camera has no usable picture in a frame.")
     ] = False,
+    filter_name: FilterOption = FilterName.none,
     smooth: SmoothOption = 1,
     cutoff_hz: OneEuroOption = None,
     beta: BetaOption = OneEuro.beta,
@@ -153,6 +156,7 @@ def predict(
     model, dataset = model_and_dataset(arguments or [], chosen, cameras=cameras)
     predictor = load_headset_predictor(model)
     output = output_of(
+        filter_name=filter_name.value,
         smooth=smooth,
         cutoff_hz=cutoff_hz,
         beta=beta,
@@ -167,7 +171,11 @@ def predict(
         raise InputError("--video takes ARKit's shapes: leave out --retarget")
     if dataset is not None:
         check_stills(
-            temporal=temporal, smooth=smooth > 1, one_euro=cutoff_hz is not None, bits=bits is not None
+            temporal=temporal,
+            filter=filter_name is not FilterName.none,
+            smooth=smooth > 1,
+            one_euro=cutoff_hz is not None,
+            bits=bits is not None,
         )
     check_model(predictor, model, trust=trust, points=points)
     if video is not None:

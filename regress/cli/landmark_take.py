@@ -1,6 +1,7 @@
 """What `regress predict` does with a recording of landmarks, or with lines on a pipe."""
 
 import dataclasses
+import itertools
 import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -19,9 +20,16 @@ from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.ready_made import LANDMARKS
 from regress.runtime.sample import Sample
+from regress.runtime.stages.filters import DEFAULT_FILTER
 from regress.runtime.stages.neutral import estimate_neutral
 from regress.runtime.stages.output import Output
 from regress.runtime.writers.csv_table import confidence_csv, csv_lines
+
+FILM_FPS = (5.0, 500.0)
+"""Frames a second of what is filtered unasked. Rows of stills have no times, equal ones, or count milliseconds."""
+
+IN_ORDER = 0.9
+"""Share of a film's frames that must be later than the one before: rows of two faces a picture share times."""
 
 
 def model_and_input(arguments: list[Path], chosen: str | None) -> tuple[str | Path, Path]:
@@ -47,6 +55,7 @@ def predict_file(
     output: Output,
     *,
     neutral: str,
+    auto_filter: bool,
     fps: float | None,
     strict: bool,
     trust: Path | None,
@@ -58,6 +67,8 @@ def predict_file(
     frames = read_frames(landmarks)
     if fps is not None:
         frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
+    if auto_filter and is_film(frames.time_s):
+        output = dataclasses.replace(output, filter=DEFAULT_FILTER)
     timed = output.needs_times or needs_times(table_format, gltf)
     frames = sound_rows(frames, needs_times=timed, strict=strict)
     calibrated = _calibrated(model, frames, neutral)
@@ -67,12 +78,29 @@ def predict_file(
     write_prediction(prediction, table_format, out=out, gltf=gltf)
 
 
-def predict_pipe(model: Model, neutral: str, output: Output, *, fps: float | None, strict: bool) -> None:
+def is_film(time_s: np.ndarray | None) -> bool:
+    """Whether frames at these times (n,) follow one another as a camera's do."""
+    if time_s is None or len(time_s) < 2:
+        return False
+    seconds = np.diff(time_s)
+    if not np.isfinite(seconds).any():
+        return False
+    slowest, quickest = FILM_FPS
+    in_order = np.mean(seconds > 0) >= IN_ORDER
+    return bool(in_order and 1 / quickest <= np.nanmedian(seconds) <= 1 / slowest)
+
+
+def predict_pipe(
+    model: Model, neutral: str, output: Output, *, auto_filter: bool, fps: float | None, strict: bool
+) -> None:
     """Predict lines of standard input, each as it comes, and write rows to standard output."""
     if neutral not in ("auto", "none"):
         model = model.calibrate(_neutral_file(neutral, "standard input").points)
     samples = read_lines(text_lines(sys.stdin), fps=fps)
-    answers = predict_stream(samples, model, output, auto=neutral == "auto", say=say)
+    first = list(itertools.islice(samples, 1))
+    if auto_filter and first and first[0].time_s is not None:
+        output = dataclasses.replace(output, filter=DEFAULT_FILTER)
+    answers = predict_stream(itertools.chain(first, samples), model, output, auto=neutral == "auto", say=say)
     for line in csv_lines(_told(answers, strict=strict), output.names):
         sys.stdout.write(line)
         sys.stdout.flush()  # the reader wants each frame as it comes

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from regress.runtime.stages.filters import DEFAULT_FILTER, FILTERS
 from regress.runtime.stages.retargeting.shipped import shipped_targets
 from regress.runtime.writers.tables import TABLES
 
@@ -45,6 +46,26 @@ AvatarOption = Annotated[
 TrustOption = Annotated[
     Path | None,
     typer.Option("--confidence", help="CSV to write with the trust in each ARKit weight, 0 to 1."),
+]
+
+FilterName = Enum("FilterName", {name: name for name in ("none", *FILTERS)}, type=str)
+"""Filters that ``--filter`` knows."""
+
+LandmarkFilterName = Enum("LandmarkFilterName", {name: name for name in ("auto", "none", *FILTERS)}, type=str)
+"""Filters that ``--filter`` knows where frames are landmarks."""
+
+_LAGS = ", ".join(f"{name} {entry.lag_ms[0]}/{entry.lag_ms[1]}" for name, entry in FILTERS.items())
+_FILTER_HELP = f"Filter of weights over time. What comes is late, at 30/60 frames a second, by ms: {_LAGS}."
+
+FilterOption = Annotated[FilterName, typer.Option("--filter", help=_FILTER_HELP)]
+
+LandmarkFilterOption = Annotated[
+    LandmarkFilterName,
+    typer.Option(
+        "--filter",
+        help=f"{_FILTER_HELP} auto is {DEFAULT_FILTER} where frames have times or --fps, and none with another "
+        "smoothing or a model of the paper's recipe.",
+    ),
 ]
 
 SmoothOption = Annotated[

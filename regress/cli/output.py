@@ -8,6 +8,7 @@ from regress.runtime.stages.output import Output
 
 def output_of(
     *,
+    filter_name: str,
     cutoff_hz: float | None,
     beta: float,
     adjust: Path | None,
@@ -18,6 +19,8 @@ def output_of(
 
     Parameters
     ----------
+    filter_name
+        As ``--filter`` takes it; auto is none here.
     cutoff_hz, beta
         Of One-Euro smoothing.
     adjust, retarget
@@ -41,4 +44,7 @@ def output_of(
 
         retargeting = read_retargeting(retarget)
     one_euro = None if cutoff_hz is None else OneEuro(cutoff_hz=cutoff_hz, beta=beta)
-    return Output(one_euro=one_euro, adjustments=adjustments, retargeting=retargeting, **settings)
+    filter_ = None if filter_name in ("auto", "none") else filter_name
+    return Output(
+        filter=filter_, one_euro=one_euro, adjustments=adjustments, retargeting=retargeting, **settings
+    )

@@ -10,6 +10,8 @@ from regress.cli.options import (
     BetaOption,
     BlendOption,
     FormatOption,
+    LandmarkFilterName,
+    LandmarkFilterOption,
     MirrorOption,
     ModelOption,
     OneEuroOption,
@@ -20,6 +22,9 @@ from regress.cli.options import (
     TrustOption,
 )
 from regress.runtime.stages.one_euro import OneEuro
+
+PAPER_RECIPE = "paper"
+"""Whose weights leave as the paper's networks give them."""
 
 
 def predict(
@@ -59,6 +64,7 @@ def predict(
             help="One-Euro smoothing of the landmarks themselves, with this cutoff at rest; try 1.",
         ),
     ] = None,
+    filter_name: LandmarkFilterOption = LandmarkFilterName.auto,
     smooth: SmoothOption = 1,
     cutoff_hz: OneEuroOption = None,
     beta: BetaOption = OneEuro.beta,
@@ -97,6 +103,7 @@ def predict(
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     output = output_of(
         smooth_landmarks_hz=smooth_landmarks_hz,
+        filter_name=filter_name.value,
         smooth=smooth,
         cutoff_hz=cutoff_hz,
         beta=beta,
@@ -105,6 +112,8 @@ def predict(
         mirror=mirror,
         retarget=retarget,
     )
+    smoothed = smooth > 1 or cutoff_hz is not None or smooth_landmarks_hz is not None
+    auto_filter = filter_name is LandmarkFilterName.auto and not smoothed and loaded.recipe != PAPER_RECIPE
     check_targets(table_format, out=out, gltf=gltf, retargeted=retarget is not None)
     if str(landmarks) != "-":
         predict_file(
@@ -112,6 +121,7 @@ def predict(
             landmarks,
             output,
             neutral=neutral,
+            auto_filter=auto_filter,
             fps=fps,
             strict=strict,
             trust=trust,
@@ -120,6 +130,6 @@ def predict(
             out=out,
         )
     elif out is gltf is trust is None and table_format is TableFormat.csv:
-        predict_pipe(loaded, neutral, output, fps=fps, strict=strict)
+        predict_pipe(loaded, neutral, output, auto_filter=auto_filter, fps=fps, strict=strict)
     else:
         raise InputError("weights of standard input leave as CSV on standard output alone: use > FILE")

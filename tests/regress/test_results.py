@@ -48,7 +48,7 @@ def test_columns_are_the_targets(target: str, run, quick_model, quick_model_fold
 
 def test_live_link_reads_back(run, quick_model, quick_model_folder, take):
     target = take.with_name("out.csv")
-    options = ("--format", "livelink", "--fps", 25, "--out", target)
+    options = ("--format", "livelink", "--fps", 25, "--filter", "none", "--out", target)
     code, _, err = run("predict", quick_model_folder, take, *options)
     assert code == 0, err
     read = read_live_link(target)
@@ -59,7 +59,16 @@ def test_live_link_reads_back(run, quick_model, quick_model_folder, take):
 
 @pytest.mark.filterwarnings("ignore:Ignoring chunk 2")
 def test_an_avatar_moves(run, quick_model, quick_model_folder, take, tmp_path):
-    options = ("--gltf", avatar(tmp_path / "a.glb"), "--fps", 25, "--out", tmp_path / "b.glb")
+    options = (
+        "--gltf",
+        avatar(tmp_path / "a.glb"),
+        "--fps",
+        25,
+        "--filter",
+        "none",
+        "--out",
+        tmp_path / "b.glb",
+    )
     code, out, err = run("predict", quick_model_folder, take, *options)
     assert (code, out) == (0, "")
     assert "no morph target for 48 of 52 shapes" in err

@@ -53,6 +53,14 @@ class HeadsetStream(Stage):
         """Weights, gaze and confidence of the next frame's pictures, grey (h, w) uint8 by camera."""
         return self.after.step(self.networks.step(self.soundness.step(sample)))
 
+    def feed(self, sample: Sample) -> list[Sample]:
+        """Those of the frames that are ready, where a filter looks ahead."""
+        return self.after.feed(self.networks.step(self.soundness.step(sample)))
+
+    def finish(self) -> list[Sample]:
+        """Those of the last frames."""
+        return self.after.finish()
+
 
 def predict_footage(
     predictor: HeadsetPredictor,
@@ -96,6 +104,7 @@ def predict_footage(
     for row, sample in enumerate(footage.samples()):
         if row in starts:
             stream.networks.use_neutral(starts[row])
-        samples.append(stream.after.step(stream.networks.step(sample)))
+        samples += stream.after.feed(stream.networks.step(sample))
+    samples += stream.finish()
     prediction = Prediction(samples=samples, names=output.names, source=footage.source)
     return prediction, tuple(stream.networks.reseated)

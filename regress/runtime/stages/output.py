@@ -7,11 +7,14 @@ from functools import partial
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, SIDES
+from regress.errors import InputError
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
+from regress.runtime.stages.filters import FILTERS, Kalman, Mean
+from regress.runtime.stages.kalman import KalmanSmoothing
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.retargeting.matrix import Retargeting
-from regress.runtime.stages.smoothing import MovingAverage, OneEuroSmoothing
+from regress.runtime.stages.smoothing import MeanSmoothing, MovingAverage, OneEuroSmoothing
 from regress.runtime.stages.stage import BatchStage, Stage
 
 AMPLIFIED = tuple(f"{stem}{side.title()}" for side in SIDES for stem in ("eyeBlink", "eyeWide", "eyeSquint"))
@@ -26,6 +29,8 @@ class Output:
     ----------
     smooth_landmarks_hz
         Cutoff of a landmark at rest, of One-Euro smoothing before the networks; None for none.
+    filter
+        Name of the filter over weights and gaze (`FILTERS`); None for none. One that looks ahead holds samples back.
     smooth
         Frames of the moving average; 1 leaves weights as they are.
     one_euro
@@ -40,9 +45,15 @@ class Output:
         Exchange left and right.
     retargeting
         To other shapes than ARKit's, at the end.
+
+    Raises
+    ------
+    InputError
+        Where no filter has that name.
     """
 
     smooth_landmarks_hz: float | None = None
+    filter: str | None = None
     smooth: int = 1
     one_euro: OneEuro | None = None
     amplify_eyes: float = 1.0
@@ -50,6 +61,11 @@ class Output:
     left_right_blend: float = 0.0
     mirror: bool = False
     retargeting: Retargeting | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse a filter that is not known."""
+        if self.filter is not None and self.filter not in FILTERS:
+            raise InputError(f"there is no filter {self.filter!r}; {', '.join(FILTERS)} are known")
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -59,11 +75,14 @@ class Output:
     @property
     def needs_times(self) -> bool:
         """Whether every frame must have a time."""
-        return self.one_euro is not None or self.smooth_landmarks_hz is not None
+        filtered_by_time = self.filter is not None and FILTERS[self.filter].needs_times
+        return filtered_by_time or self.one_euro is not None or self.smooth_landmarks_hz is not None
 
     def stages(self) -> list[Stage]:
         """Stages behind the networks, new ones for each take; only those that were asked for."""
         made: list[Stage] = []
+        if self.filter is not None:
+            made.append(filter_stage(self.filter))
         if self.smooth > 1:
             made.append(MovingAverage(self.smooth))
         if self.one_euro is not None:
@@ -80,6 +99,16 @@ class Output:
         if self.retargeting is not None:
             made.append(WeightMap(self.retargeting.apply))
         return made
+
+
+def filter_stage(name: str) -> Stage:
+    """A new stage of the filter with that name in `FILTERS`."""
+    settings = FILTERS[name].settings
+    if isinstance(settings, Mean):
+        return MeanSmoothing(settings.behind, settings.ahead)
+    if isinstance(settings, Kalman):
+        return KalmanSmoothing(settings.ahead_s)
+    return OneEuroSmoothing(settings)
 
 
 class WeightMap(BatchStage):

@@ -1,4 +1,4 @@
-"""Smoothing over time: the paper's moving average, and One-Euro by real timestamps, of weights or landmarks."""
+"""Smoothing over time: means of frames, and One-Euro by real timestamps, of weights or landmarks."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from regress.errors import InputError
 from regress.runtime.features import align_similarity
 from regress.runtime.sample import Sample
 from regress.runtime.stages.one_euro import OneEuro
-from regress.runtime.stages.stage import Stage
+from regress.runtime.stages.stage import DelayingStage, Stage
 from regress.targets import NETWORKS
 
 LONGEST_GAP_S = 0.5
@@ -120,9 +120,52 @@ class MovingAverage(Stage):
 
     def step(self, sample: Sample) -> Sample:
         """The sample with the mean weights and gaze."""
-        row = _joined(sample)
+        row = joined(sample)
         self._recent.append(row)
-        return sample if np.isnan(row).any() else _with(sample, np.nanmean(self._recent, axis=0))
+        return sample if np.isnan(row).any() else with_row(sample, np.nanmean(self._recent, axis=0))
+
+
+class MeanSmoothing(DelayingStage):
+    """Mean of each frame's weights and gaze and its neighbours', fewer at the ends; none across a gap.
+
+    Frames without weights keep none, and the means of others leave them out.
+
+    Parameters
+    ----------
+    behind, ahead
+        How many frames before and after it count.
+    """
+
+    def __init__(self, behind: int, ahead: int = 0) -> None:
+        self._behind, self._ahead = behind, ahead
+        self._recent: deque[tuple[Sample, np.ndarray]] = deque()
+        self._given = 0
+        self._time = np.nan
+
+    def feed(self, sample: Sample) -> list[Sample]:
+        """The sample of ``ahead`` frames ago, with mean weights and gaze."""
+        time_s = np.nan if sample.time_s is None else sample.time_s
+        held = self.finish() if time_s - self._time > LONGEST_GAP_S else []
+        self._time = time_s
+        self._recent.append((sample, joined(sample)))
+        return [*held, self._next()] if len(self._recent) - self._given > self._ahead else held
+
+    def finish(self) -> list[Sample]:
+        """Samples that still wait, with the mean of those that there are; the next one starts afresh."""
+        held = [self._next() for _ in range(len(self._recent) - self._given)]
+        self._recent.clear()
+        self._given = 0
+        return held
+
+    def _next(self) -> Sample:
+        """The first of those that were not given yet; what lies too far behind it is forgotten."""
+        if self._given > self._behind:
+            self._recent.popleft()
+            self._given -= 1
+        sample, row = self._recent[self._given]
+        rows = [near for _, near in list(self._recent)[: self._given + self._ahead + 1]]
+        self._given += 1
+        return sample if np.isnan(row).any() else with_row(sample, np.nanmean(rows, axis=0))
 
 
 class OneEuroSmoothing(Stage):
@@ -146,7 +189,7 @@ class OneEuroSmoothing(Stage):
         InputError
             Where a frame with weights has no time, or one no later than the frame before; the message has its label.
         """
-        row = _joined(sample)
+        row = joined(sample)
         if np.isnan(row).any():
             return sample
         if sample.time_s is None or not np.isfinite(sample.time_s):
@@ -158,18 +201,18 @@ class OneEuroSmoothing(Stage):
             )
             self._filter = OneEuroFilter(self._settings, cutoffs_hz)
         try:
-            return _with(sample, self._filter.step(sample.time_s, row))
+            return with_row(sample, self._filter.step(sample.time_s, row))
         except InputError as error:
             raise InputError(f"frame {sample.label}: {error}") from error
 
 
-def _joined(sample: Sample) -> np.ndarray:
+def joined(sample: Sample) -> np.ndarray:
     """Weights, and the gaze behind them where there is one."""
     return sample.weights if sample.gaze is None else np.concatenate([sample.weights, sample.gaze])
 
 
-def _with(sample: Sample, row: np.ndarray) -> Sample:
-    """The sample with weights and gaze of a row as `_joined` makes it."""
+def with_row(sample: Sample, row: np.ndarray) -> Sample:
+    """The sample with weights and gaze of a row as `joined` makes it."""
     if sample.gaze is None:
         return replace(sample, weights=row)
     return replace(sample, weights=row[: len(sample.weights)], gaze=row[len(sample.weights) :])

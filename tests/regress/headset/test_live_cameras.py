@@ -26,6 +26,7 @@ FRAMES, NEUTRAL, RESEATED = 60, 1, 30
 
 STAGES: dict[str, tuple[tuple[str, ...], Output]] = {
     "nothing": ((), Output()),
+    "filtered": (("--filter", "kalman-33"), Output(filter="kalman-33")),
     "moving average": (("--smooth", "3"), Output(smooth=3)),
     "one euro": (("--one-euro", "2"), Output(one_euro=OneEuro(cutoff_hz=2.0))),
     "lids amplified": (("--amplify-eyes", "1.5"), Output(amplify_eyes=1.5)),
@@ -34,6 +35,8 @@ STAGES: dict[str, tuple[tuple[str, ...], Output]] = {
     "retargeted": (("--retarget", "vrm1"), Output(retargeting=read_retargeting("vrm1"))),
     "all": (
         (
+            "--filter",
+            "mean7",
             "--smooth",
             "3",
             "--one-euro",
@@ -45,7 +48,12 @@ STAGES: dict[str, tuple[tuple[str, ...], Output]] = {
             "--mirror",
         ),
         Output(
-            smooth=3, one_euro=OneEuro(cutoff_hz=2.0), amplify_eyes=1.5, left_right_blend=0.7, mirror=True
+            filter="mean7",
+            smooth=3,
+            one_euro=OneEuro(cutoff_hz=2.0),
+            amplify_eyes=1.5,
+            left_right_blend=0.7,
+            mirror=True,
         ),
     ),
 }
@@ -96,9 +104,11 @@ def _stepped(
     stream = HeadsetStream(predictor, output, fps=30, **settings)
     stream.networks.use_neutral(frames[NEUTRAL])
     samples = [
-        stream.step(Sample(label=str(row), time_s=row / 30, pictures=taken))
+        ready
         for row, taken in enumerate(frames)
+        for ready in stream.feed(Sample(label=str(row), time_s=row / 30, pictures=taken))
     ]
+    samples += stream.finish()
     return Prediction(samples=samples, names=output.names), stream
 
 
