@@ -18,6 +18,7 @@ import numpy as np
 
 from facegen.errors import FormatError
 from facegen.formats.gltf_container import BIN, MOST_BYTES, glb_bytes, open_glb, padded
+from facegen.formats.gltf_head import head_bone
 
 _FLOAT = 5126
 
@@ -35,16 +36,25 @@ class AnimatedAvatar:
         Bytes of the .glb file.
     missing
         Names that no mesh of the avatar has, in their order.
+    headless
+        Whether a head's turn was given and the avatar has no bone for it.
     """
 
     content: bytes
     missing: tuple[str, ...]
+    headless: bool = False
 
 
 def animate_avatar(
-    path: Path, names: tuple[str, ...], weights: np.ndarray, time_s: np.ndarray, *, title: str
+    path: Path,
+    names: tuple[str, ...],
+    weights: np.ndarray,
+    time_s: np.ndarray,
+    *,
+    title: str,
+    head_rad: np.ndarray | None = None,
 ) -> AnimatedAvatar:
-    """Add one animation that moves every mesh with known morph targets, interpolated linearly.
+    """Add one animation that moves every mesh with known morph targets, and the head, interpolated linearly.
 
     Names match without regard to case and underscores, and ``_L``/``_R`` means ``Left``/``Right``. Targets
     without a weight keep what the file gives them at rest.
@@ -61,6 +71,8 @@ def animate_avatar(
         Seconds, not negative, in order.
     title
         What the animation is called.
+    head_rad : (n, 3) float, optional
+        Yaw, pitch and roll of the head, which turn its bone (`gltf_head`); 0 where a row has weights and no pose.
 
     Raises
     ------
@@ -101,11 +113,22 @@ def animate_avatar(
             f"{path} has no morph target called {names[0]}, {names[1]} or like any other of the {len(names)} "
             "shapes; a retargeting to its own names may help"
         )
+    bone = None if head_rad is None else head_bone(document)
+    if bone is not None:
+        file.check_room(4 * len(times))
+        turns = bone.turned(np.nan_to_num(head_rad[known])).astype("<f4")
+        animation["channels"].append(
+            {"sampler": len(animation["samplers"]), "target": {"node": bone.node, "path": "rotation"}}
+        )
+        animation["samplers"].append(
+            {"input": clock, "output": file.accessor(turns, kind="VEC4"), "interpolation": "LINEAR"}
+        )
     document["animations"] = [*_records(document, "animations", path), animation]
     chunks = file.stored(chunks)
     return AnimatedAvatar(
         content=glb_bytes(document, chunks, path),
         missing=tuple(name for name in names if _key(name) not in matched),
+        headless=head_rad is not None and bone is None,
     )
 
 
@@ -128,15 +151,20 @@ class _Additions:
                 f"an animation of {self._path} would take more than {MOST_BYTES:,} bytes; give the take in parts"
             )
 
-    def accessor(self, values: np.ndarray, **bounds: list[float]) -> int:
-        """Index of a new accessor to scalars."""
+    def accessor(self, values: np.ndarray, kind: str = "SCALAR", **bounds: list[float]) -> int:
+        """Index of a new accessor to scalars, or to rows of another kind."""
         views, accessors = self._lists["bufferViews"], self._lists["accessors"]
         view = {"byteOffset": len(self._data), "byteLength": values.nbytes}
         self._views.append(view)
         self._data += values.tobytes()
         views.append(view)
         accessors.append(
-            {"bufferView": len(views) - 1, "componentType": _FLOAT, "count": values.size, "type": "SCALAR"}
+            {
+                "bufferView": len(views) - 1,
+                "componentType": _FLOAT,
+                "count": values.size if kind == "SCALAR" else len(values),
+                "type": kind,
+            }
             | bounds
         )
         return len(accessors) - 1

@@ -15,12 +15,14 @@ from regress.cli.options import TableFormat
 from regress.cli.results import needs_times, write_prediction
 from regress.cli.rows import sound_rows
 from regress.errors import InputError
+from regress.runtime.heads.camera import CameraSettings
 from regress.runtime.inputs import Frames, read_frames, read_lines, text_lines
 from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.ready_made import LANDMARKS
 from regress.runtime.sample import Sample
 from regress.runtime.stages.filters import DEFAULT_FILTER
+from regress.runtime.stages.head import HeadSettings
 from regress.runtime.stages.neutral import estimate_neutral
 from regress.runtime.stages.output import Output
 from regress.runtime.writers.csv_table import confidence_csv, csv_lines
@@ -59,6 +61,7 @@ def predict_file(
     fps: float | None,
     strict: bool,
     trust: Path | None,
+    camera: CameraSettings | None,
     table_format: TableFormat,
     gltf: Path | None,
     out: Path | None,
@@ -71,8 +74,10 @@ def predict_file(
         output = dataclasses.replace(output, filter=DEFAULT_FILTER)
     timed = output.needs_times or needs_times(table_format, gltf)
     frames = sound_rows(frames, needs_times=timed, strict=strict)
-    calibrated = _calibrated(model, frames, neutral)
-    prediction = predict_frames(calibrated, frames, output=output, confident=trust is not None)
+    calm = _neutral_points(model, frames, neutral)
+    calibrated = model if calm is None else model.calibrate(calm)
+    head = None if camera is None else HeadSettings(camera=camera, neutral=calm)
+    prediction = predict_frames(calibrated, frames, output=output, confident=trust is not None, head=head)
     if trust is not None:
         write_whole(trust, confidence_csv(prediction))
     write_prediction(prediction, table_format, out=out, gltf=gltf)
@@ -91,16 +96,28 @@ def is_film(time_s: np.ndarray | None) -> bool:
 
 
 def predict_pipe(
-    model: Model, neutral: str, output: Output, *, auto_filter: bool, fps: float | None, strict: bool
+    model: Model,
+    neutral: str,
+    output: Output,
+    *,
+    camera: CameraSettings | None,
+    auto_filter: bool,
+    fps: float | None,
+    strict: bool,
 ) -> None:
     """Predict lines of standard input, each as it comes, and write rows to standard output."""
+    calm = None
     if neutral not in ("auto", "none"):
-        model = model.calibrate(_neutral_file(neutral, "standard input").points)
+        calm = _neutral_file(neutral, "standard input").points
+        model = model.calibrate(calm)
+    head = None if camera is None else HeadSettings(camera=camera, neutral=calm)
     samples = read_lines(text_lines(sys.stdin), fps=fps)
     first = list(itertools.islice(samples, 1))
     if auto_filter and first and first[0].time_s is not None:
         output = dataclasses.replace(output, filter=DEFAULT_FILTER)
-    answers = predict_stream(itertools.chain(first, samples), model, output, auto=neutral == "auto", say=say)
+    answers = predict_stream(
+        itertools.chain(first, samples), model, output, head=head, auto=neutral == "auto", say=say
+    )
     for line in csv_lines(_told(answers, strict=strict), output.names):
         sys.stdout.write(line)
         sys.stdout.flush()  # the reader wants each frame as it comes
@@ -118,19 +135,19 @@ def _told(answers: Iterable[Sample], *, strict: bool) -> Iterator[Sample]:
     runs.step(number + 1, None)
 
 
-def _calibrated(model: Model, frames: Frames, neutral: str) -> Model:
-    """The model for this recording: calibrated where a neutral frame is named or found."""
+def _neutral_points(model: Model, frames: Frames, neutral: str) -> np.ndarray | None:
+    """Neutral faces (m, 68, 2) for this recording, where they are named or found."""
     if neutral == "none":
-        return model
+        return None
     if neutral == "auto":
         estimate = estimate_neutral(model, frames.points)
         if not estimate.sure:
             say(f"{frames.source}: no neutral face found, weights are not calibrated: {estimate.reason}")
-            return model
+            return None
         say(f"{frames.source}: neutral face found: {estimate.reason}")
-        return model.calibrate(frames.points[estimate.frames])
+        return frames.points[estimate.frames]
     named = _named(frames, neutral)
-    return model.calibrate(frames.points[named] if named else _neutral_file(neutral, frames.source).points)
+    return frames.points[named] if named else _neutral_file(neutral, frames.source).points
 
 
 def _named(frames: Frames, neutral: str) -> list[int]:

@@ -89,3 +89,32 @@ BlendOption = Annotated[
 ]
 
 MirrorOption = Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")]
+
+HeadOption = Annotated[
+    bool,
+    typer.Option("--head", help="The head's position and turn as well; livelink always has the turn."),
+]
+
+PictureOption = Annotated[
+    str | None,
+    typer.Option(
+        "--picture",
+        metavar="WIDTHxHEIGHT",
+        help="Size in pixels of the pictures of INPUT, for --head; without it the camera looks at the first face.",
+    ),
+]
+
+FovOption = Annotated[
+    float | None,
+    typer.Option(
+        "--fov-deg",
+        min=5,
+        max=150,
+        help="Angle of view across the width of --picture; 60 if nothing is said.",
+    ),
+]
+
+FocalOption = Annotated[
+    float | None,
+    typer.Option("--focal-px", min=1, max=1e6, help="Focal length of the camera, in place of --fov-deg."),
+]

@@ -9,19 +9,24 @@ from regress.cli.options import (
     AvatarOption,
     BetaOption,
     BlendOption,
+    FocalOption,
     FormatOption,
+    FovOption,
+    HeadOption,
     LandmarkFilterName,
     LandmarkFilterOption,
     MirrorOption,
     ModelOption,
     OneEuroOption,
     OutOption,
+    PictureOption,
     RetargetOption,
     SmoothOption,
     TableFormat,
     TrustOption,
 )
 from regress.runtime.stages.one_euro import OneEuro
+from regress.runtime.writers.tables import TABLES
 
 PAPER_RECIPE = "paper"
 """Whose weights leave as the paper's networks give them."""
@@ -78,6 +83,10 @@ def predict(
     ] = None,
     left_right_blend: BlendOption = 0.0,
     mirror: MirrorOption = False,
+    head: HeadOption = False,
+    picture: PictureOption = None,
+    fov_deg: FovOption = None,
+    focal_px: FocalOption = None,
     symmetric: Annotated[
         bool,
         typer.Option(
@@ -93,6 +102,7 @@ def predict(
 
     Example: regress predict take.csv --neutral 1 --one-euro 1 --out weights.csv
     """
+    from regress.cli.camera import camera_settings
     from regress.cli.landmark_take import model_and_input, predict_file, predict_pipe
     from regress.cli.output import output_of
     from regress.cli.results import check_targets
@@ -115,6 +125,12 @@ def predict(
     smoothed = smooth > 1 or cutoff_hz is not None or smooth_landmarks_hz is not None
     auto_filter = filter_name is LandmarkFilterName.auto and not smoothed and loaded.recipe != PAPER_RECIPE
     check_targets(table_format, out=out, gltf=gltf, retargeted=retarget is not None)
+    camera = camera_settings(
+        wanted=head or TABLES[table_format.value].has_head,
+        picture=picture,
+        fov_deg=fov_deg,
+        focal_px=focal_px,
+    )
     if str(landmarks) != "-":
         predict_file(
             loaded,
@@ -125,11 +141,12 @@ def predict(
             fps=fps,
             strict=strict,
             trust=trust,
+            camera=camera,
             table_format=table_format,
             gltf=gltf,
             out=out,
         )
     elif out is gltf is trust is None and table_format is TableFormat.csv:
-        predict_pipe(loaded, neutral, output, auto_filter=auto_filter, fps=fps, strict=strict)
+        predict_pipe(loaded, neutral, output, camera=camera, auto_filter=auto_filter, fps=fps, strict=strict)
     else:
         raise InputError("weights of standard input leave as CSV on standard output alone: use > FILE")

@@ -51,4 +51,6 @@ def write_prediction(
     if avatar.missing:
         count = f"{len(avatar.missing)} of {len(prediction.names)} shapes"
         say(f"{gltf} has no morph target for {count}: {', '.join(avatar.missing)}")
+    if avatar.headless:
+        say(f"{gltf} has no bone called head that can be turned: the head's pose is left out")
     write_whole(out, avatar.content)

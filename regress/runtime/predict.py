@@ -6,6 +6,7 @@ from regress.runtime.inputs import Frames
 from regress.runtime.model import Model
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
+from regress.runtime.stages.head import HeadPose, HeadSettings, HeadSmoothing
 from regress.runtime.stages.networks import AutomaticCalibration, LandmarkConfidence, LandmarkNetworks
 from regress.runtime.stages.output import Output
 from regress.runtime.stages.smoothing import LandmarkSmoothing
@@ -18,6 +19,7 @@ def landmark_chain(
     output: Output | None = None,
     *,
     confident: bool = False,
+    head: HeadSettings | None = None,
     auto: bool = False,
     say: Callable[[str], None] = lambda message: None,
 ) -> Chain:
@@ -31,6 +33,8 @@ def landmark_chain(
         What happens before and after the networks; nothing by default.
     confident
         Whether each sample gets its confidence.
+    head
+        What is known for finding the head's pose; None leaves it out.
     auto
         Whether to look for the neutral face while frames come.
     say
@@ -44,6 +48,10 @@ def landmark_chain(
     output = output or Output()
     networks = LandmarkNetworks(model)
     before: list[Stage] = [AutomaticCalibration(networks, say)] if auto else []
+    if head is not None:
+        before.append(HeadPose(head))
+        if output.one_euro is not None:
+            before.append(HeadSmoothing(output.one_euro))
     if confident:
         before.append(LandmarkConfidence(model))
     if output.smooth_landmarks_hz is not None:
@@ -52,7 +60,12 @@ def landmark_chain(
 
 
 def predict_frames(
-    model: Model, frames: Frames, *, output: Output | None = None, confident: bool = False
+    model: Model,
+    frames: Frames,
+    *,
+    output: Output | None = None,
+    confident: bool = False,
+    head: HeadSettings | None = None,
 ) -> Prediction:
     """Weights of a recording, finished as asked: each sample as `landmark_chain` steps it.
 
@@ -60,7 +73,7 @@ def predict_frames(
     ----------
     model, frames
         What to run on what; calibrate the model first where a neutral frame is known.
-    output, confident
+    output, confident, head
         As `landmark_chain` takes them.
 
     Raises
@@ -69,7 +82,7 @@ def predict_frames(
         Where smoothing is asked for and a frame's time is not known, or not in order.
     """
     output = output or Output()
-    samples = landmark_chain(model, output, confident=confident).run(frames.samples())
+    samples = landmark_chain(model, output, confident=confident, head=head).run(frames.samples())
     return Prediction(samples=samples, names=output.names, source=frames.source)
 
 
@@ -78,6 +91,7 @@ def predict_stream(
     model: Model,
     output: Output | None = None,
     *,
+    head: HeadSettings | None = None,
     auto: bool = False,
     say: Callable[[str], None] = lambda message: None,
 ) -> Iterator[Sample]:
@@ -87,7 +101,7 @@ def predict_stream(
     ----------
     samples
         With points (68, 2), as ``regress.runtime.inputs.read_lines`` gives them.
-    model, output, auto, say
+    model, output, head, auto, say
         As `landmark_chain` takes them.
 
     Raises
@@ -97,5 +111,5 @@ def predict_stream(
     """
     output = output or Output()
     soundness = Soundness(needs_times=output.needs_times, unit="line")
-    chain = Chain([soundness, landmark_chain(model, output, auto=auto, say=say)])
+    chain = Chain([soundness, landmark_chain(model, output, head=head, auto=auto, say=say)])
     return chain.stream(samples)

@@ -39,6 +39,11 @@ class Prediction:
         return self._stacked("gaze")
 
     @property
+    def head(self) -> np.ndarray | None:
+        """(n, 6) float64, as a sample has it; None where nobody asked, rows of NaN where there is no face."""
+        return self._stacked("head")
+
+    @property
     def confidence(self) -> np.ndarray | None:
         """(n, 52) float64; None where nobody asked, or the model has no scores."""
         return self._stacked("confidence")

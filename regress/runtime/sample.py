@@ -26,7 +26,8 @@ class Sample:
     gaze : (4,) float64 or None
         Yaw and pitch of the left eye, then of the right eye; radians, yaw to the subject's left, pitch upwards.
     head : (6,) float64 or None
-        Position in metres, then yaw, pitch and roll in radians.
+        Position of the head's origin in the camera frame in metres, then yaw to the subject's left, pitch upwards and
+        roll towards the left shoulder in radians; a head that looks along the camera's axis into it has none of them.
     confidence : (52,) float64 or None
         Trust in each ARKit weight, 0 to 1.
     faults

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from regress.runtime.heads.camera import CameraSettings
 from regress.runtime.inputs import READERS, read_frames
 from regress.runtime.model import Model
 from regress.runtime.predict import landmark_chain
@@ -14,6 +15,7 @@ from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment
 from regress.runtime.stages.filters import DEFAULT_FILTER, FILTERS
+from regress.runtime.stages.head import HeadSettings
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
 from regress.runtime.stages.retargeting.target_file import read_retargeting
@@ -64,10 +66,14 @@ STAGES: dict[str, tuple[tuple[str, ...], Output]] = {
 }
 
 
-def _stepped(model: Model, path: Path, output: Output, *, confident: bool = False) -> Prediction:
+def _stepped(
+    model: Model, path: Path, output: Output, *, confident: bool = False, head: HeadSettings | None = None
+) -> Prediction:
     """The frames of a file, one at a time; 25 a second."""
     frames = read_frames(path)
-    chain = Chain([Soundness(needs_times=True), landmark_chain(model, output, confident=confident)])
+    chain = Chain(
+        [Soundness(needs_times=True), landmark_chain(model, output, confident=confident, head=head)]
+    )
     taken = (
         Sample(label=label, time_s=row / 25, points=points)
         for row, (label, points) in enumerate(zip(frames.labels, frames.points, strict=True))
@@ -123,7 +129,31 @@ def _differs(output: Output, name: str) -> bool:
 def test_every_table(writer: str, run, quick_model: Model, quick_model_folder: Path, take: Path):
     code, out, err = run("predict", quick_model_folder, take, "--fps", 25, "--format", writer, "--smooth", 2)
     assert code == 0, err
-    assert out == TABLES[writer].text(_stepped(quick_model, take, Output(smooth=2)))
+    head = HeadSettings() if TABLES[writer].has_head else None
+    assert out == TABLES[writer].text(_stepped(quick_model, take, Output(smooth=2), head=head))
+
+
+@pytest.mark.parametrize("writer", TABLES)
+def test_every_table_has_the_head(writer: str, run, quick_model: Model, quick_model_folder: Path, take: Path):
+    """From the landmarks as they came, however they are smoothed after it, and mirrored with the rest."""
+    camera = CameraSettings(picture_px=(1920, 1080), fov_deg=70.0)
+    options = (
+        "--picture",
+        "1920x1080",
+        "--fov-deg",
+        70,
+        "--smooth-landmarks",
+        1.5,
+        "--one-euro",
+        2,
+        "--mirror",
+    )
+    code, out, err = run("predict", quick_model_folder, take, "--fps", 25, "--format", writer, *options)
+    assert code == 0, err
+    output = Output(smooth_landmarks_hz=1.5, one_euro=OneEuro(cutoff_hz=2.0), mirror=True)
+    stepped = _stepped(quick_model, take, output, head=HeadSettings(camera=camera))
+    assert out == TABLES[writer].text(stepped)
+    assert np.isnan(stepped.head).any(axis=1).tolist() == [row in (5, 9) for row in range(12)]
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
@@ -131,11 +161,12 @@ def test_an_avatar_and_the_confidence(
     mirrored: bool, run, quick_model: Model, quick_model_folder: Path, take: Path
 ):
     avatar(take.with_name("a.glb"))
-    options = ("--gltf", "a.glb", "--out", "b.glb", "--confidence", "trust.csv", "--fps", 25)
+    options = ("--gltf", "a.glb", "--out", "b.glb", "--confidence", "trust.csv", "--fps", 25, "--head")
     code, _, err = run("predict", quick_model_folder, take, *options, *(["--mirror"] if mirrored else []))
     assert code == 0, err
+    assert "a.glb has no bone called head that can be turned" in err
     output = Output(filter=DEFAULT_FILTER, mirror=mirrored)
-    stepped = _stepped(quick_model, take, output, confident=True)
+    stepped = _stepped(quick_model, take, output, confident=True, head=HeadSettings())
     assert take.with_name("b.glb").read_bytes() == animated_avatar(stepped, Path("a.glb")).content
     assert take.with_name("trust.csv").read_text() == confidence_csv(stepped)
 

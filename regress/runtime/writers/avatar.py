@@ -1,4 +1,4 @@
-"""An avatar (.glb, .vrm) with the answers as an animation of its morph targets."""
+"""An avatar (.glb, .vrm) with the answers as an animation of its morph targets and its head."""
 
 from pathlib import Path
 
@@ -15,4 +15,12 @@ def animated_avatar(prediction: Prediction, avatar: Path) -> AnimatedAvatar:
         Where no frame has a time, or the avatar cannot be read.
     """
     title = Path(prediction.source).stem
-    return animate_avatar(avatar, prediction.names, prediction.weights, prediction.known_times_s, title=title)
+    head = prediction.head
+    return animate_avatar(
+        avatar,
+        prediction.names,
+        prediction.weights,
+        prediction.known_times_s,
+        title=title,
+        head_rad=None if head is None else head[:, 3:],
+    )

@@ -1,8 +1,8 @@
-"""A CSV of weights: ``frame``, ``time_s`` where known, a column a shape, and the gaze in degrees where there is one."""
+"""A CSV of weights: ``frame``, ``time_s`` where known, a column a shape, gaze in degrees and head pose where known."""
 
 import csv
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +15,14 @@ GAZE_COLUMNS = ("left_eye_yaw_deg", "left_eye_pitch_deg", "right_eye_yaw_deg", "
 """Behind the weights: yaw to the subject's left, pitch upwards, in the head frame."""
 
 
+HEAD_COLUMNS = (
+    *("head_in_camera_x_m", "head_in_camera_y_m", "head_in_camera_z_m"),
+    *("head_yaw_deg", "head_pitch_deg", "head_roll_deg"),
+)
+"""Behind the gaze: where the head's origin is in the camera frame (x right, y down, z forward), and its turn to the
+subject's left, upwards, and towards the left shoulder."""
+
+
 def csv_lines(samples: Iterable[Sample], names: tuple[str, ...]) -> Iterator[str]:
     """Lines of the table, each as soon as its frame is known; the first frame says which columns there are.
 
@@ -24,13 +32,14 @@ def csv_lines(samples: Iterable[Sample], names: tuple[str, ...]) -> Iterator[str
         timed = sample.time_s is not None
         if number == 0:
             gaze_columns = () if sample.gaze is None else GAZE_COLUMNS
-            yield _line(["frame", *(["time_s"] if timed else []), *names, *gaze_columns])
+            head_columns = () if sample.head is None else HEAD_COLUMNS
+            yield _line(["frame", *(["time_s"] if timed else []), *names, *gaze_columns, *head_columns])
         values = sample.weights
         if sample.gaze is not None:
             values = np.concatenate([values, np.degrees(sample.gaze)])
-        empty = np.isnan(values).any()
+        head = () if sample.head is None else (*sample.head[:3], *np.degrees(sample.head[3:]))
         time_cell = ["" if np.isnan(sample.time_s) else f"{sample.time_s:.6f}"] if timed else []
-        yield _line([sample.label, *time_cell, *("" if empty else f"{value:.6f}" for value in values)])
+        yield _line([sample.label, *time_cell, *_cells(values), *_cells(head)])
 
 
 def weights_csv(prediction: Prediction) -> str:
@@ -40,8 +49,14 @@ def weights_csv(prediction: Prediction) -> str:
 
 def confidence_csv(prediction: Prediction) -> str:
     """A table of the same rows with the trust in each ARKit weight."""
-    rows = (replace(sample, weights=sample.confidence, gaze=None) for sample in prediction.samples)
+    rows = (replace(sample, weights=sample.confidence, gaze=None, head=None) for sample in prediction.samples)
     return "".join(csv_lines(rows, BLENDSHAPES))
+
+
+def _cells(values: Sequence[float]) -> list[str]:
+    """Numbers of a row, or as many empty cells where one of them is not known."""
+    empty = np.isnan(values).any()
+    return ["" if empty else f"{value:.6f}" for value in values]
 
 
 def _line(cells: list[str]) -> str:

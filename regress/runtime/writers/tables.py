@@ -22,12 +22,15 @@ class TableWriter:
         Whether every frame must have a time.
     arkit_only
         Whether it has columns for the 52 ARKit shapes alone.
+    has_head
+        Whether it has columns for the head's pose, asked for or not.
     """
 
     description: str
     function: str
     needs_times: bool = False
     arkit_only: bool = False
+    has_head: bool = False
 
     def text(self, prediction: "Prediction") -> str:
         """A take's whole table."""
@@ -43,5 +46,6 @@ TABLES: dict[str, TableWriter] = {
         function="live_link.live_link_text",
         needs_times=True,
         arkit_only=True,
+        has_head=True,
     ),
 }

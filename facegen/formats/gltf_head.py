@@ -1,0 +1,112 @@
+"""Finds the bone of an avatar's head, and turns it as a head is turned.
+
+References
+----------
+.. [1] Khronos Group, "glTF 2.0 Specification": 3.5 nodes; an asset's front faces +z, y is up.
+.. [2] VRM Consortium, "VRMC_vrm 1.0": ``humanoid.humanBones.head``; VRM 0.x: ``humanBones`` as a list, models face -z.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class HeadBone:
+    """A node, and what its turn is beside the head's.
+
+    Parameters
+    ----------
+    node
+        Its number.
+    at_rest : (4,) float64
+        Its rotation as the file has it: x, y, z, w as in glTF.
+    above : (4,) float64
+        Rotation of all nodes above it.
+    faces_away
+        Whether the model faces -z.
+    """
+
+    node: int
+    at_rest: np.ndarray
+    above: np.ndarray
+    faces_away: bool
+
+    def turned(self, angles_rad: np.ndarray) -> np.ndarray:
+        """Rotations (n, 4) of the node for yaw, pitch and roll (n, 3) of the head (docs/conventions.md)."""
+        yaw, pitch, roll = angles_rad.T
+        if self.faces_away:
+            pitch, roll = -pitch, -roll
+        zero = np.zeros_like(yaw)
+
+        def about(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+            half = np.stack([x, y, z], axis=-1) / 2
+            return np.concatenate([np.sin(half), np.cos(half.sum(axis=-1, keepdims=True))], axis=-1)
+
+        head = _product(_product(about(zero, yaw, zero), about(-pitch, zero, zero)), about(zero, zero, -roll))
+        inverse = self.above * [-1, -1, -1, 1]
+        return _product(_product(_product(inverse, head), self.above), self.at_rest)
+
+
+def head_bone(document: dict[str, Any]) -> HeadBone | None:
+    """The bone that VRM names, or a node called Head, whatever its capitals and what stands before a colon.
+
+    None where there is none that an animation can turn: one with a matrix cannot be.
+    """
+    nodes = document.get("nodes") or []
+    named, faces_away = _named_by_vrm(document)
+    if named is None:
+        names = [str(node.get("name", "")).rpartition(":")[2].lower() for node in nodes]
+        named = names.index("head") if "head" in names else None
+    if not isinstance(named, int) or not 0 <= named < len(nodes) or "matrix" in nodes[named]:
+        return None
+    parents = {
+        child: number
+        for number, node in enumerate(nodes)
+        for child in _listed(node.get("children"))
+        if isinstance(child, int)
+    }
+    above, at, passed = np.array([0.0, 0.0, 0.0, 1.0]), named, {named}
+    while (at := parents.get(at)) is not None and at not in passed:
+        passed.add(at)
+        above = _product(_rotation_of(nodes[at]), above)
+    return HeadBone(node=named, at_rest=_rotation_of(nodes[named]), above=above, faces_away=faces_away)
+
+
+def _named_by_vrm(document: dict[str, Any]) -> tuple[object, bool]:
+    """Number of the node that the VRM extension calls head, and whether the model faces -z."""
+    extensions = _record(document.get("extensions"))
+    bones = _record(_record(extensions.get("VRMC_vrm")).get("humanoid")).get("humanBones")
+    if bones is not None:
+        return _record(_record(bones).get("head")).get("node"), False
+    bones = _record(_record(extensions.get("VRM")).get("humanoid")).get("humanBones")
+    return next(
+        (_record(bone).get("node") for bone in _listed(bones) if _record(bone).get("bone") == "head"), None
+    ), ("VRM" in extensions)
+
+
+def _listed(value: object) -> list[Any]:
+    return value if isinstance(value, list) else []
+
+
+def _record(value: object) -> dict[str, Any]:
+    return value if isinstance(value, dict) else {}
+
+
+def _rotation_of(node: dict[str, Any]) -> np.ndarray:
+    """A node's rotation as a unit quaternion; none where it has no four numbers."""
+    value = node.get("rotation")
+    whole = isinstance(value, list) and len(value) == 4 and all(isinstance(one, int | float) for one in value)
+    length = np.linalg.norm(value) if whole else 0.0
+    if not 0.5 < length < 2:  # glTF's are of length 1
+        return np.array([0.0, 0.0, 0.0, 1.0])
+    return np.array(value, dtype=np.float64) / length
+
+
+def _product(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Quaternions (..., 4) multiplied: the second turns first."""
+    axis, other = first[..., :3], second[..., :3]
+    real, others = first[..., 3:], second[..., 3:]
+    vector = real * other + others * axis + np.cross(axis, other)
+    return np.concatenate([vector, real * others - (axis * other).sum(axis=-1, keepdims=True)], axis=-1)
