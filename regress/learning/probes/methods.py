@@ -67,9 +67,10 @@ def ridges_of(model: Model, dataset: KeypointDataset) -> tuple[Method, ...]:
 def _ridge(
     model: Model, dataset: KeypointDataset, name: str, *, noise: DetectorNoise | None, calibrated: bool
 ) -> Method:
+    features = model.calibrated.features if calibrated else model.features
     ridge = fit_baseline(
         dataset,
-        model.features,
+        features,
         mirror=model.record.recipe["mirror"],
         noise=noise,
         calibrated=calibrated,
@@ -77,7 +78,7 @@ def _ridge(
     )
 
     def predict(points: np.ndarray, neutral: np.ndarray) -> np.ndarray:
-        features = extract(model.features, points)
-        return ridge.predict(features - extract(model.features, neutral) if calibrated else features)
+        values = extract(features, points)
+        return ridge.predict(values - extract(features, neutral) if calibrated else values)
 
     return Method(name=name, calibrated=calibrated, predict=predict)

@@ -19,6 +19,8 @@ from facegen.conventions import (
     LANDMARK_GROUPS,
 )
 
+_EYES = (*LANDMARK_GROUPS["right_eye"], *LANDMARK_GROUPS["left_eye"])
+
 OUTER_EYES = (36, 45)
 """Landmarks whose distance is the unit of noise, and whose direction is a face's x axis."""
 
@@ -42,6 +44,9 @@ class DetectorNoise:
         Share of the faces that stay as they are.
     unbiased
         Share of the faces with jitter alone, as where landmarks mean the dataset's very points.
+    eyes
+        Factor on the jitter of the twelve points of the eyes: lids open by a few pixels, and with all of the jitter
+        networks read winks as blinks.
     copies
         How often each face is trained on, displaced anew each time.
     """
@@ -52,6 +57,7 @@ class DetectorNoise:
     jitter_most: float | None = None
     clean: float = 0.5
     unbiased: float = 0.0
+    eyes: float = 1.0
     copies: int = 1
 
 
@@ -92,9 +98,12 @@ def draw_displacements(
     if noise.jitter_most is not None:
         jitter = np.exp(rng.uniform(np.log(noise.jitter), np.log(noise.jitter_most), (count, 1, 1)))
 
+    quiet = np.ones((LANDMARK_COUNT, 1))
+    quiet[list(_EYES)] = noise.eyes
+
     def passing() -> np.ndarray:
         drift = biased * noise.drift * draw_bias(rng, count)
-        return drift + moved * jitter * rng.standard_normal(bias.shape)
+        return drift + moved * quiet * jitter * rng.standard_normal(bias.shape)
 
     return bias + passing(), bias + passing()
 

@@ -48,6 +48,16 @@ class Recipe:
         The same for the networks that also see a neutral frame of the person.
     calibrated
         Whether to train those: they serve where a recording has a neutral frame.
+    calibrated_alignment
+        What those see: one of ``ALIGNMENTS``.
+    calibrated_denoise
+        ``denoise`` for those.
+    calibrated_whitening
+        Share of their inputs' spread along the principal axes, in its logarithm, that is taken off: 0 leaves faint
+        axes faint, 1 makes all alike.
+    calibrated_gain
+        Whether their answers are stretched about the neutral face's until they spread as far as true weights
+        (``regress.learning.training.gain``).
     """
 
     name: str
@@ -69,6 +79,10 @@ class Recipe:
     noise: DetectorNoise | None = None
     calibrated_noise: DetectorNoise | None = None
     calibrated: bool = True
+    calibrated_alignment: str = "affine"
+    calibrated_denoise: bool = False
+    calibrated_whitening: float = 0.0
+    calibrated_gain: bool = False
 
 
 RECIPES: dict[str, Recipe] = {
@@ -77,7 +91,10 @@ RECIPES: dict[str, Recipe] = {
         denoise=True,
         symmetric=True,
         noise=DetectorNoise(bias=0.5, jitter=0.002, jitter_most=0.03, clean=0.4, unbiased=0.25),
-        calibrated_noise=DetectorNoise(bias=1.0, jitter=0.002, jitter_most=0.03, clean=0.35, unbiased=0.3),
+        calibrated_noise=DetectorNoise(bias=1.0, jitter=0.02, clean=0.0, eyes=0.7),
+        calibrated_alignment="stable",
+        calibrated_whitening=0.5,
+        calibrated_gain=True,
     ),
     "exact": Recipe(name="exact"),
     "paper": Recipe(

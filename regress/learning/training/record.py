@@ -52,7 +52,7 @@ def training_record(
     }
     if model.calibrated is not None:
         scores["calibrated"] = evaluate_model(model, dataset, calibrated=True)
-        baselines = _baselines(dataset, model.features, recipe, calibrated=True, seed=seed)
+        baselines = _baselines(dataset, model.calibrated.features, recipe, calibrated=True, seed=seed)
         scores |= {f"calibrated_{name}": shapes for name, shapes in baselines.items() if name != "mean"}
     networks = {name: _network_records(fit) for name, fit in fits.items()}
     return TrainingRecord(

@@ -3,11 +3,14 @@
 import dataclasses
 from dataclasses import dataclass
 
+import numpy as np
+
 from regress.errors import Interrupted
 from regress.learning.networks import fold
 from regress.learning.progress import Progress
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.fitting import Fit, fit_networks
+from regress.learning.training.gain import stretched
 from regress.learning.training.preparation import Prepared, prepare
 from regress.learning.training.recipes import Recipe
 from regress.learning.training.record import training_record
@@ -62,8 +65,9 @@ def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Prog
     )
     alone = _fit_set(dataset, features, recipe, calibrated=False, seed=seed, progress=progress)
     compared = None
+    beside = _beside_neutral(features, recipe)
     if recipe.calibrated and dataset.has_neutral_frames:
-        compared = _fit_set(dataset, features, recipe, calibrated=True, seed=seed, progress=progress)
+        compared = _fit_set(dataset, beside, recipe, calibrated=True, seed=seed, progress=progress)
     model = Model(
         recipe=recipe.name,
         table=NETWORKS,
@@ -72,14 +76,28 @@ def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Prog
         networks=alone.networks,
         calibrated=None
         if compared is None
-        else Calibrated(normalisation=compared.prepared.normalisation, networks=compared.networks),
+        else Calibrated(
+            features=beside, normalisation=compared.prepared.normalisation, networks=compared.networks
+        ),
     )
     if recipe.symmetric:
         model = symmetrised(model)
+    if recipe.calibrated_gain and model.calibrated is not None:
+        model = stretched(model, dataset)
     fits = {"alone": alone.fit} if compared is None else {"alone": alone.fit, "calibrated": compared.fit}
     rows = len(alone.prepared.splits["train"].inputs)
     record = training_record(model, dataset, recipe, seed=seed, fits=fits, training_rows=rows)
     return dataclasses.replace(model, record=record)
+
+
+def _beside_neutral(features: Features, recipe: Recipe) -> Features:
+    """What the networks see that compare with a neutral frame."""
+    if recipe.calibrated_alignment != "stable":
+        return dataclasses.replace(features, alignment=recipe.calibrated_alignment)
+    # the neutral frame is turned as the face is, more or less: what the turn moves cancels better than it is undone
+    return dataclasses.replace(
+        features, alignment="stable", edges=np.empty((0, 2), dtype=np.int64), depth=None
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,7 +123,8 @@ def _fit_set(
         mirror=recipe.mirror,
         noise=recipe.calibrated_noise if calibrated else recipe.noise,
         calibrated=calibrated,
-        denoise=recipe.denoise,
+        denoise=recipe.calibrated_denoise if calibrated else recipe.denoise,
+        whitening=recipe.calibrated_whitening if calibrated else 0.0,
         seed=seed,
     )
     stages = progress

@@ -84,7 +84,8 @@ def predicted_outputs(model: Model, points: np.ndarray, neutral: np.ndarray | No
     weights = np.empty((len(points), len(model.outputs)))
     for start in range(0, len(points), _BLOCK_ROWS):
         block = slice(start, start + _BLOCK_ROWS)
-        features = extract(model.features, points[block]) - extract(model.features, neutral[block])
+        compared = model.calibrated.features
+        features = extract(compared, points[block]) - extract(compared, neutral[block])
         weights[block] = np.clip(evaluate(model.calibrated.networks, features), 0, 1)
     return weights
 

@@ -1,6 +1,6 @@
-"""From 68 points to the 178 numbers the networks see: turn, alignment, edge lengths, face width."""
+"""From 68 points to the numbers the networks see: turn, alignment, edge lengths or points, in face widths."""
 
-from regress.runtime.features.alignment import ANCHORS, align_affine, align_similarity, mean_shape
+from regress.runtime.features.alignment import ANCHORS, STABLE, align_affine, align_similarity, mean_shape
 from regress.runtime.features.distances import edge_distances
 from regress.runtime.features.extraction import ALIGNMENTS, Features, extract
 from regress.runtime.features.reference_shape import (
@@ -14,6 +14,7 @@ from regress.runtime.features.turn import depths_of, turn_weights, undo_turn
 __all__ = [
     "ALIGNMENTS",
     "ANCHORS",
+    "STABLE",
     "Features",
     "ReferenceShape",
     "align_affine",

@@ -1,5 +1,7 @@
 """Aligns a face to a mean shape by the points that expressions move least."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from facegen.conventions import FACE_WIDTH_LANDMARKS, LANDMARK_GROUPS, MIRRORED_LANDMARKS
@@ -11,6 +13,9 @@ ANCHORS: tuple[int, ...] = (
     *LANDMARK_GROUPS["nose_bridge"],
 )
 """The outer 27 points (17 jaw, 10 brow) and the 4 nose-bridge points."""
+
+STABLE: tuple[int, ...] = (*LANDMARK_GROUPS["nose_bridge"], 33, 36, 39, 42, 45)
+"""Points that no expression moves by much: the nose's bridge and base, and the four corners of the eyes."""
 
 _MEAN_SHAPE_ROUNDS = 5
 """Rounds of averaging; the mean moves by less than 1e-6 face widths after the third."""
@@ -51,7 +56,9 @@ def align_affine(points: np.ndarray, mean_shape: np.ndarray) -> np.ndarray:
     return (points - centre) @ matrix + target_centre
 
 
-def align_similarity(points: np.ndarray, mean_shape: np.ndarray) -> np.ndarray:
+def align_similarity(
+    points: np.ndarray, mean_shape: np.ndarray, anchors: Sequence[int] = ANCHORS
+) -> np.ndarray:
     """Turn, scale and shift every face onto the mean shape, as its anchors fit best; its shape stays.
 
     Parameters
@@ -60,20 +67,23 @@ def align_similarity(points: np.ndarray, mean_shape: np.ndarray) -> np.ndarray:
         Faces in any unit.
     mean_shape : (68, 2) float64
         What they are laid upon.
+    anchors
+        Landmarks that are fitted.
 
     Returns
     -------
     (n, 68, 2) float64
         In the mean shape's unit and place; rows with NaN, or whose anchors are one point, are NaN.
     """
-    faces, target = _as_complex(points), _as_complex(mean_shape)[list(ANCHORS)]
+    rows = list(anchors)
+    faces, target = _as_complex(points), _as_complex(mean_shape)[rows]
     centre = target.mean()
-    faces = faces - faces[:, ANCHORS].mean(axis=1, keepdims=True)
-    anchors = faces[:, ANCHORS]
-    spread = np.sum(np.abs(anchors) ** 2, axis=1)
+    faces = faces - faces[:, rows].mean(axis=1, keepdims=True)
+    fitted = faces[:, rows]
+    spread = np.sum(np.abs(fitted) ** 2, axis=1)
     # A complex factor is a rotation and a scale: the best one is <face, mean> / <face, face>.
     with np.errstate(invalid="ignore"):  # faces with missing points become NaN
-        factor = (anchors.conj() @ (target - centre)) / np.where(spread > 0, spread, np.nan)
+        factor = (fitted.conj() @ (target - centre)) / np.where(spread > 0, spread, np.nan)
     laid = faces * factor[:, None] + centre
     return np.stack([laid.real, laid.imag], axis=-1)
 

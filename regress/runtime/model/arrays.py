@@ -30,19 +30,19 @@ _SET: dict[str, Shape] = {
     "w2": ("outputs", "hidden"),
     "b2": ("outputs",),
     "network_of_output": ("outputs",),
-    "feature_mean": ("edges",),
-    "feature_std": ("edges",),
+    "feature_mean": ("features",),
+    "feature_std": ("features",),
     "target_mean": ("outputs",),
     "target_std": ("outputs",),
 }
 """Arrays of the networks for a frame alone, and again of those that compare."""
 
 _FILTER: dict[str, Shape] = {
-    "origin": ("edges",),
-    "axes": ("axes", "edges"),
+    "origin": ("features",),
+    "axes": ("axes", "features"),
     "offset": ("axes",),
     "signal": ("axes",),
-    "noise_axes": ("noise axes", "edges"),
+    "noise_axes": ("noise axes", "features"),
     "surplus": ("axes",),
     "usual": (),
     "least": (),
@@ -66,14 +66,17 @@ class Sizes:
 
     Parameters
     ----------
-    edges
-        How many lengths are measured.
+    features
+        How many numbers the networks for a frame alone see.
     outputs
         Shapes that each network gives, in order.
+    calibrated_features
+        How many those see that compare with a neutral frame.
     """
 
-    edges: int
+    features: int
     outputs: Sequence[int]
+    calibrated_features: int
 
 
 def array_fault(arrays: Mapping[str, np.ndarray], sizes: Sizes) -> str | None:
@@ -103,14 +106,15 @@ def _shapes_of_set(arrays: Mapping[str, np.ndarray], prefix: str, sizes: Sizes) 
         shape = arrays[prefix + name].shape if prefix + name in arrays else ()
         return min(max(shape[axis], 1), most) if axis < len(shape) else 1
 
-    counts = {"edges": sizes.edges, "outputs": sum(sizes.outputs), "hidden": side("w2", 1, MOST_HIDDEN)}
-    counts |= {"units": counts["hidden"] * len(sizes.outputs), "inputs": sizes.edges}
+    features = sizes.calibrated_features if prefix else sizes.features
+    counts = {"features": features, "outputs": sum(sizes.outputs), "hidden": side("w2", 1, MOST_HIDDEN)}
+    counts |= {"units": counts["hidden"] * len(sizes.outputs), "inputs": features}
     words = dict(_SET)
     if any(name.startswith(prefix + DENOISING) for name in arrays):
         lacking = YOUNGER if not any(prefix + DENOISING + name in arrays for name in YOUNGER) else ()
         words |= {DENOISING + name: shape for name, shape in _FILTER.items() if name not in lacking}
-        counts["axes"] = counts["inputs"] = side(f"{DENOISING}axes", 0, sizes.edges + len(LEVELS))
-        counts["noise axes"] = side(f"{DENOISING}noise_axes", 0, sizes.edges)
+        counts["axes"] = counts["inputs"] = side(f"{DENOISING}axes", 0, features + len(LEVELS))
+        counts["noise axes"] = side(f"{DENOISING}noise_axes", 0, features)
     return {prefix + name: tuple(counts[word] for word in shape) for name, shape in words.items()}
 
 

@@ -13,7 +13,7 @@ from facegen.conventions import (
     LANDMARK_COUNT,
     LANDMARK_GROUPS,
 )
-from regress.runtime.features import ANCHORS, turn_weights
+from regress.runtime.features import ANCHORS, STABLE, turn_weights
 from regress.runtime.model.model import Model
 
 _BLOCK = 512
@@ -62,21 +62,31 @@ class BatchPredictor:
             self._turn = turn_weights(features.mean_shape, features.depth).astype(np.float32)
             self._depth = _column(features.depth)
         self._first, self._last = np.ascontiguousarray(features.edges.T)
+        self._laid = features.of_points
+        if self._laid:
+            target = features.mean_shape[list(STABLE)]
+            self._centre = target.mean(axis=0).astype(np.float32)
+            self._target = (target - target.mean(axis=0)).T.astype(np.float32)
         mean, bias = about_mean(model)
-        self._mean = _column(mean)
+        # points lie as two planes here, one below the other
+        order = (
+            np.arange(features.count).reshape(-1, 2).T.ravel() if self._laid else np.arange(features.count)
+        )
+        self._mean = _column(mean[order])
         if networks.denoising is not None:
             self._denoising = networks.denoising
-            axes = [networks.denoising.axes, networks.denoising.noise_axes]
-            self._axes = np.concatenate(axes).astype(np.float32)
+            axes = np.concatenate([networks.denoising.axes, networks.denoising.noise_axes])
+            self._axes = axes[:, order].astype(np.float32)
             self._offset, self._signal = _column(self._denoising.offset), _column(self._denoising.signal)
             self._surplus = self._denoising.surplus.astype(np.float32)
         # networks with most outputs first: those that have a k-th one are the first rows
         owners, size = networks.network_of_output, networks.hidden
-        order = np.argsort(-np.bincount(owners), kind="stable")
-        units = (order[:, None] * size + np.arange(size)).ravel()
-        self._w1 = 2 * np.column_stack([networks.w1, bias])[units].astype(np.float32)
+        largest = np.argsort(-np.bincount(owners), kind="stable")
+        units = (largest[:, None] * size + np.arange(size)).ravel()
+        w1 = networks.w1 if networks.denoising is not None else networks.w1[:, order]
+        self._w1 = 2 * np.column_stack([w1, bias])[units].astype(np.float32)
         place = np.arange(len(owners)) - np.searchsorted(owners, owners)
-        outputs = np.lexsort((np.argsort(order)[owners], place))
+        outputs = np.lexsort((np.argsort(largest)[owners], place))
         w2 = -2 * networks.w2[outputs].astype(np.float32)
         self._w2 = np.split(w2, np.cumsum(np.bincount(place))[:-1])
         self._b2 = _column((networks.b2 + networks.w2.sum(axis=1))[outputs])
@@ -117,8 +127,11 @@ class BatchPredictor:
         if self._turn is not None:
             for plane in (x, y):
                 plane -= np.multiply(self._depth, self._turn @ plane, out=buffers.product)
-        x, y = self._scaled(x, y, sound, buffers)
-        self._measure(x, y, buffers)
+        if self._laid:
+            self._lay(x, y, sound, buffers)
+        else:
+            x, y = self._scaled(x, y, sound, buffers)
+            self._measure(x, y, buffers)
         if self._denoising is not None:
             self._shrink(buffers)
         hidden = np.matmul(self._w1, buffers.inputs, out=buffers.hidden)
@@ -135,6 +148,30 @@ class BatchPredictor:
         np.clip(outputs, 0, 1, out=outputs)
         weights[:, self._rows] = outputs.T
         weights[np.isnan(outputs[0])] = np.nan
+
+    def _lay(self, x: np.ndarray, y: np.ndarray, sound: np.ndarray, buffers: "_Buffers") -> None:
+        """Fill in both coordinates under the similarity, about their mean; NaN for faces that have none."""
+        rows = list(STABLE)
+        u, v = x[rows], y[rows]
+        centre_x, centre_y = u.mean(axis=0), v.mean(axis=0)
+        u -= centre_x
+        v -= centre_y
+        spread = np.einsum("af,af->f", u, u) + np.einsum("af,af->f", v, v)
+        spread[~(sound & (spread > 0))] = np.nan
+        target_x, target_y = self._target
+        # the factor conj(face) . target over |face|^2, as in align_similarity
+        real, imaginary = (target_x @ u + target_y @ v) / spread, (target_y @ u - target_x @ v) / spread
+        x -= centre_x
+        y -= centre_y
+        laid_x, laid_y = buffers.lengths.reshape(2, LANDMARK_COUNT, -1)
+        for plane, of_x, of_y, centre in (
+            (laid_x, real, -imaginary, self._centre[0]),
+            (laid_y, imaginary, real, self._centre[1]),
+        ):
+            np.multiply(x, of_x, out=plane)
+            plane += np.multiply(y, of_y, out=buffers.product)
+            plane += centre
+        buffers.lengths -= self._mean
 
     def _scaled(
         self, x: np.ndarray, y: np.ndarray, sound: np.ndarray, buffers: "_Buffers"
@@ -220,7 +257,7 @@ class _Buffers:
         self.planes = rows(2 * points).reshape(2, points, count)
         self.inputs = rows(inputs)
         self.inputs[-1] = 1  # the bias's
-        self.lengths = self.inputs[:-1] if batch._denoising is None else rows(edges)
+        self.lengths = self.inputs[:-1] if batch._denoising is None else rows(len(batch._mean))
         self.outputs = rows(len(batch._rows))
 
     def planes_of(self, points: np.ndarray) -> np.ndarray:

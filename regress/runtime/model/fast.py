@@ -7,7 +7,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, FACE_WIDTH_LANDMARKS, LANDMARK_COUNT
 from regress.errors import InputError
-from regress.runtime.features import ANCHORS, turn_weights
+from regress.runtime.features import ANCHORS, STABLE, turn_weights
 from regress.runtime.model.batch import BatchPredictor, about_mean
 from regress.runtime.model.model import Model
 
@@ -27,17 +27,20 @@ class FastPredictor:
     -----
     Points are complex numbers z = x + iy here, so that a face takes few calls of NumPy. Features are ratios of
     lengths: of the affine map ``(P'P)^-1 P'Q`` the determinant and the translation drop out, and its linear part
-    is ``a z + b conj(z)``. One frame's time is that of its calls, half a microsecond each, and of the first layer's
-    weights on their way from the cache: sums are products with ones, constants are arrays.
+    is ``a z + b conj(z)``; or they are points, ``a z + c``. One frame's time is that of its calls, half a microsecond
+    each, and of the first layer's weights on their way from the cache: sums are products with ones, constants are
+    arrays.
     """
 
     def __init__(self, model: Model) -> None:
         features, networks = model.features, model.networks
-        self._aligned = features.alignment == "affine"
-        self._anchors = np.array(ANCHORS)
+        self._aligned, self._of_points = features.alignment == "affine", features.of_points
+        self._anchors = np.array(STABLE if features.of_points else ANCHORS)
         target = features.mean_shape[self._anchors].copy().view(np.complex128)[:, 0]
-        self._target = target - target.mean()
+        self._centre = target.mean()
+        self._target = target - self._centre
         mean_of_anchors = np.full(len(target), 1 / len(target))
+        self._mean_of_anchors = mean_of_anchors.astype(np.complex128)
         self._anchor_products = np.stack([mean_of_anchors, self._target, self._target.conj()])
         self._ones = np.ones(LANDMARK_COUNT, np.complex128)
         self._depth = self._turn = None
@@ -45,7 +48,7 @@ class FastPredictor:
             turn = turn_weights(features.mean_shape, features.depth)
             # complex as the points are: no conversion in each frame
             self._depth, self._turn = features.depth.astype(np.complex128), turn.astype(np.complex128)
-        first, last = np.concatenate([features.edges, [FACE_WIDTH_LANDMARKS]]).T
+        first, last = np.concatenate([features.edges, [FACE_WIDTH_LANDMARKS]]).T  # no edges: the width alone
         self._ends = np.stack([last, first])
         self._mean, bias = about_mean(model)
         self._b1 = bias.astype(np.float32)
@@ -94,14 +97,8 @@ class FastPredictor:
             return np.full(len(BLENDSHAPES), np.nan, np.float32)
         if self._depth is not None:
             plane = plane - self._depth * self._turn.dot(plane)
-        if self._aligned:
-            straight, mirrored = self._map(plane)
-            plane = straight * plane + mirrored * plane.conj()
-        last, first = plane.take(self._ends)
-        lengths = np.abs(last - first)
-        width = lengths[-1]
-        lengths /= width if width > 0 else math.nan
-        self._features[:] = np.subtract(lengths[:-1], self._mean, out=self._centred)
+        values = self._laid(plane) if self._of_points else self._lengths(plane)
+        self._features[:] = np.subtract(values, self._mean, out=self._centred)
         inputs = self._features if self._denoising is None else self._shrunk(self._features)
         hidden = np.dot(inputs, self._w1_columns, out=self._hidden)
         hidden += self._b1
@@ -129,6 +126,26 @@ class FastPredictor:
         if points.ndim != 3 or points.shape[1:] != (LANDMARK_COUNT, 2):
             raise InputError(f"points have shape {points.shape}; (n, 68, 2) is needed")
         return self._batch.predict(points, threads=threads)
+
+    def _lengths(self, plane: np.ndarray) -> np.ndarray:
+        """Lengths (E,) of the edges, in face widths."""
+        if self._aligned:
+            straight, mirrored = self._map(plane)
+            plane = straight * plane + mirrored * plane.conj()
+        last, first = plane.take(self._ends)
+        lengths = np.abs(last - first)
+        width = lengths[-1]
+        lengths /= width if width > 0 else math.nan
+        return lengths[:-1]
+
+    def _laid(self, plane: np.ndarray) -> np.ndarray:
+        """Points (136,), x and y of each, turned, scaled and shifted onto the mean shape."""
+        anchors = plane.take(self._anchors)
+        mean = complex(anchors.dot(self._mean_of_anchors))
+        anchors -= mean
+        spread = np.vdot(anchors, anchors).real.item()
+        factor = complex(np.vdot(anchors, self._target)) / (spread if spread > 0 else math.nan)
+        return (factor * plane + (self._centre - factor * mean)).view(np.float64)
 
     def _shrunk(self, features: np.ndarray) -> np.ndarray:
         """What denoising leaves of one face's features, centred."""

@@ -17,7 +17,7 @@ from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from facegen.documents import read_bytes
 from regress.errors import InputError, ModelError
 from regress.runtime.documents import checked, read_document
-from regress.runtime.features import Features
+from regress.runtime.features import ALIGNMENTS, Features
 from regress.runtime.model.arrays import CALIBRATED, DENOISING, YOUNGER, Sizes, array_fault
 from regress.runtime.model.model import Calibrated, Model, Normalisation
 from regress.runtime.model.place import KEYPOINTS, write_folder
@@ -26,10 +26,11 @@ from regress.runtime.networks import Denoising, FoldedNetworks
 from regress.runtime.ready_made import model_folder
 from regress.targets import Network, observability
 
-SCHEMAS = (1, 2, 3, 4)
-"""Those read; the last one is written. 1 knows no array ``depth``: its readers would take turned heads as they are. 2
-knows no arrays ``denoising_*``: its readers would show networks what they cannot read. 3 knows no surplus: its readers
-would take a face unlike those trained on for one without noise."""
+SCHEMAS = (1, 2, 3, 4, 5)
+"""Those read; the last one is written, or for models of lengths alone the one before. 1 knows no array ``depth``: its
+readers would take turned heads as they are. 2 knows no arrays ``denoising_*``: its readers would show networks what
+they cannot read. 3 knows no surplus: its readers would take a face unlike those trained on for one without noise. 4
+knows no features that are points, and none that the calibrated networks have to themselves."""
 
 _INFERENCE = (
     "clip(w2 tanh(w1 features + b1) + b2, 0, 1); features are raw, z-scores are folded in",
@@ -72,7 +73,9 @@ def load_model(folder: str | os.PathLike[str]) -> Model:
     document = _read_document(document_path)
     arrays = _read_arrays(weights_path, document.weights_sha256)
     sizes = Sizes(
-        edges=len(document.features.edges), outputs=[len(network.outputs) for network in document.networks]
+        features=document.features.count,
+        outputs=[len(network.outputs) for network in document.networks],
+        calibrated_features=(document.calibrated_features or document.features).count,
     )
     fault = array_fault(arrays, sizes)
     if fault is not None:
@@ -95,13 +98,21 @@ _Landmark = Annotated[int, Ge(0), Lt(LANDMARK_COUNT)]
 
 @dataclass(frozen=True, kw_only=True)
 class _FeaturesDocument:
-    alignment: Literal["affine", "none"]
-    edges: Annotated[list[tuple[_Landmark, _Landmark]], Len(1, LANDMARK_COUNT * (LANDMARK_COUNT - 1) // 2)]
+    alignment: Literal[ALIGNMENTS]
+    edges: Annotated[list[tuple[_Landmark, _Landmark]], Len(0, LANDMARK_COUNT * (LANDMARK_COUNT - 1) // 2)]
     reference_name: str
     reference_sha256: str
+    turn: Literal["undone by the array depth", "left as it is"] | None = None
+
+    @property
+    def count(self) -> int:
+        """How many numbers a face becomes."""
+        return 2 * LANDMARK_COUNT if self.alignment == "stable" else len(self.edges)
 
     def __post_init__(self) -> None:
-        """Refuse edges from a landmark to itself, turned ones and those that come twice."""
+        """Refuse edges from a landmark to itself, turned ones, those that come twice, and too few or too many."""
+        if (self.alignment == "stable") == bool(self.edges):
+            raise ValueError('edges must be there, but behind the alignment "stable", which has none')
         if not all(first < second for first, second in self.edges) or len(set(self.edges)) < len(self.edges):
             raise ValueError("edges must be pairs of landmarks, the lower first, none twice")
 
@@ -115,6 +126,7 @@ class _Document:
     features: _FeaturesDocument
     weights_sha256: str
     record: TrainingRecord | None
+    calibrated_features: _FeaturesDocument | None = None
 
     def __post_init__(self) -> None:
         """Refuse shapes and names that two networks have."""
@@ -143,26 +155,32 @@ def _read_document(path: Path) -> _Document:
 
 
 def _document(model: Model, weights_sha256: str) -> dict[str, Any]:
+    calibrated = model.calibrated
     return {
-        "schema": SCHEMAS[-1],
+        "schema": SCHEMAS[-1] if any(features.of_points for features in model.all_features) else SCHEMAS[-2],
         "recipe": model.recipe,
         "blendshapes": list(BLENDSHAPES),
         "networks": [dataclasses.asdict(network) for network in model.table],
         "observability": {name: observability(name) for name in BLENDSHAPES},
         "hidden": model.networks.hidden,
-        "features": {
-            "kind": "edge lengths over face width",
-            "alignment": model.features.alignment,
-            "turn": "undone by the array depth" if model.features.depth is not None else "left as it is",
-            "edges": model.features.edges.tolist(),
-            "reference_name": model.features.reference_name,
-            "reference_sha256": model.features.reference_sha256,
-        },
+        "features": _features_document(model.features),
+        **({} if calibrated is None else {"calibrated_features": _features_document(calibrated.features)}),
         "inference": _INFERENCE[model.networks.denoising is not None],
-        "calibrated": model.calibrated is not None
+        "calibrated": calibrated is not None
         and "the same with the arrays calibrated_*, on features less the neutral frame's",
         "weights_sha256": weights_sha256,
         "record": record_to_json(model.record),
+    }
+
+
+def _features_document(features: Features) -> dict[str, Any]:
+    return {
+        "kind": "x and y of the aligned points" if features.of_points else "edge lengths over face width",
+        "alignment": features.alignment,
+        "turn": "undone by the array depth" if features.depth is not None else "left as it is",
+        "edges": features.edges.tolist(),
+        "reference_name": features.reference_name,
+        "reference_sha256": features.reference_sha256,
     }
 
 
@@ -171,8 +189,8 @@ def _arrays(model: Model) -> dict[str, np.ndarray]:
     if model.calibrated is not None:
         calibrated = {**_fields(model.calibrated.networks), **_fields(model.calibrated.normalisation)}
         arrays |= {CALIBRATED + name: array for name, array in calibrated.items()}
-    depth = {} if model.features.depth is None else {"depth": model.features.depth}
-    return {**arrays, "mean_shape": model.features.mean_shape, **depth}
+    depth = [features.depth for features in model.all_features if features.depth is not None]
+    return {**arrays, "mean_shape": model.features.mean_shape, **({"depth": depth[0]} if depth else {})}
 
 
 def _fields(record: FoldedNetworks | Normalisation | Denoising) -> dict[str, np.ndarray]:
@@ -193,26 +211,34 @@ def _model(document: _Document, arrays: dict[str, np.ndarray]) -> Model:
     return Model(
         recipe=document.recipe,
         table=document.networks,
-        features=Features(
-            alignment=document.features.alignment,
-            mean_shape=arrays["mean_shape"],
-            edges=np.array(document.features.edges, dtype=np.int64),
-            reference_name=document.features.reference_name,
-            reference_sha256=document.features.reference_sha256,
-            depth=arrays.get("depth"),
-        ),
+        features=_features(document.features, arrays),
         normalisation=_taken(Normalisation, arrays),
         networks=_networks(arrays),
         record=document.record,
-        calibrated=_calibrated(arrays),
+        calibrated=_calibrated(document, arrays),
     )
 
 
-def _calibrated(arrays: dict[str, np.ndarray]) -> Calibrated | None:
+def _features(document: _FeaturesDocument, arrays: dict[str, np.ndarray]) -> Features:
+    return Features(
+        alignment=document.alignment,
+        mean_shape=arrays["mean_shape"],
+        edges=np.array(document.edges, dtype=np.int64).reshape(-1, 2),
+        reference_name=document.reference_name,
+        reference_sha256=document.reference_sha256,
+        depth=None if document.turn == "left as it is" else arrays.get("depth"),
+    )
+
+
+def _calibrated(document: _Document, arrays: dict[str, np.ndarray]) -> Calibrated | None:
     named = _beginning(arrays, CALIBRATED)
     if not named:
         return None
-    return Calibrated(normalisation=_taken(Normalisation, named), networks=_networks(named))
+    return Calibrated(
+        features=_features(document.calibrated_features or document.features, arrays),
+        normalisation=_taken(Normalisation, named),
+        networks=_networks(named),
+    )
 
 
 def _networks(arrays: dict[str, np.ndarray]) -> FoldedNetworks:

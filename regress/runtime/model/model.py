@@ -39,12 +39,15 @@ class Calibrated:
 
     Parameters
     ----------
+    features
+        What they see of a frame.
     normalisation
         Z-scores of the features' differences.
     networks
         Folded weights that act on a frame's features less the neutral frame's.
     """
 
+    features: Features
     normalisation: Normalisation
     networks: FoldedNetworks
 
@@ -84,6 +87,11 @@ class Model:
         """Predicted shapes in the networks' order (51; tongueOut is not among them)."""
         return tuple(output for network in self.table for output in network.outputs)
 
+    @property
+    def all_features(self) -> tuple[Features, ...]:
+        """What the networks for a frame alone see, and what those that compare see."""
+        return (self.features,) if self.calibrated is None else (self.features, self.calibrated.features)
+
     def calibrate(self, neutral: np.ndarray) -> "Model":
         """The model of one person and detector: its networks compare every frame with the neutral one.
 
@@ -110,7 +118,7 @@ class Model:
         points = np.asarray(neutral, dtype=np.float64)
         if points.ndim != 3 or points.shape[1:] != (LANDMARK_COUNT, 2):
             raise InputError(f"neutral points have shape {points.shape}; (m, 68, 2) is needed")
-        features = extract(self.features, points[np.isfinite(points).all(axis=(1, 2))])
+        features = extract(self.calibrated.features, points[np.isfinite(points).all(axis=(1, 2))])
         features = features[np.isfinite(features).all(axis=1)]
         if not len(features):
             raise InputError("no neutral frame is usable: each has missing landmarks")
@@ -118,6 +126,7 @@ class Model:
         normalisation = self.calibrated.normalisation
         return replace(
             self,
+            features=self.calibrated.features,
             normalisation=replace(normalisation, feature_mean=normalisation.feature_mean + origin),
             networks=shifted(self.calibrated.networks, origin),
             calibrated=None,

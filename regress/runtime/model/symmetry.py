@@ -1,12 +1,12 @@
 """Makes a model whose answer to a mirrored face is the mirrored answer, exactly."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from facegen.conventions import mirrored_name
 from regress.errors import InputError
-from regress.runtime.features import closed_under_mirror, mirrored_edges
+from regress.runtime.features import Features, closed_under_mirror, mirrored_edges
 from regress.runtime.model.model import Calibrated, Model, Normalisation
 from regress.runtime.networks import FoldedNetworks
 
@@ -26,37 +26,64 @@ def symmetrised(model: Model) -> Model:
     """
     if model.record is not None and model.record.recipe.get("symmetric"):
         return model
-    features = model.features
+    outputs = _mirrored_outputs(model)
+    closed = _closed(model.features)
+    calibrated = None
+    if model.calibrated is not None:
+        beside = _closed(model.calibrated.features)
+        calibrated = Calibrated(
+            features=beside.features,
+            normalisation=beside.wider(model.calibrated.normalisation),
+            networks=_twice(model.calibrated.networks, beside, outputs),
+        )
+    return replace(
+        model,
+        features=closed.features,
+        normalisation=closed.wider(model.normalisation),
+        networks=_twice(model.networks, closed, outputs),
+        calibrated=calibrated,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Closed:
+    """Features of which each has its mirror partner among them.
+
+    Parameters
+    ----------
+    features
+        With the partners that were missing.
+    own : (e,) int64
+        Where each feature of the model is now.
+    source : (E,) int64
+        The feature of the model that each takes its mean and spread from.
+    """
+
+    features: Features
+    own: np.ndarray
+    source: np.ndarray
+
+    def wider(self, normalisation: Normalisation) -> Normalisation:
+        """Z-scores of all features."""
+        return replace(
+            normalisation,
+            feature_mean=normalisation.feature_mean[self.source],
+            feature_std=normalisation.feature_std[self.source],
+        )
+
+
+def _closed(features: Features) -> _Closed:
+    if features.of_points:
+        rows = np.arange(features.count)
+        return _Closed(features=features, own=rows, source=rows)
     edges = closed_under_mirror(features.edges)
     row = {(int(i), int(j)): place for place, (i, j) in enumerate(edges)}
     own = np.array([row[int(i), int(j)] for i, j in features.edges])
-    other = mirrored_edges(edges)
     # a partner that the model did not have is as long, in the mean, as the edge that it mirrors
     source = np.zeros(len(edges), dtype=np.int64)
-    source[other[own]] = np.arange(len(own))
+    source[mirrored_edges(edges)[own]] = np.arange(len(own))
     source[own] = np.arange(len(own))
-    outputs = _mirrored_outputs(model)
-
-    def twice(networks: FoldedNetworks) -> FoldedNetworks:
-        return _twice(networks, own=own, mirrored=other[own], outputs=outputs, count=len(edges))
-
-    def wider(normalisation: Normalisation) -> Normalisation:
-        return replace(
-            normalisation,
-            feature_mean=normalisation.feature_mean[source],
-            feature_std=normalisation.feature_std[source],
-        )
-
-    return replace(
-        model,
-        features=replace(features, edges=edges),
-        normalisation=wider(model.normalisation),
-        networks=twice(model.networks),
-        calibrated=model.calibrated
-        and Calibrated(
-            normalisation=wider(model.calibrated.normalisation), networks=twice(model.calibrated.networks)
-        ),
-    )
+    return _Closed(features=replace(features, edges=edges), own=own, source=source)
 
 
 def _mirrored_outputs(model: Model) -> np.ndarray:
@@ -73,19 +100,19 @@ def _mirrored_outputs(model: Model) -> np.ndarray:
     return rows
 
 
-def _twice(
-    networks: FoldedNetworks, *, own: np.ndarray, mirrored: np.ndarray, outputs: np.ndarray, count: int
-) -> FoldedNetworks:
+def _twice(networks: FoldedNetworks, closed: _Closed, outputs: np.ndarray) -> FoldedNetworks:
     hidden = networks.hidden
+    partners, signs = closed.features.mirror
+    mirrored, turned = partners[closed.own], signs[closed.own]
     w1 = networks.w1.reshape(len(networks.b1) // hidden, hidden, -1)
     if networks.denoising is not None:  # the mirror image has the same places along the axes, but for signs
         axes = networks.denoising.axes
-        signs = np.where(np.einsum("ae,ae->a", axes, axes[:, mirrored]) < 0, -1.0, 1.0)
-        both = np.concatenate([w1, w1 * signs], axis=1)
+        sides = np.where(np.einsum("ae,ae->a", axes, axes[:, mirrored] * turned) < 0, -1.0, 1.0)
+        both = np.concatenate([w1, w1 * sides], axis=1)
     else:
-        both = np.zeros((len(w1), 2 * hidden, count))
-        both[:, :hidden, own] = w1
-        both[:, hidden:, mirrored] = w1
+        both = np.zeros((len(w1), 2 * hidden, closed.features.count))
+        both[:, :hidden, closed.own] = w1
+        both[:, hidden:, mirrored] = w1 * turned
     b1 = networks.b1.reshape(-1, hidden)
     return replace(
         networks,

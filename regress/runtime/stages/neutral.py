@@ -39,7 +39,9 @@ def estimate_neutral(model: Model, points: np.ndarray) -> CalmFrames:
     visible = [name in VISIBLE_SHAPES for name in model.outputs]
 
     def difference(early: np.ndarray, late: np.ndarray) -> float:
-        before, after = (np.median(extract(model.features, points[half]), axis=0) for half in (early, late))
+        before, after = (
+            np.median(extract(model.calibrated.features, points[half]), axis=0) for half in (early, late)
+        )
         weights = evaluate(networks, np.stack([before - after, after - before]))
         return float(np.clip(weights[:, visible], 0, 1).max())
 
