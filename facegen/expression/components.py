@@ -22,7 +22,9 @@ from facegen.expression.shapes import (
     draw_single,
     draw_sparse,
     draw_upper_face,
+    draw_wink,
 )
+from facegen.expression.talking import draw_talk
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,6 +81,8 @@ COMPONENTS: dict[str, Component] = {
     "upper_face": Component(draw=draw_upper_face, living=False),
     "lower_face": Component(draw=draw_lower_face, living=False, looking=False),
     "combined": Component(draw=draw_combined, living=False, subtle=False),
+    "talk": Component(draw=draw_talk, living=True),
+    "wink": Component(draw=draw_wink, living=False, subtle=False),
 }
 """Every component, by its key of ``[expression.mixture]``; a new one is a module and a line here."""
 

@@ -20,6 +20,8 @@ UPPER_FACE = ("brow", "eye", "noseSneer", "cheekSquint")
 """How the names of the shapes begin that the cameras at the eyes see; all others are the lower face."""
 COMBINED_JAW, COMBINED_BLINK = 0.35, (0.3, 0.8)
 """Least jawOpen of a combined face, and from where to where both eyes are closed."""
+WINK_FULL, WINK_BOTH = 0.5, 0.35
+"""Shares of winking faces whose lids meet, and of those that shut both eyes."""
 EXTREME_SHAPES, EXTREME_FROM, EXTREME_GAZE = 3, 0.75, 0.25
 """Shapes of an extreme face, the weakest weight there, and the share of faces with eyes turned as far."""
 
@@ -110,6 +112,16 @@ def draw_combined(rng: np.random.Generator, size: int, *, correlation: float) ->
     least, most = COMBINED_BLINK
     weights[:, _BLINKS] = least + (most - least) * draw_sides(rng, size, correlation=correlation)
     weights[:, _WIDES] = 0.0
+    return weights
+
+
+def draw_wink(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """One eye that shuts, or in a third of the faces both, half of them fully; all else rests."""
+    strength = np.where(rng.random(size) < WINK_FULL, 1.0, rng.random(size))
+    sides = np.where(rng.random(size) < WINK_BOTH, 2, rng.integers(0, 2, size))
+    weights = np.zeros((size, len(BLENDSHAPES)))
+    for side, column in enumerate(_BLINKS):
+        weights[:, column] = np.where((sides == side) | (sides == 2), strength, 0.0)
     return weights
 
 

@@ -3,6 +3,7 @@
 import json
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,10 @@ from regress.runtime.model import Model, save_model
 from tests.regress.drawn import drawn_dataset
 
 QUICK = Recipe(name="default", alphas=(0.3, 3.0), steps=8, search_rows=150, hidden=6)
+QUICK_STABLE = replace(
+    QUICK, calibrated_alignment="stable", calibrated_whitening=0.5, calibrated_gain=True, symmetric=True
+)
+"""As the default recipe's: networks that compare see points."""
 
 
 @pytest.fixture(scope="session")
@@ -42,6 +47,11 @@ def dataset_folder(dataset: KeypointDataset, tmp_path_factory: pytest.TempPathFa
 @pytest.fixture(scope="session")
 def quick_model(dataset: KeypointDataset) -> Model:
     return train(dataset, QUICK, seed=3)
+
+
+@pytest.fixture(scope="session")
+def stable_model(dataset: KeypointDataset) -> Model:
+    return train(dataset, QUICK_STABLE)
 
 
 @pytest.fixture(scope="session")

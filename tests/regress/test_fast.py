@@ -14,9 +14,11 @@ from regress.runtime.model import FastPredictor, Model
 AGREE = 1e-5
 
 
-@pytest.fixture(scope="module", params=["turn", "affine", "none"])
-def model(request, quick_model: Model) -> Model:
+@pytest.fixture(scope="module", params=["turn", "affine", "none", "stable"])
+def model(request, quick_model: Model, stable_model: Model) -> Model:
     """The weights fit one kind of features, which does not matter here: both must say the same."""
+    if request.param == "stable":
+        return stable_model.calibrate(stable_model.features.mean_shape[None] + 0.01)
     features = dataclasses.replace(
         quick_model.features,
         alignment="none" if request.param == "none" else "affine",

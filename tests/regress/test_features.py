@@ -12,6 +12,7 @@ from regress.errors import InputError
 from regress.learning.reference_shape import delaunay_edges, make_reference_shape, reference_shape_json
 from regress.runtime.features import (
     ANCHORS,
+    STABLE,
     Features,
     align_affine,
     depths_of,
@@ -155,3 +156,37 @@ def test_distances_are_lengths_over_face_width():
 def test_a_square_has_four_sides_and_a_diagonal():
     edges = delaunay_edges(np.array([[0, 0], [1, 0], [1, 1.1], [0, 1.0]]))
     assert len(edges) == 5
+
+
+@given(seed=st.integers(0, 2**32 - 1), size=st.floats(0.1, 1000), roll_deg=st.floats(-90, 90))
+@settings(max_examples=40, deadline=None)
+def test_laid_points_ignore_place_size_and_roll_and_mirror(seed, size, roll_deg):
+    features = dataclasses.replace(_features("stable"), edges=np.empty((0, 2), dtype=np.int64))
+    faces = drawn_faces(np.random.default_rng(seed), 3)
+    values = extract(features, faces)
+    assert values.shape == (3, features.count) == (3, 136)
+    turn = np.deg2rad(roll_deg)
+    roll = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    np.testing.assert_allclose(extract(features, faces @ roll * size + [30, -7]), values, atol=1e-9)
+    partners, signs = features.mirror
+    image = faces[:, list(MIRRORED_LANDMARKS)] * [-1, 1]
+    np.testing.assert_allclose(extract(features, image), values[:, partners] * signs, atol=1e-9)
+    # in the mean shape's unit and place: the stable points are as near to it as any similarity brings them
+    anchors = list(STABLE)
+    laid = values.reshape(3, 68, 2)[:, anchors]
+    rest = laid - features.mean_shape[anchors]
+    np.testing.assert_allclose(rest.sum(axis=1), 0, atol=1e-9)
+    np.testing.assert_allclose(
+        (rest * (laid - laid.mean(axis=1, keepdims=True))).sum(axis=(1, 2)), 0, atol=1e-9
+    )
+
+
+def test_what_a_detector_is_always_off_by_cancels_in_laid_points():
+    features = dataclasses.replace(_features("stable"), edges=np.empty((0, 2), dtype=np.int64))
+    neutral, moved = FACES[:1], FACES[:1].copy()
+    moved[:, 48:] += 0.02
+    bias = 0.02 * np.random.default_rng(4).standard_normal((1, 68, 2))
+    bias[:, list(STABLE)] = 0  # there it would turn and scale the face, by little
+    plain = extract(features, moved) - extract(features, neutral)
+    biased = extract(features, moved + bias) - extract(features, neutral + bias)
+    np.testing.assert_allclose(biased, plain, atol=1e-12)

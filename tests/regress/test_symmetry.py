@@ -62,6 +62,22 @@ def test_a_symmetric_model_mirrors_exactly_and_is_a_model_like_any_other(quick_m
     np.testing.assert_allclose(symmetrised(symmetric).predict(FACES), weights, atol=1e-9)
 
 
+def test_networks_that_see_points_mirror_exactly(stable_model, tmp_path):
+    neutral = FACES[:1]
+    weights = stable_model.calibrate(neutral).predict(FACES)
+    mirrored = stable_model.calibrate(mirror_image(neutral)).predict(mirror_image(FACES))
+    np.testing.assert_allclose(mirrored, mirrored_weights(weights), atol=1e-9)
+    save_model(stable_model, tmp_path / "model")
+    again = load_model(tmp_path / "model")
+    assert again.calibrated.features.of_points
+    np.testing.assert_array_equal(again.calibrate(neutral).predict(FACES), weights)
+
+
+def test_a_neutral_face_reads_nothing_where_answers_are_stretched(stable_model):
+    for face in FACES[:5]:
+        np.testing.assert_allclose(stable_model.calibrate(face[None]).predict_raw(face[None]), 0, atol=1e-9)
+
+
 def test_a_recipe_can_train_it(dataset):
     quick = dataclasses.replace(QUICK, steps=1, search_steps=1, calibrated=False)
     straight, symmetric = (

@@ -2,14 +2,15 @@
 
 Networks that are unsure answer towards the mean (a regression's slope is below 1 by the share of the variance that it
 cannot see). About the neutral face's own answer, which is taken for 0, every shape is stretched until answers for
-people of the validation split spread as far as their true weights do.
+people of the validation split spread as far as their true weights do. Gaze stays: 68 points let it be guessed only, from
+lids, and a stretched guess moves eyes that look ahead.
 """
 
 from dataclasses import replace
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.conventions import BLENDSHAPE_INDEX, mirrored_name
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.noise import DetectorNoise
 from regress.learning.training.preparation import as_detected, faces_of
@@ -32,8 +33,10 @@ def stretched(model: Model, dataset: KeypointDataset) -> Model:
     faces = as_detected(faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(_SEED))
     truth = faces.weights[:, [BLENDSHAPE_INDEX[name] for name in model.outputs]].std(axis=0)
     answered = predicted_outputs(about_zero, faces.points, faces.neutral).std(axis=0)
-    gain = truth / np.where(answered > 0, answered, np.inf)
-    return _finished(model, np.clip(gain, 1.0, MOST_GAIN))
+    gain = np.clip(truth / np.where(answered > 0, answered, np.inf), 1.0, MOST_GAIN)
+    gain[[name.startswith("eyeLook") for name in model.outputs]] = 1.0
+    partner = [model.outputs.index(mirrored_name(name)) for name in model.outputs]
+    return _finished(model, (gain + gain[partner]) / 2)
 
 
 def _finished(model: Model, gain: np.ndarray) -> Model:

@@ -17,6 +17,9 @@ ANCHORS: tuple[int, ...] = (
 STABLE: tuple[int, ...] = (*LANDMARK_GROUPS["nose_bridge"], 33, 36, 39, 42, 45)
 """Points that no expression moves by much: the nose's bridge and base, and the four corners of the eyes."""
 
+ROUNDING = 1e-24
+"""Spread of anchors, of the square of their place, that is rounding alone: they are one point."""
+
 _MEAN_SHAPE_ROUNDS = 5
 """Rounds of averaging; the mean moves by less than 1e-6 face widths after the third."""
 
@@ -78,12 +81,15 @@ def align_similarity(
     rows = list(anchors)
     faces, target = _as_complex(points), _as_complex(mean_shape)[rows]
     centre = target.mean()
-    faces = faces - faces[:, rows].mean(axis=1, keepdims=True)
+    middle = faces[:, rows].mean(axis=1, keepdims=True)
+    faces = faces - middle
     fitted = faces[:, rows]
     spread = np.sum(np.abs(fitted) ** 2, axis=1)
     # A complex factor is a rotation and a scale: the best one is <face, mean> / <face, face>.
     with np.errstate(invalid="ignore"):  # faces with missing points become NaN
-        factor = (fitted.conj() @ (target - centre)) / np.where(spread > 0, spread, np.nan)
+        factor = (fitted.conj() @ (target - centre)) / np.where(
+            spread > ROUNDING * np.abs(middle[:, 0]) ** 2, spread, np.nan
+        )
     laid = faces * factor[:, None] + centre
     return np.stack([laid.real, laid.imag], axis=-1)
 

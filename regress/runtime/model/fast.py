@@ -8,6 +8,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, FACE_WIDTH_LANDMARKS, LANDMARK_COUNT
 from regress.errors import InputError
 from regress.runtime.features import ANCHORS, STABLE, turn_weights
+from regress.runtime.features.alignment import ROUNDING
 from regress.runtime.model.batch import BatchPredictor, about_mean
 from regress.runtime.model.model import Model
 
@@ -144,7 +145,9 @@ class FastPredictor:
         mean = complex(anchors.dot(self._mean_of_anchors))
         anchors -= mean
         spread = np.vdot(anchors, anchors).real.item()
-        factor = complex(np.vdot(anchors, self._target)) / (spread if spread > 0 else math.nan)
+        factor = complex(np.vdot(anchors, self._target)) / (
+            spread if spread > ROUNDING * abs(mean) ** 2 else math.nan
+        )
         return (factor * plane + (self._centre - factor * mean)).view(np.float64)
 
     def _shrunk(self, features: np.ndarray) -> np.ndarray:

@@ -261,3 +261,26 @@ def test_emotions_name_units_that_there_are():
     assert not (table.always & table.sometimes).any()
     assert (table.always | table.sometimes).any(axis=0).all()  # no unit without an emotion
     assert table.always.any(axis=1).all()
+
+
+def test_talk_shows_what_visemes_leave_out():
+    speech, talk = (drawn(spec(mixture={name: 1.0}), 5) for name in ("speech", "talk"))
+    for name, least in (("eyeSquintLeft", 0.12), ("mouthFrownRight", 0.06), ("mouthDimpleLeft", 0.06)):
+        assert column(talk, name).mean() > max(least, column(speech, name).mean() + 0.03)
+    parted = (column(talk, "jawOpen") < 0.1) & (column(talk, "mouthLowerDownLeft") > 0.15)
+    assert parted.mean() > 0.1
+    assert np.mean(np.maximum(column(talk, "jawLeft"), column(talk, "jawRight")) > 0.1) > 0.05
+
+
+def test_winks_are_alone():
+    faces = drawn(spec(mixture={"wink": 1.0}, subtle=0.0), 2)
+    left, right = (column(faces, f"eyeBlink{side}") for side in ("Left", "Right"))
+    one = np.minimum(left, right) == 0
+    assert 0.55 < one.mean() < 0.75
+    assert np.mean(np.maximum(left, right) == 1) > 0.45
+    others = [
+        index
+        for index, name in enumerate(BLENDSHAPES)
+        if not name.startswith(("eyeBlink", "eyeLook", "eyeWide"))
+    ]
+    assert not faces.weights[:, others].any()

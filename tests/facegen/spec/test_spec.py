@@ -39,6 +39,8 @@ YOUNG = {
     "expression.mixture.upper_face": 1.0,
     "expression.mixture.lower_face": 1.0,
     "expression.mixture.combined": 1.0,
+    "expression.mixture.talk": 1.0,
+    "expression.mixture.wink": 1.0,
 }
 """Keys that came after the first datasets, and values other than their defaults."""
 
