@@ -48,6 +48,9 @@ def time_model(model: Model, faces: np.ndarray) -> tuple[Timing, ...]:
     with tempfile.TemporaryDirectory() as temporary, threadpool_limits(limits=1):
         folder = Path(temporary)
         export_model(model, folder, name="face", formats=("onnx", "c", "javascript"))
+        compares = model.calibrated is not None
+        # a person whose neutral face is known: what users of such a model run, and what its exports are given
+        model = model.calibrate(faces[1:2]) if compares else model
         fast = FastPredictor(model)
         batch = faces[np.arange(BATCH_FRAMES) % len(faces)]
         return (
@@ -76,9 +79,9 @@ def time_model(model: Model, faces: np.ndarray) -> tuple[Timing, ...]:
                 microseconds=_best(lambda: fast.predict(batch), repeat=1) / BATCH_FRAMES,
                 note=f"FastPredictor.predict in {os.cpu_count()} threads, a frame's share",
             ),
-            _time_onnx(folder, faces),
-            _time_c(folder, faces),
-            _time_javascript(folder, faces),
+            _time_onnx(folder, faces, compares=compares),
+            _time_c(folder, faces, compares=compares),
+            _time_javascript(folder, faces, compares=compares),
         )
 
 
@@ -116,9 +119,11 @@ def time_headset(predictor: HeadsetPredictor) -> tuple[Timing, ...]:
     )
 
 
-def _time_onnx(folder: Path, faces: np.ndarray) -> Timing:
+def _time_onnx(folder: Path, faces: np.ndarray, *, compares: bool) -> Timing:
     session = open_session((folder / "face.onnx").read_bytes())
     feed = {"points": faces[:1].astype(np.float32)}
+    if compares:
+        feed["neutral"] = faces[1:2].astype(np.float32)
     return Timing(
         name="ONNX, one frame",
         microseconds=_best(lambda: session.run(None, feed), repeat=200),
@@ -131,12 +136,14 @@ _C_PROGRAM = """
 #include <time.h>
 #include "face.h"
 static const float points[FACE_POINTS][2] = {%s};
+%s
 int main(void) {
     float weights[FACE_WEIGHTS], sum = 0;
     double best = 1e30;
+    BEGIN();
     for (int run = 0; run < 7; run++) {
         const clock_t began = clock();
-        for (int i = 0; i < 2000; i++) { face_predict(points, weights); sum += weights[17]; }
+        for (int i = 0; i < 2000; i++) { PREDICT(); sum += weights[17]; }
         const double taken = (double)(clock() - began) / CLOCKS_PER_SEC / 2000 * 1e6;
         if (taken < best) best = taken;
     }
@@ -146,12 +153,20 @@ int main(void) {
 """
 
 
-def _time_c(folder: Path, faces: np.ndarray) -> Timing:
+_C_ALONE = """#define BEGIN()
+#define PREDICT() face_predict(points, weights)"""
+_C_PLAYER = """static const float neutral[FACE_POINTS][2] = {%s};
+static face_player player;
+#define BEGIN() face_neutral(&player, neutral)
+#define PREDICT() face_predict(&player, points, weights)"""
+
+
+def _time_c(folder: Path, faces: np.ndarray, *, compares: bool) -> Timing:
     name = "C, one frame"
     if shutil.which("cc") is None:
         return Timing(name=name, microseconds=None, note="no cc on this machine")
-    points = ", ".join(f"{{{x:.9g}, {y:.9g}}}" for x, y in faces[0])
-    (folder / "main.c").write_text(_C_PROGRAM % points)
+    points, neutral = (", ".join(f"{{{x:.9g}, {y:.9g}}}" for x, y in face) for face in faces[:2])
+    (folder / "main.c").write_text(_C_PROGRAM % (points, _C_PLAYER % neutral if compares else _C_ALONE))
     command = ["cc", "-std=c99", "-O2", "main.c", "face.c", "-o", "face", "-lm"]
     try:
         subprocess.run(command, cwd=folder, check=True, capture_output=True)
@@ -162,8 +177,9 @@ def _time_c(folder: Path, faces: np.ndarray) -> Timing:
 
 
 _JAVASCRIPT_PROGRAM = """
-import {{ predict }} from {module};
+import * as face from {module};
 const points = Float64Array.from({points}), weights = new Float32Array(52);
+const predict = {neutral} ? face.player({neutral}) : face.predict;
 let best = Infinity;
 for (let run = 0; run < 7; run++) {{
   const began = performance.now();
@@ -174,12 +190,15 @@ console.log(best);
 """
 
 
-def _time_javascript(folder: Path, faces: np.ndarray) -> Timing:
+def _time_javascript(folder: Path, faces: np.ndarray, *, compares: bool) -> Timing:
     name = "JavaScript, one frame"
     if shutil.which("node") is None:
         return Timing(name=name, microseconds=None, note="no node on this machine")
     module = json.dumps((folder / "face.js").as_uri())
-    program = _JAVASCRIPT_PROGRAM.format(module=module, points=json.dumps(faces[0].ravel().tolist()))
+    points, neutral = (json.dumps(face.ravel().tolist()) for face in faces[:2])
+    program = _JAVASCRIPT_PROGRAM.format(
+        module=module, points=points, neutral=neutral if compares else "null"
+    )
     command = ["node", "--input-type=module", "--eval", program]
     try:
         done = subprocess.run(command, check=True, capture_output=True, text=True)

@@ -1,7 +1,8 @@
 """One C99 pair, ``NAME.h`` and ``NAME.c``: no allocation, no state, no dependency but ``math.h``.
 
-The code is a template beside this module (``templates/predict.c``) that a C person can read as it stands;
-here the numbers are put in. Geometry is computed in double, the networks in float.
+The code is made of templates beside this module (``templates/c``) that a C person can read as they stand; here they
+are put together, once for each set of networks, and the numbers are put in. Geometry is computed in double, the
+networks in float.
 """
 
 import re
@@ -12,14 +13,24 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from regress.errors import InputError
+from regress.exporters.answering import Answering
 from regress.exporters.formula import Formula
 
 LINE_WIDTH = 110
 C_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
+_PREDICT = "void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
+_ALONE = "static void alone_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
+_CALIBRATED = """\
+static void calibrated_predict(const float points[${GUARD}_POINTS][2],
+                               const double neutral[CALIBRATED_FEATURES],
+                               float weights[${GUARD}_WEIGHTS])"""
+
 
 def export_c(formula: Formula, name: str) -> dict[str, bytes]:
     """Make ``NAME.h`` and ``NAME.c``, declaring ``NAME_predict`` and ``NAME_names``.
+
+    Where the model compares faces with a neutral face: ``NAME_player`` and ``NAME_neutral`` as well.
 
     Raises
     ------
@@ -31,35 +42,84 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
             f"--name {name!r} becomes part of C names such as {name}_predict: use letters, digits and "
             f"underscores, a letter first"
         )
-    values = _values(formula, name)
-    templates = files("regress.exporters") / "templates"
-    texts = {
-        suffix: Template((templates / f"predict{suffix}").read_text(encoding="utf-8"))
-        for suffix in (".h", ".c")
-    }
-    return {f"{name}{suffix}": text.substitute(values).encode() for suffix, text in texts.items()}
-
-
-def _values(formula: Formula, name: str) -> dict[str, object]:
-    stacked, denoising = formula.stacked(), formula.denoising
-    runs = [run_of(row) for row in stacked.output_weights]  # (first hidden unit, weights) of each of the 52
-    connection_counts = [len(weights) for _, weights in runs]
-    connections = np.concatenate([weights for _, weights in runs])
-    return {
+    words = {
         "name": name,
         "GUARD": name.upper(),
         "title": f"{name}: {LANDMARK_COUNT} facial landmarks to {len(BLENDSHAPES)} avatar weights.",
         "licence": comment(formula.about["licence"]),
         "dataset": comment(f"{formula.about['dataset']} (SHA-256 {formula.about['dataset_sha256']})"),
         "recipe": comment(formula.about["recipe"]),
-        "depth": _wrapped(f"{value:.17g}" for value in formula.depth),
-        "turn": _wrapped(f"{value:.17g}" for value in formula.turn),
-        "aligned": int(formula.alignment == "affine"),
         "point_count": LANDMARK_COUNT,
         "weight_count": len(BLENDSHAPES),
-        "anchor_count": len(formula.anchors),
-        "feature_count": len(formula.edges),
-        "input_count": len(formula.edges if denoising is None else denoising.axes),
+        "names": _wrapped(f'"{name}"' for name in BLENDSHAPES),
+    }
+    if formula.calibrated is None:
+        sets = [_set_of(formula.alone, _PREDICT, words)]
+        functions, player = "predict.h", ""
+    else:
+        words["neutral_count"] = formula.calibrated.measures.count
+        sets = [
+            _set_of(formula.alone, _ALONE, words, of="alone_"),
+            _set_of(formula.calibrated, _CALIBRATED, words, of="calibrated_", neutral="neutral[i] - "),
+        ]
+        functions, player = "player.h", _filled("player.c", words)
+    whole = {key: "".join(texts[key] for texts in sets) for key in sets[0]}
+    whole["answering"] = "\n".join(texts["answering"] for texts in sets) + player
+    header = _filled("file.h", words | {"functions": _filled(functions, words)})
+    return {f"{name}.h": header.encode(), f"{name}.c": _filled("file.c", words | whole).encode()}
+
+
+def _set_of(
+    answering: Answering,
+    signature: str,
+    words: dict[str, object],
+    *,
+    of: str = "",
+    neutral: str | None = None,
+) -> dict[str, str]:
+    """Code and numbers of one set of networks, its names beginning with ``of``; by their places in ``file.c``."""
+    measures = answering.measures
+    words = words | {"of": of, "OF": of.upper()} | _numbers(answering)
+    words["signature"] = Template(signature).substitute(words)
+    words["aligned"] = words["edge_table"] = ""
+    measuring = ["undo_turn.c"]
+    if measures.of_points:
+        measuring.append("points.c")
+    else:
+        words["aligned"] = f"#define {of.upper()}ALIGNED {int(measures.alignment == 'affine')}\n"
+        words["edge_table"] = _filled("edges.c", words)
+        measuring += ["lengths.c"] if neutral is None else ["lengths.c", "measured_lengths.c"]
+    inline = not measures.of_points and neutral is None
+    words["scratch"] = Template(
+        "face[${GUARD}_POINTS][2], map[2][2], width" if inline else "measured[${OF}FEATURES]"
+    ).substitute(words)
+    words["neutral"] = neutral or ""
+    words["measured"] = _filled("from_lengths.c" if inline else "from_measured.c", words).removesuffix("\n")
+    return {
+        "sizes": _filled("sizes.c", words),
+        "tables": _filled("tables.c", words),
+        "measuring": "".join(_filled(template, words) for template in measuring),
+        "answering": _filled("answer.c", words),
+    }
+
+
+def _filled(template: str, words: dict[str, object]) -> str:
+    text = (files("regress.exporters") / "templates" / "c" / template).read_text(encoding="utf-8")
+    return Template(text).substitute(words)
+
+
+def _numbers(answering: Answering) -> dict[str, object]:
+    """What templates say of one set of networks and of what it sees, by name."""
+    measures, denoising, stacked = answering.measures, answering.denoising, answering.stacked()
+    runs = [run_of(row) for row in stacked.output_weights]  # (first hidden unit, weights) of each of the 52
+    connection_counts = [len(weights) for _, weights in runs]
+    connections = np.concatenate([weights for _, weights in runs])
+    return {
+        "depth": _wrapped(f"{value:.17g}" for value in measures.depth),
+        "turn": _wrapped(f"{value:.17g}" for value in measures.turn),
+        "anchor_count": len(measures.anchors),
+        "feature_count": measures.count,
+        "input_count": measures.count if denoising is None else len(denoising.axes),
         "noise_count": 0 if denoising is None else len(denoising.noise_axes),
         "axes": "" if denoising is None else _rows(np.concatenate([denoising.axes, denoising.noise_axes]).T),
         "offset": "" if denoising is None else _floats(denoising.offset),
@@ -69,11 +129,10 @@ def _values(formula: Formula, name: str) -> dict[str, object]:
         "least": "0" if denoising is None else f"{float(denoising.least):.17g}",
         "hidden_count": len(stacked.hidden_bias),
         "connection_count": len(connections),
-        "names": _wrapped(f'"{name}"' for name in BLENDSHAPES),
-        "anchors": _wrapped(map(str, formula.anchors)),
-        "reference": _wrapped(f"{{{x:.17g}, {y:.17g}}}" for x, y in formula.reference),
-        "edges": _wrapped(f"{{{i}, {j}}}" for i, j in [*formula.edges, formula.width_landmarks]),
-        "feature_mean": _wrapped(f"{value:.17g}" for value in formula.feature_mean),
+        "anchors": _wrapped(map(str, measures.anchors)),
+        "reference": _wrapped(f"{{{x:.17g}, {y:.17g}}}" for x, y in measures.reference),
+        "edges": _wrapped(f"{{{i}, {j}}}" for i, j in [*measures.edges, measures.width_landmarks]),
+        "feature_mean": _wrapped(f"{value:.17g}" for value in answering.feature_mean),
         "hidden_weights": _rows(stacked.hidden_weights.T),
         "hidden_bias": _floats(stacked.hidden_bias),
         "first_hidden": _wrapped(str(first) for first, _ in runs),

@@ -1,53 +1,97 @@
 """One ECMAScript module, ``NAME.js``, with its types, ``NAME.d.ts``: no dependency, for browsers and Node.
 
-The code is a template beside this module (``templates/predict.js``); here the numbers are put in, tables of
-weights as base64 of little-endian float32. Computed in double throughout.
+The code is made of templates beside this module (``templates/javascript``); here they are put together, each set of
+networks in a scope of its own where there are two, and the numbers are put in, tables of weights as base64 of
+little-endian float32. Computed in double throughout.
 """
 
 import base64
 import json
 from importlib.resources import files
 from string import Template
+from textwrap import indent
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
+from regress.exporters.answering import Answering
 from regress.exporters.c_source import comment, run_of
 from regress.exporters.formula import Formula
 
 LINE_WIDTH = 110
 
+_PREDICT = "export function predict(points, weights = new Float32Array(names.length))"
+
 
 def export_javascript(formula: Formula, name: str) -> dict[str, bytes]:
-    """Make ``NAME.js`` and ``NAME.d.ts``, exporting ``predict`` and ``names``."""
-    values = _values(formula, name)
-    templates = files("regress.exporters") / "templates"
-    return {
-        f"{name}{suffix}": Template((templates / f"predict{suffix}").read_text(encoding="utf-8"))
-        .substitute(values)
-        .encode()
-        for suffix in (".js", ".d.ts")
-    }
+    """Make ``NAME.js`` and ``NAME.d.ts``, exporting ``predict`` and ``names``.
 
-
-def _values(formula: Formula, name: str) -> dict[str, str]:
-    stacked, denoising = formula.stacked(), formula.denoising
-    runs = [run_of(row) for row in stacked.output_weights]
-    return {
+    Where the model compares faces with a neutral face: ``player`` as well.
+    """
+    words = {
         "name": name,
         "title": comment(f"{name}: {LANDMARK_COUNT} facial landmarks to {len(BLENDSHAPES)} avatar weights."),
         "licence": comment(formula.about["licence"]),
         "dataset": comment(f"{formula.about['dataset']} (SHA-256 {formula.about['dataset_sha256']})"),
         "recipe": comment(formula.about["recipe"]),
-        "depth": _listed(formula.depth.tolist()),
-        "turn": _listed(formula.turn.tolist()),
-        "aligned": json.dumps(formula.alignment == "affine"),
         "names": _listed(BLENDSHAPES),
         "name_types": "\n".join(f"  {json.dumps(blendshape)}," for blendshape in BLENDSHAPES),
-        "anchors": _listed(formula.anchors.tolist()),
-        "reference": _listed(formula.reference.ravel().tolist()),
-        "edges": _listed(np.vstack([formula.edges, formula.width_landmarks]).ravel().tolist()),
-        "feature_mean": _listed(formula.feature_mean.tolist()),
+    }
+    if formula.calibrated is None:
+        tables, functions = _set_of(formula.alone, _PREDICT)
+        words["usage"] = _filled("usage_predict.js", words)
+        words["networks"] = _filled("predict.js", {"tables": tables, "functions": functions})
+        words["players"] = ""
+    else:
+        sets = {
+            "alone": _set_of(formula.alone, "function answer(points, weights)"),
+            "calibrated": _set_of(
+                formula.calibrated, "function answer(points, weights, neutral)", "neutral[i] + "
+            ),
+        }
+        scopes = {key: indent("".join(texts), "  ").rstrip("\n") for key, texts in sets.items()}
+        words["usage"] = _filled("usage_players.js", words)
+        words["networks"] = _filled("players.js", scopes)
+        words["players"] = _filled("players.d.ts", words)
+    return {f"{name}{suffix}": _filled(f"file{suffix}", words).encode() for suffix in (".js", ".d.ts")}
+
+
+def _set_of(answering: Answering, signature: str, neutral: str | None = None) -> tuple[str, str]:
+    """Tables and functions of one set of networks."""
+    measures = answering.measures
+    words = _numbers(answering) | {
+        "signature": signature,
+        "neutral": neutral or "",
+        "aligned": "",
+        "edge_table": "",
+    }
+    if measures.of_points:
+        measuring = ["points.js"]
+    else:
+        words["aligned"] = f"const aligned = {json.dumps(measures.alignment == 'affine')};\n\n"
+        words["edge_table"] = _filled("edges.js", words)
+        measuring = ["lengths.js"] if neutral is None else ["lengths.js", "measured_lengths.js"]
+    inline = not measures.of_points and neutral is None
+    words["measured"] = _filled("from_lengths.js" if inline else "from_measured.js", words)
+    return _filled("tables.js", words), "".join(_filled(text, words) for text in ("answer.js", *measuring))
+
+
+def _filled(template: str, words: dict[str, str]) -> str:
+    text = (files("regress.exporters") / "templates" / "javascript" / template).read_text(encoding="utf-8")
+    return Template(text).substitute(words)
+
+
+def _numbers(answering: Answering) -> dict[str, str]:
+    """What templates say of one set of networks and of what it sees, by name."""
+    measures, denoising, stacked = answering.measures, answering.denoising, answering.stacked()
+    runs = [run_of(row) for row in stacked.output_weights]
+    return {
+        "depth": _listed(measures.depth.tolist()),
+        "turn": _listed(measures.turn.tolist()),
+        "anchors": _listed(measures.anchors.tolist()),
+        "reference": _listed(measures.reference.ravel().tolist()),
+        "edges": _listed(np.vstack([measures.edges, measures.width_landmarks]).ravel().tolist()),
+        "feature_mean": _listed(answering.feature_mean.tolist()),
         "axes": "" if denoising is None else _floats(np.concatenate([denoising.axes, denoising.noise_axes])),
         "noise_count": str(0 if denoising is None else len(denoising.noise_axes)),
         "offset": "[]" if denoising is None else _listed(denoising.offset.tolist()),

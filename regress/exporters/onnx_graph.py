@@ -1,6 +1,6 @@
 """ONNX graphs for onnxruntime, browsers, Unity and Unreal: points in, or features in, avatar weights out.
 
-Opset 15 and IR version 8 are old enough for every runtime named above, and the dozen operators used are plain
+Opset 15 and IR version 8 are old enough for every runtime named above, and the operators used are plain
 ones (`OPERATORS`): small inverses are written out, nothing is scattered, no shape is computed.
 
 float32 stands points far from the origin: the anchors' mean is taken off before anything is multiplied, and
@@ -11,10 +11,11 @@ import json
 
 import numpy as np
 import onnx
-from onnx import TensorProto, helper, numpy_helper
+from onnx import TensorProto, helper
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from regress.exporters.formula import Formula
+from regress.exporters.onnx_nodes import Nodes, append_features, append_networks
 
 OPSET = 15
 IR_VERSION = 8
@@ -34,8 +35,12 @@ OPERATORS = frozenset(
         "Tanh",
     }
     | {"Transpose"}
+    | {"Abs", "Equal", "Flatten", "Where"}
 )
 """What a graph may contain: all are in the tables of onnxruntime-web (WASM, WebGPU) and Unity Sentis."""
+
+Sizes = dict[str, list[str | int]]
+"""Of a graph's inputs, by name; words stand for any size."""
 
 
 def export_onnx(formula: Formula, name: str) -> dict[str, bytes]:
@@ -60,13 +65,28 @@ def build_graph(formula: Formula) -> onnx.ModelProto:
     -------
     onnx.ModelProto
         Input ``points`` float32 (n, 68, 2), output ``weights`` float32 (n, 52) in the order of the metadata's
-        ``names``. Its metadata also holds the dataset's hash, the recipe and the licence.
+        ``names``. Its metadata also holds the dataset's hash, the recipe and the licence. Where the model compares
+        faces with a neutral face, input ``neutral`` float32 (n or 1, 68, 2) as well: a row of zeros is none; one
+        with a missing point gives NaN.
     """
-    graph = _Graph()
-    _features(graph, formula)
-    _networks(graph, formula)
+    whole, alone, calibrated = Nodes(), formula.alone, formula.calibrated
     about = {"names": list(BLENDSHAPES), **formula.about}
-    return _checked(graph, ("points", ["n", LANDMARK_COUNT, 2]), about, _DESCRIPTION)
+    sizes: Sizes = {"points": ["n", LANDMARK_COUNT, 2]}
+    part = whole.part() if calibrated is None else whole.part("alone_")
+    features = append_features(part, alone.measures, "points", alone.feature_mean)
+    append_networks(part, alone, features)
+    if calibrated is None:
+        return _checked(whole, sizes, about, _DESCRIPTION)
+    measured = whole.part("calibrated_")
+    frame = append_features(measured, calibrated.measures, "points", calibrated.feature_mean)
+    rest = whole.part("neutral_")
+    neutral = append_features(rest, calibrated.measures, "neutral", None)
+    differences = measured.node("Sub", [frame, rest.full(neutral)], "differences")
+    append_networks(measured, calibrated, differences)
+    part.node("ReduceMean", [part.node("Abs", ["neutral"], "sizes")], "row_sizes", axes=[2], keepdims=0)
+    _append_choice(whole, "alone_row_sizes")
+    sizes["neutral"] = ["n or 1", LANDMARK_COUNT, 2]
+    return _checked(whole, sizes, about, f"{_DESCRIPTION} {_NEUTRAL_DESCRIPTION}")
 
 
 def build_networks_graph(formula: Formula) -> onnx.ModelProto:
@@ -75,33 +95,61 @@ def build_networks_graph(formula: Formula) -> onnx.ModelProto:
     Returns
     -------
     onnx.ModelProto
-        Input ``features`` float32 (n, E): lengths of the edges after the alignment, over the face's width.
-        Output as in `build_graph`. Its metadata also holds, as JSON, what it takes to measure them:
+        Input ``features`` float32 (n, E): lengths of the edges after the alignment, over the face's width, or the
+        points after it. Output as in `build_graph`. Its metadata also holds, as JSON, what it takes to measure them:
         ``depth``, ``turn``, ``alignment``, ``anchors``, ``reference``, ``edges`` and ``width_landmarks``, as
-        `json_text` says.
+        `json_text` says. Where the model compares faces with a neutral face, ``calibrated`` there says what it
+        takes for that, and the frame's features of this kind are the input ``calibrated_features`` (n, F), the
+        neutral face's ``neutral_features`` (n or 1, F), zeros for none.
     """
-    graph = _Graph()
-    graph.constant("feature_mean", formula.feature_mean)
-    graph.node("Sub", ["features", "feature_mean"], "features_centred")
-    _networks(graph, formula, features="features_centred")
-    about = {"names": list(BLENDSHAPES), **formula.about, **formula.measuring()}
-    return _checked(graph, ("features", ["n", len(formula.edges)]), about, _NETWORKS_DESCRIPTION)
+    whole, alone, calibrated = Nodes(), formula.alone, formula.calibrated
+    about = {"names": list(BLENDSHAPES), **formula.about, **alone.measures.as_json()}
+    sizes: Sizes = {"features": ["n", alone.measures.count]}
+    part = whole.part() if calibrated is None else whole.part("alone_")
+    part.constant("feature_mean", alone.feature_mean)
+    append_networks(part, alone, part.node("Sub", ["features", "feature_mean"], "features_centred"))
+    description = _POINT_NETWORKS_DESCRIPTION if alone.measures.of_points else _NETWORKS_DESCRIPTION
+    if calibrated is None:
+        return _checked(whole, sizes, about, description)
+    measured = whole.part("calibrated_")
+    measured.constant("feature_mean", calibrated.feature_mean)
+    measured.node("Sub", ["calibrated_features", "neutral_features"], "changes")
+    append_networks(measured, calibrated, measured.node("Sub", ["changes", "feature_mean"], "differences"))
+    _append_choice(whole, part.full(part.node("Abs", ["neutral_features"], "row_sizes")))
+    sizes["calibrated_features"] = ["n", calibrated.measures.count]
+    sizes["neutral_features"] = ["n or 1", calibrated.measures.count]
+    about["calibrated"] = calibrated.measures.as_json()
+    return _checked(whole, sizes, about, f"{description} {_NEUTRAL_DESCRIPTION}")
 
 
 _DESCRIPTION = "68 iBUG landmarks (x right, y down, any unit) to 52 ARKit blendshape weights."
 _NETWORKS_DESCRIPTION = "Edge lengths of an aligned face over its width to 52 ARKit blendshape weights."
+_POINT_NETWORKS_DESCRIPTION = "Points of an aligned face to 52 ARKit blendshape weights."
+_NEUTRAL_DESCRIPTION = (
+    "The neutral face is the same person's by the same detector; zeros where it is not known."
+)
 
 
-def _checked(
-    graph: "_Graph", entry: tuple[str, list[str | int]], about: dict[str, object], description: str
-) -> onnx.ModelProto:
+def _append_choice(whole: Nodes, sizes: str) -> None:
+    """Append the nodes from ``alone_weights`` and ``calibrated_weights`` to ``weights``, by sizes (n or 1, k).
+
+    Where all of a row's are 0 there is no neutral face. NaN is not 0: a missing point gives NaN weights.
+    """
+    part = whole.part()
+    part.constant("no_size", np.array(0.0))
+    part.node("ReduceMean", [sizes], "neutral_size", axes=[1], keepdims=1)
+    part.node("Equal", ["neutral_size", "no_size"], "without_neutral")
+    part.node("Where", ["without_neutral", "alone_weights", "calibrated_weights"], "weights")
+
+
+def _checked(whole: Nodes, sizes: Sizes, about: dict[str, object], description: str) -> onnx.ModelProto:
     model = helper.make_model(
         helper.make_graph(
-            graph.nodes,
+            whole.nodes,
             "regress",
-            [helper.make_tensor_value_info(entry[0], TensorProto.FLOAT, entry[1])],
+            [helper.make_tensor_value_info(name, TensorProto.FLOAT, size) for name, size in sizes.items()],
             [helper.make_tensor_value_info("weights", TensorProto.FLOAT, ["n", len(BLENDSHAPES)])],
-            initializer=graph.constants,
+            initializer=whole.constants,
         ),
         opset_imports=[helper.make_opsetid("", OPSET)],
         ir_version=IR_VERSION,
@@ -112,140 +160,3 @@ def _checked(
     helper.set_model_props(model, dict(sorted(text.items())))
     onnx.checker.check_model(model, full_check=True)
     return model
-
-
-class _Graph:
-    """Nodes and constants in the order they were asked for, so that equal models are equal bytes."""
-
-    def __init__(self):
-        self.nodes: list[onnx.NodeProto] = []
-        self.constants: list[onnx.TensorProto] = []
-
-    def constant(self, name: str, value, *, dtype=np.float32) -> str:
-        self.constants.append(numpy_helper.from_array(np.ascontiguousarray(value, dtype=dtype), name))
-        return name
-
-    def node(self, operator: str, inputs: list[str], output: str, **attributes) -> str:
-        self.nodes.append(helper.make_node(operator, inputs, [output], name=output, **attributes))
-        return output
-
-
-def _features(graph: _Graph, formula: Formula) -> None:
-    """Append the nodes from ``points`` to ``features`` (n, features)."""
-    spans = np.vstack([formula.edges, formula.width_landmarks])
-    graph.constant("starts", spans[:, 0], dtype=np.int64)
-    graph.constant("ends", spans[:, 1], dtype=np.int64)
-    graph.constant("feature_mean", formula.feature_mean)
-    for key, value in {
-        "zero": 0,
-        "edge_count": len(formula.edges),
-        "span_count": len(spans),
-        "one": 1,
-    }.items():
-        graph.constant(key, [value], dtype=np.int64)
-
-    points = _undone(graph, formula) if formula.depth.any() else "points"
-    graph.node("Gather", [points, "starts"], "start_points", axis=1)
-    graph.node("Gather", [points, "ends"], "end_points", axis=1)
-    graph.node("Sub", ["end_points", "start_points"], "edges")
-    measured = "edges"
-    if formula.alignment == "affine":
-        _alignment(graph, formula, points)
-        graph.node("Div", ["edges", "spread"], "edges_unit")
-        measured = graph.node("MatMul", ["edges_unit", "map"], "edges_aligned")
-    graph.node("Mul", [measured, measured], "edges_squared")
-    graph.constant("last_axis", [2], dtype=np.int64)
-    graph.node("ReduceSum", ["edges_squared", "last_axis"], "lengths_squared", keepdims=0)
-    graph.node("Sqrt", ["lengths_squared"], "lengths")
-    graph.node("Slice", ["lengths", "zero", "edge_count", "one"], "edge_lengths")
-    graph.node("Slice", ["lengths", "edge_count", "span_count", "one"], "face_width")
-    graph.node("Div", ["edge_lengths", "face_width"], "ratios")
-    graph.node("Sub", ["ratios", "feature_mean"], "features")
-
-
-def _denoised(graph: _Graph, formula: Formula, features: str) -> str:
-    """Append the nodes from centred features to what denoising leaves of them; give their name."""
-    denoising = formula.denoising
-    graph.constant("noise_axes", denoising.noise_axes.T)
-    graph.constant("axes", denoising.axes.T)
-    graph.constant("surplus", denoising.surplus[:, None])
-    for key in ("offset", "signal", "usual", "least"):
-        graph.constant(key, getattr(denoising, key))
-    graph.node("MatMul", [features, "noise_axes"], "noise_places")
-    graph.node("Mul", ["noise_places", "noise_places"], "noise_squares")
-    graph.node("ReduceMean", ["noise_squares"], "noise_square", axes=[1], keepdims=1)
-    graph.node("MatMul", [features, "axes"], "places")
-    graph.node("Mul", ["places", "places"], "squares")
-    graph.node("MatMul", ["squares", "surplus"], "surplus_squares")
-    graph.node("Sub", ["surplus_squares", "usual"], "surplus_noise")
-    # the larger of the two without Max, which not every runtime has
-    graph.constant("no_less", np.array(0.0))
-    graph.node("Sub", ["noise_square", "surplus_noise"], "noise_beyond")
-    graph.node("Clip", ["noise_beyond", "no_less"], "noise_beyond_surplus")
-    graph.node("Add", ["surplus_noise", "noise_beyond_surplus"], "larger_noise")
-    graph.node("Add", ["larger_noise", "least"], "noise")
-    graph.node("Add", ["noise", "signal"], "signal_and_noise")
-    graph.node("Div", ["signal", "signal_and_noise"], "gain")
-    graph.node("Add", ["places", "offset"], "places_offset")
-    return graph.node("Mul", ["places_offset", "gain"], "places_shrunk")
-
-
-def _undone(graph: _Graph, formula: Formula) -> str:
-    """Append the nodes from ``points`` to points without the turn of the head; give their name."""
-    graph.constant("depth", formula.depth[:, None])
-    graph.constant("turn", formula.turn[None])
-    graph.node("ReduceMean", ["points"], "middle", axes=[1], keepdims=1)
-    graph.node("Sub", ["points", "middle"], "points_centred")
-    graph.node("MatMul", ["turn", "points_centred"], "turned")
-    graph.node("Mul", ["depth", "turned"], "moved")
-    return graph.node("Sub", ["points_centred", "moved"], "points_put_back")
-
-
-def _alignment(graph: _Graph, formula: Formula, points: str) -> None:
-    """Append the nodes from points (their name) to ``map`` (n, 2, 2) and ``spread`` (n, 1, 1).
-
-    With anchors P and reference R, both about their means, the best linear map is inverse(P'P) P'R. Lengths
-    are divided by another length, so adjugate(P'P) P'R does as well, and no determinant is divided by.
-    """
-    graph.constant("anchors", formula.anchors, dtype=np.int64)
-    graph.constant("reference", formula.reference)
-    graph.constant("quarter_turn", [[0.0, 1.0], [-1.0, 0.0]])  # J: adjugate(M) = J M J' for symmetric M
-    graph.constant("quarter_turn_back", [[0.0, -1.0], [1.0, 0.0]])
-    graph.node("Gather", [points, "anchors"], "anchor_points", axis=1)
-    graph.node("ReduceMean", ["anchor_points"], "centre", axes=[1], keepdims=1)
-    graph.node("Sub", ["anchor_points", "centre"], "centred")
-    graph.node("Mul", ["centred", "centred"], "centred_squared")
-    graph.node("ReduceMean", ["centred_squared"], "variance", axes=[1, 2], keepdims=1)
-    graph.node("Sqrt", ["variance"], "spread")
-    graph.node("Div", ["centred", "spread"], "anchors_unit")
-    graph.node("Transpose", ["anchors_unit"], "anchors_unit_t", perm=[0, 2, 1])
-    graph.node("MatMul", ["anchors_unit_t", "anchors_unit"], "moment")
-    graph.node("MatMul", ["anchors_unit_t", "reference"], "cross")
-    graph.node("MatMul", ["quarter_turn", "moment"], "moment_turned")
-    graph.node("MatMul", ["moment_turned", "quarter_turn_back"], "adjugate")
-    graph.node("MatMul", ["adjugate", "cross"], "map")
-
-
-def _networks(graph: _Graph, formula: Formula, *, features: str = "features") -> None:
-    """Append the nodes from centred features to ``weights``: all networks as two matrix products."""
-    stacked = formula.stacked()
-    graph.constant("hidden_weights", stacked.hidden_weights.T)
-    graph.constant("hidden_bias", stacked.hidden_bias)
-    graph.constant("output_weights", stacked.output_weights.T)
-    graph.constant("output_bias", stacked.output_bias)
-    graph.constant("low", np.array(0.0))
-    graph.constant("high", np.array(1.0))
-    inputs = features if formula.denoising is None else _denoised(graph, formula, features)
-    graph.node("MatMul", [inputs, "hidden_weights"], "hidden_sums")
-    graph.node("Add", ["hidden_sums", "hidden_bias"], "hidden_biased")
-    graph.node("Tanh", ["hidden_biased"], "hidden")
-    graph.node("MatMul", ["hidden", "output_weights"], "output_sums")
-    graph.node("Add", ["output_sums", "output_bias"], "outputs")
-    graph.node("Clip", ["outputs", "low", "high"], "clipped")
-    # Runtimes clip NaN as they like. Features are lengths of edges that touch every point, so this is NaN as
-    # soon as one point is not finite, and 0 otherwise.
-    graph.constant("nothing", np.array(0.0))
-    graph.constant("feature_axis", [1], dtype=np.int64)
-    graph.node("Mul", [features, "nothing"], "features_unmeasured")
-    graph.node("ReduceSum", ["features_unmeasured", "feature_axis"], "missing", keepdims=1)
-    graph.node("Add", ["clipped", "missing"], "weights")

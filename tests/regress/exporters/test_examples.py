@@ -15,6 +15,7 @@ from regress.exporters import export_model
 from tests.regress.drawn import drawn_faces
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples"
+NEUTRAL, *_ = drawn_faces(np.random.default_rng(13), 1).astype(np.float32).astype(np.float64)
 FACES = drawn_faces(np.random.default_rng(12), 3).astype(np.float32).astype(np.float64)
 
 
@@ -34,8 +35,17 @@ def _run(folder: Path, *command: object, given: str = "") -> str:
     return done.stdout
 
 
-def _lines() -> str:
-    return "".join(" ".join(map(repr, face.ravel().tolist())) + "\n" for face in FACES)
+def _lines(faces: np.ndarray = FACES) -> str:
+    return "".join(" ".join(map(repr, face.ravel().tolist())) + "\n" for face in faces)
+
+
+@pytest.fixture(params=["a neutral face", "zeros"])
+def neutral(request) -> np.ndarray:
+    return NEUTRAL if request.param == "a neutral face" else np.zeros_like(NEUTRAL)
+
+
+def _expected(model, neutral: np.ndarray) -> np.ndarray:
+    return (model.calibrate(neutral[None]) if neutral.any() else model).predict(FACES)
 
 
 def _needs(tool: str) -> None:
@@ -44,21 +54,24 @@ def _needs(tool: str) -> None:
 
 
 @pytest.mark.compiler
-def test_the_c_program(folder: Path, quick_model):
+def test_the_c_program(folder: Path, quick_model, neutral):
     _needs("cc")
     _run(folder, "cc", "-std=c99", "-O2", "-Wall", "-Werror", "main.c", "face.c", "-lm", "-o", "weights")
-    rows = [line.split() for line in _run(folder, "./weights", given=_lines()).splitlines()]
+    out = _run(folder, "./weights", given=_lines(np.stack([neutral, *FACES])))
+    rows = [line.split() for line in out.splitlines()]
     assert [row[0] for row in rows] == list(BLENDSHAPES) * len(FACES)
     written = np.array([row[1] for row in rows], dtype=float).reshape(len(FACES), -1)
-    np.testing.assert_allclose(written, quick_model.predict(FACES), atol=1e-4)
+    np.testing.assert_allclose(written, _expected(quick_model, neutral), atol=1e-4)
 
 
-def test_the_onnx_script(folder: Path, quick_model):
+def test_the_onnx_script(folder: Path, quick_model, neutral):
     np.save(folder / "landmarks.npy", FACES)
-    header, *rows = _run(folder, sys.executable, "onnx_weights.py", "face.onnx", "landmarks.npy").splitlines()
+    np.save(folder / "neutral.npy", neutral)
+    files = ["face.onnx", "landmarks.npy", *(["neutral.npy"] if neutral.any() else [])]
+    header, *rows = _run(folder, sys.executable, "onnx_weights.py", *files).splitlines()
     assert header.split(",") == list(BLENDSHAPES)
     written = np.array([row.split(",") for row in rows], dtype=float)
-    np.testing.assert_allclose(written, quick_model.predict(FACES), atol=1e-4)
+    np.testing.assert_allclose(written, _expected(quick_model, neutral), atol=1e-4)
 
 
 def test_the_live_loop(folder: Path, quick_model_folder: Path, quick_model):
@@ -70,21 +83,24 @@ def test_the_live_loop(folder: Path, quick_model_folder: Path, quick_model):
         assert all(abs(row[BLENDSHAPES.index(name)] - weight) < 0.011 for name, weight in shown.items())
 
 
-def test_the_web_page(folder: Path, quick_model):
+def test_the_web_page(folder: Path, quick_model, neutral):
     """Its module runs in Node with a stand-in for the page and its server."""
     _needs("node")
     (module,) = re.findall(r'<script type="module">(.*?)</script>', (folder / "page.html").read_text(), re.S)
     (folder / "face.mjs").write_text((folder / "face.js").read_text())
     (folder / "page.mjs").write_text(module.replace("./face.js", "./face.mjs"))
+    faces = {"points.json": FACES[0], "neutral.json": neutral}
+    files = {name: face.ravel().tolist() for name, face in faces.items()}
     (folder / "stand_in.mjs").write_text(
         "const table = {};"
         "globalThis.document = { getElementById: (id) => (id === 'weights' ? table : null) };"
-        f"globalThis.fetch = async () => ({{ json: async () => {json.dumps(FACES[0].ravel().tolist())} }});"
+        f"const files = {json.dumps(files)};"
+        "globalThis.fetch = async (name) => ({ json: async () => files[name] });"
         "await import('./page.mjs');"
         "console.log(table.innerHTML);"
     )
     rows = re.findall(r"<tr><td>(\w+)</td><td>([\d.]+)</td>", _run(folder, "node", "stand_in.mjs"))
     assert [name for name, _ in rows] == list(BLENDSHAPES)
     np.testing.assert_allclose(
-        [float(weight) for _, weight in rows], quick_model.predict(FACES[:1])[0], atol=1e-3
+        [float(weight) for _, weight in rows], _expected(quick_model, neutral)[0], atol=1e-3
     )

@@ -150,8 +150,11 @@ def test_onnx_is_one_plain_graph(model):
     graph = build_graph(formula_of(model))
     assert {node.op_type for node in graph.graph.node} <= OPERATORS
     assert [(entry.domain, entry.version) for entry in graph.opset_import] == [("", OPSET)]
-    (points,), (weights,) = graph.graph.input, graph.graph.output
-    for value, shape in ((points, ["n", 68, 2]), (weights, ["n", 52])):
+    points, *neutral = graph.graph.input
+    (weights,) = graph.graph.output
+    assert [value.name for value in neutral] == (["neutral"] if model.calibrated else [])
+    rest = [(value, ["n or 1", 68, 2]) for value in neutral]
+    for value, shape in ((points, ["n", 68, 2]), *rest, (weights, ["n", 52])):
         assert value.type.tensor_type.elem_type == onnx.TensorProto.FLOAT
         assert [size.dim_param or size.dim_value for size in value.type.tensor_type.shape.dim] == shape
     about = {prop.key: prop.value for prop in graph.metadata_props}
@@ -162,11 +165,17 @@ def test_the_networks_graph_gives_nan_where_a_feature_is_missing(model, tmp_path
     path = tmp_path / "networks.onnx"
     path.write_bytes(build_networks_graph(formula_of(model)).SerializeToString())
     session = onnxruntime.InferenceSession(path, providers=["CPUExecutionProvider"])
-    features = np.ones((2, len(model.features.edges)), dtype=np.float32)
-    features[1, 9] = np.nan
-    (weights,) = session.run(None, {"features": features})
-    assert np.isfinite(weights[0]).all()
-    assert np.isnan(weights[1]).all()
+    feed = {entry.name: np.ones((2, entry.shape[1]), dtype=np.float32) for entry in session.get_inputs()}
+    assert feed["features"].shape[1] == model.features.count
+    for zeros in (False, True) if model.calibrated else (False,):
+        given = {key: values.copy() for key, values in feed.items()}
+        for key in set(given) - {"neutral_features"}:
+            given[key][1, 9] = np.nan
+        if zeros:
+            given["neutral_features"][:] = 0
+        (weights,) = session.run(None, given)
+        assert np.isfinite(weights[0]).all()
+        assert np.isnan(weights[1]).all()
     assert {node.op_type for node in onnx.load(path).graph.node} <= OPERATORS
 
 

@@ -18,3 +18,4 @@ export declare function predict(
   points: ArrayLike<number> | ArrayLike<ArrayLike<number>>,
   weights?: Float32Array,
 ): Float32Array;
+${players}
