@@ -2,8 +2,8 @@
 
 Networks that are unsure answer towards the mean (a regression's slope is below 1 by the share of the variance that it
 cannot see). About the neutral face's own answer, which is taken for 0, every shape is stretched until answers for
-people of the validation split spread as far as their true weights do. Gaze stays: 68 points let it be guessed only, from
-lids, and a stretched guess moves eyes that look ahead.
+people of the validation split spread as far as their true weights do. Gaze stays: 68 points let it be guessed only,
+from lids, and a stretched guess moves eyes that look ahead.
 """
 
 from dataclasses import replace

@@ -265,8 +265,8 @@ def test_emotions_name_units_that_there_are():
 
 def test_talk_shows_what_visemes_leave_out():
     speech, talk = (drawn(spec(mixture={name: 1.0}), 5) for name in ("speech", "talk"))
-    for name, least in (("eyeSquintLeft", 0.12), ("mouthFrownRight", 0.06), ("mouthDimpleLeft", 0.06)):
-        assert column(talk, name).mean() > max(least, column(speech, name).mean() + 0.03)
+    for name, more in (("eyeSquintLeft", 0.08), ("mouthFrownRight", 0.03), ("mouthStretchRight", 0.03)):
+        assert column(talk, name).mean() > column(speech, name).mean() + more
     parted = (column(talk, "jawOpen") < 0.1) & (column(talk, "mouthLowerDownLeft") > 0.15)
     assert parted.mean() > 0.1
     assert np.mean(np.maximum(column(talk, "jawLeft"), column(talk, "jawRight")) > 0.1) > 0.05
