@@ -21,7 +21,7 @@ from regress.runtime.networks import FoldedNetworks, evaluate
 SEEN = DetectorNoise(bias=1.0, jitter=0.01, clean=0.0)
 """A tracked face at 100 px between the outer corners of the eyes, jittered by 1 px."""
 
-MOST_GAIN = 2.0
+LARGEST_GAIN = 2.0
 """Beyond it, what is stretched is noise: shapes that 68 points hardly show would ask for 2 to 8."""
 
 _SEED = 27
@@ -33,7 +33,7 @@ def stretched(model: Model, dataset: KeypointDataset) -> Model:
     faces = as_detected(faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(_SEED))
     truth = faces.weights[:, [BLENDSHAPE_INDEX[name] for name in model.outputs]].std(axis=0)
     answered = predicted_outputs(about_zero, faces.points, faces.neutral).std(axis=0)
-    gain = np.clip(truth / np.where(answered > 0, answered, np.inf), 1.0, MOST_GAIN)
+    gain = np.clip(truth / np.where(answered > 0, answered, np.inf), 1.0, LARGEST_GAIN)
     gain[[name.startswith("eyeLook") for name in model.outputs]] = 1.0
     partner = [model.outputs.index(mirrored_name(name)) for name in model.outputs]
     return _finished(model, (gain + gain[partner]) / 2)
