@@ -18,6 +18,9 @@ MOST_JSON_BYTES = 32 * 1024**2
 MOST_TOML_BYTES = 64 * 1024
 """Six times the largest file that comes with facegen; beyond it the parser's time grows with the square of a key."""
 
+MOST_PIPE_BYTES = 256 * 1024**2
+"""Of a pipe or a device, whatever the bound of a file: its end cannot be seen, and some have none."""
+
 _PIECE_BYTES = 1024**2
 
 MOST_KEY_PARTS = 100
@@ -45,6 +48,8 @@ def read_bytes(path: str | os.PathLike[str], *, most_bytes: int) -> bytes:
     try:
         with open(path, "rb") as file:
             size = os.fstat(file.fileno())
+            if not stat.S_ISREG(size.st_mode):
+                most_bytes = min(most_bytes, MOST_PIPE_BYTES)
             content = b"" if size.st_size > most_bytes else _content(file, most_bytes)
     except (OSError, ValueError) as error:  # ValueError: a name with a NUL in it
         raise unreadable(path, error) from None
