@@ -62,6 +62,7 @@ def predict_file(
     strict: bool,
     trust: Path | None,
     camera: CameraSettings | None,
+    keep_guessed_gaze: bool,
     table_format: TableFormat,
     gltf: Path | None,
     out: Path | None,
@@ -74,10 +75,16 @@ def predict_file(
         output = dataclasses.replace(output, filter=DEFAULT_FILTER)
     timed = output.needs_times or needs_times(table_format, gltf)
     frames = sound_rows(frames, needs_times=timed, strict=strict)
-    calm = _neutral_points(model, frames, neutral)
-    calibrated = model if calm is None else model.calibrate(calm)
-    head = None if camera is None else HeadSettings(camera=camera, neutral=calm)
-    prediction = predict_frames(calibrated, frames, output=output, confident=trust is not None, head=head)
+    calm = _neutral_frames(model, frames, neutral)
+    calibrated = model if calm is None else model.calibrate(calm.points)
+    prediction = predict_frames(
+        calibrated,
+        frames,
+        output=output,
+        confident=trust is not None,
+        head=_head_settings(camera, calm),
+        keep_guessed_gaze=keep_guessed_gaze,
+    )
     if trust is not None:
         write_whole(trust, confidence_csv(prediction))
     write_prediction(prediction, table_format, out=out, gltf=gltf)
@@ -101,6 +108,7 @@ def predict_pipe(
     output: Output,
     *,
     camera: CameraSettings | None,
+    keep_guessed_gaze: bool,
     auto_filter: bool,
     fps: float | None,
     strict: bool,
@@ -108,15 +116,21 @@ def predict_pipe(
     """Predict lines of standard input, each as it comes, and write rows to standard output."""
     calm = None
     if neutral not in ("auto", "none"):
-        calm = _neutral_file(neutral, "standard input").points
-        model = model.calibrate(calm)
-    head = None if camera is None else HeadSettings(camera=camera, neutral=calm)
+        calm = _neutral_file(neutral, "standard input")
+        model = model.calibrate(calm.points)
+    head = _head_settings(camera, calm)
     samples = read_lines(text_lines(sys.stdin), fps=fps)
     first = list(itertools.islice(samples, 1))
     if auto_filter and first and first[0].time_s is not None:
         output = dataclasses.replace(output, filter=DEFAULT_FILTER)
     answers = predict_stream(
-        itertools.chain(first, samples), model, output, head=head, auto=neutral == "auto", say=say
+        itertools.chain(first, samples),
+        model,
+        output,
+        head=head,
+        keep_guessed_gaze=keep_guessed_gaze,
+        auto=neutral == "auto",
+        say=say,
     )
     for line in csv_lines(_told(answers, strict=strict), output.names):
         sys.stdout.write(line)
@@ -135,8 +149,18 @@ def _told(answers: Iterable[Sample], *, strict: bool) -> Iterator[Sample]:
     runs.step(number + 1, None)
 
 
-def _neutral_points(model: Model, frames: Frames, neutral: str) -> np.ndarray | None:
-    """Neutral faces (m, 68, 2) for this recording, where they are named or found."""
+def _head_settings(camera: CameraSettings | None, calm: Frames | None) -> HeadSettings:
+    """What is known of the head; without a camera its pose does not leave."""
+    return HeadSettings(
+        camera=camera or CameraSettings(),
+        neutral=None if calm is None else calm.points,
+        neutral_irises=None if calm is None else calm.irises,
+        wanted=camera is not None,
+    )
+
+
+def _neutral_frames(model: Model, frames: Frames, neutral: str) -> Frames | None:
+    """Neutral frames for this recording, where they are named or found."""
     if neutral == "none":
         return None
     if neutral == "auto":
@@ -145,9 +169,9 @@ def _neutral_points(model: Model, frames: Frames, neutral: str) -> np.ndarray | 
             say(f"{frames.source}: no neutral face found, weights are not calibrated: {estimate.reason}")
             return None
         say(f"{frames.source}: neutral face found: {estimate.reason}")
-        return frames.points[estimate.frames]
+        return frames.take(estimate.frames)
     named = _named(frames, neutral)
-    return frames.points[named] if named else _neutral_file(neutral, frames.source).points
+    return frames.take(named) if named else _neutral_file(neutral, frames.source)
 
 
 def _named(frames: Frames, neutral: str) -> list[int]:

@@ -118,3 +118,11 @@ FocalOption = Annotated[
     float | None,
     typer.Option("--focal-px", min=1, max=1e6, help="Focal length of the camera, in place of --fov-deg."),
 ]
+
+KeepGuessOption = Annotated[
+    bool,
+    typer.Option(
+        "--keep-guessed-gaze",
+        help="Leave the eyeLook shapes as lids let the networks guess them, where the head is turned or an eye winks.",
+    ),
+]

@@ -13,6 +13,7 @@ from regress.cli.options import (
     FormatOption,
     FovOption,
     HeadOption,
+    KeepGuessOption,
     LandmarkFilterName,
     LandmarkFilterOption,
     MirrorOption,
@@ -28,9 +29,6 @@ from regress.cli.options import (
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.writers.tables import TABLES
 
-PAPER_RECIPE = "paper"
-"""Whose weights leave as the paper's networks give them."""
-
 
 def predict(
     arguments: Annotated[
@@ -38,7 +36,8 @@ def predict(
         typer.Argument(
             metavar="[MODEL] INPUT",
             help="Landmarks: .pts files and folders, .npy, OpenFace or py-feat .csv, dlib .xml, COCO .json, "
-            "CK+ folders, or - for lines of 136 numbers on standard input. Before them the model, as --model takes it.",
+            "CK+ folders, or - for lines of 136 numbers on standard input; .npy, .csv and lines may hold the two "
+            "irises behind the 68 points. Before them the model, as --model takes it.",
         ),
     ],
     chosen: ModelOption = None,
@@ -87,6 +86,7 @@ def predict(
     picture: PictureOption = None,
     fov_deg: FovOption = None,
     focal_px: FocalOption = None,
+    keep_guessed_gaze: KeepGuessOption = False,
     symmetric: Annotated[
         bool,
         typer.Option(
@@ -108,6 +108,7 @@ def predict(
     from regress.cli.results import check_targets
     from regress.errors import InputError
     from regress.runtime.model import load_model, symmetrised
+    from regress.runtime.predict import PAPER_RECIPE
 
     model, landmarks = model_and_input(arguments, chosen)
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
@@ -142,11 +143,21 @@ def predict(
             strict=strict,
             trust=trust,
             camera=camera,
+            keep_guessed_gaze=keep_guessed_gaze,
             table_format=table_format,
             gltf=gltf,
             out=out,
         )
     elif out is gltf is trust is None and table_format is TableFormat.csv:
-        predict_pipe(loaded, neutral, output, camera=camera, auto_filter=auto_filter, fps=fps, strict=strict)
+        predict_pipe(
+            loaded,
+            neutral,
+            output,
+            camera=camera,
+            keep_guessed_gaze=keep_guessed_gaze,
+            auto_filter=auto_filter,
+            fps=fps,
+            strict=strict,
+        )
     else:
         raise InputError("weights of standard input leave as CSV on standard output alone: use > FILE")

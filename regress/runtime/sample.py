@@ -19,6 +19,8 @@ class Sample:
         Seconds from the start; NaN where this frame's time is not known, None where no frame's is.
     points : (68, 2) float64 or None
         Landmarks in pixels, y down, iBUG order; NaN where there is no face.
+    irises : (2, 2) float64 or None
+        Centres of the irises in pixels, the subject's left eye first; NaN where they are not seen.
     pictures : mapping of (h, w) uint8, or None
         By headset camera; a camera without a usable picture is left out.
     weights : (k,) float64 or None
@@ -37,6 +39,7 @@ class Sample:
     label: str = ""
     time_s: float | None = None
     points: np.ndarray | None = None
+    irises: np.ndarray | None = None
     pictures: Mapping[str, np.ndarray] | None = None
     weights: np.ndarray | None = None
     gaze: np.ndarray | None = None

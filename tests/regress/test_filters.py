@@ -262,13 +262,13 @@ def test_a_recording_without_times_and_the_papers_recipe_are_left_alone(
     paper = replace(quick_model, recipe="paper")
     save_model(paper, tmp_path / "paper")
     found = run("predict", tmp_path / "paper", tmp_path / "take.npy", *timed)[1]
-    assert found == _told(quick_model, fps=30, name=None)
+    assert found == _told(paper, fps=30, name=None)
     for option in (("--smooth", 1), ("--smooth", 2), ("--filter", "none")):
         other = run("predict", quick_model_folder, tmp_path / "take.npy", *timed, *option)[1]
         assert (other == default) is (option == ("--smooth", 1))
     lines = "\n".join(" ".join(map(repr, face.ravel().tolist())) for face in FACES)
     monkeypatch.setattr(sys, "stdin", io.StringIO(lines + "\n"))
-    code, piped, err = run("predict", quick_model_folder, "-")
+    code, piped, err = run("predict", quick_model_folder, "-", "--keep-guessed-gaze")
     assert code == 0, err
     np.testing.assert_allclose(
         np.loadtxt(io.StringIO(piped), delimiter=",", skiprows=1, usecols=range(1, 53)),

@@ -35,7 +35,7 @@ def take(tmp_path):
 
 @pytest.mark.parametrize("target", shipped_targets())
 def test_columns_are_the_targets(target: str, run, quick_model, quick_model_folder, take):
-    code, out, err = run("predict", quick_model_folder, take, "--retarget", target)
+    code, out, err = run("predict", quick_model_folder, take, "--retarget", target, "--keep-guessed-gaze")
     assert code == 0, err
     rows = list(csv.DictReader(io.StringIO(out)))
     retargeting = read_retargeting(target)
@@ -48,7 +48,17 @@ def test_columns_are_the_targets(target: str, run, quick_model, quick_model_fold
 
 def test_live_link_reads_back(run, quick_model, quick_model_folder, take):
     target = take.with_name("out.csv")
-    options = ("--format", "livelink", "--fps", 25, "--filter", "none", "--out", target)
+    options = (
+        "--format",
+        "livelink",
+        "--fps",
+        25,
+        "--filter",
+        "none",
+        "--keep-guessed-gaze",
+        "--out",
+        target,
+    )
     code, _, err = run("predict", quick_model_folder, take, *options)
     assert code == 0, err
     read = read_live_link(target)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
 from regress.runtime.sample import Sample
 
@@ -28,25 +29,49 @@ class Frames:
         Seconds, where the file tells.
     source
         The file or folder.
+    irises : (n, 2, 2) float64 or None
+        Centres of the irises, the subject's left eye first, where the file has them; NaN where they are not seen.
     """
 
     points: np.ndarray
     labels: tuple[str, ...]
     time_s: np.ndarray | None
     source: str
+    irises: np.ndarray | None = None
 
     @property
     def usable(self) -> np.ndarray:
         """(n,) bool: frames whose every point is a number."""
         return np.isfinite(self.points).all(axis=(1, 2))
 
+    def take(self, rows: np.ndarray | list[int]) -> "Frames":
+        """Some of the frames."""
+        return Frames(
+            points=self.points[rows],
+            labels=tuple(self.labels[row] for row in rows),
+            time_s=None if self.time_s is None else self.time_s[rows],
+            source=self.source,
+            irises=None if self.irises is None else self.irises[rows],
+        )
+
     def samples(self) -> list[Sample]:
         """The frames one by one, as the stages take them."""
         times = [None] * len(self.labels) if self.time_s is None else self.time_s.tolist()
+        eyes = [None] * len(self.labels) if self.irises is None else self.irises
         return [
-            Sample(label=label, time_s=time, points=points)
-            for label, time, points in zip(self.labels, times, self.points, strict=True)
+            Sample(label=label, time_s=time, points=points, irises=irises)
+            for label, time, points, irises in zip(self.labels, times, self.points, eyes, strict=True)
         ]
+
+
+def split_irises(points: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+    """Landmarks (n, 68, 2), and irises (n, 2, 2) where there are two points more.
+
+    Behind the 68, as OpenPose writes them: the middle of the subject's right iris, then of the left one.
+    """
+    if points.shape[1] == LANDMARK_COUNT:
+        return points, None
+    return points[:, :LANDMARK_COUNT], points[:, [LANDMARK_COUNT + 1, LANDMARK_COUNT]]
 
 
 def stacked(faces: Iterable[np.ndarray], path: Path) -> np.ndarray:

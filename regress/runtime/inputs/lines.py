@@ -10,9 +10,11 @@ import numpy as np
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
 from regress.runtime.inputs.faults import Fault
+from regress.runtime.inputs.frames import split_irises
 from regress.runtime.sample import Sample
 
 _NUMBERS = 2 * LANDMARK_COUNT
+_WITH_IRISES = _NUMBERS + 4
 
 MOST_CHARACTERS = 64 * 1024
 """Of a line: 137 numbers of 17 digits take 3,500. What follows up to the line's end is passed over."""
@@ -38,14 +40,14 @@ def text_lines(stream: TextIO) -> Iterator[str]:
 def read_lines(lines: Iterable[str], *, fps: float | None = None) -> Iterator[Sample]:
     """Samples of lines, each as soon as it comes; labels count from 1.
 
-    The first frame says whether frames have times; empty lines before it wait for it, unless ``fps`` is given. A line
-    that is no frame has a fault and costs no more than itself.
+    The first frame says whether frames have times, and irises; empty lines before it wait for it, unless ``fps`` is
+    given. A line that is no frame has a fault and costs no more than itself.
 
     Parameters
     ----------
     lines
-        136 numbers ``x y x y ...`` each, or 137 with the time in seconds first; separated by blanks or
-        commas. An empty line, or one with nan, is a frame without a face.
+        136 numbers ``x y x y ...`` each, or 140 with the subject's right and left iris behind them; one more with the
+        time in seconds first; separated by blanks or commas. An empty line, or one with nan, is a frame without a face.
     fps
         Frames a second; goes before times in lines.
 
@@ -55,6 +57,7 @@ def read_lines(lines: Iterable[str], *, fps: float | None = None) -> Iterator[Sa
         Where no line is a frame and some are something else, or `MOST_BAD_AT_START` of them come before the first one.
     """
     timed = None if fps is None else True
+    eyes = False
     waiting = _Waiting()
     for number, line in enumerate(lines, start=1):
         try:
@@ -69,11 +72,12 @@ def read_lines(lines: Iterable[str], *, fps: float | None = None) -> Iterator[Sa
             continue
         if not waiting.over:
             timed = time_s is not None if timed is None else timed
-            yield from waiting.samples(timed=timed)
-        yield _sample(str(number), time_s, numbers, timed=timed, fault=fault)
+            eyes = len(numbers) == _WITH_IRISES
+            yield from waiting.samples(timed=timed, eyes=eyes)
+        yield _sample(str(number), time_s, numbers, timed=timed, eyes=eyes, fault=fault)
     if not waiting.over:
         waiting.check()
-        yield from waiting.samples(timed=bool(timed))
+        yield from waiting.samples(timed=bool(timed), eyes=False)
 
 
 class _NoFrame(Exception):
@@ -107,14 +111,14 @@ class _Waiting:
         if self._refused is not None:
             raise InputError(str(self._refused)) from self._refused
 
-    def samples(self, *, timed: bool) -> Iterator[Sample]:
+    def samples(self, *, timed: bool, eyes: bool) -> Iterator[Sample]:
         self.over = True
         for number, (fault, time_s) in enumerate(self._lines, start=1):
-            yield _sample(str(number), time_s, [], timed=timed, fault=fault)
+            yield _sample(str(number), time_s, [], timed=timed, eyes=eyes, fault=fault)
 
 
 def _frame(line: str, number: int, fps: float | None) -> tuple[float | None, list[float]]:
-    """Time and 136 numbers of a line, none of an empty one."""
+    """Time and 136 or 140 numbers of a line, none of an empty one."""
     time_s = None if fps is None else (number - 1) / fps
     if _NOT_TEXT in line:
         raise _NoFrame(
@@ -128,13 +132,13 @@ def _frame(line: str, number: int, fps: float | None) -> tuple[float | None, lis
         raise _NoFrame(
             f"line {number} holds something that is not a number ({str(error)[:80]})", time_s
         ) from error
-    if len(numbers) not in (0, _NUMBERS, _NUMBERS + 1):
+    if len(numbers) not in (0, _NUMBERS, _NUMBERS + 1, _WITH_IRISES, _WITH_IRISES + 1):
         raise _NoFrame(
             f"line {number} has {len(numbers)} numbers; {_NUMBERS} are needed (x y x y ...), "
-            f"or the time before them as well",
+            f"or the time before them as well; the irises may stand behind them",
             time_s,
         )
-    if len(numbers) <= _NUMBERS:
+    if len(numbers) in (0, _NUMBERS, _WITH_IRISES):
         return time_s, numbers
     if fps is None and not math.isfinite(numbers[0]):
         raise _NoFrame(f"line {number} has {numbers[0]} for a time", time_s)
@@ -142,14 +146,18 @@ def _frame(line: str, number: int, fps: float | None) -> tuple[float | None, lis
 
 
 def _sample(
-    label: str, time_s: float | None, numbers: list[float], *, timed: bool, fault: Fault | None
+    label: str, time_s: float | None, numbers: list[float], *, timed: bool, eyes: bool, fault: Fault | None
 ) -> Sample:
-    points = np.array(numbers or [math.nan] * _NUMBERS).reshape(LANDMARK_COUNT, 2)
+    numbers = (numbers or [math.nan] * _NUMBERS) + [
+        math.nan
+    ] * 4  # a line of a stream with irises may lack them
+    points, irises = split_irises(np.array(numbers[:_WITH_IRISES]).reshape(1, -1, 2))
     if timed and time_s is None:
         time_s = math.nan
     return Sample(
         label=label,
         time_s=time_s if timed else None,
-        points=points,
+        points=points[0],
+        irises=irises[0] if eyes else None,
         faults={} if fault is None else {"points": fault},
     )

@@ -1,7 +1,7 @@
 """CSV files of OpenFace and py-feat: columns ``x_0 .. x_67`` and ``y_0 .. y_67``, read by name.
 
 OpenFace puts a blank before each column's name, all x before all y, ``success`` 0 where it saw no face.
-py-feat leaves cells empty there.
+py-feat leaves cells empty there. Columns ``x_68``, ``y_68``, ``x_69``, ``y_69`` are irises, if it has all four.
 """
 
 from collections.abc import Iterator
@@ -12,9 +12,12 @@ import numpy as np
 from facegen.conventions import LANDMARK_COUNT
 from facegen.formats.csv_rows import CsvRows, number_in, numbers_in
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames, stacked
+from regress.runtime.inputs.frames import Frames, split_irises, stacked
 
 _POINTS = tuple(f"{axis}_{index}" for index in range(LANDMARK_COUNT) for axis in "xy")
+_IRISES = tuple(f"{axis}_{index}" for index in (LANDMARK_COUNT, LANDMARK_COUNT + 1) for axis in "xy")
+"""Of the subject's right iris, then of the left one, where a table has them."""
+
 _OTHERS = ("frame", "face_id", "timestamp", "success")
 
 _LATEST_S = 1e19
@@ -39,7 +42,7 @@ def read_table(path: Path) -> Frames:
                 f"{path} lacks {len(missing)} of the columns x_0 .. x_67, y_0 .. y_67, first {missing[0]}; "
                 "OpenFace and py-feat write them"
             )
-        table.check((*_POINTS, *_OTHERS))
+        table.check((*_POINTS, *_IRISES, *_OTHERS))
         return _frames(table)
 
 
@@ -47,7 +50,8 @@ def _frames(table: CsvRows) -> Frames:
     columns = table.columns
     openface = "success" in columns
     timed, several = openface and "timestamp" in columns, openface and "face_id" in columns
-    names = (*_POINTS, *(["success"] if openface else []), *(["timestamp"] if timed else []))
+    shown = _POINTS + (_IRISES if set(_IRISES) <= columns.keys() else ())
+    names = (*shown, *(["success"] if openface else []), *(["timestamp"] if timed else []))
     picked = [columns[name] for name in names]
     labels: list[str] = []
     face_ids: list[str] = []
@@ -61,10 +65,10 @@ def _frames(table: CsvRows) -> Frames:
                 face_ids.append(row[columns["face_id"]].strip())
             if timed:
                 time_s.append(numbers[-1])
-            points = numbers[: len(_POINTS)].reshape(LANDMARK_COUNT, 2)
-            yield np.full_like(points, np.nan) if openface and numbers[len(_POINTS)] == 0 else points
+            points = numbers[: len(shown)].reshape(-1, 2)
+            yield np.full_like(points, np.nan) if openface and numbers[len(shown)] == 0 else points
 
-    points = stacked(faces(), table.path)
+    points, irises = split_irises(stacked(faces(), table.path))
     if any(abs(time) > _LATEST_S for time in time_s):
         raise InputError(f"{table.path}: a timestamp is beyond {_LATEST_S:g} s")
     if several and len(set(labels)) < len(labels):
@@ -74,6 +78,7 @@ def _frames(table: CsvRows) -> Frames:
         labels=tuple(labels),
         time_s=np.array(time_s) if timed else None,
         source=str(table.path),
+        irises=irises,
     )
 
 

@@ -1,4 +1,4 @@
-"""Where the head is and how it is turned, from the landmarks as the detector gave them; and its smoothing."""
+"""Where the head is and where it looks, from landmarks and irises as the detector gave them; and its smoothing."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -6,8 +6,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from regress.runtime.heads.camera import CameraSettings, FaceCamera
+from regress.runtime.heads.eyes import MEAN_EYES, gaze_angles, own_eyes
 from regress.runtime.heads.fit import FACING, fit_poses, own_shape
-from regress.runtime.heads.shape import HeadShape, load_head_shape
+from regress.runtime.heads.shape import load_head_shape
 from regress.runtime.sample import Sample
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.smoothing import OneEuroFilter
@@ -27,14 +28,20 @@ class HeadSettings:
         All unknown by default.
     neutral : (m, 68, 2) float64, optional
         Neutral frames by the same camera and detector.
+    neutral_irises : (m, 2, 2) float64, optional
+        Of the same frames, looking straight ahead; the subject's left eye first.
+    wanted
+        Whether samples keep their heads; a gaze needs them in any case.
     """
 
     camera: CameraSettings = field(default_factory=CameraSettings)
     neutral: np.ndarray | None = None
+    neutral_irises: np.ndarray | None = None
+    wanted: bool = True
 
 
 class HeadPose(BatchStage):
-    """Finds the pose of each frame's head.
+    """Finds the pose of each frame's head, and the gaze where the irises are seen.
 
     What is not known of the camera is taken from the take's first whole face, so a stage serves one take.
     """
@@ -42,23 +49,44 @@ class HeadPose(BatchStage):
     def __init__(self, settings: HeadSettings) -> None:
         self._settings = settings
         self._camera: FaceCamera | None = None
-        self._shape = load_head_shape()
+        self._shape, self._eyes = load_head_shape(), MEAN_EYES
         if settings.neutral is not None:
-            whole = settings.neutral[np.isfinite(settings.neutral).all(axis=(1, 2))]
-            camera = settings.camera.camera(whole[0], self._shape)
-            self._shape = own_shape(whole, camera, self._shape)
+            whole = np.isfinite(settings.neutral).all(axis=(1, 2))
+            faces = settings.neutral[whole]
+            camera = settings.camera.camera(faces[0], self._shape)
+            self._shape = own_shape(faces, camera, self._shape)
+            irises = None if settings.neutral_irises is None else settings.neutral_irises[whole]
+            if irises is not None and np.isfinite(irises).all(axis=(1, 2)).any():
+                self._eyes = own_eyes(faces, irises, fit_poses(faces, camera, self._shape), camera)
 
     def batch(self, samples: Sequence[Sample]) -> list[Sample]:
-        """Samples with head (6,); NaN where a point is missing."""
-        heads = np.full((len(samples), 6), np.nan)
+        """Samples with head (6,), and gaze (4,) where irises are given; NaN where a point is missing."""
+        seeing = [sample.irises is not None for sample in samples]
+        if not self._settings.wanted and not any(seeing):
+            return list(samples)
+        heads, gazes = np.full((len(samples), 6), np.nan), np.full((len(samples), 4), np.nan)
+        irises = np.array(
+            [np.full((2, 2), np.nan) if each.irises is None else each.irises for each in samples]
+        )
         faces = np.stack([sample.points for sample in samples])
         whole = np.flatnonzero(np.isfinite(faces).all(axis=(1, 2)))
         if len(whole) and self._camera is None:
             self._camera = self._settings.camera.camera(faces[whole[0]], load_head_shape())
         for start in range(0, len(whole), _AT_ONCE):
             rows = whole[start : start + _AT_ONCE]
-            heads[rows] = head_of(faces[rows], self._camera, self._shape)
-        return [replace(sample, head=head) for sample, head in zip(samples, heads, strict=True)]
+            poses = fit_poses(faces[rows], self._camera, self._shape)
+            heads[rows] = np.concatenate([poses.translation, angles_of(poses.rotation)], axis=1)
+            gazes[rows] = gaze_angles(faces[rows], irises[rows], poses, self._camera, self._eyes).reshape(
+                -1, 4
+            )
+        return [
+            replace(
+                sample,
+                head=head if self._settings.wanted else sample.head,
+                gaze=gaze if seen else sample.gaze,
+            )
+            for sample, head, gaze, seen in zip(samples, heads, gazes, seeing, strict=True)
+        ]
 
 
 class HeadSmoothing(Stage):
@@ -78,12 +106,6 @@ class HeadSmoothing(Stage):
         if sample.head is None or sample.time_s is None or np.isnan(sample.head).any():
             return sample
         return replace(sample, head=self._filter.step(sample.time_s, sample.head))
-
-
-def head_of(faces: np.ndarray, camera: FaceCamera, shape: HeadShape) -> np.ndarray:
-    """Position in the camera frame (m), then yaw, pitch and roll (rad), of faces (n, 68, 2); (n, 6) float64."""
-    poses = fit_poses(faces, camera, shape)
-    return np.concatenate([poses.translation, angles_of(poses.rotation)], axis=1)
 
 
 def angles_of(camera_from_head: np.ndarray) -> np.ndarray:

@@ -30,16 +30,14 @@ def csv_lines(samples: Iterable[Sample], names: tuple[str, ...]) -> Iterator[str
     """
     for number, sample in enumerate(samples):
         timed = sample.time_s is not None
+        gaze = () if sample.gaze is None else np.degrees(sample.gaze)
         if number == 0:
             gaze_columns = () if sample.gaze is None else GAZE_COLUMNS
             head_columns = () if sample.head is None else HEAD_COLUMNS
             yield _line(["frame", *(["time_s"] if timed else []), *names, *gaze_columns, *head_columns])
-        values = sample.weights
-        if sample.gaze is not None:
-            values = np.concatenate([values, np.degrees(sample.gaze)])
         head = () if sample.head is None else (*sample.head[:3], *np.degrees(sample.head[3:]))
         time_cell = ["" if np.isnan(sample.time_s) else f"{sample.time_s:.6f}"] if timed else []
-        yield _line([sample.label, *time_cell, *_cells(values), *_cells(head)])
+        yield _line([sample.label, *time_cell, *_cells(sample.weights), *_cells(gaze), *_cells(head)])
 
 
 def weights_csv(prediction: Prediction) -> str:

@@ -23,5 +23,5 @@ def live_link_text(prediction: Prediction) -> str:
     if prediction.head is not None:
         rotations[:, :3] = np.nan_to_num(prediction.head[:, 3:]) * [-1, -1, 1]
     if prediction.gaze is not None:
-        rotations[:, [3, 4, 6, 7]] = -prediction.gaze
+        rotations[:, [3, 4, 6, 7]] = -np.nan_to_num(prediction.gaze)
     return live_link_csv(prediction.weights, prediction.known_times_s, rotations=rotations)

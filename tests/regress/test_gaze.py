@@ -1,0 +1,235 @@
+"""Gaze: known eyes are found from their irises, drive the eyeLook shapes; guesses from the lids know their limits."""
+
+import csv
+import io
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_COUNT
+from facegen.geometry import direction_from_angles, rotation_from_angles
+from facegen.sampling.gaze import axes_from_weights, weights_from_axes
+from regress.runtime.features.reference_shape import load_reference_shape
+from regress.runtime.heads.camera import CameraSettings, FaceCamera
+from regress.runtime.heads.eyes import CORNERS, MEAN_EYES, REACH_M, gaze_angles, own_eyes
+from regress.runtime.heads.fit import FACING, HeadPoses
+from regress.runtime.inputs import read_frames, read_lines
+from regress.runtime.sample import Sample
+from regress.runtime.stages.gaze import LOOKS, Looks, gaze_of, look_weights, yaw_of
+from regress.runtime.stages.head import HeadPose, HeadSettings
+
+MEAN = load_reference_shape().points
+CAMERA = FaceCamera(focal_px=900.0, centre_px=(639.5, 359.5))
+PICTURE = CameraSettings(picture_px=(1280, 720), focal_px=900.0)
+
+
+def within(degrees: float) -> st.SearchStrategy[float]:
+    return st.floats(-degrees, degrees).map(np.radians)
+
+
+HEADS = st.tuples(within(30), within(20), within(40)).map(np.array)
+GAZES = st.tuples(within(30), within(25), within(30), within(25)).map(np.array)
+
+
+def seen(
+    head_rad: np.ndarray,
+    gaze: np.ndarray,
+    *,
+    beside_m: float = 0.0,
+    place: tuple[float, float, float] = (0.0, 0.0, 0.6),
+) -> tuple[np.ndarray, np.ndarray, HeadPoses]:
+    """A face (68, 2), its irises (2, 2), and its pose; eyeballs lie up to ``beside_m`` beside the mean face's."""
+    rotation = FACING @ rotation_from_angles(*head_rad)
+    translation = np.array(place)
+    middle = MEAN[np.array(CORNERS)].mean(axis=1)
+    axes = direction_from_angles(gaze[[0, 2]], gaze[[1, 3]])
+    irises = middle + MEAN_EYES.ball_m + [beside_m, -beside_m, 0] + REACH_M * axes
+
+    def picture(there: np.ndarray) -> np.ndarray:
+        in_camera = there @ rotation.T + translation
+        return CAMERA.focal_px * in_camera[:, :2] / in_camera[:, 2:] + CAMERA.centre_px
+
+    pose = HeadPoses(rotation=rotation[None], translation=translation[None], coefficients=np.zeros((1, 0)))
+    return picture(MEAN), picture(irises), pose
+
+
+@given(head=HEADS, gaze=GAZES)
+def test_a_known_gaze_is_found(head: np.ndarray, gaze: np.ndarray):
+    """To a degree or two: an eye's corners are taken for as far away as each other."""
+    face, irises, pose = seen(head, gaze, place=(0.05, -0.03, 0.6))
+    found = gaze_angles(face[None], irises[None], pose, CAMERA, MEAN_EYES).ravel()
+    np.testing.assert_allclose(np.degrees(found), np.degrees(gaze), atol=2.5)
+
+
+@given(gaze=GAZES)
+def test_weights_are_what_facegen_makes_of_a_gaze_and_back(gaze: np.ndarray):
+    weights = np.zeros(len(BLENDSHAPES))
+    weights[LOOKS] = look_weights(gaze)
+    axes = direction_from_angles(gaze[None, [0, 2]], gaze[None, [1, 3]])
+    theirs = weights_from_axes(axes)
+    assert sorted(theirs) == sorted(LOOKS)
+    np.testing.assert_allclose(weights[LOOKS], [theirs[index][0] for index in LOOKS], atol=1e-9)
+    np.testing.assert_allclose(gaze_of(weights), gaze, atol=1e-9)
+    np.testing.assert_allclose(axes_from_weights(weights[None]), axes, atol=1e-9)
+
+
+@given(gaze=GAZES, head=HEADS)
+def test_neutral_irises_show_where_a_person_s_eyes_lie(gaze: np.ndarray, head: np.ndarray):
+    face, irises, pose = seen(np.zeros(3), np.zeros(4), beside_m=0.001)
+    eyes = own_eyes(face[None], irises[None], pose, CAMERA)
+    np.testing.assert_allclose(eyes.ball_m - MEAN_EYES.ball_m, [[0.001, -0.001, 0]] * 2, atol=5e-5)
+    face, irises, pose = seen(head, gaze, beside_m=0.001, place=(0.05, -0.03, 0.6))
+    found = gaze_angles(face[None], irises[None], pose, CAMERA, eyes).ravel()
+    np.testing.assert_allclose(np.degrees(found), np.degrees(gaze), atol=3.0)
+
+
+def shut(face: np.ndarray, *eyes: int) -> np.ndarray:
+    """A face whose lids meet, of the eyes whose first landmark is given."""
+    face = face.copy()
+    for eye in eyes:
+        for top, low in ((eye + 1, eye + 5), (eye + 2, eye + 4)):
+            face[top] = face[low] = (face[top] + face[low]) / 2
+    return face
+
+
+def test_a_shut_eye_goes_with_the_other_and_both_rest():
+    gaze = np.radians([20.0, 10.0, 20.0, 10.0])
+    face, irises, pose = seen(np.zeros(3), gaze)
+    irises[1] += 9.0  # what a detector makes up behind the right eye's lids
+    one = gaze_angles(shut(face, 36)[None], irises[None], pose, CAMERA, MEAN_EYES).ravel()
+    np.testing.assert_allclose(np.degrees(one), np.degrees(gaze), atol=1.0)
+    both = gaze_angles(shut(face, 36, 42)[None], irises[None], pose, CAMERA, MEAN_EYES)
+    np.testing.assert_array_equal(both, 0)
+
+
+def _sample(
+    head_deg: float, weights: dict[str, float], *, irises: bool = False, gaze_deg: float = 0
+) -> Sample:
+    face, eyes, _ = seen(np.radians([head_deg, 0, 0]), np.radians([gaze_deg, 0, gaze_deg, 0]))
+    values = np.zeros(len(BLENDSHAPES))
+    for name, weight in weights.items():
+        values[BLENDSHAPE_INDEX[name]] = weight
+    sample = Sample(points=face, irises=eyes if irises else None, weights=values, confidence=np.full(52, 0.8))
+    return HeadPose(HeadSettings(camera=PICTURE, wanted=False)).step(sample)
+
+
+GUESS = {"eyeLookOutLeft": 0.4, "eyeLookInRight": 0.4, "jawOpen": 0.5}
+
+
+@pytest.mark.parametrize(("head_deg", "share"), [(0, 1), (12, 1), (-20, 0.5), (20, 0.5), (30, 0), (-40, 0)])
+def test_a_guess_fades_with_a_turn(head_deg: float, share: float):
+    answer = Looks(fade=True).step(_sample(head_deg, GUESS))
+    assert answer.weights[BLENDSHAPE_INDEX["eyeLookOutLeft"]] == pytest.approx(0.4 * share, abs=0.08)
+    assert answer.weights[BLENDSHAPE_INDEX["jawOpen"]] == 0.5
+    assert answer.confidence[LOOKS[0]] == pytest.approx(0.8 * share, abs=0.16)
+    assert answer.confidence[BLENDSHAPE_INDEX["jawOpen"]] == 0.8
+    assert answer.gaze is answer.head is None
+    kept = Looks(fade=False).step(_sample(head_deg, GUESS))
+    assert kept.weights[BLENDSHAPE_INDEX["eyeLookOutLeft"]] == 0.4
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "share"), [(0.9, 0.0, 0), (0.1, 0.8, 0), (0.9, 0.9, 1), (0.3, 0.2, 1), (0.35, 0, 0.5)]
+)
+def test_a_wink_is_no_gaze_and_a_blink_may_be(left: float, right: float, share: float):
+    answer = Looks(fade=True).step(_sample(0, GUESS | {"eyeBlinkLeft": left, "eyeBlinkRight": right}))
+    assert answer.weights[LOOKS].max() == pytest.approx(0.4 * share)
+
+
+def test_irises_go_before_guesses_whatever_the_turn():
+    answer = Looks(fade=True).step(_sample(30, GUESS | {"eyeBlinkLeft": 0.9}, irises=True, gaze_deg=-15))
+    assert answer.weights[BLENDSHAPE_INDEX["eyeLookInLeft"]] == pytest.approx(0.5, abs=0.06)
+    assert answer.weights[BLENDSHAPE_INDEX["eyeLookOutRight"]] == pytest.approx(0.5, abs=0.06)
+    assert answer.weights[BLENDSHAPE_INDEX["eyeLookOutLeft"]] == 0
+    assert answer.confidence[LOOKS].tolist() == [1.0] * 8
+    np.testing.assert_allclose(np.degrees(answer.gaze), [-15, 0, -15, 0], atol=2)
+
+
+def test_a_frame_without_irises_in_a_take_with_them_is_guessed():
+    sample = replace(_sample(0, GUESS), gaze=np.full(4, np.nan))
+    for fade in (True, False):
+        answer = Looks(fade=fade).step(sample)
+        assert answer.weights[BLENDSHAPE_INDEX["eyeLookOutLeft"]] == 0.4
+        np.testing.assert_allclose(np.degrees(answer.gaze), [12, 0, 12, 0])
+    nowhere = replace(sample, weights=np.full(52, np.nan))
+    assert Looks(fade=True).step(nowhere) is nowhere
+
+
+@given(yaw=within(40), pitch=within(15))
+def test_the_quick_yaw(yaw: float, pitch: float):
+    face, _, _ = seen(np.array([yaw, pitch, 0]), np.zeros(4))
+    assert np.degrees(yaw_of(face) - yaw) == pytest.approx(0, abs=6)
+
+
+def _take(count: int = 6) -> np.ndarray:
+    """Faces with irises behind them (count, 70, 2): first straight ahead, then to and fro; one eye is not seen once."""
+    rows = []
+    for row in range(count):
+        face, irises, _ = seen(np.radians([2.0 * row, 0, 0]), np.radians([5.0 * row, 0, 5.0 * row, 0]))
+        rows.append(np.concatenate([face, irises[::-1]]))
+    take = np.array(rows)
+    take[4, 69] = np.nan
+    return take
+
+
+def _table(path: Path, take: np.ndarray) -> Path:
+    names = [f"{axis}_{index}" for index in range(70) for axis in "xy"]
+    lines = [
+        ",".join(names),
+        *(",".join("" if np.isnan(v) else repr(float(v)) for v in row.ravel()) for row in take),
+    ]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_readers_agree_on_irises(tmp_path: Path):
+    take = _take()
+    np.save(tmp_path / "take.npy", take)
+    lines = [" ".join(map(repr, row.ravel().tolist())) for row in take]
+    samples = list(read_lines(["", *lines, lines[0].rsplit(" ", 4)[0]]))
+    of_lines = np.array([sample.irises for sample in samples])
+    assert np.isnan(of_lines[[0, -1]]).all()
+    assert np.isfinite(samples[-1].points).all()
+    for frames in (read_frames(tmp_path / "take.npy"), read_frames(_table(tmp_path / "take.csv", take))):
+        np.testing.assert_array_equal(frames.points, take[:, :LANDMARK_COUNT])
+        np.testing.assert_array_equal(frames.irises, take[:, [69, 68]])
+        np.testing.assert_array_equal(frames.irises, of_lines[1:-1])
+    assert read_frames(_table(tmp_path / "take.csv", take)).take([1, 2]).irises.shape == (2, 2, 2)
+
+
+@pytest.mark.parametrize("kind", ["npy", "csv", "pipe"])
+def test_from_irises_to_a_table(kind: str, run, quick_model_folder: Path, tmp_path: Path, monkeypatch):
+    """The gaze leaves in degrees, and its shapes in place of the networks'; a neutral frame says what ahead is."""
+    take = _take()
+    np.save(tmp_path / "take.npy", take)
+    np.save(tmp_path / "rest.npy", take[:1])
+    path = {"npy": tmp_path / "take.npy", "csv": _table(tmp_path / "take.csv", take), "pipe": "-"}[kind]
+    lines = [" ".join(map(repr, row.ravel().tolist())) for row in take]
+    monkeypatch.setattr(sys, "stdin", io.StringIO("\n".join(lines) + "\n"))
+    camera = ("--picture", "1280x720", "--focal-px", 900)
+    code, out, err = run("predict", quick_model_folder, path, "--neutral", tmp_path / "rest.npy", *camera)
+    assert code == 0, err
+    rows = list(csv.DictReader(io.StringIO(out)))
+    for row in (1, 2, 3, 5):
+        assert float(rows[row]["left_eye_yaw_deg"]) == pytest.approx(5 * row, abs=1.5)
+        assert float(rows[row]["eyeLookInRight"]) == pytest.approx(5 * row / 30, abs=0.05)
+        assert float(rows[row]["eyeLookOutRight"]) == 0
+    assert float(rows[0]["right_eye_pitch_deg"]) == pytest.approx(0, abs=0.2)
+    assert rows[4]["left_eye_yaw_deg"] != ""
+
+
+def test_who_keeps_guesses(run, quick_model_folder: Path, tmp_path: Path):
+    """--keep-guessed-gaze leaves the networks' weights; without it only the eight shapes differ."""
+    np.save(tmp_path / "take.npy", np.array([seen(np.radians([30.0, 0, 0]), np.zeros(4))[0]]))
+    tables = [
+        next(csv.DictReader(io.StringIO(run("predict", quick_model_folder, tmp_path / "take.npy", *more)[1])))
+        for more in ((), ("--keep-guessed-gaze",))
+    ]
+    changed = {name for name, cell in tables[0].items() if cell != tables[1][name]}
+    assert changed <= {BLENDSHAPES[index] for index in LOOKS}
+    assert all(float(tables[0][BLENDSHAPES[index]]) == 0 for index in LOOKS)
