@@ -18,7 +18,7 @@ MOST_JSON_BYTES = 32 * 1024**2
 MOST_TOML_BYTES = 64 * 1024
 """Six times the largest file that comes with facegen; beyond it the parser's time grows with the square of a key."""
 
-MOST_PIPE_BYTES = 256 * 1024**2
+MOST_PIPE_BYTES = 64 * 1024**2
 """Of a pipe or a device, whatever the bound of a file: its end cannot be seen, and some have none."""
 
 _PIECE_BYTES = 1024**2
