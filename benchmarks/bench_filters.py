@@ -22,9 +22,10 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-from real_recordings import MOVES_SD, NEUTRAL_FRAMES, OUTER_EYE_PX, SEED, TAKES, correlation, project
+from real_recordings import MOVES_SD, NEUTRAL_FRAMES, SEED, TAKES, correlation
 from scipy.interpolate import PchipInterpolator
 from scipy.signal import find_peaks, peak_widths
+from small_movements import OUTER_EYE_PX, project
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from facegen.formats import read_live_link

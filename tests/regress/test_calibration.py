@@ -15,9 +15,11 @@ from regress.learning.training.preparation import faces_of, prepare
 from regress.runtime.features import extract
 from regress.runtime.model import Model, load_model, save_model
 from regress.runtime.networks import evaluate
+from regress.runtime.sample import Sample
+from regress.runtime.stages.networks import AutomaticCalibration, LandmarkNetworks
 from regress.runtime.stages.neutral import estimate_neutral
 from tests.regress.conftest import QUICK, write_dataset
-from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
+from tests.regress.drawn import SHAPE_MODES_SEED, drawn_face, drawn_faces, in_pictures
 from tests.regress.exporters.readers import READERS
 
 FACES = drawn_faces(np.random.default_rng(2), 40)
@@ -176,12 +178,67 @@ def test_auto_finds_the_calm_frames_and_says_when_they_are_too_few(
     assert estimate.sure, estimate.reason
     assert calm[estimate.frames].all()
     assert 70 not in estimate.frames
-    few = estimate_neutral(quick_model, frames[30:50])
+    short = estimate_neutral(quick_model, frames[30:50])
+    assert short.sure, short.reason
+    assert calm[30:50][short.frames].all()
+    few = estimate_neutral(quick_model, frames[30:49])
     assert not few.sure
-    assert "are needed" in few.reason
+    assert few.reason == "19 frames are usable, and 20 are needed"
     restless = estimate_neutral(quick_model, dataset.points[~dataset.neutral][:40])
     assert not restless.sure
     assert "differ by weights" in restless.reason
+
+
+def _talk(rng: np.random.Generator, frames: int, *, rests: bool) -> np.ndarray:
+    """A mouth whose shapes come and go, 30 frames a second; it may rest in the first half."""
+    weights = np.zeros((frames, len(BLENDSHAPES)))
+    for name, cycles_s in (
+        ("jawOpen", 4.1),
+        ("mouthFunnel", 2.3),
+        ("mouthSmileLeft", 0.9),
+        ("mouthPucker", 3.1),
+    ):
+        weights[:, BLENDSHAPES.index(name)] = 0.5 - 0.5 * np.cos(
+            2 * np.pi * cycles_s * np.arange(frames) / 30
+        )
+    weights[: frames // 2] *= not rests
+    modes = np.random.default_rng(SHAPE_MODES_SEED).normal(size=(len(BLENDSHAPES), 68, 2)) * 0.03
+    faces = drawn_face() + np.einsum("nk,kpd->npd", weights, modes)
+    return faces + rng.normal(size=faces.shape) * 3e-4 * np.ptp(faces[0, :, 0])
+
+
+@pytest.mark.parametrize("frames", [60, 300])
+def test_auto_does_not_take_talk_for_a_resting_face(quick_model: Model, frames: int):
+    talk = estimate_neutral(quick_model, _talk(np.random.default_rng(1), frames, rests=False))
+    assert not talk.sure
+    rest = estimate_neutral(quick_model, _talk(np.random.default_rng(1), frames, rests=True))
+    assert rest.sure, rest.reason
+    assert np.mean(rest.frames < frames // 2) > 0.7  # a mouth that talks is shut at times
+
+
+def test_auto_does_not_hang_on_looks_place_or_size(quick_model: Model, dataset: KeypointDataset):
+    frames, _ = _recording(dataset, calm=40, moving=40)
+    found = estimate_neutral(quick_model, frames)
+    moved = estimate_neutral(quick_model, 3.0 * frames + [50.0, -7.0])
+    assert np.array_equal(found.frames, moved.frames)
+    assert found.sure is moved.sure
+
+
+def test_live_auto_wants_to_be_sure_twice_and_says_when_it_takes_long(quick_model: Model):
+    rng = np.random.default_rng(2)
+    said: list[str] = []
+    talk, rest = _talk(rng, 320, rests=False), _talk(rng, 300, rests=True)[:150]
+    networks = LandmarkNetworks(quick_model)
+    stage = AutomaticCalibration(networks, said.append)
+    for face in talk:
+        stage.step(Sample(points=face))
+    assert networks.model is quick_model
+    assert len(said) == 1
+    assert said[0].startswith("frame 300: no neutral face found so far (the face is not at rest")
+    for face in rest:
+        stage.step(Sample(points=face))
+    assert networks.model is not quick_model
+    assert "neutral face found" in said[1]
 
 
 @pytest.fixture

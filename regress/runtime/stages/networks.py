@@ -16,6 +16,12 @@ from regress.runtime.stages.stage import BatchStage, Stage
 ESTIMATE_EVERY = 30
 """Frames between two estimates of the neutral face: a second of video."""
 
+SURE_TIMES = 2
+"""Estimates in a row that must be sure: of people who talk all the time one in ten passes once, in the short run."""
+
+TELL_AT = 300
+"""Frames after which a person is told once that nothing was found so far, and why: ten seconds of video."""
+
 _REMEMBERED = 900
 """Frames that an estimate looks back on: half a minute of video."""
 
@@ -64,7 +70,7 @@ class AutomaticCalibration(Stage):
     networks
         Serve without a neutral frame until one is found.
     say
-        Told when it is sure, and why.
+        Told when it is sure, and why; and once where it takes long.
 
     Raises
     ------
@@ -79,11 +85,11 @@ class AutomaticCalibration(Stage):
         self._say = say
         self._recent: deque[np.ndarray] = deque(maxlen=_REMEMBERED)
         self._count = 0
-        self._searching = True
+        self._sure = 0
 
     def step(self, sample: Sample) -> Sample:
         """Take a frame into account; frames with missing points are left out."""
-        if self._searching and np.isfinite(sample.points).all():
+        if self._sure < SURE_TIMES and np.isfinite(sample.points).all():
             self._recent.append(sample.points)
             self._count += 1
             if self._count % ESTIMATE_EVERY == 0:
@@ -93,7 +99,9 @@ class AutomaticCalibration(Stage):
     def _estimate(self) -> None:
         points = np.array(self._recent)
         estimate = estimate_neutral(self._networks.model, points)
-        if estimate.sure:
+        self._sure = self._sure + 1 if estimate.sure else 0
+        if self._sure == SURE_TIMES:
             self._networks.model = self._networks.model.calibrate(points[estimate.frames])
-            self._searching = False
             self._say(f"frame {self._count}: neutral face found ({estimate.reason}); calibrated from here on")
+        elif self._count == TELL_AT:
+            self._say(f"frame {self._count}: no neutral face found so far ({estimate.reason}); looking on")
