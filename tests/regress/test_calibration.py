@@ -259,7 +259,9 @@ def test_predict_takes_a_frame_a_range_a_file_or_auto(run, quick_model_folder, q
         "auto": quick_model.calibrate(frames[estimate_neutral(quick_model, frames).frames]).predict(frames),
     }
     for neutral, weights in expected.items():
-        code, out, err = run("predict", quick_model_folder, recording, "--neutral", neutral)
+        code, out, err = run(
+            "predict", quick_model_folder, recording, "--neutral", neutral, "--keep-guessed-gaze"
+        )
         assert code == 0, err
         lines = [line.split(",") for line in out.splitlines()]
         assert np.allclose(np.array([line[1:] for line in lines[1:]], dtype=float), weights, atol=1e-6)

@@ -91,7 +91,7 @@ def test_the_program_says_which_rows_are_bad_and_leaves_them_empty(
     faces = GOOD.copy()
     faces[[2, 5, 6]] = spoil(faces[[2, 5, 6]])
     np.save(tmp_path / "take.npy", faces)
-    code, out, err = run("predict", quick_model_folder, tmp_path / "take.npy")
+    code, out, err = run("predict", quick_model_folder, tmp_path / "take.npy", "--keep-guessed-gaze")
     assert code == 0
     assert err == f"{tmp_path / 'take.npy'}: 3 of 9 rows have {fault.value}: 3, 6-7\n"
     rows = [line.split(",")[1:] for line in out.splitlines()[1:]]

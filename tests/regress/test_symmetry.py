@@ -103,7 +103,9 @@ def test_a_network_of_one_side_cannot_be_made_symmetric(quick_model):
 
 def test_the_commands_take_it(run, quick_model, quick_model_folder, tmp_path):
     np.save(tmp_path / "take.npy", FACES)
-    code, out, err = run("predict", quick_model_folder, tmp_path / "take.npy", "--symmetric")
+    code, out, err = run(
+        "predict", quick_model_folder, tmp_path / "take.npy", "--symmetric", "--keep-guessed-gaze"
+    )
     assert code == 0, err
     written = np.array([line.split(",")[1:] for line in out.splitlines()[1:]], dtype=float)
     np.testing.assert_allclose(written, symmetrised(quick_model).predict(FACES), atol=1e-6)
