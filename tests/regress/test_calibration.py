@@ -227,7 +227,7 @@ def test_auto_does_not_hang_on_looks_place_or_size(quick_model: Model, dataset: 
 def test_live_auto_wants_to_be_sure_twice_and_says_when_it_takes_long(quick_model: Model):
     rng = np.random.default_rng(2)
     said: list[str] = []
-    talk, rest = _talk(rng, 320, rests=False), _talk(rng, 300, rests=True)[:150]
+    talk, rest = _talk(rng, 320, rests=False), _talk(rng, 600, rests=True)[:300]
     networks = LandmarkNetworks(quick_model)
     stage = AutomaticCalibration(networks, said.append)
     for face in talk:

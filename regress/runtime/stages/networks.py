@@ -13,8 +13,10 @@ from regress.runtime.stages.confidence import confidence
 from regress.runtime.stages.neutral import estimate_neutral
 from regress.runtime.stages.stage import BatchStage, Stage
 
-ESTIMATE_EVERY = 30
-"""Frames between two estimates of the neutral face: a second of video."""
+ESTIMATE_EVERY, ESTIMATE_LATER = 30, 150
+"""Frames between two estimates of the neutral face: a second of video; five from the tenth on, as an estimate of 900
+frames takes a tenth of a second.
+"""
 
 SURE_TIMES = 2
 """Estimates in a row that must be sure: of people who talk all the time one in ten passes once, in the short run."""
@@ -92,7 +94,7 @@ class AutomaticCalibration(Stage):
         if self._sure < SURE_TIMES and np.isfinite(sample.points).all():
             self._recent.append(sample.points)
             self._count += 1
-            if self._count % ESTIMATE_EVERY == 0:
+            if self._count % (ESTIMATE_EVERY if self._count <= TELL_AT else ESTIMATE_LATER) == 0:
                 self._estimate()
         return sample
 
