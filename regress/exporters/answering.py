@@ -94,3 +94,20 @@ class Answering:
             output_weights=output_weights,
             output_bias=output_bias,
         )
+
+
+def runs_of(output_weights: np.ndarray, *, sides: int) -> list[tuple[int, np.ndarray]]:
+    """First hidden unit and weights (sides, k) of each of the 52 shapes: the shortest runs that hold all not zero.
+
+    Parameters
+    ----------
+    output_weights : (52, sides M) float64
+        Of all units of one side, then of the next one's; the runs of all sides begin alike.
+    sides
+    """
+    runs = []
+    for row in output_weights.reshape(len(output_weights), sides, -1):
+        used = np.flatnonzero(row.any(axis=0))
+        first, end = (int(used[0]), int(used[-1]) + 1) if len(used) else (0, 0)
+        runs.append((first, row[:, first:end]))
+    return runs

@@ -13,8 +13,9 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from regress.errors import InputError
-from regress.exporters.answering import Answering
+from regress.exporters.answering import Answering, runs_of
 from regress.exporters.formula import Formula
+from regress.exporters.halves import Halves, halves_of
 
 LINE_WIDTH = 110
 C_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -78,8 +79,8 @@ def _set_of(
     neutral: str | None = None,
 ) -> dict[str, str]:
     """Code and numbers of one set of networks, its names beginning with ``of``; by their places in ``file.c``."""
-    measures = answering.measures
-    words = words | {"of": of, "OF": of.upper()} | _numbers(answering)
+    measures, halves = answering.measures, halves_of(answering)
+    words = words | {"of": of, "OF": of.upper()} | _numbers(answering, halves)
     words["signature"] = Template(signature).substitute(words)
     words["aligned"] = words["edge_table"] = ""
     measuring = ["undo_turn.c"]
@@ -95,6 +96,14 @@ def _set_of(
     ).substitute(words)
     words["neutral"] = neutral or ""
     words["measured"] = _filled("from_lengths.c" if inline else "from_measured.c", words).removesuffix("\n")
+    folded = halves is not None and halves.fold is not None
+    words["inputs"] = _filled("fold.c" if folded else "denoise.c", words)
+    words["prepare"] = "fold" if folded else "denoise"
+    words["hidden"] = _filled("hidden.c" if halves is None else "hidden_halves.c", words)
+    words["layers"] = _filled("layers.c" if halves is None else "layers_halves.c", words)
+    words["sums"] = (
+        "" if halves is None else f", left[{of.upper()}UNITS] = {{0}}, turned[{of.upper()}UNITS] = {{0}}"
+    )
     return {
         "sizes": _filled("sizes.c", words),
         "tables": _filled("tables.c", words),
@@ -108,18 +117,18 @@ def _filled(template: str, words: dict[str, object]) -> str:
     return Template(text).substitute(words)
 
 
-def _numbers(answering: Answering) -> dict[str, object]:
+def _numbers(answering: Answering, halves: Halves | None) -> dict[str, object]:
     """What templates say of one set of networks and of what it sees, by name."""
-    measures, denoising, stacked = answering.measures, answering.denoising, answering.stacked()
-    runs = [run_of(row) for row in stacked.output_weights]  # (first hidden unit, weights) of each of the 52
-    connection_counts = [len(weights) for _, weights in runs]
-    connections = np.concatenate([weights for _, weights in runs])
+    measures, denoising = answering.measures, answering.denoising if halves is None else halves.denoising
+    layers = answering.stacked() if halves is None else halves
+    runs = runs_of(layers.output_weights, sides=1 if halves is None else 2)
+    fold = None if halves is None else halves.fold
     return {
         "depth": _wrapped(f"{value:.17g}" for value in measures.depth),
         "turn": _wrapped(f"{value:.17g}" for value in measures.turn),
         "anchor_count": len(measures.anchors),
         "feature_count": measures.count,
-        "input_count": measures.count if denoising is None else len(denoising.axes),
+        "input_count": layers.hidden_weights.shape[1],
         "noise_count": 0 if denoising is None else len(denoising.noise_axes),
         "axes": "" if denoising is None else _rows(np.concatenate([denoising.axes, denoising.noise_axes]).T),
         "offset": "" if denoising is None else _floats(denoising.offset),
@@ -127,27 +136,23 @@ def _numbers(answering: Answering) -> dict[str, object]:
         "surplus": "" if denoising is None else _floats(denoising.surplus),
         "usual": "0" if denoising is None else f"{float(denoising.usual):.17g}",
         "least": "0" if denoising is None else f"{float(denoising.least):.17g}",
-        "hidden_count": len(stacked.hidden_bias),
-        "connection_count": len(connections),
+        "even_count": 0 if halves is None else halves.even,
+        "fold_first": "" if fold is None else _wrapped(map(str, fold.first)),
+        "fold_second": "" if fold is None else _wrapped(map(str, fold.second)),
+        "fold_share": "" if fold is None else _floats(fold.share),
+        "hidden_count": len(layers.hidden_bias),
+        "connection_count": sum(weights.size for _, weights in runs),
         "anchors": _wrapped(map(str, measures.anchors)),
         "reference": _wrapped(f"{{{x:.17g}, {y:.17g}}}" for x, y in measures.reference),
         "edges": _wrapped(f"{{{i}, {j}}}" for i, j in [*measures.edges, measures.width_landmarks]),
         "feature_mean": _wrapped(f"{value:.17g}" for value in answering.feature_mean),
-        "hidden_weights": _rows(stacked.hidden_weights.T),
-        "hidden_bias": _floats(stacked.hidden_bias),
+        "hidden_weights": _rows(layers.hidden_weights.T),
+        "hidden_bias": _floats(layers.hidden_bias),
         "first_hidden": _wrapped(str(first) for first, _ in runs),
-        "first_connection": _wrapped(map(str, np.cumsum([0, *connection_counts]))),
-        "output_weights": _floats(connections),
-        "output_bias": _floats(stacked.output_bias),
+        "first_connection": _wrapped(map(str, np.cumsum([0, *(weights.size for _, weights in runs)]))),
+        "output_weights": _floats(np.concatenate([weights.ravel() for _, weights in runs])),
+        "output_bias": _floats(layers.output_bias),
     }
-
-
-def run_of(row: np.ndarray) -> tuple[int, np.ndarray]:
-    """First index and values of the shortest run that holds all of a row that is not zero."""
-    used = np.flatnonzero(row)
-    if len(used) == 0:
-        return 0, row[:0]
-    return int(used[0]), row[used[0] : used[-1] + 1]
 
 
 def _floats(values: np.ndarray) -> str:

@@ -14,13 +14,17 @@ from textwrap import indent
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
-from regress.exporters.answering import Answering
-from regress.exporters.c_source import comment, run_of
+from regress.exporters.answering import Answering, runs_of
+from regress.exporters.c_source import comment
 from regress.exporters.formula import Formula
+from regress.exporters.halves import Halves, halves_of
 
 LINE_WIDTH = 110
 
 _PREDICT = "export function predict(points, weights = new Float32Array(names.length))"
+_DENOISED = "signal.length + noiseCount"
+_FOLDED = "share.length"
+_SUMS = "const left = new Float64Array(unitCount);\nconst turned = new Float64Array(unitCount);\n"
 
 
 def export_javascript(formula: Formula, name: str) -> dict[str, bytes]:
@@ -58,13 +62,9 @@ def export_javascript(formula: Formula, name: str) -> dict[str, bytes]:
 
 def _set_of(answering: Answering, signature: str, neutral: str | None = None) -> tuple[str, str]:
     """Tables and functions of one set of networks."""
-    measures = answering.measures
-    words = _numbers(answering) | {
-        "signature": signature,
-        "neutral": neutral or "",
-        "aligned": "",
-        "edge_table": "",
-    }
+    measures, halves = answering.measures, halves_of(answering)
+    words = _numbers(answering, halves)
+    words |= {"signature": signature, "neutral": neutral or "", "aligned": "", "edge_table": ""}
     if measures.of_points:
         measuring = ["points.js"]
     else:
@@ -73,6 +73,14 @@ def _set_of(answering: Answering, signature: str, neutral: str | None = None) ->
         measuring = ["lengths.js"] if neutral is None else ["lengths.js", "measured_lengths.js"]
     inline = not measures.of_points and neutral is None
     words["measured"] = _filled("from_lengths.js" if inline else "from_measured.js", words)
+    folded = halves is not None and halves.fold is not None
+    words["input_tables"] = _filled("fold.js" if folded else "denoising.js", words)
+    words["inputs"] = _filled("folded.js" if folded else "denoised.js", words)
+    words["prepare"] = "folded" if folded else "denoised"
+    words["places"] = f"const places = new Float64Array({_FOLDED if folded else _DENOISED});\n"
+    words["sums"] = "" if halves is None else _SUMS
+    words["hidden"] = _filled("hidden.js" if halves is None else "hidden_halves.js", words)
+    words["layers"] = _filled("layers.js" if halves is None else "layers_halves.js", words)
     return _filled("tables.js", words), "".join(_filled(text, words) for text in ("answer.js", *measuring))
 
 
@@ -81,10 +89,12 @@ def _filled(template: str, words: dict[str, str]) -> str:
     return Template(text).substitute(words)
 
 
-def _numbers(answering: Answering) -> dict[str, str]:
+def _numbers(answering: Answering, halves: Halves | None) -> dict[str, str]:
     """What templates say of one set of networks and of what it sees, by name."""
-    measures, denoising, stacked = answering.measures, answering.denoising, answering.stacked()
-    runs = [run_of(row) for row in stacked.output_weights]
+    measures, denoising = answering.measures, answering.denoising if halves is None else halves.denoising
+    layers = answering.stacked() if halves is None else halves
+    runs = runs_of(layers.output_weights, sides=1 if halves is None else 2)
+    fold = None if halves is None else halves.fold
     return {
         "depth": _listed(measures.depth.tolist()),
         "turn": _listed(measures.turn.tolist()),
@@ -99,12 +109,16 @@ def _numbers(answering: Answering) -> dict[str, str]:
         "surplus": "[]" if denoising is None else _listed(denoising.surplus.tolist()),
         "usual": "0" if denoising is None else json.dumps(float(denoising.usual)),
         "least": "0" if denoising is None else json.dumps(float(denoising.least)),
-        "hidden_weights": _floats(stacked.hidden_weights.T),
-        "hidden_bias": _floats(stacked.hidden_bias),
+        "even_count": str(0 if halves is None else halves.even),
+        "fold_first": "[]" if fold is None else _listed(fold.first.tolist()),
+        "fold_second": "[]" if fold is None else _listed(fold.second.tolist()),
+        "fold_share": "[]" if fold is None else _listed(fold.share.tolist()),
+        "hidden_weights": _floats(layers.hidden_weights.T),
+        "hidden_bias": _floats(layers.hidden_bias),
         "first_hidden": _listed([first for first, _ in runs]),
-        "first_connection": _listed(np.cumsum([0, *(len(weights) for _, weights in runs)]).tolist()),
-        "output_weights": _floats(np.concatenate([weights for _, weights in runs])),
-        "output_bias": _floats(stacked.output_bias),
+        "first_connection": _listed(np.cumsum([0, *(weights.size for _, weights in runs)]).tolist()),
+        "output_weights": _floats(np.concatenate([weights.ravel() for _, weights in runs])),
+        "output_bias": _floats(layers.output_bias),
     }
 
 

@@ -16,7 +16,7 @@ from regress.runtime.features import (
     load_reference_shape,
     mirrored_edges,
 )
-from regress.runtime.model import Calibrated, Normalisation
+from regress.runtime.model import Calibrated, Normalisation, symmetrised
 from regress.runtime.networks import FoldedNetworks
 from regress.targets import NETWORKS
 from tests.regress.drawn import drawn_face, drawn_faces
@@ -31,21 +31,26 @@ def random_model(
     turned: bool = True,
     denoised: bool = False,
     calibrated: str | None = None,
+    symmetric: bool = False,
 ) -> Model:
     """A model whose hidden units and outputs swing as trained ones do: half of the outputs hit a bound.
 
-    ``calibrated`` is the alignment of its networks that compare with a neutral face; None: it has none.
+    ``calibrated`` is the alignment of its networks that compare with a neutral face; None: it has none. A symmetric one
+    is averaged with its mirror image.
     """
     features = random_features(rng, alignment, turned)
     drawn = drawn_faces(rng, 500)
-    networks, normalisation = random_networks(rng, features, drawn, denoised=denoised)
+    swing = 0.5 if symmetric else 0.3  # a mean of two swings less
+    networks, normalisation = random_networks(rng, features, drawn, denoised=denoised, swing=swing)
     beside = None
     if calibrated is not None:
         compared = random_features(rng, calibrated, turned) if calibrated != alignment else features
         rest = drawn_faces(rng, 1) if calibrated != alignment else drawn[:1]
-        others, scores = random_networks(rng, compared, drawn, denoised=calibrated == alignment, neutral=rest)
+        others, scores = random_networks(
+            rng, compared, drawn, denoised=calibrated == alignment, swing=swing, neutral=rest
+        )
         beside = Calibrated(features=compared, normalisation=scores, networks=others)
-    return Model(
+    model = Model(
         recipe="paper",
         table=NETWORKS,
         features=features,
@@ -53,6 +58,7 @@ def random_model(
         networks=networks,
         calibrated=beside,
     )
+    return symmetrised(model) if symmetric else model
 
 
 def random_features(rng: np.random.Generator, alignment: str, turned: bool) -> Features:
@@ -73,6 +79,7 @@ def random_networks(
     drawn: np.ndarray,
     *,
     denoised: bool,
+    swing: float,
     neutral: np.ndarray | None = None,
 ) -> tuple[FoldedNetworks, Normalisation]:
     """Networks of realistic size that act on the features of faces (n, 68, 2), or on these less the neutral face's."""
@@ -97,7 +104,7 @@ def random_networks(
     networks = FoldedNetworks(
         w1=w1,
         b1=rng.normal(size=hidden_count) - w1 @ mean,
-        w2=rng.normal(size=(output_count, HIDDEN)) * 0.3,
+        w2=rng.normal(size=(output_count, HIDDEN)) * swing,
         b2=rng.uniform(0, 0.5, size=output_count),
         network_of_output=network_of_output,
         denoising=denoising,
@@ -116,11 +123,11 @@ MODELS = {
     "turn": {},
     "affine": {"turned": False},
     "none": {"alignment": "none", "turned": False},
-    "points": {"alignment": "stable", "turned": False},
-    "points turned": {"alignment": "stable"},
-    "lengths and points": {"denoised": True, "calibrated": "stable"},
-    "lengths twice": {"turned": False, "calibrated": "affine"},
-    "lengths and points, left as they are": {"alignment": "none", "turned": False, "calibrated": "stable"},
+    "points": {"alignment": "stable"},
+    "symmetric": {"symmetric": True},
+    "lengths and points": {"turned": False, "calibrated": "stable"},
+    "lengths twice": {"turned": False, "calibrated": "affine", "symmetric": True},
+    "symmetric lengths and points": {"denoised": True, "calibrated": "stable", "symmetric": True},
 }
 """Every kind of networks that a recipe, or a neutral face given at export, can make."""
 

@@ -21,6 +21,11 @@ def read_json(paths: tuple[Path, ...]):
     """Follow the five steps that ``json_text`` documents, in float64."""
     document = json.loads(paths[0].read_text())
     assert (document["format"], document["version"]) == ("regress-networks", 5)
+    sets = [document, *([document["calibrated"]] if "calibrated" in document else [])]
+    tables = [network for known in sets for network in known["networks"]]
+    for numbers in tables + [known["denoising"] for known in sets if known["denoising"]]:
+        # once, and not for each face: lists are slow
+        numbers |= {key: np.array(value) for key, value in numbers.items() if key not in ("name", "outputs")}
 
     def features(known: dict, face: np.ndarray) -> np.ndarray:
         face = face - np.outer(known["depth"], np.array(known["turn"]) @ face)

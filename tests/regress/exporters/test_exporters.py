@@ -1,5 +1,6 @@
 """Every exporter in the table against ``Model.predict``, which is the reference."""
 
+import hashlib
 import shutil
 import subprocess
 
@@ -13,11 +14,17 @@ import pytest
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError, OutputError
 from regress.exporters import EXPORTERS, export_model
-from regress.exporters.formula import formula_of
+from regress.exporters.answering import Answering, FormulaNetwork
+from regress.exporters.c_source import export_c
+from regress.exporters.formula import FORMAT_VERSION, Formula, formula_of
+from regress.exporters.halves import STEP, halves_of
+from regress.exporters.javascript import export_javascript
+from regress.exporters.json_text import export_json
+from regress.exporters.measures import Measures
 from regress.exporters.onnx_graph import OPERATORS, OPSET, build_graph, build_networks_graph
 from regress.learning.training import Recipe, train
 from tests.regress.drawn import drawn_dataset, drawn_faces
-from tests.regress.exporters.conftest import random_model
+from tests.regress.exporters.conftest import MODELS, random_model
 from tests.regress.exporters.readers import READERS
 
 AGREEMENT = 1e-4
@@ -144,6 +151,72 @@ def test_the_shipped_model_agrees(chosen, shipped_model, tmp_path):
     noise = rng.normal(size=(300, 68, 2)) * 0.01
     faces = ((shipped_model.features.mean_shape + noise) * 300 + 900).astype(np.float32)
     np.testing.assert_allclose(predict(faces), shipped_model.predict(faces), atol=AGREEMENT, rtol=0)
+
+
+@pytest.mark.parametrize("kind", MODELS)
+def test_units_that_come_in_pairs_are_written_once(kind):
+    model = random_model(np.random.default_rng(5), **MODELS[kind])
+    formula = formula_of(model)
+    for answering in filter(None, (formula.alone, formula.calibrated)):
+        halves = halves_of(answering)
+        assert (halves is not None) == bool(MODELS[kind].get("symmetric"))
+        if halves is not None:
+            assert len(halves.hidden_weights) == len(answering.stacked().hidden_weights) / 2
+            inputs = (
+                answering.measures.count if answering.denoising is None else len(answering.denoising.axes)
+            )
+            assert halves.hidden_weights.shape[1] < inputs + 2 * STEP
+            assert halves.hidden_weights.shape[1] % STEP == halves.even % STEP == 0
+
+
+def tiny_formula() -> Formula:
+    """A formula whose numbers are whole and the same on every machine, as the paper's recipe makes: no neutral face."""
+    network = FormulaNetwork(
+        name="mouth.jaw_open",
+        outputs=("jawOpen", "mouthClose"),
+        hidden_weights=np.array([[1.0, 2.0], [3.0, -4.0], [5.0, 6.5]]),
+        hidden_bias=np.array([0.5, 0.25, -1.0]),
+        output_weights=np.array([[1.0, 0.0, 2.0], [0.0, 0.5, 0.0]]),
+        output_bias=np.array([0.125, -0.5]),
+    )
+    measures = Measures(
+        depth=np.zeros(68),
+        turn=np.zeros(68),
+        alignment="affine",
+        anchors=np.arange(3),
+        reference=np.array([[1.0, 0.0], [-1.0, 0.5], [0.0, -0.5]]),
+        edges=np.array([[0, 1], [36, 45]]),
+        width_landmarks=np.array([0, 16]),
+    )
+    alone = Answering(
+        measures=measures, feature_mean=np.array([0.5, 0.25]), denoising=None, networks=(network,)
+    )
+    about = {
+        "recipe": "paper",
+        "dataset": "none",
+        "dataset_sha256": "0",
+        "licence": "CC0-1.0",
+        "program": "regress",
+    }
+    return Formula(alone=alone, calibrated=None, about=about)
+
+
+PAPER = {
+    "face.c": "0dfc6f8d5043fa0cc5569e97c92188376433969f1cc7e7a7bec434000a85b046",
+    "face.h": "a004f0cef493a05f4ea89ed71394779720c7b99abd6d66817c832d05b25172da",
+    "face.js": "1e6354c97ccde5bbc059cecfd52de888ed16ffd06a822e5bb12a1148abf88e3e",
+    "face.d.ts": "dc4faf26e758fcb51b3805c07af21b8801282a1029b1607378e03288bca1b487",
+    "face.json": "978bcd4c2cf64433597009a4fd2ca97573e7d4f924e63ba6ecf0c112fb270e02",
+}
+"""SHA-256 by file, JSON's without its version: what readers of models of the paper's kind were written for."""
+
+
+def test_exports_without_a_neutral_face_are_what_they_were():
+    made = {}
+    for export in (export_c, export_javascript, export_json):
+        made |= export(tiny_formula(), "face")
+    made["face.json"] = made["face.json"].replace(f'"version":{FORMAT_VERSION},'.encode(), b"")
+    assert {name: hashlib.sha256(content).hexdigest() for name, content in made.items()} == PAPER
 
 
 def test_onnx_is_one_plain_graph(model):

@@ -56,7 +56,7 @@ def test_a_neutral_face_makes_a_difference(calibratable, faces):
     for first, second in ((alone, one), (alone, other), (one, other)):
         assert np.mean(np.abs(first - second)) > 0.05
     assert 0.1 < np.mean(one == 0) < 0.6
-    assert np.median(one.std(axis=0)) > 0.05
+    assert np.max(one.std(axis=0)) > 0.2
 
 
 @pytest.mark.parametrize("chosen", FORMATS)

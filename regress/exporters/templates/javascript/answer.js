@@ -1,36 +1,5 @@
 $signature {
-${measured}  const inputs = noiseCount ? denoised() : features;
-  hidden.set(hiddenBias);
-  for (let i = 0, k = 0; i < inputs.length; i++) {
-    const input = inputs[i];
-    for (let j = 0; j < hiddenCount; j++) hidden[j] += hiddenWeights[k++] * input;
-  }
-  for (let j = 0; j < hiddenCount; j++) hidden[j] = Math.tanh(hidden[j]);
-  for (let i = 0; i < names.length; i++) {
-    let sum = outputBias[i];
-    for (let j = firstHidden[i], k = firstConnection[i]; k < firstConnection[i + 1]; j++, k++) {
-      sum += outputWeights[k] * hidden[j];
-    }
-    weights[i] = Math.min(Math.max(sum, 0), 1) + missing;
-  }
-  return weights;
-}
-
-function denoised() {
-  const count = signal.length;
-  let noise = 0, excess = -usual;
-  for (let j = 0, k = 0; j < places.length; j++) {
-    places[j] = 0;
-    for (let i = 0; i < featureCount; i++) places[j] += axes[k++] * features[i];
-    if (j < count) excess += surplus[j] * places[j] * places[j];
-    else noise += (places[j] * places[j]) / noiseCount;
-  }
-  noise = Math.max(noise, excess) + least;
-  for (let j = 0; j < count; j++) places[j] = ((places[j] + offset[j]) * signal[j]) / (signal[j] + noise);
-  return places.subarray(0, count);
-}
-
-function flatten(points) {
+${measured}${layers}${inputs}function flatten(points) {
   if (points.length === 136) {
     for (let i = 0; i < 136; i++) flat[i] = points[i];
   } else if (points.length === 68) {
