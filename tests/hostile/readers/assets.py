@@ -65,6 +65,7 @@ READERS = (
     ),
     Reader(
         name="generate",
+        names=("render.headset",),
         command="facegen generate in/spec.toml --out out/data --dry-run",
         make=_spec("tiny"),
         target="spec.toml",
