@@ -1,4 +1,4 @@
-"""The examples of docs/examples, run as they stand on what `regress export` writes."""
+"""The examples of docs/examples, and what docs/using-a-model.md says, run on what `regress export` writes."""
 
 import json
 import re
@@ -16,6 +16,7 @@ from tests.regress.drawn import drawn_faces
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples"
 NEUTRAL, *_ = drawn_faces(np.random.default_rng(13), 1).astype(np.float32).astype(np.float64)
+PAGE = (EXAMPLES.parent / "using-a-model.md").read_text(encoding="utf-8")
 FACES = drawn_faces(np.random.default_rng(12), 3).astype(np.float32).astype(np.float64)
 
 
@@ -103,4 +104,57 @@ def test_the_web_page(folder: Path, quick_model, neutral):
     assert [name for name, _ in rows] == list(BLENDSHAPES)
     np.testing.assert_allclose(
         [float(weight) for _, weight in rows], _expected(quick_model, neutral)[0], atol=1e-3
+    )
+
+
+def _snippet(language: str, heading: str) -> str:
+    """The first of a section of the page."""
+    section = PAGE.partition(f"\n## {heading}\n")[2].partition("\n## ")[0]
+    return section.partition(f"```{language}\n")[2].partition("```")[0]
+
+
+def test_the_page_on_onnx(folder: Path, quick_model, neutral, monkeypatch):
+    monkeypatch.chdir(folder)
+    exports = folder / "models" / "default" / "exports"
+    exports.mkdir(parents=True)
+    shutil.copy(folder / "face.onnx", exports)
+    np.save(folder / "neutral.npy", neutral)
+    given = {"points": FACES}
+    exec(_snippet("python", "ONNX"), given)
+    np.testing.assert_allclose(given["weights"], _expected(quick_model, neutral), atol=1e-4)
+    assert json.loads(given["names"]) == list(BLENDSHAPES)
+
+
+def test_the_page_on_javascript(folder: Path, quick_model, neutral):
+    _needs("node")
+    (folder / "package.json").write_text('{"type": "module"}')
+    given = {"points": FACES[0].tolist(), "neutral": neutral.ravel().tolist()}
+    words = "".join(f"const {name} = {json.dumps(values)};\n" for name, values in given.items())
+    show = "console.log(JSON.stringify(Array.from(weights)));"
+    (folder / "snippet.js").write_text(words + _snippet("js", "JavaScript") + show)
+    shown, weights = _run(folder, "node", "snippet.js").splitlines()
+    np.testing.assert_allclose(json.loads(weights), _expected(quick_model, neutral)[0], atol=1e-4)
+    assert shown.split()[0] == "jawOpen"
+
+
+@pytest.mark.compiler
+def test_the_page_on_c(folder: Path, quick_model, neutral):
+    _needs("cc")
+    arrays, player, *calls = _snippet("c", "C").strip().splitlines()
+    (folder / "snippet.c").write_text(
+        '#include <stdio.h>\n#include "face.h"\n'
+        f"{arrays}\n{player}\n"
+        "static void read_face(float face[FACE_POINTS][2]) {\n"
+        "  for (int i = 0; i < FACE_POINTS; i++)\n"
+        '    if (scanf("%f %f", &face[i][0], &face[i][1]) != 2) face[i][0] = 0;\n'
+        "}\n"
+        "int main(void) {\n"
+        "  read_face(neutral); read_face(points);\n" + "\n".join(calls) + "\n"
+        '  for (int i = 0; i < FACE_WEIGHTS; i++) printf("%.6f\\n", weights[i]);\n'
+        "  return 0;\n}\n"
+    )
+    _run(folder, "cc", "-std=c99", "-O2", "-Wall", "-Werror", "snippet.c", "face.c", "-lm", "-o", "snippet")
+    out = _run(folder, "./snippet", given=_lines(np.stack([neutral, FACES[0]])))
+    np.testing.assert_allclose(
+        np.array(out.split(), dtype=float), _expected(quick_model, neutral)[0], atol=1e-4
     )

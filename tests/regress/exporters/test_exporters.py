@@ -258,18 +258,20 @@ def test_onnx_runs_on_one_face(exported, faces):
 
 
 @pytest.mark.compiler
-def test_c_header_serves_c_plus_plus(tmp_path):
+@pytest.mark.parametrize("calibrated", [None, "stable"], ids=["a face alone", "players"])
+def test_c_header_serves_c_plus_plus(calibrated, tmp_path):
     if shutil.which("c++") is None:
         pytest.skip("no C++ compiler (c++) on this machine")
-    model = random_model(np.random.default_rng(9))
+    model = random_model(np.random.default_rng(9), calibrated=calibrated)
     header, source = export_model(model, tmp_path, name="face", formats=["c"])
+    player, given = ("", "") if calibrated is None else ("face_player player = {};", "&player, ")
+    if calibrated is not None:
+        player += " face_neutral(&player, points);"
     program = tmp_path / "main.cpp"
     program.write_text(
         f'#include "{header.name}"\n#include <cstdio>\n'
-        "int main() { float points[68][2] = {{0}}, weights[face_WEIGHTS_OF()];\n"
-        "  face_predict(points, weights); std::puts(face_names[17]); }\n".replace(
-            "face_WEIGHTS_OF()", "FACE_WEIGHTS"
-        )
+        "int main() { float points[68][2] = {{0}}, weights[FACE_WEIGHTS];\n"
+        f"  {player} face_predict({given}points, weights); std::puts(face_names[17]); }}\n"
     )
     objects = tmp_path / "face.o"
     subprocess.run(["cc", "-std=c99", "-c", str(source), "-o", str(objects)], check=True)
