@@ -233,3 +233,28 @@ def test_who_keeps_guesses(run, quick_model_folder: Path, tmp_path: Path):
     changed = {name for name, cell in tables[0].items() if cell != tables[1][name]}
     assert changed <= {BLENDSHAPES[index] for index in LOOKS}
     assert all(float(tables[0][BLENDSHAPES[index]]) == 0 for index in LOOKS)
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e14, 1e-13])
+@pytest.mark.parametrize("iris", [0.0, np.nan, np.inf, 1e300, -1.7e308])
+@pytest.mark.parametrize(
+    "camera",
+    [
+        CameraSettings(),
+        CameraSettings(picture_px=(1, 1), fov_deg=150.0),
+        CameraSettings(focal_px=1.0),
+        CameraSettings(focal_px=1e6),
+    ],
+)
+def test_irises_and_cameras_that_nobody_has(scale: float, iris: float, camera: CameraSettings):
+    """Weights stay numbers, and nothing is computed that warns."""
+    face, _, _ = seen(np.zeros(3), np.zeros(4))
+    irises = np.full((2, 2), iris)
+    for settings in (
+        HeadSettings(camera=camera),
+        HeadSettings(camera=camera, neutral=scale * face[None], neutral_irises=irises[None]),
+    ):
+        sample = Sample(points=scale * face, irises=irises, weights=np.zeros(52))
+        answer = Looks(fade=True).step(HeadPose(settings).step(sample))
+        assert np.isfinite(answer.weights).all()
+        assert np.isfinite(answer.gaze).all()

@@ -31,6 +31,9 @@ _CORNERS_M = np.array([[0.0315, -0.0033, 0.0119], [-0.0315, -0.0033, 0.0119]])
 _BALL_M = np.array([[-0.0002, 0.0033, -0.0073], [0.0002, 0.0033, -0.0073]])
 """From there to the middle of an eyeball of 12 mm whose front is where the mean face's is."""
 
+_FARTHEST_PX = 1e15
+"""Of an iris, as of landmarks (regress.runtime.inputs.faults)."""
+
 FURTHEST_RAD = np.radians(45.0)
 """Eyes turn no further."""
 
@@ -67,14 +70,17 @@ def own_eyes(faces: np.ndarray, irises: np.ndarray, poses: HeadPoses, camera: Fa
     ----------
     faces : (m, 68, 2) float64
     irises : (m, 2, 2) float64
-        Centres, the subject's left eye first; one face at least must have both.
+        Centres, the subject's left eye first. Where no face has both, the eyes are the mean person's.
     """
-    ball, ray = _seen(faces, irises, poses, camera, MEAN_EYES)
-    depth = (ball[..., 2] + REACH_M)[..., None]
-    ahead = ray.start + ray.along * ((depth - ray.start[..., 2:]) / ray.along[..., 2:])
-    beside = np.median((ahead - ball)[np.isfinite(irises).all(axis=(1, 2))], axis=0)
-    beside[:, 2] = 0.0
-    return Eyes(ball_m=MEAN_EYES.ball_m + beside, opening=np.median(openings(faces), axis=0))
+    with np.errstate(all="ignore"):  # rays of irises that are not known
+        ball, ray = _seen(faces, _known(irises), poses, camera, MEAN_EYES)
+        depth = (ball[..., 2] + REACH_M)[..., None]
+        beside = ray.start + ray.along * ((depth - ray.start[..., 2:]) / ray.along[..., 2:]) - ball
+    beside = beside[np.isfinite(beside).all(axis=(1, 2))]
+    if not len(beside):
+        return MEAN_EYES
+    shift = np.median(beside, axis=0) * [1.0, 1.0, 0.0]
+    return Eyes(ball_m=MEAN_EYES.ball_m + shift, opening=np.median(openings(faces), axis=0))
 
 
 def gaze_angles(
@@ -94,13 +100,17 @@ def gaze_angles(
     (n, 2, 2) float64
         Radians; yaw to the subject's left, pitch upwards. NaN where an iris is not known.
     """
-    ball, ray = _seen(faces, irises, poses, camera, eyes)
     with np.errstate(all="ignore"):  # what cannot be computed is NaN
-        angles = _angles(ball, ray)
+        angles = _angles(*_seen(faces, _known(irises), poses, camera, eyes))
     trust = np.clip((openings(faces) / eyes.opening - _SHUT) / (_OPEN - _SHUT), 0, 1)
     others = (1 - trust) * trust[:, ::-1]
     shared = trust[..., None] * angles + others[..., None] * angles[:, ::-1]
     return shared / np.maximum(trust + others, 0.5)[..., None]
+
+
+def _known(irises: np.ndarray) -> np.ndarray:
+    """Irises with NaN for what is too far away to be computed with."""
+    return np.where(np.abs(irises) < _FARTHEST_PX, irises, np.nan)
 
 
 def _angles(ball: np.ndarray, ray: "_Rays") -> np.ndarray:

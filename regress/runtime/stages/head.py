@@ -55,9 +55,9 @@ class HeadPose(BatchStage):
             faces = settings.neutral[whole]
             camera = settings.camera.camera(faces[0], self._shape)
             self._shape = own_shape(faces, camera, self._shape)
-            irises = None if settings.neutral_irises is None else settings.neutral_irises[whole]
-            if irises is not None and np.isfinite(irises).all(axis=(1, 2)).any():
-                self._eyes = own_eyes(faces, irises, fit_poses(faces, camera, self._shape), camera)
+            if settings.neutral_irises is not None:
+                poses = fit_poses(faces, camera, self._shape)
+                self._eyes = own_eyes(faces, settings.neutral_irises[whole], poses, camera)
 
     def batch(self, samples: Sequence[Sample]) -> list[Sample]:
         """Samples with head (6,), and gaze (4,) where irises are given; NaN where a point is missing."""
