@@ -14,6 +14,7 @@ public class FaceWeights : MonoBehaviour
     int[] shapes;
 
     // The person's neutral face, 136 numbers as points; zeros where it is not known. One component for each player.
+    // Models of the paper's recipe, and exports with --neutral, have no such input.
     float[] neutral = new float[136];
 
     void Start()

@@ -101,9 +101,8 @@ def _set_of(
     words["prepare"] = "fold" if folded else "denoise"
     words["hidden"] = _filled("hidden.c" if halves is None else "hidden_halves.c", words)
     words["layers"] = _filled("layers.c" if halves is None else "layers_halves.c", words)
-    words["sums"] = (
-        "" if halves is None else f", left[{of.upper()}UNITS] = {{0}}, turned[{of.upper()}UNITS] = {{0}}"
-    )
+    sums = ";\n    float left[${OF}UNITS] = {0}, turned[${OF}UNITS] = {0}"
+    words["sums"] = "" if halves is None else Template(sums).substitute(words)
     return {
         "sizes": _filled("sizes.c", words),
         "tables": _filled("tables.c", words),
