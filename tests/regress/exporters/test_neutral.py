@@ -3,6 +3,7 @@
 import json
 import re
 import subprocess
+from pathlib import Path
 
 import hypothesis
 import hypothesis.strategies as st
@@ -237,9 +238,9 @@ def test_agrees_on_the_test_split_after_training(chosen, trained, tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("chosen", FORMATS)
-def test_the_shipped_model_agrees_on_its_whole_test_split(chosen, shipped_model, root, tmp_path):
+def test_the_shipped_model_agrees_on_its_whole_test_split(chosen, shipped_model, tmp_path):
     skip_without_tool(chosen)
-    folder = root / "datasets" / "out" / "default"
+    folder = Path(__file__).resolve().parents[3] / "datasets" / "out" / "default"
     if not (folder / "dataset.json").is_file():
         pytest.skip(f"no dataset in {folder}: `make dataset` renders it")
     predict, _ = READERS[chosen](export_model(shipped_model, tmp_path, name="face", formats=[chosen]))
