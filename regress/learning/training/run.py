@@ -63,11 +63,11 @@ def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Prog
         reference_sha256=reference.sha256,
         depth=depths_of(reference) if recipe.undo_turn else None,
     )
-    alone = _fit_set(dataset, features, recipe, calibrated=False, seed=seed, progress=progress)
+    alone = fit_set(dataset, features, recipe, calibrated=False, seed=seed, progress=progress)
     compared = None
-    beside = _beside_neutral(features, recipe)
+    beside = beside_neutral(features, recipe)
     if recipe.calibrated and dataset.has_neutral_frames:
-        compared = _fit_set(dataset, beside, recipe, calibrated=True, seed=seed, progress=progress)
+        compared = fit_set(dataset, beside, recipe, calibrated=True, seed=seed, progress=progress)
     model = Model(
         recipe=recipe.name,
         table=NETWORKS,
@@ -90,7 +90,7 @@ def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Prog
     return dataclasses.replace(model, record=record)
 
 
-def _beside_neutral(features: Features, recipe: Recipe) -> Features:
+def beside_neutral(features: Features, recipe: Recipe) -> Features:
     """What the networks see that compare with a neutral frame."""
     if recipe.calibrated_alignment != "stable":
         return dataclasses.replace(features, alignment=recipe.calibrated_alignment)
@@ -101,13 +101,25 @@ def _beside_neutral(features: Features, recipe: Recipe) -> Features:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _FittedSet:
+class FittedSet:
+    """One set of networks, and what it was fitted to.
+
+    Parameters
+    ----------
+    prepared
+        Training data, standardised.
+    fit
+        How the fit went.
+    networks
+        Folded, on raw features or their differences.
+    """
+
     prepared: Prepared
     fit: Fit
     networks: FoldedNetworks
 
 
-def _fit_set(
+def fit_set(
     dataset: KeypointDataset,
     features: Features,
     recipe: Recipe,
@@ -115,7 +127,7 @@ def _fit_set(
     calibrated: bool,
     seed: int,
     progress: Progress | None,
-) -> _FittedSet:
+) -> FittedSet:
     """One set of 31 networks: for a frame alone, or beside a neutral one."""
     prepared = prepare(
         dataset,
@@ -149,4 +161,4 @@ def _fit_set(
         networks = dataclasses.replace(
             networks, w1=networks.w1 @ prepared.denoising.back.T, denoising=prepared.denoising
         )
-    return _FittedSet(prepared=prepared, fit=fit, networks=networks)
+    return FittedSet(prepared=prepared, fit=fit, networks=networks)
