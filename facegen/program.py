@@ -207,7 +207,9 @@ def _misused(app: "typer.Typer", error: Any) -> int:
     if type(error).__name__ == "NoArgsIsHelpError":
         error.show()
     else:
-        say(f"{app.info.name}: {error.format_message().rstrip('.')}; see {_command(app)} --help")
+        # Typer's copy of click puts pydantic's words before its own
+        message = error.format_message().replace("Value error, ", "").rstrip(".")
+        say(f"{app.info.name}: {message}; see {_command(app)} --help")
     return InputError.exit_code
 
 

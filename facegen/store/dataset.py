@@ -5,9 +5,10 @@ import importlib.metadata
 import json
 import os
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -28,6 +29,8 @@ from facegen.store.folder import DatasetFolder, commit_file, shard_samples, writ
 from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
 from facegen.store.sample import read_sample
 from facegen.store.stage import staging
+
+_Asset = TypeVar("_Asset")
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
 
@@ -151,11 +154,9 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
     InputError
         If the rig, the headset or the recording is missing or damaged, or the pictures get too large.
     """
-    plan, rig = plan_dataset(spec), load_rig(spec.rig)
-    try:
-        headset = load_headset(spec.render.headset)
-    except MissingAsset as error:
-        raise MissingAsset(f"render.headset: {error}") from None
+    plan = plan_dataset(spec)
+    rig = _asset("rig", load_rig, spec.rig)
+    headset = _asset("render.headset", load_headset, spec.render.headset)
     assets = {
         "rig": rig.sha256,
         "headset": _content_sha256(TypeAdapter(Headset).dump_python(headset, mode="json")),
@@ -169,6 +170,14 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
         headset=_scaled(headset, spec.render.size_px),
         hash=spec_hash(spec, asset_sha256=assets),
     )
+
+
+def _asset(key: str, load: Callable[[str], _Asset], name: str) -> _Asset:
+    """What a spec names; where there is no such thing, the key begins the sentence."""
+    try:
+        return load(name)
+    except MissingAsset as error:
+        raise MissingAsset(f"{key}: {error}") from None
 
 
 def begin(dataset: Dataset) -> None:

@@ -238,3 +238,9 @@ def test_a_listener_who_has_gone_stops_no_work(quick_model_folder: Path, points_
     process.stderr = None
     out, _ = process.communicate(timeout=60)
     assert (process.returncode, len(out.splitlines())) == (0, 6)
+
+
+def test_a_word_that_an_option_does_not_know_is_told_with_those_it_knows(run, tmp_path):
+    code, _, err = run("predict", tmp_path / "take.csv", "--format", "xyz")
+    assert code == 2
+    assert err.startswith("regress: Invalid value for '--format': 'xyz' is not one of 'csv', 'livelink'; see")

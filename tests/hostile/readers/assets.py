@@ -65,7 +65,7 @@ READERS = (
     ),
     Reader(
         name="generate",
-        names=("render.headset",),
+        names=("render.headset", "rig: "),
         command="facegen generate in/spec.toml --out out/data --dry-run",
         make=_spec("tiny"),
         target="spec.toml",
@@ -80,7 +80,7 @@ READERS = (
     ),
     Reader(
         name="submit",
-        names=("render.headset",),
+        names=("render.headset", "rig: "),
         command="facegen farm submit in/spec.toml --out out/data --engine slurm --dry-run",
         make=_spec("tiny"),
         target="spec.toml",
