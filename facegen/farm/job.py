@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal, get_args
 
 from pydantic import Field, TypeAdapter, ValidationError
 
@@ -15,7 +15,9 @@ from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
 from facegen.store import DatasetFolder
 
-STEPS = ("generate", "validate", "pack", "train", "export")
+Step = Literal["generate", "validate", "pack", "train", "export"]
+
+STEPS: tuple[Step, ...] = get_args(Step)
 """What a job can do, each after the one before it."""
 
 JOB_NAME = r"^job-[0-9]{3,9}$"
@@ -46,7 +48,7 @@ class Job:
     out: str
     packed: str
     model: str
-    steps: tuple[str, ...]
+    steps: tuple[Step, ...]
     samples: str
     shards: str | None
     chunks: tuple[Chunk, ...]
