@@ -206,7 +206,8 @@ def begin(dataset: Dataset) -> None:
         raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
     with output_errors(folder.path):
         folder.path.mkdir(parents=True, exist_ok=True)
-    table = spec_table(dataset.spec)
+    # before anything lies there: it imports modules, and a stop during imports ends the program at once
+    table, description = spec_table(dataset.spec), _description(dataset)
     with staging(folder, "begin") as stage:
         if dataset.spec.playback is not None:
             shutil.copyfile(dataset.spec.playback.recording, stage / "recording.csv")
@@ -217,7 +218,7 @@ def begin(dataset: Dataset) -> None:
         table["render"]["headset"] = folder.headset_toml.name
         (stage / "spec.toml").write_text(tomli_w.dumps(_without_none(table)), encoding="utf-8")
         commit_file(stage / "spec.toml", folder.spec_toml)
-        write_json(stage / "dataset.json", _description(dataset))
+        write_json(stage / "dataset.json", description)
         commit_file(stage / "dataset.json", folder.dataset_json)
 
 
