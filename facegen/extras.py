@@ -35,6 +35,8 @@ FACTORY = Extra(
 )
 LEARN = Extra(name="learn", modules=frozenset(("jinja2", "onnx", "pyarrow", "scipy", "sklearn")))
 HEADSET = Extra(name="headset", modules=frozenset(("torch",)))
+LIVE = Extra(name="live", modules=frozenset(("aiohttp", "mediapipe", "platformdirs", "pythonosc", "tomli_w")))
+ROOM = Extra(name="room", modules=frozenset(("aiohttp",)))
 
 
 def missing_extra(error: ModuleNotFoundError, command: str, extras: tuple[Extra, ...]) -> str | None:

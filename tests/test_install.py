@@ -27,6 +27,8 @@ ENVIRONMENTS = {
 }
 """Python, and what is asked of NumPy: 1.26 is the newest that Blender's module takes, and 3.13 has none of it."""
 
+PACKAGES = ("facegen", "regress", "track", "room")
+
 AGREEMENT = 1e-5
 """Largest difference of a weight from the recorded one; tables have six decimals."""
 
@@ -35,8 +37,8 @@ RECORDED_EVERY = 10
 
 IMPORT_ALL = """
 import importlib, pkgutil
-import facegen.cli, facegen.formats, facegen.geometry, regress.cli, regress.runtime
-for package in (facegen.cli, facegen.formats, facegen.geometry, regress.cli, regress.runtime):
+import facegen.cli, facegen.formats, facegen.geometry, regress.cli, regress.runtime, room.cli, track.cli
+for package in (facegen.cli, facegen.formats, facegen.geometry, regress.cli, regress.runtime, room.cli, track.cli):
     for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
         importlib.import_module(module.name)
 """
@@ -65,7 +67,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     source, out = (tmp_path_factory.mktemp(name) for name in ("source", "wheel"))
     for name in ("pyproject.toml", "README.md", "LICENSE", "NOTICE"):
         shutil.copy(ROOT / name, source)
-    for name in ("facegen", "regress"):
+    for name in PACKAGES:
         shutil.copytree(ROOT / name, source / name, ignore=shutil.ignore_patterns("__pycache__"))
     command = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", out, source]
     subprocess.run(list(map(str, command)), check=True)
@@ -130,7 +132,7 @@ def test_the_wheel_holds_programs_and_models_and_no_tests(wheel: Path):
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
     folders = {name.split("/")[0] for name in names}
-    assert {name for name in folders if not name.endswith(".dist-info")} == {"facegen", "regress"}
+    assert {name for name in folders if not name.endswith(".dist-info")} == set(PACKAGES)
     for name in ready_made_models():
         assert {f"regress/models/{name}/{file}" for file in ("model.json", "CARD.md")} < set(names)
     assert f"regress/models/{LANDMARKS}/weights.npz" in names
@@ -181,7 +183,7 @@ def test_the_wheel_alone_predicts_from_pictures(installed, tmp_path: Path):
 def test_all_that_runs_imports_and_what_is_absent_is_named(installed, tmp_path: Path):
     done = installed("python", "-c", IMPORT_ALL, cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
-    for program in ("facegen", "regress"):
+    for program in PACKAGES:
         assert installed(program, "--help", cwd=tmp_path).returncode == 0
     lacking = {
         "factory": ("facegen", "generate", ROOT / "datasets" / "tiny.toml", "--out", "data"),

@@ -11,7 +11,9 @@ from facegen.errors import ExitCode
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = (ROOT / "docs" / "operators.md").read_text(encoding="utf-8")
-MODULES = sorted(path for program in ("facegen", "regress") for path in (ROOT / program).rglob("*.py"))
+MODULES = sorted(
+    path for program in ("facegen", "regress", "track", "room") for path in (ROOT / program).rglob("*.py")
+)
 
 WITHIN = {
     "facegen.refusals.MOST_ENTRIES",

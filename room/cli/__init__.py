@@ -1,0 +1,17 @@
+"""The ``room`` command. Only this package prints: results to stdout, talk to stderr."""
+
+from facegen.extras import ROOM
+from facegen.program import program, run
+from room import __version__
+
+app = program(
+    "room",
+    version=__version__,
+    about="People meet as avatars in the browser, with faces, gaze, voice and gestures.",
+    libraries=("aiohttp",),
+)
+
+
+def main() -> None:
+    """Entry point of the console script."""
+    run(app, extras=(ROOM,))

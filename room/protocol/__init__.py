@@ -1,0 +1,1 @@
+"""The wire message that browsers, `track` and the server exchange."""

@@ -1,0 +1,1 @@
+"""The process that people connect to: rooms, keys, the roster, signalling, the page, figures for operators."""

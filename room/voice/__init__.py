@@ -1,0 +1,1 @@
+"""How voices reach each other: by a mesh of peers, or by Janus."""

@@ -1,0 +1,1 @@
+"""Where answers go: avatar programs by their own protocols, files, the page, the room."""

@@ -1,0 +1,27 @@
+"""The one interface of what takes answers."""
+
+from collections.abc import Callable
+
+from regress.runtime.sample import Sample
+
+Datagrams = Callable[[Sample], list[bytes]]
+"""A wire format: what one sample is in it; a sample without weights has datagrams too, if the format can say so."""
+
+
+class Sink:
+    """Takes every answer as it comes; must never wait for a receiver.
+
+    Attributes
+    ----------
+    title
+        What a person calls it: ``"vmc to 127.0.0.1:39539"``.
+    """
+
+    title: str
+
+    def send(self, sample: Sample) -> None:
+        """Hand a sample over; weights (52,) by ARKit's names, time, gaze, head, faults."""
+        raise NotImplementedError
+
+    def close(self) -> None:
+        """Write what is unfinished; a recording appears whole, or not at all."""

@@ -1,0 +1,1 @@
+"""Where pictures come from: webcams, films, folders, addresses; each gives one camera's pictures with their times."""
