@@ -3,6 +3,7 @@
 from facegen.extras import ROOM
 from facegen.program import program, run
 from room import __version__
+from room.cli.vectors import vectors
 
 app = program(
     "room",
@@ -10,6 +11,7 @@ app = program(
     about="People meet as avatars in the browser, with faces, gaze, voice and gestures.",
     libraries=("aiohttp",),
 )
+app.command()(vectors)
 
 
 def main() -> None:

@@ -1,0 +1,64 @@
+"""Packs what a room sends to all, once a tick: the states of those who moved, each behind the person's number.
+
+Little endian::
+
+    at  type  what
+     0  u8    version, 1
+     1  u8    kind, 1
+     2  u16   number of states
+     4  u32   time of the server's clock, 1 ms, wraps
+     8        for each: u16 number of the person (the roster says who), and 85 bytes of `room.protocol.message`
+"""
+
+import struct
+from collections.abc import Mapping
+
+from room.errors import FormatError
+from room.protocol.message import MESSAGE_BYTES, VERSION, check
+
+KIND = 1
+_HEAD = struct.Struct("<BBHI")
+_NUMBER = struct.Struct("<H")
+HEAD_BYTES = _HEAD.size
+ENTRY_BYTES = _NUMBER.size + MESSAGE_BYTES
+
+
+def pack(states: Mapping[int, bytes], *, time_ms: int) -> bytes:
+    """One buffer for all.
+
+    Parameters
+    ----------
+    states
+        Messages that were checked, by the person's number.
+    time_ms
+        Of the server's clock; taken modulo 2**32.
+    """
+    parts = [_HEAD.pack(VERSION, KIND, len(states), time_ms % 2**32)]
+    for number, state in states.items():
+        parts += (_NUMBER.pack(number), state)
+    return b"".join(parts)
+
+
+def unpack(content: bytes) -> tuple[int, dict[int, bytes]]:
+    """Time of the server in ms, and the messages by the person's number.
+
+    Raises
+    ------
+    FormatError
+        If the length does not fit the count, version or kind are others, or a message is refused.
+    """
+    if len(content) < HEAD_BYTES:
+        raise FormatError(f"a tick has at least {HEAD_BYTES} bytes, and this one has {len(content)}")
+    version, kind, count, time_ms = _HEAD.unpack_from(content)
+    if (version, kind) != (VERSION, KIND):
+        raise FormatError(
+            f"a tick of version {VERSION} and kind {KIND} is expected, and this is {version}, {kind}"
+        )
+    if len(content) != HEAD_BYTES + count * ENTRY_BYTES:
+        raise FormatError(f"a tick of {count} states has another length than {len(content)} bytes")
+    states = {}
+    for start in range(HEAD_BYTES, len(content), ENTRY_BYTES):
+        state = content[start + _NUMBER.size : start + ENTRY_BYTES]
+        check(state)
+        states[_NUMBER.unpack_from(content, start)[0]] = state
+    return time_ms, states

@@ -1,0 +1,133 @@
+"""The wire message: the vectors as they are committed, round trips within half a step, and all that is refused."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import room.protocol.vectors
+from room.errors import FormatError
+from room.protocol import MESSAGE_BYTES, Message, check, decode, encode
+from room.protocol.message import FLOOR_STEPS, GAZE_STEPS, METRE_STEPS, TURN_STEPS, UNIT_STEPS, WEIGHT_STEPS
+from room.protocol.tick import pack, unpack
+
+FILE = Path(room.protocol.vectors.__file__).with_name("vectors.json")
+VECTORS = json.loads(FILE.read_text(encoding="utf-8"))
+ROUNDING = 1e-9
+"""What floats lose beside the half step: the largest number, 327.67, has an ulp of 6e-14."""
+
+
+def _named(entries: list[dict]) -> list:
+    return [pytest.param(entry, id=entry["name"]) for entry in entries]
+
+
+def _numbers(fields: dict) -> dict:
+    def number(value):
+        return float(value) if isinstance(value, str) else value
+
+    return {
+        name: tuple(map(number, value)) if isinstance(value, list) else number(value)
+        for name, value in fields.items()
+    }
+
+
+def test_the_file_is_what_the_command_prints():
+    assert FILE.read_text(encoding="utf-8") == room.protocol.vectors.text(), (
+        "run `room vectors > room/protocol/vectors.json`, and read the difference"
+    )
+
+
+@pytest.mark.parametrize("vector", _named(VECTORS["states"]))
+def test_a_state_has_these_bytes_and_reads_back(vector):
+    content = bytes.fromhex(vector["hex"])
+    assert encode(Message(**_numbers(vector["state"]))) == content
+    assert decode(content) == Message(**_numbers(vector["read"]))
+    assert len(content) == MESSAGE_BYTES == 85
+
+
+@pytest.mark.parametrize("vector", _named(VECTORS["refused_states"]))
+def test_a_state_is_refused_before_it_is_sent(vector):
+    with pytest.raises(FormatError):
+        encode(replace(Message(), **_numbers(vector["state"])))
+
+
+@pytest.mark.parametrize("vector", _named(VECTORS["refused_messages"]))
+def test_bytes_are_refused(vector):
+    with pytest.raises(FormatError):
+        decode(bytes.fromhex(vector["hex"]))
+
+
+@pytest.mark.parametrize("vector", _named(VECTORS["ticks"]))
+def test_a_tick_packs_and_unpacks(vector):
+    states = {int(number): bytes.fromhex(content) for number, content in vector["states"].items()}
+    content = bytes.fromhex(vector["hex"])
+    assert pack(states, time_ms=vector["time_ms"]) == content
+    assert unpack(content) == (vector["time_ms"], states)
+    for damaged in (content[:-1], content + b"\0", b"\0" + content[1:], content[:1] + b"\0" + content[2:]):
+        with pytest.raises(FormatError):
+            unpack(damaged)
+
+
+def floats(most: float, count: int) -> st.SearchStrategy[tuple[float, ...]]:
+    return st.tuples(*[st.floats(-most, most)] * count)
+
+
+def _unit(parts: tuple[float, ...]) -> tuple[float, ...]:
+    length = math.hypot(*parts)
+    return tuple(part / length for part in parts)
+
+
+quaternions = floats(1, 4).filter(lambda parts: math.hypot(*parts) > 1e-3).map(_unit)
+messages = st.builds(
+    Message,
+    flags=st.integers(0, 15),
+    sequence=st.integers(0, 2**16 - 1),
+    time_ms=st.integers(0, 2**32 - 1),
+    weights=st.tuples(*[st.floats(0, 1)] * 52),
+    head_m=floats(32.767, 3),
+    rotation=quaternions,
+    gaze=floats(127 / GAZE_STEPS, 4),
+    floor_m=floats(327.67, 2),
+    heading=st.floats(-math.pi, math.pi),
+    animation=st.integers(0, 255),
+)
+STEPS = {
+    "weights": WEIGHT_STEPS,
+    "head_m": METRE_STEPS,
+    "rotation": UNIT_STEPS,
+    "gaze": GAZE_STEPS,
+    "floor_m": FLOOR_STEPS,
+}
+
+
+@given(messages)
+def test_a_round_trip_loses_half_a_step_at_most(message):
+    back = decode(encode(message))
+    for name, steps in STEPS.items():
+        for sent, read in zip(getattr(message, name), getattr(back, name), strict=True):
+            assert abs(sent - read) <= 0.5 / steps + ROUNDING, name
+    turned = math.remainder(message.heading - back.heading, 2 * math.pi)
+    assert abs(turned) <= math.pi / TURN_STEPS + ROUNDING
+    for name in ("flags", "sequence", "time_ms", "animation"):
+        assert getattr(message, name) == getattr(back, name)
+    assert encode(back) == encode(message), "what was read once is sent on unchanged"
+
+
+@given(st.binary(max_size=2 * MESSAGE_BYTES) | st.binary(min_size=MESSAGE_BYTES, max_size=MESSAGE_BYTES))
+def test_any_bytes_are_read_or_refused_by_a_sentence(content):
+    try:
+        check(content)
+    except FormatError:
+        with pytest.raises(FormatError):
+            decode(content)
+    else:
+        decode(content)
+
+
+@given(st.dictionaries(st.integers(0, 2**16 - 1), messages.map(encode), max_size=4), st.integers(0, 2**40))
+def test_a_tick_comes_back(states, time_ms):
+    assert unpack(pack(states, time_ms=time_ms)) == (time_ms % 2**32, states)
