@@ -8,8 +8,24 @@ public class FaceWeights : MonoBehaviour
     public ModelAsset asset;
     public SkinnedMeshRenderer avatar;
 
-    // The order of the export's "names"; the shapes' places in the avatar are looked up once.
-    public string[] names;
+    // The export's order (tests/regress/exporters hold it), and the shapes' places in the avatar, which spells them as
+    // ARKit does, or with a capital as Perfect Sync does, or with _L and _R.
+    static readonly string[] Names =
+    {
+        "eyeBlinkLeft", "eyeLookDownLeft", "eyeLookInLeft", "eyeLookOutLeft", "eyeLookUpLeft",
+        "eyeSquintLeft", "eyeWideLeft", "eyeBlinkRight", "eyeLookDownRight", "eyeLookInRight",
+        "eyeLookOutRight", "eyeLookUpRight", "eyeSquintRight", "eyeWideRight", "jawForward", "jawLeft",
+        "jawRight", "jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthLeft", "mouthRight",
+        "mouthSmileLeft", "mouthSmileRight", "mouthFrownLeft", "mouthFrownRight", "mouthDimpleLeft",
+        "mouthDimpleRight", "mouthStretchLeft", "mouthStretchRight", "mouthRollLower", "mouthRollUpper",
+        "mouthShrugLower", "mouthShrugUpper", "mouthPressLeft", "mouthPressRight", "mouthLowerDownLeft",
+        "mouthLowerDownRight", "mouthUpperUpLeft", "mouthUpperUpRight", "browDownLeft", "browDownRight",
+        "browInnerUp", "browOuterUpLeft", "browOuterUpRight", "cheekPuff", "cheekSquintLeft",
+        "cheekSquintRight", "noseSneerLeft", "noseSneerRight", "tongueOut",
+    };
+    // Share of the newest frame in what is shown: .5 at 30 frames a second smooths without a visible lag.
+    [Range(.05f, 1f)] public float newest = .5f;
+    float[] shown;
     Worker worker;
     int[] shapes;
 
@@ -20,7 +36,20 @@ public class FaceWeights : MonoBehaviour
     void Start()
     {
         worker = new Worker(ModelLoader.Load(asset), BackendType.CPU);
-        shapes = System.Array.ConvertAll(names, avatar.sharedMesh.GetBlendShapeIndex);
+        shapes = System.Array.ConvertAll(Names, IndexOf);
+        shown = new float[Names.Length];
+    }
+
+    int IndexOf(string name)
+    {
+        var sides = name.EndsWith("Left") ? name[..^4] + "_L" : name.EndsWith("Right") ? name[..^5] + "_R" : name;
+        foreach (var spelling in new[] { name, char.ToUpper(name[0]) + name[1..], sides })
+        {
+            int index = avatar.sharedMesh.GetBlendShapeIndex(spelling);
+            if (index >= 0)
+                return index;
+        }
+        return -1;
     }
 
     // Call it with a face at rest, mouth closed and eyes open. One with a missing point is not taken.
@@ -43,7 +72,10 @@ public class FaceWeights : MonoBehaviour
         var weights = (worker.PeekOutput() as Tensor<float>).DownloadToArray();
         for (int i = 0; i < shapes.Length; i++)
             if (shapes[i] >= 0 && !float.IsNaN(weights[i]))
-                avatar.SetBlendShapeWeight(shapes[i], 100f * weights[i]);
+            {
+                shown[i] += newest * (weights[i] - shown[i]);
+                avatar.SetBlendShapeWeight(shapes[i], 100f * shown[i]);
+            }
     }
 
     void OnDestroy() => worker?.Dispose();

@@ -48,9 +48,12 @@ def parse_headset(content: dict, *, source: str) -> Headset:
 def headset_path(name_or_path: str | Path) -> Path:
     """Where the headset's file is: names are looked up in `HEADSET_FOLDER`, what ends in .toml is a path."""
     path = Path(name_or_path)
-    if path.suffix != ".toml":
+    named = path.suffix != ".toml"
+    if named:
         path = HEADSET_FOLDER / f"{name_or_path}.toml"
     if not os.path.isfile(path):  # False for names that no file can have, too
+        if not named:
+            raise MissingAsset(f"{path}: there is no such file; give the path of a headset's .toml file")
         known = ", ".join(list_headsets()) or "none"
         raise MissingAsset(
             f"there is no headset {str(name_or_path)!r}; known are {known}, or give the path of a .toml file"

@@ -73,6 +73,8 @@ def predict_file(
         frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
     if auto_filter and is_film(frames.time_s):
         output = dataclasses.replace(output, filter=DEFAULT_FILTER)
+    if fps is None and (rate := frames_a_second(frames.time_s)) > FILM_FPS[1]:
+        say(f"{landmarks}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
     timed = output.needs_times or needs_times(table_format, gltf)
     frames = sound_rows(frames, needs_times=timed, strict=strict)
     calm = _neutral_frames(model, frames, neutral)
@@ -92,14 +94,19 @@ def predict_file(
 
 def is_film(time_s: np.ndarray | None) -> bool:
     """Whether frames at these times (n,) follow one another as a camera's do."""
+    slowest, quickest = FILM_FPS
+    return slowest <= frames_a_second(time_s) <= quickest and np.mean(np.diff(time_s) > 0) >= IN_ORDER
+
+
+def frames_a_second(time_s: np.ndarray | None) -> float:
+    """How many frames a second times (n,) are of, by their median distance; 0 where they do not say."""
     if time_s is None or len(time_s) < 2:
-        return False
+        return 0.0
     seconds = np.diff(time_s)
     if not np.isfinite(seconds).any():
-        return False
-    slowest, quickest = FILM_FPS
-    in_order = np.mean(seconds > 0) >= IN_ORDER
-    return bool(in_order and 1 / quickest <= np.nanmedian(seconds) <= 1 / slowest)
+        return 0.0
+    middle = float(np.nanmedian(seconds))
+    return 1 / middle if middle > 0 else 0.0
 
 
 def predict_pipe(
@@ -171,7 +178,10 @@ def _neutral_frames(model: Model, frames: Frames, neutral: str) -> Frames | None
         say(f"{frames.source}: neutral face found: {estimate.reason}")
         return frames.take(estimate.frames)
     named = _named(frames, neutral)
-    return frames.take(named) if named else _neutral_file(neutral, frames.source)
+    if named:
+        return frames.take(named)
+    first, last = frames.labels[0], frames.labels[-1]
+    return _neutral_file(neutral, frames.source, labels=f" ({first} to {last})")
 
 
 def _named(frames: Frames, neutral: str) -> list[int]:
@@ -185,9 +195,9 @@ def _named(frames: Frames, neutral: str) -> list[int]:
     return []
 
 
-def _neutral_file(neutral: str, source: str) -> Frames:
+def _neutral_file(neutral: str, source: str, *, labels: str = "") -> Frames:
     if not Path(neutral).exists():
         raise InputError(
-            f"--neutral {neutral!r} is neither a frame of {source}, nor a file; auto and none are allowed too"
+            f"--neutral {neutral!r} is neither a frame of {source}{labels}, nor a file; auto and none are allowed too"
         )
     return sound_rows(read_frames(neutral))

@@ -22,7 +22,7 @@ ModelOption = Annotated[
 
 OutOption = Annotated[
     Path | None,
-    typer.Option("--out", help="File to write, with --gltf the animated .glb; standard output without."),
+    typer.Option("--out", help="File to write, with --gltf the animated .glb; - or none is standard output."),
 ]
 
 FormatOption = Annotated[

@@ -4,12 +4,15 @@ import sys
 from pathlib import Path
 
 from facegen.console import say
+from facegen.conventions import BLENDSHAPES
 from facegen.files import write_whole
 from regress.cli.options import TableFormat
 from regress.errors import InputError
 from regress.runtime.prediction import Prediction
 from regress.runtime.writers.avatar import animated_avatar
 from regress.runtime.writers.tables import TABLES
+
+STANDARD_OUTPUT = Path("-")
 
 
 def check_targets(
@@ -26,7 +29,7 @@ def check_targets(
         raise InputError(
             f"--format {table_format.value} has the app's own columns: leave out --retarget and --gltf"
         )
-    if gltf is not None and out is None:
+    if gltf is not None and out in (None, STANDARD_OUTPUT):
         raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
 
 
@@ -38,14 +41,21 @@ def needs_times(table_format: TableFormat, gltf: Path | None) -> bool:
 def write_prediction(
     prediction: Prediction, table_format: TableFormat, *, out: Path | None, gltf: Path | None
 ) -> None:
-    """Write a table to a file or to standard output, or an animated avatar, and say which shapes that lacks."""
+    """Write a table to a file or to standard output, or an animated avatar, and say which shapes that lacks.
+
+    What was written is said as well, and how to look at it.
+    """
     if gltf is None:
-        text = TABLES[table_format.value].text(prediction)
-        if out is None:
+        table = TABLES[table_format.value]
+        text = table.text(prediction)
+        if out in (None, STANDARD_OUTPUT):
             sys.stdout.write(text)
             sys.stdout.flush()
-        else:
-            write_whole(out, text)
+            return
+        write_whole(out, text)
+        played = prediction.names == BLENDSHAPES and len(prediction.weights) > 1
+        look = f"; facegen preview --weights {out} --out face.webp plays it on a head" if played else ""
+        say(f"{out}: {len(prediction.weights)} frames of {len(prediction.names)} weights{look}")
         return
     avatar = animated_avatar(prediction, gltf)
     if avatar.missing:
@@ -54,3 +64,4 @@ def write_prediction(
     if avatar.headless:
         say(f"{gltf} has no bone called head that can be turned: the head's pose is left out")
     write_whole(out, avatar.content)
+    say(f"{out}: {gltf.name} with an animation of {len(prediction.weights)} frames")

@@ -20,6 +20,8 @@ def ready_made_models() -> dict[str, Path]:
 
 
 def model_folder(model: str | os.PathLike[str]) -> Path:
-    """The folder itself where it exists, else that of the ready-made model of this name."""
+    """The folder itself where it exists, or that of a model.json, else that of the ready-made model of this name."""
     folder = Path(model)
+    if folder.name == "model.json" and folder.is_file():
+        return folder.parent
     return folder if folder.exists() else ready_made_models().get(os.fspath(model), folder)

@@ -55,10 +55,36 @@ def test_predict_writes_a_whole_csv_and_names_the_empty_rows(
     code, out, err = run("predict", quick_model_folder, points_file, "--out", target, "--smooth", 2)
     assert (code, out) == (0, "")
     assert "1 of 5 rows have no face: 4" in err
+    assert f"{target}: 5 frames of 52 weights; facegen preview --weights" in err
+    for nowhere in ((), ("--out", "-")):
+        code, out, _ = run("predict", quick_model_folder / "model.json", points_file, *nowhere, "--smooth", 2)
+        assert (code, out) == (0, target.read_text())
     rows = list(csv.DictReader(io.StringIO(target.read_text())))
     assert list(rows[0]) == ["frame", *BLENDSHAPES]
     assert rows[3]["jawOpen"] == ""
     assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
+
+
+def test_times_that_no_camera_has_are_told(run, quick_model_folder: Path, points_file: Path, tmp_path: Path):
+    table = tmp_path / "thousandth.csv"
+    points = np.load(points_file)[[0, 1, 2, 4]].reshape(4, 2, 68, order="A")
+    names = [f"{axis}_{index}" for axis in "xy" for index in range(68)]
+    lines = [",".join(["frame", "timestamp", "confidence", "success", *names])]
+    for row, face in enumerate(points.reshape(4, -1)):
+        lines.append(",".join(map(str, [row + 1, row / 1000, 0.9, 1, *face])))
+    table.write_text("\n".join(lines) + "\n")
+    said = "its times are of 1000 frames a second; --fps"
+    assert said in run("predict", quick_model_folder, table)[2]
+    assert said not in run("predict", quick_model_folder, table, "--fps", 30)[2]
+
+
+def test_a_neutral_frame_that_is_not_there_is_answered_with_those_that_are(
+    run, quick_model_folder: Path, points_file: Path
+):
+    code, out, err = run("predict", quick_model_folder, points_file, "--neutral", "nobody")
+    assert (code, out) == (2, "")
+    assert "neither a frame of" in err
+    assert "(0 to 4), nor a file" in err
 
 
 def test_strict_fails_where_a_frame_has_no_face(

@@ -119,6 +119,8 @@ def test_missing_and_damaged_files(tmp_path):
     with pytest.raises(MissingAsset, match=r"no headset 'nothing'; known are .*tracking3"):
         load_headset("nothing")
     path = tmp_path / "bad.toml"
+    with pytest.raises(MissingAsset, match=r"bad\.toml: there is no such file"):
+        load_headset(path)
     path.write_text("name = ")
     with pytest.raises(FormatError, match="is not valid TOML"):
         load_headset(path)

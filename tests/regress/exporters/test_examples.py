@@ -158,3 +158,9 @@ def test_the_page_on_c(folder: Path, quick_model, neutral):
     np.testing.assert_allclose(
         np.array(out.split(), dtype=float), _expected(quick_model, neutral)[0], atol=1e-4
     )
+
+
+def test_the_unity_component_names_the_shapes_in_the_exports_order():
+    source = (EXAMPLES / "FaceWeights.cs").read_text(encoding="utf-8")
+    names = source[source.index("Names =") : source.index("};")]
+    assert tuple(re.findall(r'"(\w+)"', names)) == BLENDSHAPES
