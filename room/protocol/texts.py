@@ -1,0 +1,256 @@
+"""Defines the texts of a meeting as JSON objects with a ``kind``: what a person may say, and what the room answers.
+
+A connection to ``/room/NAME/socket`` begins with `Join`; the room answers with `Welcome` or with `Refused` and closes.
+After that states go both ways as binary messages (`room.protocol.message`, `room.protocol.tick`), and texts as here.
+
+A program that moves somebody's face (``track --to room:LINK``) joins with ``role`` "face" and the person's own secret.
+It sends states, of which the room takes weights, head and gaze; body, speech and gestures stay the page's.
+The link of a room is ``SCHEME://HOST:PORT/room/NAME#KEY``, and that of somebody's face ends with ``#KEY.SECRET``.
+What is behind the ``#`` is never part of a request: it comes in `Join` alone.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints, TypeAdapter, ValidationError
+
+from facegen.refusals import refusal
+from room.errors import FormatError
+
+MOST_TEXT_BYTES = 16 * 1024
+"""Of one text; a session description of a voice with all its codecs has 3 KiB."""
+
+MOST_CHAT_CHARACTERS = 500
+"""Of one line of chat."""
+
+MOST_NAME_CHARACTERS = 40
+"""Of a person's name, as it stands above a head."""
+
+Shown = StringConstraints(
+    strip_whitespace=True, min_length=1, pattern=r"^[^\x00-\x1f\x7f\u200e\u200f\u202a-\u202e\u2066-\u2069]*$"
+)
+"""A line that people see: without control characters, and without those that turn the direction of writing."""
+
+Name = Annotated[str, StringConstraints(max_length=MOST_NAME_CHARACTERS), Shown]
+Secret = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22,64}$")]
+"""At least 128 bits in base64url, made by whoever joins: who has it is that person."""
+Key = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22}$")]
+Number = Annotated[int, Field(ge=0, le=65535)]
+Avatar = Annotated[str, StringConstraints(pattern=r"^[a-z0-9_-]{1,32}$")]
+RoomName = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9-]{0,39}$")]
+
+
+class _Text(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class Join(_Text):
+    """The first text of a connection."""
+
+    kind: Literal["join"] = "join"
+    version: Literal[1] = 1
+    key: Key
+    secret: Secret
+    name: Name
+    avatar: Avatar = "plain"
+    role: Literal["page", "face"] = "page"
+
+
+class Chat(_Text):
+    """A line for all."""
+
+    kind: Literal["chat"] = "chat"
+    text: Annotated[str, StringConstraints(max_length=MOST_CHAT_CHARACTERS), Shown]
+
+
+class Voice(_Text):
+    """Whether this person's microphone is open."""
+
+    kind: Literal["voice"] = "voice"
+    open: bool
+
+
+class Description(_Text):
+    """A session description of WebRTC, for one person."""
+
+    kind: Literal["description"] = "description"
+    to: Number
+    type: Literal["offer", "answer", "rollback"]
+    sdp: str
+
+
+class Candidate(_Text):
+    """An address at which a person may be reached, for one person; empty where there are no more."""
+
+    kind: Literal["candidate"] = "candidate"
+    to: Number
+    candidate: Annotated[str, StringConstraints(max_length=1024)]
+    mid: Annotated[str, StringConstraints(max_length=64)] | None = None
+    line: Annotated[int, Field(ge=0, le=64)] | None = None
+
+
+class Moderate(_Text):
+    """What a moderator does; ``number`` is whom, but for the door."""
+
+    kind: Literal["moderate"] = "moderate"
+    action: Literal["mute", "unmute", "remove", "lock", "unlock"]
+    number: Number | None = None
+
+
+class Leave(_Text):
+    """Goes for good: the place is not kept."""
+
+    kind: Literal["leave"] = "leave"
+
+
+Said = Chat | Voice | Description | Candidate | Moderate | Leave
+"""What a person may say once they are in."""
+
+
+class Person(_Text):
+    """One line of the roster.
+
+    ``number`` stands before each state of a tick; ``id`` is the same person's whenever they come back.
+    """
+
+    number: Number
+    id: str
+    name: str
+    avatar: str
+    moderator: bool
+    present: bool
+    voice: bool
+    muted: bool
+    face: Literal["page", "program"]
+
+
+class IceServer(_Text):
+    """Where a browser asks for its own address, or for a relay."""
+
+    urls: tuple[str, ...]
+    username: str | None = None
+    credential: str | None = None
+
+
+class Welcome(_Text):
+    """The first answer: who one is, who is there, and what the room allows."""
+
+    kind: Literal["welcome"] = "welcome"
+    version: Literal[1] = 1
+    room: str
+    number: Number
+    id: str
+    moderator: bool
+    locked: bool
+    hertz: int
+    shapes: tuple[str, ...]
+    people: tuple[Person, ...]
+    ice: tuple[IceServer, ...]
+
+
+class Changed(_Text):
+    """Somebody came, came back, or is otherwise than before."""
+
+    kind: Literal["person"] = "person"
+    person: Person
+
+
+class Left(_Text):
+    """Somebody has gone, and the number is free again."""
+
+    kind: Literal["left"] = "left"
+    number: Number
+
+
+class Line(_Text):
+    """A line of chat, with who said it and when (seconds since 1970)."""
+
+    kind: Literal["line"] = "line"
+    number: Number
+    name: str
+    text: str
+    time_s: float
+
+
+class Door(_Text):
+    """Whether new people may come in."""
+
+    kind: Literal["door"] = "door"
+    locked: bool
+
+
+class Signal(_Text):
+    """A description or a candidate that came from somebody."""
+
+    kind: Literal["signal"] = "signal"
+    sender: Number
+    signal: Description | Candidate
+
+
+class Notice(_Text):
+    """A word about what this person did, which had no effect."""
+
+    kind: Literal["notice"] = "notice"
+    text: str
+
+
+class Refused(_Text):
+    """The last text before the room closes a connection, and why; ``again`` says whether trying again makes sense."""
+
+    kind: Literal["refused"] = "refused"
+    text: str
+    again: bool
+
+
+Answer = Welcome | Changed | Left | Line | Door | Signal | Notice | Refused
+
+_JOIN = TypeAdapter(Join)
+_SAID = TypeAdapter(Annotated[Said, Field(discriminator="kind")])
+_ANSWER = TypeAdapter(Annotated[Answer, Field(discriminator="kind")])
+
+
+def read_join(content: str) -> Join:
+    """Read the first text of a connection.
+
+    Raises
+    ------
+    FormatError
+        If it is too long, no JSON, or no `Join`.
+    """
+    return _read(_JOIN, content, Join)
+
+
+def read_said(content: str) -> Said:
+    """Read what a person says once they are in.
+
+    Raises
+    ------
+    FormatError
+        If it is too long, no JSON, or none of `Said`.
+    """
+    return _read(_SAID, content, _Text)
+
+
+def read_answer(content: str) -> Answer:
+    """Read what the room says; for programs and tests.
+
+    Raises
+    ------
+    FormatError
+        If it is no JSON, or none of `Answer`.
+    """
+    try:
+        return _ANSWER.validate_json(content)
+    except ValidationError as error:
+        raise FormatError(f"the room says what is not known here: {refusal(error, _Text)}") from None
+
+
+def _read(adapter: TypeAdapter, content: str, record: type) -> object:
+    # a character has at most four bytes; counting them exactly would copy the text
+    if len(content) > MOST_TEXT_BYTES:
+        raise FormatError(
+            f"a text has at most {MOST_TEXT_BYTES:,} characters, and this one has {len(content):,}"
+        )
+    try:
+        return adapter.validate_json(content)
+    except ValidationError as error:
+        raise FormatError(f"a text that is not understood: {refusal(error, record)}") from None

@@ -1,0 +1,91 @@
+"""The texts of a meeting: what is allowed comes back as it went, and all else is refused by a sentence."""
+
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from room.errors import FormatError
+from room.protocol.texts import MOST_TEXT_BYTES, Chat, Join, read_join, read_said
+
+KEY, SECRET = "k" * 22, "s" * 22
+JOIN = {"kind": "join", "key": KEY, "secret": SECRET, "name": "Ada"}
+
+
+def test_a_join_is_read():
+    assert read_join(json.dumps(JOIN)) == Join(key=KEY, secret=SECRET, name="Ada")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"kind": "chat"},
+        {"version": 2},
+        {"key": "k" * 21},
+        {"key": None},
+        {"secret": "short"},
+        {"secret": "s" * 21 + "\n"},
+        {"secret": "s" * 65},
+        {"name": ""},
+        {"name": "   "},
+        {"name": "a" * 41},
+        {"name": "two\nlines"},
+        {"name": "right\u202eleft"},
+        {"name": 7},
+        {"avatar": "../../etc/passwd"},
+        {"avatar": "https://elsewhere.example/a.glb"},
+        {"role": "moderator"},
+        {"moderator": True},
+    ],
+    ids=str,
+)
+def test_a_join_is_refused(change):
+    with pytest.raises(FormatError):
+        read_join(json.dumps(JOIN | change))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        {"kind": "join", "key": KEY, "secret": SECRET, "name": "Ada"},
+        {"kind": "welcome"},
+        {"kind": "chat"},
+        {"kind": "chat", "text": "a" * 501},
+        {"kind": "chat", "text": "x", "number": 3},
+        {"kind": "voice", "open": "yes"},
+        {"kind": "description", "to": -1, "type": "offer", "sdp": ""},
+        {"kind": "description", "to": 65536, "type": "offer", "sdp": ""},
+        {"kind": "description", "to": 1.5, "type": "offer", "sdp": ""},
+        {"kind": "candidate", "to": 1, "candidate": "c" * 1025},
+        {"kind": "candidate", "to": 1, "candidate": "", "line": 65},
+        {"kind": "moderate", "action": "own"},
+        {"kind": "description", "to": 1, "type": "offer", "sdp": "s" * MOST_TEXT_BYTES},
+        [],
+        "chat",
+        None,
+    ],
+    ids=lambda said: str(said)[:60],
+)
+def test_what_nobody_may_say_is_refused(said):
+    with pytest.raises(FormatError):
+        read_said(json.dumps(said))
+
+
+@pytest.mark.parametrize(
+    "text", ["", "{", "[" * 10_000, '{"kind":' * 1000, "NaN", "\0", '{"kind": "chat", "text": "\\ud800"}']
+)
+def test_what_is_no_json_is_refused(text):
+    with pytest.raises(FormatError):
+        read_said(text)
+
+
+@given(st.text(max_size=200))
+def test_any_text_is_a_line_of_chat_or_refused(text):
+    try:
+        said = read_said(json.dumps({"kind": "chat", "text": text}))
+    except FormatError:
+        return
+    assert isinstance(said, Chat)
+    assert said.text == text.strip()
+    assert not any(ord(character) < 32 for character in said.text)
