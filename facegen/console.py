@@ -48,6 +48,23 @@ def hang_up(stream: TextIO) -> None:
 
 
 @contextmanager
+def silent_stderr() -> Iterator[None]:
+    """Discard what C libraries print on standard error, whose talk no option of theirs turns off.
+
+    OpenCV complains of a tag that WebM does not have, whatever the tag; MediaPipe of its own models.
+    """
+    sys.stderr.flush()
+    kept, null = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(null, 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(null)
+
+
+@contextmanager
 def progress(*, unit: str = "", style: str = "auto") -> Iterator[ProgressCall]:
     """Give a function that shows progress on standard error: bars on a terminal, plain lines elsewhere.
 

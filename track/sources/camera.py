@@ -1,0 +1,157 @@
+"""Reads one source in a thread of its own, keeps its newest picture, and opens it again when it went away."""
+
+import math
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from enum import Enum
+
+from track.errors import CameraError
+from track.sources.faults import CameraFault, PictureWatch
+from track.sources.source import Picture, Source
+
+PAUSES_S = (0.5, 1.0, 2.0, 4.0, 8.0)
+"""Before each try to open a camera that went away; the last one again and again."""
+
+SILENT_S = 1.0
+"""Without a picture for longer a camera is said to give none: those in the dark still give five a second."""
+
+_STEP_S = 1 / 30
+"""Between two pictures whose times do not rise, where nothing is known of the camera's rate."""
+
+_ENDS_WITHIN_S = 15.0
+"""A driver that hangs gives up after ten seconds (OpenCV's wait for Video4Linux)."""
+
+Opener = Callable[[], Source]
+
+
+class Camera:
+    """One source behind a thread. What others read of it is guarded by the lock of ``news``.
+
+    Parameters
+    ----------
+    opener
+        Opens the source, now and whenever it went away.
+    news
+        Notified of every picture, every fault and every end; one for all cameras of a capture.
+    pauses_s
+        As `PAUSES_S`.
+
+    Attributes
+    ----------
+    newest
+        The newest picture that nobody took, at times that rise; its pixels are None where it is of no use.
+    came_s
+        When it came, by ``time.monotonic``.
+    fault
+        What is wrong just now.
+    ended
+        Whether nothing more will come.
+    """
+
+    def __init__(
+        self, opener: Opener, news: threading.Condition, *, pauses_s: tuple[float, ...] = PAUSES_S
+    ) -> None:
+        self._opener, self._news, self._pauses_s = opener, news, pauses_s
+        self._source = opener()
+        self.title, self.live, self.endless = self._source.title, self._source.live, self._source.endless
+        self.newest: Picture | None = None
+        self.fault: Enum | None = None
+        self.ended = False
+        self.came_s = time.monotonic()
+        self._clock = _RisingClock()
+        self._watch = PictureWatch(moving=self.endless)
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"camera {self.title}", daemon=True)
+
+    def start(self) -> None:
+        """Begin to read."""
+        self._thread.start()
+
+    def take(self) -> Picture | None:
+        """The newest picture, once."""
+        picture, self.newest = self.newest, None
+        self._news.notify_all()
+        return picture
+
+    def now_s(self) -> float:
+        """What the clock of its pictures shows."""
+        return self._source.now_s()
+
+    def trouble(self) -> Enum | None:
+        """What is wrong with it, that it gives nothing included."""
+        silent = self.endless and time.monotonic() - self.came_s > SILENT_S
+        return CameraFault.SILENT if self.fault is None and silent else self.fault
+
+    def close(self) -> None:
+        """Let the source go; the thread has ended when this returns."""
+        self._stop.set()
+        with self._news:
+            self._news.notify_all()
+        if self._thread.is_alive():
+            self._thread.join(_ENDS_WITHIN_S)
+        else:
+            self._source.close()
+
+    def _run(self) -> None:
+        tries = 0
+        while not self._stop.is_set():
+            picture = self._source.read()
+            if picture is not None:
+                tries = 0
+                self._keep(picture)
+            elif self.endless:
+                self._open_again(tries)
+                tries += 1
+            else:
+                break
+        self._source.close()
+        with self._news:
+            self.ended = True
+            self._news.notify_all()
+
+    def _keep(self, picture: Picture) -> None:
+        time_s, disorder = self._clock.step(picture.time_s)
+        useless = self._watch.step(picture)
+        fault = useless or picture.fault or (CameraFault.DISORDER if disorder else None)
+        picture = replace(picture, time_s=time_s, fault=fault, pixels=None if useless else picture.pixels)
+        with self._news:
+            while not self.live and self.newest is not None and not self._stop.is_set():
+                self._news.wait()
+            self.newest, self.fault, self.came_s = picture, fault, time.monotonic()
+            self._news.notify_all()
+
+    def _open_again(self, tries: int) -> None:
+        """Wait for the camera, with growing pauses between tries."""
+        self._source.close()
+        with self._news:
+            self.newest, self.fault = None, CameraFault.UNPLUGGED
+            self._news.notify_all()
+        while not self._stop.wait(self._pauses_s[min(tries, len(self._pauses_s) - 1)]):
+            try:
+                self._source = self._opener()
+                return
+            except CameraError:
+                tries += 1
+
+
+class _RisingClock:
+    """Makes times rise strictly: one that goes back is taken for a clock that was set, and all after it go with it."""
+
+    def __init__(self) -> None:
+        self._last_s, self._step_s, self._added_s = -math.inf, _STEP_S, 0.0
+
+    def step(self, time_s: float) -> tuple[float, bool]:
+        """The next time, and whether it had to be made."""
+        given_s = time_s + self._added_s
+        if given_s > self._last_s:
+            if math.isfinite(self._last_s):
+                self._step_s = min(given_s - self._last_s, _STEP_S)
+            self._last_s = given_s
+            return given_s, False
+        # nan, too, comes here, and adds nothing
+        self._last_s += self._step_s
+        if math.isfinite(time_s):
+            self._added_s = self._last_s - time_s
+        return self._last_s, True

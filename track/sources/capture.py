@@ -1,0 +1,163 @@
+"""Makes samples of cameras: at each moment the newest picture of each, paired by their times."""
+
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from enum import Enum
+
+import numpy as np
+
+from regress.runtime.sample import Sample
+from track.sources.camera import PAUSES_S, Camera, Opener
+from track.sources.faults import CameraFault
+from track.sources.source import Picture
+
+EMPTY_AFTER_S = 0.25
+"""Without a picture for longer a sample without pictures comes, so that who waits can tell: 5 pictures a second, as
+webcams give in the dark, are 0.2 s apart."""
+
+WAIT_S = 0.02
+"""For the other cameras, once one has a new picture; and how far apart pictures of films are that go together."""
+
+LATE_S = 0.1
+"""Older pictures do not go with the newest one: eyes and mouth would be of two faces."""
+
+_LEAST_S = 1e-6
+
+
+class Capture:
+    """Cameras behind threads, which keep the newest picture only; films that are not live wait and lose none.
+
+    Use as a context manager, or call `close`: no thread survives it.
+
+    Parameters
+    ----------
+    openers
+        What opens each camera, by the camera's name.
+    pauses_s
+        As `track.sources.camera.PAUSES_S`.
+
+    Raises
+    ------
+    CameraError
+        Where a camera cannot be opened at the start; later it is a fault.
+
+    Attributes
+    ----------
+    titles
+        What a person calls each camera, by its name.
+    live
+        Whether pictures come by themselves.
+    """
+
+    def __init__(self, openers: Mapping[str, Opener], *, pauses_s: tuple[float, ...] = PAUSES_S) -> None:
+        self._news = threading.Condition()
+        self._cameras: dict[str, Camera] = {}
+        try:
+            for name, opener in openers.items():
+                self._cameras[name] = Camera(opener, self._news, pauses_s=pauses_s)
+        except BaseException:
+            self.close()
+            raise
+        self.titles = {name: camera.title for name, camera in self._cameras.items()}
+        self.live = any(camera.live for camera in self._cameras.values())
+        # a machine's clock counts from its start, a film's from the film's
+        self._start_s = time.monotonic() if any(each.endless for each in self._cameras.values()) else 0.0
+        self._latest: dict[str, Picture] = {}
+        self._last_s, self._count = -np.inf, 0
+        for camera in self._cameras.values():
+            camera.start()
+
+    def __enter__(self) -> "Capture":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __iter__(self) -> Iterator[Sample]:
+        while (sample := self.read()) is not None:
+            yield sample
+
+    def read(self) -> Sample | None:
+        """The next moment, as soon as there is one; None where all films are over.
+
+        Returns
+        -------
+        Sample or None
+            Its pictures are those that can be used; its faults say by camera why others cannot. Where live cameras give
+            nothing for `EMPTY_AFTER_S` it has no pictures.
+        """
+        until_s = time.monotonic() + EMPTY_AFTER_S
+        with self._news:
+            while True:
+                if all(camera.ended and camera.newest is None for camera in self._cameras.values()):
+                    return None
+                wait_s = self._wait_s(until_s) if self.live else self._wait_for_all_s()
+                if wait_s is not None and wait_s <= 0:
+                    return self._sample()
+                self._news.wait(wait_s)
+
+    def now_s(self) -> float:
+        """What the clock of the samples' times shows now: less a sample's time, how old it is."""
+        return max(camera.now_s() for camera in self._cameras.values()) - self._start_s
+
+    def close(self) -> None:
+        """Let all cameras go."""
+        for camera in self._cameras.values():
+            camera.close()
+
+    def _wait_s(self, until_s: float) -> float:
+        """How long a moment of live cameras is still waited for."""
+        new = [camera for camera in self._cameras.values() if camera.newest is not None]
+        expected = [
+            camera
+            for camera in self._cameras.values()
+            if camera.newest or not (camera.ended or camera.trouble())
+        ]
+        if new and len(new) == len(expected):
+            return 0.0
+        if new:
+            until_s = min(camera.came_s for camera in new) + WAIT_S
+        return until_s - time.monotonic()
+
+    def _wait_for_all_s(self) -> float | None:
+        """The same of films that wait: None is as long as it takes."""
+        there = all(camera.newest is not None or camera.ended for camera in self._cameras.values())
+        return 0.0 if there else None
+
+    def _sample(self) -> Sample:
+        """A sample of the pictures that are new, and of those before that are not too old."""
+        new = {name: camera for name, camera in self._cameras.items() if camera.newest is not None}
+        if not self.live:
+            earliest_s = min(camera.newest.time_s for camera in new.values())
+            new = {name: each for name, each in new.items() if each.newest.time_s <= earliest_s + WAIT_S}
+        taken = {name: camera.take() for name, camera in new.items()}
+        self._latest |= taken
+        now_s = max(each.time_s for each in taken.values()) - self._start_s if taken else self.now_s()
+        self._last_s = max(now_s, self._last_s + _LEAST_S)
+        self._count += 1
+        pictures, faults = {}, {}
+        for name, camera in self._cameras.items():
+            fault = taken[name].fault if name in taken else camera.trouble()
+            latest = self._latest.get(name)
+            late = taken and latest and self._last_s - (latest.time_s - self._start_s) > LATE_S
+            if fault is None and late and not camera.ended:
+                fault = CameraFault.LATE
+            if fault is not None:
+                faults[name] = fault
+            if taken and latest and not late and latest.pixels is not None and _usable(fault):
+                pictures[name] = latest.pixels
+        points = next((each for each in taken.values() if each.points is not None), None)
+        return Sample(
+            label=str(self._count),
+            time_s=float(self._last_s),
+            pictures=pictures,
+            points=None if points is None else points.points,
+            irises=None if points is None else points.irises,
+            faults=faults,
+        )
+
+
+def _usable(fault: Enum | None) -> bool:
+    """Whether a picture's camera can be believed: a clock that was set spoils no picture."""
+    return fault is None or fault is CameraFault.DISORDER

@@ -1,0 +1,73 @@
+"""What is wrong with a camera, and who is told of it when: each fault once as it comes, and once as it goes."""
+
+from collections.abc import Mapping
+from enum import Enum
+
+import numpy as np
+
+from regress.runtime.headset.faults import DARK
+from track.sources.source import Picture
+
+FROZEN_S = 0.5
+"""The same bytes for longer are no picture: a sensor's noise alone changes some byte of each."""
+
+_STRIDE = 8
+"""Of the rows and columns by which pictures are first compared, and by which they are called black."""
+
+
+class CameraFault(Enum):
+    """What is wrong with a camera; the value says what it has."""
+
+    UNPLUGGED = "no more pictures; it is tried again until they come back"
+    SILENT = "no picture for a second"
+    BLACK = "a black picture: a lens cap, a shutter, or no light"
+    FROZEN = "the same picture over and over"
+    LATE = "pictures that come later than those of the other cameras, so it is left out"
+    DISORDER = "a time that is not later than the one before"
+
+
+class PictureWatch:
+    """Watches the pictures of one camera, as they come.
+
+    Parameters
+    ----------
+    moving
+        Whether pictures must differ from one another: a film may show the same again, a camera does not.
+    """
+
+    def __init__(self, *, moving: bool) -> None:
+        self._moving = moving
+        self._first: Picture | None = None
+
+    def step(self, picture: Picture) -> CameraFault | None:
+        """What is wrong with the next picture."""
+        if picture.pixels is None:
+            return None
+        if np.percentile(picture.pixels[::_STRIDE, ::_STRIDE], 98) < DARK:
+            return CameraFault.BLACK
+        if self._first is None or not _same(self._first.pixels, picture.pixels):
+            self._first = picture
+        frozen = self._moving and picture.time_s - self._first.time_s > FROZEN_S
+        return CameraFault.FROZEN if frozen else None
+
+
+def _same(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two pictures have the same bytes; most differ in the few that are compared first."""
+    few = np.s_[::_STRIDE, ::_STRIDE]
+    return one.shape == other.shape and np.array_equal(one[few], other[few]) and np.array_equal(one, other)
+
+
+class Told:
+    """Remembers which faults have been told."""
+
+    def __init__(self) -> None:
+        self._faults: dict[str, Enum] = {}
+
+    def step(self, faults: Mapping[str, Enum]) -> list[str]:
+        """Sentences for what is new in the next sample's faults: what has come, and what has gone."""
+        came = [
+            f"{name} has {fault.value}" for name, fault in faults.items() if self._faults.get(name) != fault
+        ]
+        went = [f"{name} is well again" for name in self._faults if name not in faults]
+        self._faults = dict(faults)
+        return came + went

@@ -1,0 +1,68 @@
+"""Pictures of a film, at its own pace as a camera gives them, or one by one as fast as they are taken."""
+
+import math
+import time
+from pathlib import Path
+
+import cv2
+
+from facegen.formats.film import check_film_path
+from track.errors import CameraError
+from track.sources.opencv import grabbed, opened
+from track.sources.source import Picture, Source
+
+_TYPICAL_FPS = 30.0
+"""Of films that do not say."""
+
+
+class Film(Source):
+    """A film, once from its start to its end.
+
+    Parameters
+    ----------
+    path
+        Of any kind that OpenCV's FFmpeg reads.
+    fast
+        Whether every picture is wanted, as soon as the one before has been taken.
+
+    Raises
+    ------
+    CameraError
+        Where it is no film, or has no picture.
+    """
+
+    endless = False
+
+    def __init__(self, path: Path, *, fast: bool = False) -> None:
+        check_film_path(path)
+        self.title, self.live = path.name, not fast
+        self._film = opened(str(path), cv2.CAP_FFMPEG)
+        if self._film is None:
+            raise CameraError(f"{path} is no film that can be read; .mp4, .avi, .mkv, .mov and .webm can")
+        fps = self._film.get(cv2.CAP_PROP_FPS)
+        self._step_s = 1 / fps if math.isfinite(fps) and fps > 0 else 1 / _TYPICAL_FPS
+        self._next_s = self._last_s = 0.0
+        self._begun_s: float | None = None
+
+    def read(self) -> Picture | None:
+        """The next picture, when it is due."""
+        pixels = grabbed(self._film)
+        if pixels is None:
+            return None
+        told_s = self._film.get(cv2.CAP_PROP_POS_MSEC) / 1000
+        # containers without times have 0 for all
+        self._last_s = told_s if math.isfinite(told_s) and (told_s > 0 or self._next_s == 0) else self._next_s
+        self._next_s = self._last_s + self._step_s
+        if self.live:
+            if self._begun_s is None:
+                self._begun_s = time.monotonic() - self._last_s
+            time.sleep(max(0.0, self._last_s - self.now_s()))
+        return Picture(time_s=self._last_s, pixels=pixels)
+
+    def now_s(self) -> float:
+        """Time in the film: of its own pace, or of the picture that was read last."""
+        return time.monotonic() - self._begun_s if self.live and self._begun_s is not None else self._last_s
+
+    def close(self) -> None:
+        """Close the file."""
+        self._film.release()
