@@ -2,10 +2,15 @@
 
 from collections.abc import Callable
 
+import numpy as np
+
 from regress.runtime.sample import Sample
 
 Datagrams = Callable[[Sample], list[bytes]]
 """A wire format: what one sample is in it; a sample without weights has datagrams too, if the format can say so."""
+
+Tell = Callable[[str], None]
+"""Takes one sentence for the person: a receiver that cannot be reached, a recording that ends."""
 
 
 class Sink:
@@ -25,3 +30,8 @@ class Sink:
 
     def close(self) -> None:
         """Write what is unfinished; a recording appears whole, or not at all."""
+
+
+def has_face(sample: Sample) -> bool:
+    """Whether a sample has weights to show."""
+    return sample.weights is not None and not np.isnan(sample.weights).any()

@@ -9,19 +9,35 @@ from regress.runtime.prediction import Prediction
 def live_link_text(prediction: Prediction) -> str:
     """The app's 63 columns: weights, and of its nine angles those of the eyes where there is a gaze, and of the head.
 
-    In the app's recordings an eye's yaw is -0.60 times lookOut less lookIn of the left eye, and pitch -0.56 times
-    lookUp less lookDown (4,030 frames of one take, correlations of .996 and more): radians with the opposite signs.
-    These are Unreal's signs of turns in ARKit's frame; the head's follow by the same rule, by which roll keeps ours. No
-    recording at hand has head angles that would show it.
-
     Raises
     ------
     InputError
         Where no frame has a time.
     """
-    rotations = np.zeros((len(prediction.samples), 9))
-    if prediction.head is not None:
-        rotations[:, :3] = np.nan_to_num(prediction.head[:, 3:]) * [-1, -1, 1]
-    if prediction.gaze is not None:
-        rotations[:, [3, 4, 6, 7]] = -np.nan_to_num(prediction.gaze)
+    rotations = app_angles(len(prediction.samples), prediction.head, prediction.gaze)
     return live_link_csv(prediction.weights, prediction.known_times_s, rotations=rotations)
+
+
+def app_angles(count: int, head: np.ndarray | None, gaze: np.ndarray | None) -> np.ndarray:
+    """Yaw, pitch and roll of head, left and right eye (n, 9) as the app has them; 0 where they are not known.
+
+    In the app's recordings an eye's yaw is -0.60 times lookOut less lookIn of the left eye, and pitch -0.56 times
+    lookUp less lookDown (4,030 frames of one take, correlations of .996 and more): radians with the opposite signs.
+    These are Unreal's signs of turns in ARKit's frame; the head's follow by the same rule, by which roll keeps ours. No
+    recording at hand has head angles that would show it.
+
+    Parameters
+    ----------
+    count
+        Of the n frames.
+    head : (n, 6) float64 or None
+        As samples have it.
+    gaze : (n, 4) float64 or None
+        As samples have it.
+    """
+    angles = np.zeros((count, 9))
+    if head is not None:
+        angles[:, :3] = np.nan_to_num(head[:, 3:]) * [-1, -1, 1]
+    if gaze is not None:
+        angles[:, [3, 4, 6, 7]] = -np.nan_to_num(gaze)
+    return angles

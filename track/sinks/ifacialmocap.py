@@ -1,0 +1,147 @@
+"""Writes samples as the iFacialMocap app sends them, and answers who greets it.
+
+::
+
+    jawOpen-12|...|=head#rx,ry,rz,px,py,pz|rightEye#rx,ry,rz|leftEye#rx,ry,rz|
+
+Weights are whole numbers from 0 to 100, angles degrees for Unity's ``Quaternion.Euler``, places metres; version 2 has
+``&`` for ``-`` between a name and its number. A receiver may ask for one of them by a greeting to our port 49983; the
+answer goes to its own port 49983, wherever the greeting came from. The app itself takes no notice of a lost face;
+VMagicMirror sees it by datagrams that are equal to the last byte, so that is what a lost face is here.
+
+References
+---------
+.. [1] www.ifacialmocap.com/for-developer: greeting, ports, grammar.
+.. [2] VRCFaceTracking/VRC_iFacialMocap: takes what comes without a greeting; exchanges left and right of the weights,
+   which it says the app sends as a mirror shows them (``sides=mirrored``), and takes the eyes' angles as they are.
+"""
+
+import ipaddress
+import socket
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES, MIRRORED_BLENDSHAPES
+from regress.runtime.sample import Sample
+from track.sinks.axes import head_pose, unity_euler_deg, unity_position
+from track.sinks.sink import Sink, Tell, has_face
+from track.sinks.targets import Target
+from track.sinks.udp import UdpSink, resolved
+
+PORT = 49983
+GREETING = b"iFacialMocap_sahuasouryya9218sauhuiayeta91555dy3719"
+SIDES = ("own", "mirrored")
+_VERSION_2 = b"sendDataVersion=v2"
+_GREETINGS_A_FRAME = 8
+"""Read before each frame: a flood of them must not hold a frame up."""
+
+_WHOLE = ("jawLeft", "jawRight", "mouthLeft", "mouthRight")
+
+
+def app_name(shape: str) -> str:
+    """How the app spells an ARKit name: ``eyeBlink_L``; jaw and mouth moved sideways keep theirs."""
+    for side in ("Left", "Right"):
+        if shape.endswith(side) and shape not in _WHOLE:
+            return f"{shape.removesuffix(side)}_{side[0]}"
+    return shape
+
+
+class IFacialMocap:
+    """A format of samples: one datagram each.
+
+    Parameters
+    ----------
+    version
+        1 or 2; a greeting changes it.
+    sides
+        Of `SIDES`: whose left is called left among the weights; angles stay the person's own.
+    """
+
+    def __init__(self, version: int = 1, sides: str = "own") -> None:
+        self._separator = "&" if version == 2 else "-"
+        names = tuple(map(app_name, BLENDSHAPES))
+        self._names = names if sides == "own" else tuple(names[other] for other in MIRRORED_BLENDSHAPES)
+        self._last: list[bytes] = []
+
+    def greeted(self, datagram: bytes) -> bool:
+        """Take a greeting, and with it the version that is asked for; whether it is one."""
+        if not datagram.startswith(GREETING):
+            return False
+        self._separator = "&" if _VERSION_2 in datagram else "-"
+        return True
+
+    def __call__(self, sample: Sample) -> list[bytes]:
+        """The sample's datagram; the last one again where the face is lost."""
+        if not has_face(sample):
+            return self._last
+        percent = np.clip(np.rint(sample.weights * 100), 0, 100).astype(int).tolist()
+        weights = (
+            f"{name}{self._separator}{value}|" for name, value in zip(self._names, percent, strict=True)
+        )
+        head, gaze = head_pose(sample.head), sample.gaze
+        where = np.zeros(6)
+        if head is not None:
+            where = np.concatenate([unity_euler_deg(head.angles_rad), unity_position(head.position)])
+        eyes = np.zeros((2, 3)) if gaze is None or np.isnan(gaze).any() else gaze.reshape(2, 2) @ np.eye(2, 3)
+        left, right = (unity_euler_deg(eye) for eye in eyes)
+        bones = f"=head#{_list(where)}|rightEye#{_list(right)}|leftEye#{_list(left)}|"
+        self._last = [("".join(weights) + bones).encode("ascii")]
+        return self._last
+
+
+def _list(numbers: np.ndarray) -> str:
+    return ",".join(f"{number + 0.0:.4f}" for number in numbers.tolist())
+
+
+class GreetedSink(UdpSink):
+    """iFacialMocap on its way to a receiver that may greet.
+
+    Parameters
+    ----------
+    target, tell
+        As of every sink.
+    version, sides
+        Of `IFacialMocap`.
+    listen
+        Where greetings arrive; None for nowhere.
+    """
+
+    def __init__(
+        self,
+        target: Target,
+        tell: Tell,
+        *,
+        version: str = "1",
+        sides: str = "own",
+        listen: tuple[str, int] | None = None,
+    ) -> None:
+        self._format = IFacialMocap(version=int(version), sides=sides)
+        super().__init__(target, self._format, tell)
+        if listen is not None:
+            try:
+                self._socket.bind(listen)
+            except OSError as error:
+                tell(
+                    f"{self.title}: port {listen[1]} is taken ({error.strerror}); going on without greetings"
+                )
+
+    def send(self, sample: Sample) -> None:
+        """Read the greetings that came from the receiver itself, and send."""
+        for _ in range(_GREETINGS_A_FRAME):
+            try:
+                datagram, sender = self._socket.recvfrom(len(GREETING) + 64)
+            except OSError:  # none is there, it is too long, or the other machine says that nobody listens
+                break
+            if sender[0] == self._address[0]:
+                self._format.greeted(datagram)
+        super().send(sample)
+
+
+def open_sink(target: Target, tell: Tell) -> Sink:
+    """iFacialMocap on its way to a receiver.
+
+    One on this machine has the port of greetings for itself, and takes what comes without any.
+    """
+    local = ipaddress.ip_address(resolved(target)[1][0].partition("%")[0]).is_loopback
+    everywhere = "::" if resolved(target)[0] == socket.AF_INET6 else "0.0.0.0"
+    return GreetedSink(target, tell, **target.options, listen=None if local else (everywhere, PORT))

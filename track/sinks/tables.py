@@ -1,0 +1,87 @@
+"""Records tables row by row: a CSV of weights, gaze and head, and a recording of the Live Link Face app.
+
+Rows go to the disk as they come, so that an hour takes no more memory than a second.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPES
+from facegen.files import output_errors
+from regress.runtime.prediction import Prediction
+from regress.runtime.sample import Sample
+from regress.runtime.writers.csv_table import csv_lines
+from regress.runtime.writers.live_link import live_link_text
+from track.sinks.recording import Clock, Recording
+from track.sinks.sink import Sink, Tell, has_face
+from track.sinks.targets import Target
+
+
+class TableSink(Sink):
+    """A table that grows by a row a sample.
+
+    Parameters
+    ----------
+    target
+        With a file.
+    table
+        Text of a whole table of one sample: a line of names, and a row.
+    tell
+        Takes a sentence where nothing was recorded.
+
+    Raises
+    ------
+    InputError, OutputError
+        Where the file cannot be written.
+    """
+
+    def __init__(self, target: Target, table: Callable[[Sample], str], tell: Tell) -> None:
+        self.title = target.title
+        self._table, self._tell = table, tell
+        self._recording, self._clock, self._rows = Recording(target.path), Clock(), 0
+        with output_errors(target.path):
+            self._file = open(self._recording.part, "w", encoding="utf-8", newline="")
+
+    def send(self, sample: Sample) -> None:
+        """Write a sample's row; of one without a face the cells stay empty."""
+        names, row = self._table(_whole(sample, self._rows, self._clock.of(sample))).splitlines(keepends=True)
+        with output_errors(self._recording.path):
+            self._file.write(row if self._rows else names + row)
+        self._rows += 1
+
+    def close(self) -> None:
+        """Give the file its name; a table without rows leaves none."""
+        with output_errors(self._recording.path):
+            self._file.close()
+        if self._rows:
+            self._recording.keep()
+        else:
+            self._recording.drop()
+            self._tell(f"{self.title}: nothing was recorded, so there is no file")
+
+
+def open_sink(target: Target, tell: Tell) -> Sink:
+    """A table that is being written."""
+    return TableSink(target, _weights_csv if target.name == "csv" else _live_link_csv, tell)
+
+
+def _weights_csv(sample: Sample) -> str:
+    return "".join(csv_lines([sample], BLENDSHAPES))
+
+
+def _live_link_csv(sample: Sample) -> str:
+    return live_link_text(Prediction(samples=(sample,)))
+
+
+def _whole(sample: Sample, number: int, time_s: float) -> Sample:
+    """The sample with a number in every column, NaN where it is not known: a table's columns stay the same."""
+    return replace(
+        sample,
+        label=sample.label or str(number),
+        time_s=time_s,
+        weights=sample.weights if has_face(sample) else np.full(len(BLENDSHAPES), np.nan),
+        gaze=np.full(4, np.nan) if sample.gaze is None else sample.gaze,
+        head=np.full(6, np.nan) if sample.head is None else sample.head,
+    )
