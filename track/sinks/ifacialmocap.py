@@ -17,7 +17,6 @@ References
 """
 
 import ipaddress
-import socket
 
 import numpy as np
 
@@ -142,6 +141,8 @@ def open_sink(target: Target, tell: Tell) -> Sink:
 
     One on this machine has the port of greetings for itself, and takes what comes without any.
     """
-    local = ipaddress.ip_address(resolved(target)[1][0].partition("%")[0]).is_loopback
-    everywhere = "::" if resolved(target)[0] == socket.AF_INET6 else "0.0.0.0"
-    return GreetedSink(target, tell, **target.options, listen=None if local else (everywhere, PORT))
+    host = resolved(target)[1][0]
+    if ipaddress.ip_address(host.partition("%")[0]).is_loopback:
+        return GreetedSink(target, tell, **target.options)
+    everywhere = "::" if ":" in host else "0.0.0.0"
+    return GreetedSink(target, tell, **target.options, listen=(everywhere, PORT))
