@@ -3,6 +3,8 @@
 from facegen.extras import ROOM
 from facegen.program import program, run
 from room import __version__
+from room.cli.serve import serve
+from room.cli.token import token
 from room.cli.vectors import vectors
 
 app = program(
@@ -11,6 +13,8 @@ app = program(
     about="People meet as avatars in the browser, with faces, gaze, voice and gestures.",
     libraries=("aiohttp",),
 )
+app.command()(serve)
+app.command()(token)
 app.command()(vectors)
 
 

@@ -1,1 +1,9 @@
-"""The process that people connect to: rooms, keys, the roster, signalling, the page, figures for operators."""
+"""The server of rooms: one process that brings people together, with the page that they open."""
+
+from room.server.application import Rooms
+from room.server.keys import Keys, load_keys, new_keys
+from room.server.limits import Limits
+from room.server.serve import Address, serve
+from room.server.turn import Relays
+
+__all__ = ["Address", "Keys", "Limits", "Relays", "Rooms", "load_keys", "new_keys", "serve"]

@@ -1,1 +1,6 @@
-"""What a room knows of each person, and one buffer a tick for all."""
+"""What a room knows: who is in it, where and how they are, and what each may do."""
+
+from room.state.meeting import Meeting, identity
+from room.state.seat import Seat
+
+__all__ = ["Meeting", "Seat", "identity"]

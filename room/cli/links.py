@@ -1,0 +1,34 @@
+"""Prints the links of rooms, for ``room serve`` and ``room token``."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from room.errors import InputError
+
+if TYPE_CHECKING:
+    from room.server import Keys
+
+RoomNames = Annotated[
+    list[str], typer.Option("--room", help="Name of a room, a-z, 0-9 and -; may be repeated.")
+]
+
+
+def print_links(keys: "Keys", rooms: Iterable[str], where: str) -> None:
+    """Print two lines for each room: the link of its guests, and that of its moderators.
+
+    Raises
+    ------
+    InputError
+        If a name is none.
+    """
+    from room.server.application import ROOM_NAME
+
+    for room in rooms:
+        if not ROOM_NAME.fullmatch(room):
+            raise InputError(
+                f"--room {room!r}: must be of 1 to 40 characters a-z, 0-9 and -, and not begin with -"
+            )
+        for role in ("guest", "moderator"):
+            print(f"{room}\t{role}\t{where.rstrip('/')}/room/{room}#{keys.key(room, role)}", flush=True)

@@ -1,0 +1,74 @@
+"""Defines ``room serve``."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from facegen.console import say
+from room.cli.links import RoomNames, print_links
+
+
+def serve(
+    names: RoomNames = ("meeting",),
+    host: Annotated[str, typer.Option(help="Interface; 0.0.0.0 for all, which needs --cert.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="0 takes any that is free.", min=0, max=65535)] = 8443,
+    cert: Annotated[Path | None, typer.Option(help="Certificate (PEM) for https.")] = None,
+    key: Annotated[Path | None, typer.Option(help="Its private key (PEM).")] = None,
+    keys: Annotated[
+        Path | None,
+        typer.Option(
+            help="File of the secret behind all links, made if it is not there; without, links end with the server."
+        ),
+    ] = None,
+    people: Annotated[int, typer.Option(help="Places of a room.", min=1, max=1000)] = 64,
+    rooms: Annotated[int, typer.Option(help="Rooms in use at one time.", min=1)] = 100,
+    stun: Annotated[
+        list[str] | None, typer.Option(help="stun:HOST:PORT, for voices beyond one network.")
+    ] = None,
+    turn: Annotated[
+        list[str] | None, typer.Option(help="turn:HOST:PORT of a coturn, with --turn-secret.")
+    ] = None,
+    turn_secret: Annotated[Path | None, typer.Option(help="File of coturn's static-auth-secret.")] = None,
+    origin: Annotated[list[str] | None, typer.Option(help="https://HOST of a proxy in front.")] = None,
+) -> None:
+    """Open rooms, print their links, and serve them until Ctrl-C.
+
+    Example: room serve --host 0.0.0.0 --cert cert.pem --key key.pem --keys room.keys
+    """
+    from room.server import Address, Limits, Relays, Rooms, load_keys, new_keys
+    from room.server import serve as run
+
+    held = load_keys(keys) if keys else new_keys()
+    secret = _secret(turn, turn_secret)
+    relays = Relays(stun=tuple(stun or ()), turn=tuple(turn or ()), secret=secret)
+    limits = Limits(people=people, rooms=rooms)
+    opened = Rooms(held, limits=limits, relays=relays, origins=frozenset(origin or ()))
+    address = Address(host=host, port=port, certificate=cert, private_key=key)
+    if not cert and host not in ("127.0.0.1", "::1", "localhost"):
+        say(
+            "room: browsers give no camera and no microphone to http pages of another machine; use --cert and --key"
+        )
+
+    def started(where: str) -> None:
+        print_links(held, names, where)
+        say(
+            "room: open; Ctrl-C stops it"
+            + ("" if keys else ", and its links end with it (--keys FILE keeps them)")
+        )
+
+    run(opened, address, started=started)
+
+
+def _secret(turn: list[str] | None, file: Path | None) -> str:
+    from facegen.documents import read_bytes
+    from room.errors import InputError
+
+    if bool(turn) != bool(file):
+        raise InputError("a relay needs both --turn and --turn-secret")
+    if file is None:
+        return ""
+    secret = read_bytes(file, most_bytes=4096).decode("utf-8", "strict").strip()
+    if not secret:
+        raise InputError(f"{file}: is empty; it must hold coturn's static-auth-secret")
+    return secret

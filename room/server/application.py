@@ -1,0 +1,228 @@
+"""Answers requests: the page, its files, the WebSocket of each room, health and metrics."""
+
+import asyncio
+import re
+import time
+from collections.abc import AsyncIterator
+from contextlib import suppress
+from pathlib import Path
+
+from aiohttp import WSMessage, WSMsgType, web
+
+from room.errors import FormatError, NotAllowed
+from room.protocol.texts import MOST_TEXT_BYTES, Chat, Notice, read_join, read_said
+from room.server.connection import Connection
+from room.server.hall import HERTZ, Hall, Part
+from room.server.headers import protect, same_origin
+from room.server.keys import Keys
+from room.server.limits import (
+    BURST_S,
+    MOST_CHATS_PER_S,
+    MOST_STATES_PER_S,
+    MOST_STRANGERS,
+    MOST_TEXTS_PER_S,
+    Bucket,
+    Limits,
+)
+from room.server.metrics import Metrics
+from room.server.turn import Relays
+from room.state import Seat
+
+STATIC = Path(__file__).with_name("static")
+"""What ``make web`` builds: the page, its script and the parts that it loads."""
+
+ROOM_NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,39}")
+JOIN_S = 5.0
+"""Time for the first text, after which a stranger's connection ends."""
+
+HEARTBEAT_S = 8.0
+"""A connection that answers no ping for half as long again has broken: its person is shown as away."""
+
+PARTING_S = 3.0
+"""Time to read the last word; then the connection is cut."""
+
+
+class Rooms:
+    """The rooms of one process, as the handlers of an application.
+
+    Parameters
+    ----------
+    keys
+        Of all rooms.
+    limits
+        What is allowed.
+    relays
+        What browsers are told for their voices.
+    origins
+        Of proxies in front of this server.
+    """
+
+    def __init__(
+        self, keys: Keys, *, limits: Limits, relays: Relays, origins: frozenset[str] = frozenset()
+    ) -> None:
+        self._keys, self._limits, self._relays, self._origins = keys, limits, relays, origins
+        self._halls: dict[str, Hall] = {}
+        self._sockets: set[web.WebSocketResponse] = set()
+        self._strangers = 0
+        self.metrics = Metrics()
+
+    def application(self) -> web.Application:
+        """Everything that is answered, and the ticks behind it."""
+        application = web.Application(client_max_size=MOST_TEXT_BYTES)
+        application.router.add_get("/", self._door)
+        application.router.add_get("/health", self._health)
+        application.router.add_get("/metrics", self._count)
+        application.router.add_get("/room/{name}", self._page)
+        application.router.add_get("/room/{name}/socket", self._socket)
+        if STATIC.is_dir():
+            application.router.add_static("/static/", STATIC)
+        application.on_response_prepare.append(protect)
+        application.on_shutdown.append(self._close)
+        application.cleanup_ctx.append(self._ticking)
+        return application
+
+    async def _door(self, request: web.Request) -> web.Response:
+        return web.Response(text="a room has a link of its own; ask whoever holds the meeting\n")
+
+    async def _health(self, request: web.Request) -> web.Response:
+        return web.Response(text="well\n")
+
+    async def _count(self, request: web.Request) -> web.Response:
+        self.metrics.rooms = len(self._halls)
+        self.metrics.people = sum(len(hall.meeting.people) for hall in self._halls.values())
+        self.metrics.connections = len(self._sockets)
+        return web.Response(text=self.metrics.text())
+
+    async def _page(self, request: web.Request) -> web.StreamResponse:
+        if not ROOM_NAME.fullmatch(request.match_info["name"]):
+            raise web.HTTPNotFound(text="no room has such a name\n")
+        page = STATIC / "room.html"
+        if not page.is_file():
+            raise web.HTTPServiceUnavailable(text="the page has not been built; run `make web`\n")
+        return web.FileResponse(page, headers={"Cache-Control": "no-cache"})
+
+    async def _socket(self, request: web.Request) -> web.StreamResponse:
+        name = request.match_info["name"]
+        if not ROOM_NAME.fullmatch(name):
+            raise web.HTTPNotFound(text="no room has such a name\n")
+        if not same_origin(request, self._origins):
+            self.metrics.refused += 1
+            raise web.HTTPForbidden(text="another site's page may not come in\n")
+        if self._strangers >= MOST_STRANGERS:
+            raise web.HTTPServiceUnavailable(text="too many come in at once; try again\n")
+        socket = web.WebSocketResponse(
+            max_msg_size=MOST_TEXT_BYTES, heartbeat=HEARTBEAT_S, compress=False, timeout=1.0
+        )
+        await socket.prepare(request)
+        connection = Connection(socket, self.metrics)
+        self._sockets.add(socket)
+        try:
+            await self._meet(name, socket, connection)
+        except (FormatError, NotAllowed) as error:
+            self.metrics.refused += 1
+            connection.refuse(str(error), again=isinstance(error, NotAllowed) and error.again)
+            with suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(_ignore(socket), PARTING_S)
+        finally:
+            self._sockets.discard(socket)
+            await connection.close()
+        return socket
+
+    async def _meet(self, name: str, socket: web.WebSocketResponse, connection: Connection) -> None:
+        """Whatever somebody does from coming in to going.
+
+        Raises
+        ------
+        FormatError
+            If a message is none.
+        NotAllowed
+            If a rule ends the connection.
+        """
+        self._strangers += 1
+        try:
+            first = await socket.receive(timeout=JOIN_S)
+        except asyncio.TimeoutError:
+            raise NotAllowed(f"nothing was said for {JOIN_S:g} seconds", again=True) from None
+        finally:
+            self._strangers -= 1
+        if first.type in (WSMsgType.CLOSE, WSMsgType.CLOSING, WSMsgType.CLOSED, WSMsgType.ERROR):
+            return
+        if first.type is not WSMsgType.TEXT:
+            raise FormatError("the first message must be the text that says who comes in")
+        join = read_join(first.data)
+        role = self._keys.role(name, join.key)
+        if role is None:
+            raise NotAllowed("this link is not, or no longer, one of this room; ask for a new one")
+        hall = self._hall(name)
+        seat = hall.enter(join, connection, moderator=role == "moderator")
+        try:
+            await self._listen(hall, seat, join.role, socket, connection)
+        finally:
+            hall.go(seat, connection, join.role)
+
+    def _hall(self, name: str) -> Hall:
+        hall = self._halls.get(name)
+        if hall is None:
+            if len(self._halls) >= self._limits.rooms:
+                raise NotAllowed(f"all {self._limits.rooms} rooms of this server are in use", again=True)
+            hall = self._halls[name] = Hall(name, most_people=self._limits.people, relays=self._relays)
+        return hall
+
+    async def _listen(
+        self, hall: Hall, seat: Seat, part: Part, socket: web.WebSocketResponse, connection: Connection
+    ) -> None:
+        states = Bucket(MOST_STATES_PER_S, burst=MOST_STATES_PER_S * BURST_S)
+        texts = Bucket(MOST_TEXTS_PER_S, burst=MOST_TEXTS_PER_S * BURST_S)
+        chats = Bucket(MOST_CHATS_PER_S, burst=MOST_CHATS_PER_S * BURST_S)
+        message: WSMessage
+        async for message in socket:
+            now = time.monotonic()
+            if not (states if message.type is WSMsgType.BINARY else texts).take(now=now):
+                raise NotAllowed("too many messages; the page was closed", again=False)
+            if hall.meeting.seat(seat.id) is not seat:
+                continue  # removed: the word is on its way
+            if message.type is WSMsgType.BINARY:
+                self.metrics.states += 1
+                hall.move(seat, message.data, part)
+            elif message.type is WSMsgType.TEXT:
+                self.metrics.texts += 1
+                said = read_said(message.data)
+                if part == "face":
+                    raise NotAllowed("a program that moves a face sends states, and no texts")
+                if isinstance(said, Chat) and not chats.take(now=now):
+                    connection.say(Notice(text="that was too fast; the line was not sent"))
+                    continue
+                try:
+                    hall.hear(seat, said)
+                except NotAllowed as error:
+                    connection.say(Notice(text=str(error)))
+
+    async def _ticking(self, application: web.Application) -> AsyncIterator[None]:
+        task = asyncio.create_task(self._tick())
+        yield
+        task.cancel()
+        await asyncio.gather(task, return_exceptions=True)
+
+    async def _tick(self) -> None:
+        due = time.monotonic()
+        while True:
+            due += 1 / HERTZ
+            await asyncio.sleep(due - time.monotonic())
+            now = time.monotonic()
+            self.metrics.late_s += now - due
+            due = max(due, now - 1 / HERTZ)  # what was missed by more than a tick is not made up for
+            for name, hall in list(self._halls.items()):
+                hall.tick(now=now)
+                if hall.meeting.empty:
+                    del self._halls[name]
+
+    async def _close(self, application: web.Application) -> None:
+        # 1012, "service restart": pages come back by themselves
+        closing = (socket.close(code=1012, message=b"the server stops") for socket in list(self._sockets))
+        await asyncio.gather(*closing, return_exceptions=True)
+
+
+async def _ignore(socket: web.WebSocketResponse) -> None:
+    """Throw away what comes until the other end has read its last word."""
+    async for _ in socket:
+        pass

@@ -1,0 +1,172 @@
+"""Joins a room's state with the connections of those who are in it: who hears of what."""
+
+import time
+from typing import Literal
+
+from facegen.conventions import BLENDSHAPES
+from room.errors import NotAllowed
+from room.protocol.texts import (
+    Answer,
+    Candidate,
+    Changed,
+    Chat,
+    Description,
+    Door,
+    Join,
+    Leave,
+    Left,
+    Line,
+    Moderate,
+    Said,
+    Signal,
+    Voice,
+    Welcome,
+)
+from room.server.connection import Connection
+from room.server.turn import Relays
+from room.state import Meeting, Seat
+
+HERTZ = 30
+"""Ticks a second: as many as a camera has frames."""
+
+Part = Literal["page", "face"]
+
+
+class Hall:
+    """One room with its connections.
+
+    Parameters
+    ----------
+    name
+        Of the room.
+    most_people
+        Places.
+    relays
+        What browsers are told for their voices.
+    """
+
+    def __init__(self, name: str, *, most_people: int, relays: Relays) -> None:
+        self.name = name
+        self.meeting = Meeting(most_people=most_people)
+        self._relays = relays
+        self._pages: dict[str, Connection] = {}
+        self._programs: dict[str, Connection] = {}
+
+    def enter(self, join: Join, connection: Connection, *, moderator: bool) -> Seat:
+        """Bring somebody in, and tell the others; an older connection of the same person is closed.
+
+        Raises
+        ------
+        NotAllowed
+            As `room.state.Meeting.enter`.
+        """
+        seat = self.meeting.enter(join, moderator=moderator)
+        connections = self._connections(join.role)
+        if older := connections.pop(seat.id, None):
+            older.refuse("you came in from another window", again=False)
+        connections[seat.id] = connection
+        page = join.role == "page"
+        connection.say(
+            Welcome(
+                room=self.name,
+                number=seat.number,
+                id=seat.id,
+                moderator=seat.moderator,
+                locked=self.meeting.locked,
+                hertz=HERTZ,
+                shapes=BLENDSHAPES,
+                people=self.meeting.people,
+                ice=self._relays.servers(seat.id, now_s=time.time()) if page else (),
+            )
+        )
+        if page:
+            connection.tick(self.meeting.whole(now=time.monotonic()))
+            self._tell(Changed(person=seat.person), but=seat)
+        return seat
+
+    def go(self, seat: Seat, connection: Connection, role: Part) -> None:
+        """A connection has ended; the place is kept for a while."""
+        connections = self._connections(role)
+        if connections.get(seat.id) is not connection:  # a newer one has taken its part
+            return
+        del connections[seat.id]
+        if role == "face":
+            seat.program_left()
+        else:
+            seat.gone_at, seat.voice = time.monotonic(), False
+        if self.meeting.seat(seat.id) is seat:
+            self._tell(Changed(person=seat.person))
+
+    def move(self, seat: Seat, message: bytes, role: Part) -> None:
+        """Take a state.
+
+        Raises
+        ------
+        FormatError
+            If the bytes are none.
+        """
+        if self.meeting.take(seat, message, program=role == "face", now=time.monotonic()):
+            self._tell(Changed(person=seat.person))
+
+    def hear(self, seat: Seat, said: Said) -> None:
+        """Do what a person says.
+
+        Raises
+        ------
+        NotAllowed
+            If the rules forbid it.
+        """
+        match said:
+            case Chat():
+                if seat.muted:
+                    raise NotAllowed("a moderator has muted you", again=True)
+                self._tell(Line(number=seat.number, name=seat.name, text=said.text, time_s=time.time()))
+            case Voice():
+                seat.voice = said.open
+                self._tell(Changed(person=seat.person))
+            case Description() | Candidate():
+                self._pass_on(seat, said)
+            case Moderate():
+                self._moderate(seat, said)
+            case Leave():
+                self._free(seat)
+
+    def tick(self, *, now: float) -> None:
+        """Send what moved, and free places that nobody came back to."""
+        for seat in self.meeting.expire(now=now):
+            self._free(seat)
+        content = self.meeting.tick(now=now)
+        if content:
+            for connection in self._pages.values():
+                connection.tick(content)
+
+    def _connections(self, role: Part) -> dict[str, Connection]:
+        return self._pages if role == "page" else self._programs
+
+    def _tell(self, answer: Answer, *, but: Seat | None = None) -> None:
+        for id, connection in self._pages.items():
+            if but is None or id != but.id:
+                connection.say(answer)
+
+    def _pass_on(self, seat: Seat, said: Description | Candidate) -> None:
+        for person in self.meeting.people:
+            if person.number == said.to and person.id in self._pages:
+                self._pages[person.id].say(Signal(sender=seat.number, signal=said))
+                return
+        # they have just left: the caller hears of that by the roster
+
+    def _moderate(self, by: Seat, act: Moderate) -> None:
+        seat = self.meeting.moderate(by, act)
+        if seat is None:
+            self._tell(Door(locked=self.meeting.locked))
+        elif act.action == "remove":
+            self._free(seat, word="a moderator has removed you from this room")
+        else:
+            self._tell(Changed(person=seat.person))
+
+    def _free(self, seat: Seat, *, word: str = "you have left") -> None:
+        self.meeting.leave(seat)
+        for connections in (self._pages, self._programs):
+            if connection := connections.pop(seat.id, None):
+                connection.refuse(word, again=False)
+        self._tell(Left(number=seat.number))

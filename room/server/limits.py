@@ -1,0 +1,74 @@
+"""Says how much of everything a server takes, and counts it by the second."""
+
+from dataclasses import dataclass
+
+MOST_PEOPLE = 64
+"""Places of a room, unless ``--people`` says otherwise: each person then gets 1.3 Mbit/s when all move."""
+
+MOST_PEOPLE_ASKED = 1000
+"""The most that ``--people`` takes: beyond it one buffer for all has 2.6 MB/s for each."""
+
+MOST_ROOMS = 100
+"""Rooms with people in them at one time, unless ``--rooms`` says otherwise."""
+
+MOST_STRANGERS = 256
+"""Connections that have not said yet who they are; each ends after five seconds."""
+
+MOST_STATES_PER_S = 60
+"""States of one connection: twice what a page sends, as timers of browsers make up for late ones."""
+
+MOST_TEXTS_PER_S = 20
+"""Texts of one connection; calling six people at once is a burst of 70."""
+
+BURST_S = 10
+"""A connection may use this much of its rate at once: after a break, or to call everybody."""
+
+MOST_CHATS_PER_S = 1
+"""Lines of chat of one connection, with a burst of ten."""
+
+MOST_QUEUED = 512
+"""Texts that wait for a slow connection before it is closed: it has not read for the time of a whole meeting's talk."""
+
+MOST_TICKS_QUEUED = 3
+"""Ticks that wait for a slow connection; older ones are dropped, as newer ones say more."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """What the operator allows.
+
+    Parameters
+    ----------
+    people
+        Places of each room.
+    rooms
+        With people in them at one time.
+    """
+
+    people: int = MOST_PEOPLE
+    rooms: int = MOST_ROOMS
+
+
+class Bucket:
+    """Allows a number of things a second, and a burst of them.
+
+    Parameters
+    ----------
+    per_s
+        Allowed on average.
+    burst
+        Allowed at once.
+    """
+
+    def __init__(self, per_s: float, *, burst: float) -> None:
+        self._per_s, self._burst = per_s, burst
+        self._left, self._at = burst, float("-inf")
+
+    def take(self, *, now: float) -> bool:
+        """Count one; says whether it is allowed. ``now`` in seconds."""
+        self._left = min(self._burst, self._left + (now - self._at) * self._per_s)
+        self._at = now
+        if self._left < 1:
+            return False
+        self._left -= 1
+        return True

@@ -1,0 +1,110 @@
+"""Runs a server of rooms until it is stopped."""
+
+import asyncio
+import os
+import signal
+import ssl
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from aiohttp import web
+
+from room.errors import InputError
+from room.server.application import Rooms
+
+SHUTDOWN_S = 2.0
+"""Time to tell everybody that the server stops; then connections are cut."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Address:
+    """Where a server listens.
+
+    Parameters
+    ----------
+    host
+        Name or number of the interface; ``127.0.0.1`` is this machine alone.
+    port
+        0 for any that is free.
+    certificate, private_key
+        PEM files for https; none for http.
+    """
+
+    host: str = "127.0.0.1"
+    port: int = 8443
+    certificate: Path | None = None
+    private_key: Path | None = None
+
+    @property
+    def scheme(self) -> str:
+        """``https`` or ``http``."""
+        return "https" if self.certificate else "http"
+
+
+def serve(rooms: Rooms, address: Address, *, started: Callable[[str], None]) -> None:
+    """Answer until Ctrl-C or SIGTERM, then tell everybody and end.
+
+    Parameters
+    ----------
+    rooms
+        To be served.
+    address
+        Where.
+    started
+        Called with the address, ``http://127.0.0.1:8443``, as soon as connections are taken.
+
+    Raises
+    ------
+    InputError
+        If the address cannot be listened at, or the certificate cannot be used.
+    """
+    asyncio.run(_serve(rooms, address, _tls(address), started))
+
+
+async def _serve(
+    rooms: Rooms, address: Address, tls: ssl.SSLContext | None, started: Callable[[str], None]
+) -> None:
+    runner = web.AppRunner(rooms.application(), access_log=None, shutdown_timeout=SHUTDOWN_S)
+    await runner.setup()
+    try:
+        site = web.TCPSite(runner, address.host, address.port, ssl_context=tls)
+        try:
+            await site.start()
+        except OSError as error:
+            reason = os.strerror(error.errno) if error.errno and error.errno > 0 else str(error)
+            raise InputError(
+                f"{address.host}:{address.port}: cannot be listened at ({reason}); name another --host or --port"
+            ) from None
+        port = runner.addresses[0][1]
+        started(f"{address.scheme}://{f'[{address.host}]' if ':' in address.host else address.host}:{port}")
+        await _stopped()
+    finally:
+        await runner.cleanup()
+    raise KeyboardInterrupt  # everybody was told; now the program ends as it does whenever it is stopped
+
+
+async def _stopped() -> None:
+    """Wait for Ctrl-C or SIGTERM; where a loop takes no signals, as on Windows, they end it by themselves."""
+    stopped = asyncio.Event()
+    with suppress(NotImplementedError):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            asyncio.get_running_loop().add_signal_handler(number, stopped.set)
+    await stopped.wait()
+
+
+def _tls(address: Address) -> ssl.SSLContext | None:
+    if address.certificate is None and address.private_key is None:
+        return None
+    if address.certificate is None or address.private_key is None:
+        raise InputError("https needs both --cert and --key, two PEM files")
+    context = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
+    try:
+        context.load_cert_chain(address.certificate, address.private_key)
+    except OSError as error:  # ssl.SSLError is one
+        reason = getattr(error, "reason", None) or error.strerror or "cannot be read"
+        raise InputError(
+            f"{address.certificate}, {address.private_key}: no certificate with its key ({reason})"
+        ) from None
+    return context

@@ -1,0 +1,159 @@
+"""Holds one room: who sits in it, what each may do, and the one buffer that goes to all at each tick.
+
+Nothing here waits or sends. Times are seconds of one clock that never goes back, given by the caller.
+"""
+
+import hashlib
+import itertools
+
+from room.errors import NotAllowed
+from room.protocol import check
+from room.protocol.texts import Join, Moderate, Person
+from room.protocol.tick import pack
+from room.state.seat import Seat
+
+KEEP_S = 30.0
+"""A place is kept this long for somebody whose connection broke: a laptop's change of networks takes ten."""
+
+MOST_REMOVED = 1000
+"""People whom a room keeps out; beyond it the oldest may try again, and a moderator had better lock the door."""
+
+
+def identity(secret: str) -> str:
+    """Public name of whoever has this secret: 64 bits of its hash, from which nobody comes back to the secret."""
+    return hashlib.sha256(secret.encode()).hexdigest()[:16]
+
+
+class Meeting:
+    """One room and the people in it.
+
+    Parameters
+    ----------
+    most_people
+        Places, kept ones among them.
+
+    Attributes
+    ----------
+    locked
+        Whether only those who have a place may come in.
+    """
+
+    def __init__(self, *, most_people: int) -> None:
+        self.most_people = most_people
+        self.locked = False
+        self._seats: dict[str, Seat] = {}
+        self._removed: dict[str, None] = {}
+
+    @property
+    def people(self) -> tuple[Person, ...]:
+        """The roster."""
+        return tuple(seat.person for seat in self._seats.values())
+
+    @property
+    def empty(self) -> bool:
+        """Whether nobody has a place any more."""
+        return not self._seats
+
+    def seat(self, id: str) -> Seat | None:
+        """The place of a person; None where they have none."""
+        return self._seats.get(id)
+
+    def enter(self, join: Join, *, moderator: bool) -> Seat:
+        """Give somebody who came with a good key their place: a new one, or the one that is kept for them.
+
+        Raises
+        ------
+        NotAllowed
+            If the room is locked or full, they were removed, or a program comes for somebody who is not there.
+        """
+        id = identity(join.secret)
+        seat = self._seats.get(id)
+        if id in self._removed:
+            raise NotAllowed("a moderator has removed you from this room")
+        if join.role == "face":
+            if seat is None:
+                raise NotAllowed(
+                    "nobody with this link is in the room; open the page first, then start the program",
+                    again=True,
+                )
+            return seat
+        if seat is None:
+            if self.locked and not moderator:
+                raise NotAllowed("the room is locked; ask a moderator to open it", again=True)
+            if len(self._seats) >= self.most_people:
+                raise NotAllowed(f"the room is full; it has {self.most_people} places", again=True)
+            taken = {other.number for other in self._seats.values()}
+            number = next(number for number in itertools.count() if number not in taken)
+            seat = Seat(number=number, id=id, name=join.name, avatar=join.avatar, moderator=moderator)
+            self._seats[id] = seat
+        seat.name, seat.avatar, seat.moderator = join.name, join.avatar, moderator
+        seat.gone_at, seat.voice = None, False
+        return seat
+
+    def take(self, seat: Seat, message: bytes, *, program: bool, now: float) -> bool:
+        """Keep somebody's state for the next tick; says whether another moves their face from now on.
+
+        Raises
+        ------
+        FormatError
+            If the bytes are no message.
+        """
+        check(message)
+        return seat.take(message, program=program, now=now)
+
+    def moderate(self, by: Seat, act: Moderate) -> Seat | None:
+        """Do what a moderator asks; gives the person who is otherwise now, or has gone (`seat` knows).
+
+        Raises
+        ------
+        NotAllowed
+            If ``by`` is no moderator, or nobody has that number.
+        """
+        if not by.moderator:
+            raise NotAllowed("only a moderator can do this; use the moderator's link")
+        if act.action in ("lock", "unlock"):
+            self.locked = act.action == "lock"
+            return None
+        seat = next((seat for seat in self._seats.values() if seat.number == act.number), None)
+        if seat is None:
+            raise NotAllowed(f"nobody here has number {act.number}")
+        if act.action == "remove":
+            if seat is by:
+                raise NotAllowed("a moderator cannot remove themselves; leave instead")
+            self._seats.pop(seat.id)
+            self._removed[seat.id] = None
+            if len(self._removed) > MOST_REMOVED:
+                self._removed.pop(next(iter(self._removed)))
+        else:
+            seat.muted = act.action == "mute"
+            seat.moved = seat.state is not None
+        return seat
+
+    def leave(self, seat: Seat) -> None:
+        """Free somebody's place at once."""
+        self._seats.pop(seat.id, None)
+
+    def expire(self, *, now: float) -> list[Seat]:
+        """Free the places of those who did not come back in `KEEP_S`; gives them."""
+        late = [
+            seat for seat in self._seats.values() if seat.gone_at is not None and now - seat.gone_at > KEEP_S
+        ]
+        for seat in late:
+            self.leave(seat)
+        return late
+
+    def tick(self, *, now: float) -> bytes | None:
+        """The states of all who moved since the last tick, as one buffer for all; None where nobody did."""
+        moved = [seat for seat in self._seats.values() if seat.moved]
+        for seat in moved:
+            seat.moved = False
+        return self._packed(moved, now) if moved else None
+
+    def whole(self, *, now: float) -> bytes:
+        """The last states of all, for somebody who comes late."""
+        return self._packed(list(self._seats.values()), now)
+
+    @staticmethod
+    def _packed(seats: list[Seat], now: float) -> bytes:
+        states = {seat.number: state for seat in seats if (state := seat.state) is not None}
+        return pack(states, time_ms=int(now * 1000))

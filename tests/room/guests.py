@@ -1,0 +1,131 @@
+"""People who come to a room by a real WebSocket, for tests and for the benchmark."""
+
+import asyncio
+import secrets
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager, suppress
+
+from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, web
+
+from room.protocol import Message, decode, encode
+from room.protocol.texts import Answer, Join, Left, Refused, Welcome, read_answer
+from room.protocol.tick import unpack
+from room.server import Keys, Limits, Relays, Rooms, new_keys
+
+SOON_S = 5.0
+"""What is awaited comes in milliseconds; a loaded machine is given time."""
+
+
+class Guest:
+    """One person: keeps what the room says to them."""
+
+    def __init__(self, socket: ClientWebSocketResponse, secret: str) -> None:
+        self.socket, self.secret = socket, secret
+        self.answers: list[Answer] = []
+        self.states: dict[int, Message] = {}
+        self.ticks = 0
+        self.news = asyncio.Event()
+        self.reading = asyncio.create_task(self._read())
+
+    async def _read(self) -> None:
+        async for message in self.socket:
+            if message.type is WSMsgType.TEXT:
+                self.answers.append(read_answer(message.data))
+                if isinstance(self.answers[-1], Left):
+                    self.states.pop(self.answers[-1].number, None)
+            elif message.type is WSMsgType.BINARY:
+                self.ticks += 1
+                _, states = unpack(message.data)
+                self.states |= {number: decode(content) for number, content in states.items()}
+            self.news.set()
+        self.news.set()
+
+    @property
+    def welcome(self) -> Welcome:
+        return next(answer for answer in self.answers if isinstance(answer, Welcome))
+
+    @property
+    def number(self) -> int:
+        return self.welcome.number
+
+    def all(self, kind: type) -> list:
+        return [answer for answer in self.answers if isinstance(answer, kind)]
+
+    async def until(self, true: Callable[[], object]) -> None:
+        """Wait until something is so."""
+        async with asyncio.timeout(SOON_S):
+            while not true():
+                await self.news.wait()
+                self.news.clear()
+
+    async def told(self, kind: type, which: Callable = lambda _: True) -> object:
+        """Wait for a text, and give the newest of them."""
+        await self.until(lambda: any(map(which, self.all(kind))))
+        return [answer for answer in self.all(kind) if which(answer)][-1]
+
+    async def say(self, **said: object) -> None:
+        await self.socket.send_json(said)
+
+    async def move(self, **state: object) -> None:
+        await self.socket.send_bytes(encode(Message(**state)))
+
+    async def end(self) -> tuple[int | None, list[Refused]]:
+        """Wait until the room closes; gives the code, and the last word."""
+        async with asyncio.timeout(SOON_S):
+            await self.reading
+        return self.socket.close_code, self.all(Refused)
+
+    async def go(self) -> None:
+        await self.socket.close()
+        with suppress(asyncio.CancelledError):
+            await self.reading
+
+
+class Place:
+    """A room to come to, wherever it is served."""
+
+    def __init__(self, address: str, keys: Keys, name: str = "meeting") -> None:
+        self.address, self.keys, self.name = address, keys, name
+        self.session = ClientSession()
+
+    def join(self, **change: object) -> Join:
+        made = Join(key=self.keys.key(self.name, "guest"), secret=secrets.token_urlsafe(16), name="Ada")
+        return made.model_copy(update=change)
+
+    async def connect(self, **options: object) -> ClientWebSocketResponse:
+        return await self.session.ws_connect(
+            f"{self.address}/room/{self.name}/socket", max_msg_size=0, **options
+        )
+
+    async def come(self, *, moderator: bool = False, **change: object) -> Guest:
+        """Open a connection and say who comes; does not wait for the answer."""
+        if moderator:
+            change["key"] = self.keys.key(self.name, "moderator")
+        join = self.join(**change)
+        socket = await self.connect()
+        await socket.send_str(join.model_dump_json())
+        return Guest(socket, join.secret)
+
+    async def guest(self, **change: object) -> Guest:
+        """Come in."""
+        guest = await self.come(**change)
+        await guest.told(Welcome)
+        return guest
+
+
+@asynccontextmanager
+async def open_room(
+    *, limits: Limits | None = None, relays: Relays | None = None, origins: frozenset[str] = frozenset()
+) -> AsyncIterator[Place]:
+    """A server in this process, on a free port."""
+    keys = new_keys()
+    rooms = Rooms(keys, limits=limits or Limits(), relays=relays or Relays(), origins=origins)
+    runner = web.AppRunner(rooms.application(), access_log=None, shutdown_timeout=0.1)
+    await runner.setup()
+    await web.TCPSite(runner, "127.0.0.1", 0).start()
+    place = Place(f"http://127.0.0.1:{runner.addresses[0][1]}", keys)
+    try:
+        yield place
+    finally:
+        await place.session.close()
+        await runner.cleanup()
