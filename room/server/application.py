@@ -17,10 +17,10 @@ from room.server.headers import protect, same_origin
 from room.server.keys import Keys
 from room.server.limits import (
     BURST_S,
-    MOST_CHATS_PER_S,
-    MOST_STATES_PER_S,
+    CHATS_PER_S,
     MOST_STRANGERS,
-    MOST_TEXTS_PER_S,
+    STATES_PER_S,
+    TEXTS_PER_S,
     Bucket,
     Limits,
 )
@@ -171,9 +171,9 @@ class Rooms:
     async def _listen(
         self, hall: Hall, seat: Seat, part: Part, socket: web.WebSocketResponse, connection: Connection
     ) -> None:
-        states = Bucket(MOST_STATES_PER_S, burst=MOST_STATES_PER_S * BURST_S)
-        texts = Bucket(MOST_TEXTS_PER_S, burst=MOST_TEXTS_PER_S * BURST_S)
-        chats = Bucket(MOST_CHATS_PER_S, burst=MOST_CHATS_PER_S * BURST_S)
+        states = Bucket(STATES_PER_S, burst=STATES_PER_S * BURST_S)
+        texts = Bucket(TEXTS_PER_S, burst=TEXTS_PER_S * BURST_S)
+        chats = Bucket(CHATS_PER_S, burst=CHATS_PER_S * BURST_S)
         message: WSMessage
         async for message in socket:
             now = time.monotonic()

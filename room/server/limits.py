@@ -5,25 +5,22 @@ from dataclasses import dataclass
 MOST_PEOPLE = 64
 """Places of a room, unless ``--people`` says otherwise: each person then gets 1.3 Mbit/s when all move."""
 
-MOST_PEOPLE_ASKED = 1000
-"""The most that ``--people`` takes: beyond it one buffer for all has 2.6 MB/s for each."""
-
 MOST_ROOMS = 100
 """Rooms with people in them at one time, unless ``--rooms`` says otherwise."""
 
 MOST_STRANGERS = 256
 """Connections that have not said yet who they are; each ends after five seconds."""
 
-MOST_STATES_PER_S = 60
+STATES_PER_S = 60
 """States of one connection: twice what a page sends, as timers of browsers make up for late ones."""
 
-MOST_TEXTS_PER_S = 20
+TEXTS_PER_S = 20
 """Texts of one connection; calling six people at once is a burst of 70."""
 
 BURST_S = 10
 """A connection may use this much of its rate at once: after a break, or to call everybody."""
 
-MOST_CHATS_PER_S = 1
+CHATS_PER_S = 1
 """Lines of chat of one connection, with a burst of ten."""
 
 MOST_QUEUED = 512

@@ -12,7 +12,7 @@ import pytest
 from room.protocol.texts import Changed, Door, Left, Line, Notice, Refused, Signal, Welcome
 from room.server import Limits, Relays, new_keys
 from room.server.connection import CLOSED_BY_RULE
-from room.server.limits import BURST_S, MOST_CHATS_PER_S, MOST_STATES_PER_S, Bucket
+from room.server.limits import BURST_S, CHATS_PER_S, STATES_PER_S, Bucket
 from room.state import identity
 from tests.room.guests import Guest, Place, open_room
 
@@ -234,7 +234,7 @@ def test_a_bad_message_ends_its_sender_alone(bad):
 @meeting
 async def test_a_flood_ends_its_sender_with_a_word(place):
     ada, ben = await place.guest(), await place.guest(name="Ben")
-    for step in range(MOST_STATES_PER_S * BURST_S + 200):
+    for step in range(STATES_PER_S * BURST_S + 200):
         try:
             await ada.move(sequence=step)
         except (ConnectionError, aiohttp.ClientError):
@@ -249,12 +249,12 @@ async def test_a_flood_ends_its_sender_with_a_word(place):
 @meeting
 async def test_chat_that_is_too_fast_is_not_sent(place):
     ada, ben = await place.guest(), await place.guest(name="Ben")
-    for line in range(MOST_CHATS_PER_S * BURST_S + 5):
+    for line in range(CHATS_PER_S * BURST_S + 5):
         await ada.say(kind="chat", text=str(line))
     await ada.told(Notice)
     await ada.say(kind="voice", open=True)
     await ben.told(Changed, lambda changed: changed.person.voice)
-    assert len(ben.all(Line)) < MOST_CHATS_PER_S * BURST_S + 5
+    assert len(ben.all(Line)) < CHATS_PER_S * BURST_S + 5
 
 
 @meeting
