@@ -1,4 +1,4 @@
-"""Packs what a room sends to all, once a tick: the states of those who moved, each behind the person's number.
+"""Packs what a room sends to all, once a tick: what came since the last one, each behind the person's number.
 
 Little endian::
 
@@ -8,10 +8,12 @@ Little endian::
      2  u16   number of states
      4  u32   time of the server's clock, 1 ms, wraps
      8        for each: u16 number of the person (the roster says who), and 85 bytes of `room.protocol.message`
+
+A person may stand in it more than once, oldest first: two messages of one tick are both passed on.
 """
 
 import struct
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 from room.errors import FormatError
 from room.protocol.message import MESSAGE_BYTES, VERSION, check
@@ -23,24 +25,24 @@ HEAD_BYTES = _HEAD.size
 ENTRY_BYTES = _NUMBER.size + MESSAGE_BYTES
 
 
-def pack(states: Mapping[int, bytes], *, time_ms: int) -> bytes:
+def pack(states: Sequence[tuple[int, bytes]], *, time_ms: int) -> bytes:
     """One buffer for all.
 
     Parameters
     ----------
     states
-        Messages that were checked, by the person's number.
+        The person's number, and a message that was checked.
     time_ms
         Of the server's clock; taken modulo 2**32.
     """
     parts = [_HEAD.pack(VERSION, KIND, len(states), time_ms % 2**32)]
-    for number, state in states.items():
+    for number, state in states:
         parts += (_NUMBER.pack(number), state)
     return b"".join(parts)
 
 
-def unpack(content: bytes) -> tuple[int, dict[int, bytes]]:
-    """Time of the server in ms, and the messages by the person's number.
+def unpack(content: bytes) -> tuple[int, list[tuple[int, bytes]]]:
+    """Time of the server in ms, and the messages behind the person's number.
 
     Raises
     ------
@@ -56,9 +58,9 @@ def unpack(content: bytes) -> tuple[int, dict[int, bytes]]:
         )
     if len(content) != HEAD_BYTES + count * ENTRY_BYTES:
         raise FormatError(f"a tick of {count} states has another length than {len(content)} bytes")
-    states = {}
+    states = []
     for start in range(HEAD_BYTES, len(content), ENTRY_BYTES):
         state = content[start + _NUMBER.size : start + ENTRY_BYTES]
         check(state)
-        states[_NUMBER.unpack_from(content, start)[0]] = state
+        states.append((_NUMBER.unpack_from(content, start)[0], state))
     return time_ms, states

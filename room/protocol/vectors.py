@@ -113,19 +113,20 @@ def _refused_messages() -> dict[str, bytes]:
     }
 
 
-def _ticks() -> dict[str, tuple[int, dict[int, Message]]]:
+def _ticks() -> dict[str, tuple[int, list[tuple[int, Message]]]]:
     states = _states()
     return {
-        "nobody": (0, {}),
-        "one": (5, {1: states["rest"]}),
-        "two": (2**32 - 1, {65535: states["everything"], 2: states["all at their least"]}),
+        "nobody": (0, []),
+        "one": (5, [(1, states["rest"])]),
+        "one person twice": (6, [(1, states["everything"]), (1, states["rest"])]),
+        "two": (2**32 - 1, [(65535, states["everything"]), (2, states["all at their least"])]),
     }
 
 
 def text() -> str:
     """The whole file."""
     ticks = {
-        name: (time_ms, {number: encode(message) for number, message in people.items()})
+        name: (time_ms, [(number, encode(message)) for number, message in people])
         for name, (time_ms, people) in _ticks().items()
     }
     document = {
@@ -147,7 +148,7 @@ def text() -> str:
             {
                 "name": name,
                 "time_ms": time_ms,
-                "states": {str(number): state.hex() for number, state in people.items()},
+                "states": [[number, state.hex()] for number, state in people],
                 "hex": pack(people, time_ms=time_ms).hex(),
             }
             for name, (time_ms, people) in ticks.items()

@@ -125,8 +125,7 @@ class Meeting:
             if len(self._removed) > MOST_REMOVED:
                 self._removed.pop(next(iter(self._removed)))
         else:
-            seat.muted = act.action == "mute"
-            seat.moved = seat.state is not None
+            seat.mute(act.action == "mute")
         return seat
 
     def leave(self, seat: Seat) -> None:
@@ -143,17 +142,11 @@ class Meeting:
         return late
 
     def tick(self, *, now: float) -> bytes | None:
-        """The states of all who moved since the last tick, as one buffer for all; None where nobody did."""
-        moved = [seat for seat in self._seats.values() if seat.moved]
-        for seat in moved:
-            seat.moved = False
-        return self._packed(moved, now) if moved else None
+        """What came since the last tick, as one buffer for all; None where nobody moved."""
+        states = [(seat.number, state) for seat in self._seats.values() for state in seat.taken()]
+        return pack(states, time_ms=int(now * 1000)) if states else None
 
     def whole(self, *, now: float) -> bytes:
         """The last states of all, for somebody who comes late."""
-        return self._packed(list(self._seats.values()), now)
-
-    @staticmethod
-    def _packed(seats: list[Seat], now: float) -> bytes:
-        states = {seat.number: state for seat in seats if (state := seat.state) is not None}
+        states = [(seat.number, state) for seat in self._seats.values() if (state := seat.state) is not None]
         return pack(states, time_ms=int(now * 1000))

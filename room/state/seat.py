@@ -1,6 +1,6 @@
 """Keeps what a room knows of one person: who they are, and where and how they were last."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from room.protocol import Flag
@@ -8,6 +8,9 @@ from room.protocol.texts import Person
 
 PROGRAM_LASTS_S = 1.0
 """A program that is silent for longer has lost the face: the page moves it again. Thirty messages came in this time."""
+
+MOST_AT_ONCE = 4
+"""Messages of one person in one tick: at 30 a second two come when clocks beat, and after a pause the newest count."""
 
 _FLAGS = 1
 _BODY = 78
@@ -36,7 +39,7 @@ class Seat:
     gone_at: float | None = None
     voice: bool = False
     muted: bool = False
-    moved: bool = False
+    _waiting: list[bytes] = field(default_factory=list)
     _page: bytes | None = None
     _program: bytes | None = None
     _program_at: float = float("-inf")
@@ -65,14 +68,30 @@ class Seat:
         """Keep a message that was checked; says whether another moves the face from now on."""
         before = self.face
         if program:
-            self._program, self._program_at, self.moved = message, now, True
+            self._program, self._program_at = message, now
+            self._wait()
         else:
             self._page = message
             if now - self._program_at > PROGRAM_LASTS_S:
                 self._program = None
             # while a program moves the face, its clock alone counts: what the page says goes out with its next message
-            self.moved |= self._program is None
+            if self._program is None:
+                self._wait()
         return self.face != before
+
+    def mute(self, muted: bool) -> None:
+        """Take the speaking sign away, or give it back."""
+        self.muted = muted
+        self._wait()
+
+    def taken(self) -> list[bytes]:
+        """What came since the last call, oldest first."""
+        waiting, self._waiting = self._waiting, []
+        return waiting
+
+    def _wait(self) -> None:
+        if (state := self.state) is not None:
+            self._waiting = [*self._waiting, state][-MOST_AT_ONCE:]
 
     def program_left(self) -> None:
         """Give the face back to the page."""

@@ -23,6 +23,7 @@ class Guest:
         self.socket, self.secret = socket, secret
         self.answers: list[Answer] = []
         self.states: dict[int, Message] = {}
+        self.sequences: list[tuple[int, int]] = []
         self.ticks = 0
         self.news = asyncio.Event()
         self.reading = asyncio.create_task(self._read())
@@ -36,7 +37,8 @@ class Guest:
             elif message.type is WSMsgType.BINARY:
                 self.ticks += 1
                 _, states = unpack(message.data)
-                self.states |= {number: decode(content) for number, content in states.items()}
+                self.sequences += [(number, decode(content).sequence) for number, content in states]
+                self.states |= {number: decode(content) for number, content in states}
             self.news.set()
         self.news.set()
 
