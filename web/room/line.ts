@@ -1,0 +1,100 @@
+/** Holds the connection to the room: comes in, comes back by itself after a break, and says what happened. */
+
+import { decode, encode, unpack, ProtocolError, type Message } from "./protocol.js";
+import type { Answer, Said, Welcome } from "./texts.js";
+
+/** A server that starts again is back in a second: short waits first. */
+const WAITS_MS = [200, 400, 800, 1000, 2000, 4000];
+
+export interface Handlers {
+  welcome(welcome: Welcome): void;
+  answer(answer: Answer): void;
+  state(number: number, message: Message): void;
+  /** The connection ended and is tried again. */
+  broken(): void;
+  /** The room has closed the door; the sentence says why. */
+  ended(text: string): void;
+}
+
+export class Line {
+  private socket: WebSocket | undefined;
+  private open = false;
+  private ended = false;
+  private tries = 0;
+  private sequence = 0;
+
+  constructor(
+    private readonly address: string,
+    private readonly join: Extract<Said, { kind: "join" }>,
+    private readonly handlers: Handlers,
+  ) {
+    this.connect();
+    // a laptop that wakes up, or changes networks, need not wait for the next try
+    addEventListener("online", () => !this.open && this.connect());
+  }
+
+  say(said: Said): void {
+    if (this.open) this.socket!.send(JSON.stringify(said));
+  }
+
+  /** Send this person's state, unless the last ones have not gone yet: newer ones say more. */
+  move(message: Omit<Message, "sequence" | "time_ms">): void {
+    if (!this.open || this.socket!.bufferedAmount > 4096) return;
+    this.sequence = (this.sequence + 1) % 2 ** 16;
+    this.socket!.send(encode({ ...message, sequence: this.sequence, time_ms: Math.round(performance.now()) }));
+  }
+
+  leave(): void {
+    this.say({ kind: "leave" });
+    this.ended = true;
+    this.socket?.close();
+  }
+
+  private connect(): void {
+    if (this.ended || (this.socket && this.socket.readyState <= WebSocket.OPEN)) return;
+    const socket = new WebSocket(this.address);
+    this.socket = socket;
+    socket.binaryType = "arraybuffer";
+    socket.addEventListener("open", () => socket.send(JSON.stringify(this.join)));
+    socket.addEventListener("message", ({ data }) => {
+      if (socket !== this.socket) return;
+      if (typeof data === "string") this.hear(JSON.parse(data) as Answer);
+      else this.see(new Uint8Array(data as ArrayBuffer));
+    });
+    socket.addEventListener("close", () => socket === this.socket && this.closed());
+  }
+
+  private hear(answer: Answer): void {
+    if (answer.kind === "welcome") {
+      this.open = true;
+      this.tries = 0;
+      this.handlers.welcome(answer);
+    } else if (answer.kind === "refused") {
+      this.ended = !answer.again;
+      if (this.ended) this.handlers.ended(answer.text);
+      else this.handlers.answer(answer);
+    } else {
+      this.handlers.answer(answer);
+    }
+  }
+
+  private see(content: Uint8Array): void {
+    try {
+      for (const [number, state] of unpack(content).states) this.handlers.state(number, decode(state));
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.ended = true;
+      this.socket?.close();
+      this.handlers.ended("The room speaks another version than this page; load the page again.");
+    }
+  }
+
+  private closed(): void {
+    const was = this.open;
+    this.open = false;
+    if (this.ended) return;
+    if (was) this.handlers.broken();
+    const wait = WAITS_MS[Math.min(this.tries++, WAITS_MS.length - 1)]!;
+    setTimeout(() => this.connect(), wait);
+  }
+}

@@ -1,0 +1,128 @@
+/**
+ * Shows one person's states smoothly: by the sender's own times, a little late, however they arrive.
+ *
+ * The delay follows how unevenly messages come: it grows at once when one is late and shrinks slowly, within bounds.
+ */
+
+import { FLAG, REST, type Message } from "./protocol.js";
+
+/** At the least, one message lies ahead of what is shown: 33 ms, and half as much for the timers of browsers. */
+const LEAST_DELAY_MS = 50;
+/** Beyond this a face is so far behind its voice that a jump is better. */
+const MOST_DELAY_MS = 400;
+/** Of what the delay is larger than needed, given back each second. */
+const SHRINK_PER_S = 0.2;
+/** Longer silence is no lost message: the face goes to rest. */
+export const STALE_MS = 700;
+/** A face is at rest so much later. */
+const FADE_MS = 600;
+/** Two messages that are further apart are not blended: somebody came back. */
+const GAP_MS = 1500;
+/** States that are kept: a second and a half. */
+const MOST_KEPT = 48;
+
+interface Arrived {
+  readonly at: number; // by the sender's clock, unwrapped
+  readonly message: Message;
+}
+
+export class Playback {
+  private readonly kept: Arrived[] = [];
+  private epoch = 0;
+  private lastTime: number | undefined;
+  /** Least difference of arrival and sending seen lately: a message that was not held up. */
+  private offset = Infinity;
+  private delay = LEAST_DELAY_MS;
+  private heard = -Infinity;
+  private shown = -Infinity;
+
+  /** How far what is shown lies behind the newest, in ms. */
+  get delayMs(): number {
+    return this.delay;
+  }
+
+  /** Take a message that arrived now, in ms of the page's clock. */
+  push(message: Message, now: number): void {
+    const at = this.unwrapped(message.time_ms);
+    const newest = this.kept.at(-1);
+    if (newest && (Math.abs(at - newest.at) > 5000 || now - this.heard > 5000)) this.restart();
+    if (this.kept.some((other) => other.at === at)) return; // the same again
+    this.heard = now;
+    const transit = now - at;
+    // clocks drift by some 50 ppm: the least transit is forgotten slowly, or a slow clock would count as lateness
+    this.offset = Math.min(transit, this.offset + 0.05);
+    const needed = transit - this.offset + LEAST_DELAY_MS;
+    this.delay = Math.min(Math.max(this.delay, needed), MOST_DELAY_MS);
+    let place = this.kept.length;
+    while (place > 0 && this.kept[place - 1]!.at > at) place--;
+    this.kept.splice(place, 0, { at, message });
+    if (this.kept.length > MOST_KEPT) this.kept.shift();
+  }
+
+  /** What to show now, in ms of the page's clock; undefined before the first message. */
+  at(now: number): Message | undefined {
+    const newest = this.kept.at(-1);
+    if (!newest) return undefined;
+    if (this.shown > -Infinity) {
+      const seconds = Math.max(0, now - this.shown) / 1000;
+      this.delay = Math.max(LEAST_DELAY_MS, this.delay - (this.delay - LEAST_DELAY_MS) * Math.min(1, SHRINK_PER_S * seconds));
+    }
+    this.shown = now;
+    const silent = now - this.heard;
+    const time = now - this.offset - this.delay;
+    const message = this.between(time);
+    return silent > STALE_MS ? aged(message, Math.min(1, (silent - STALE_MS) / FADE_MS)) : message;
+  }
+
+  private between(time: number): Message {
+    const after = this.kept.findIndex(({ at }) => at > time);
+    if (after === -1) return this.kept.at(-1)!.message;
+    if (after === 0) return this.kept[0]!.message;
+    const [from, to] = [this.kept[after - 1]!, this.kept[after]!];
+    if (to.at - from.at > GAP_MS) return from.message;
+    return blend(from.message, to.message, (time - from.at) / (to.at - from.at));
+  }
+
+  /** The sender's clock without its wrap at 2^32 ms. */
+  private unwrapped(time: number): number {
+    if (this.lastTime !== undefined) {
+      const step = time - this.lastTime;
+      if (step < -(2 ** 31)) this.epoch += 2 ** 32;
+      else if (step > 2 ** 31) this.epoch -= 2 ** 32;
+    }
+    this.lastTime = time;
+    return this.epoch + time;
+  }
+
+  /** Another clock has taken over: another program, or the page was loaded anew. */
+  private restart(): void {
+    this.kept.length = 0;
+    this.offset = Infinity;
+    this.delay = LEAST_DELAY_MS;
+  }
+}
+
+/** A state between two; flags and gestures are those of the one that is nearer in the past. */
+export function blend(from: Message, to: Message, share: number): Message {
+  const mix = (a: ArrayLike<number>, b: ArrayLike<number>): number[] => Array.from(a, (value, i) => value + (b[i]! - value) * share);
+  // the shorter way round, and back to length 1: two messages are at most some degrees apart
+  const dot = Array.from(from.rotation).reduce((sum, value, i) => sum + value * to.rotation[i]!, 0);
+  const rotation = mix(from.rotation, dot < 0 ? Array.from(to.rotation, (value) => -value) : to.rotation);
+  const length = Math.hypot(...rotation) || 1;
+  const turn = Math.atan2(Math.sin(to.heading - from.heading), Math.cos(to.heading - from.heading));
+  return {
+    ...(share < 1 ? from : to),
+    weights: mix(from.weights, to.weights),
+    head_m: mix(from.head_m, to.head_m),
+    rotation: rotation.map((value) => value / length),
+    gaze: mix(from.gaze, to.gaze),
+    floor_m: mix(from.floor_m, to.floor_m),
+    heading: from.heading + turn * share,
+  };
+}
+
+/** A face on its way to rest; the body stays where it stood. */
+function aged(message: Message, share: number): Message {
+  const rest = { ...REST, floor_m: message.floor_m, heading: message.heading, flags: message.flags & FLAG.seated };
+  return { ...blend(message, rest, share), flags: rest.flags, animation: 0 };
+}

@@ -1,0 +1,62 @@
+/** The texts of a meeting, as `room/protocol/texts.py` defines them. */
+
+export interface Person {
+  number: number;
+  id: string;
+  name: string;
+  avatar: string;
+  moderator: boolean;
+  present: boolean;
+  voice: boolean;
+  muted: boolean;
+  face: "page" | "program";
+}
+
+export interface Description {
+  kind: "description";
+  to: number;
+  type: "offer" | "answer" | "rollback";
+  sdp: string;
+}
+
+export interface Candidate {
+  kind: "candidate";
+  to: number;
+  candidate: string;
+  mid?: string;
+  line?: number;
+}
+
+export type Act = "mute" | "unmute" | "remove" | "lock" | "unlock";
+
+export type Said =
+  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; role: "page" }
+  | { kind: "chat"; text: string }
+  | { kind: "voice"; open: boolean }
+  | Description
+  | Candidate
+  | { kind: "moderate"; action: Act; number?: number }
+  | { kind: "leave" };
+
+export interface Welcome {
+  kind: "welcome";
+  room: string;
+  number: number;
+  id: string;
+  moderator: boolean;
+  locked: boolean;
+  hertz: number;
+  shapes: string[];
+  people: Person[];
+  ice: RTCIceServer[];
+}
+
+export type Answer =
+  | Welcome
+  | { kind: "person"; person: Person }
+  | { kind: "left"; number: number }
+  | { kind: "line"; number: number; name: string; text: string; time_s: number }
+  | { kind: "door"; locked: boolean }
+  | { kind: "signal"; sender: number; signal: Description | Candidate }
+  | { kind: "notice"; text: string }
+  | { kind: "refused"; text: string; again: boolean };
