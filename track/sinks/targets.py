@@ -64,6 +64,12 @@ SINKS: dict[str, SinkKind] = {
         port=49983,
         options={"version": ("1", "2"), "sides": ("own", "mirrored")},
     ),
+    "vrchat": SinkKind(
+        description="VRChat itself: Unified Expressions as an avatar's parameters, and the eyes",
+        module="vrchat",
+        port=9000,
+        options={"prefix": (), "bits": tuple(map(str, range(9)))},
+    ),
     "csv": SinkKind(description="the table of `regress predict`", module="tables"),
     "livelink-csv": SinkKind(description="a recording as the Live Link Face app keeps it", module="tables"),
 }

@@ -1,0 +1,137 @@
+"""VRChat's OSC, read by python-osc: names and sums of VRCFaceTracking, bits, eyes, and what is sent again."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from facegen.conventions import BLENDSHAPE_INDEX
+from regress.runtime.sample import Sample
+from regress.runtime.stages.retargeting.target_file import read_retargeting
+from tests.track.sinks.receivers import ANY_SAMPLE, acted, lost, received, receiver
+from tests.track.sinks.test_vmc import messages
+from track.sinks.targets import open_sink, parse_target
+from track.sinks.vrchat import _ALL_AFTER, _COMBINED, VrChat
+
+V2 = "/avatar/parameters/v2/"
+
+
+def parameters(datagrams: list[bytes], prefix: str = V2) -> dict[str, object]:
+    """Values by name, of the addresses that begin so."""
+    return {
+        each.address.removeprefix(prefix): each.params[0]
+        for each in messages(datagrams)
+        if each.address.startswith(prefix)
+    }
+
+
+def test_a_receiver_reads_all_of_it():
+    sample = acted()
+    with receiver() as taken:
+        sink = open_sink(parse_target(f"vrchat:127.0.0.1:{taken.getsockname()[1]}"), pytest.fail)
+        sink.send(sample)
+        datagrams = received(taken, len(VrChat()(sample)))
+        sink.close()
+    assert max(map(len, datagrams)) < 1500
+    got = messages(datagrams)
+    assert [each.params for each in got if each.address == "/avatar/parameters/LipTrackingActive"] == [[True]]
+    values = parameters(datagrams)
+    assert all(type(value) is float for value in values.values())
+    weight = {name: sample.weights[index] for name, index in BLENDSHAPE_INDEX.items()}
+    assert values["JawOpen"] == pytest.approx(weight["jawOpen"], abs=1e-6)
+    assert values["MouthCornerPullLeft"] == pytest.approx(weight["mouthSmileLeft"], abs=1e-6)
+    assert values["JawX"] == pytest.approx(weight["jawRight"] - weight["jawLeft"], abs=1e-6)
+    lid = 0.75 * (1 - weight["eyeBlinkRight"]) + 0.25 * weight["eyeWideRight"]
+    assert values["EyeLidRight"] == pytest.approx(lid, abs=1e-6)
+    (eyes,) = (each.params for each in got if each.address == "/tracking/eye/LeftRightPitchYaw")
+    left_yaw, left_pitch, right_yaw, right_pitch = np.degrees(sample.gaze)
+    np.testing.assert_allclose(eyes, [-left_pitch, -left_yaw, -right_pitch, -right_yaw], atol=1e-4)
+    (closed,) = (each.params for each in got if each.address == "/tracking/eye/EyesClosedAmount")
+    assert closed == [pytest.approx((weight["eyeBlinkLeft"] + weight["eyeBlinkRight"]) / 2, abs=1e-6)]
+
+
+def test_sums_are_those_of_the_unified_expressions_that_they_are_made_of():
+    base, combined = (
+        read_retargeting("unified_expressions"),
+        read_retargeting(str(_COMBINED)),
+    )
+    column = {name: base.factors[:, index] for index, name in enumerate(base.names)}
+    sums = {
+        "BrowUpLeft": column["BrowOuterUpLeft"] * 0.6 + column["BrowInnerUpLeft"] * 0.4,
+        "BrowDownRight": column["BrowLowererRight"] * 0.75 + column["BrowPinchRight"] * 0.25,
+        "MouthSmileLeft": column["MouthCornerPullLeft"] * 0.8 + column["MouthCornerSlantLeft"] * 0.2,
+        "CheekPuffSuckLeft": column["CheekPuffLeft"] - column["CheekSuckLeft"],
+        "JawZ": column["JawForward"] - column["JawBackward"],
+        "MouthX": (
+            column["MouthUpperRight"]
+            + column["MouthLowerRight"]
+            - column["MouthUpperLeft"]
+            - column["MouthLowerLeft"]
+        )
+        / 2,
+        "LipSuckFunnelUpper": (
+            column["LipSuckUpperRight"]
+            + column["LipSuckUpperLeft"]
+            - column["LipFunnelUpperRight"]
+            - column["LipFunnelUpperLeft"]
+        )
+        / 2,
+        "MouthOpen": 0.25
+        * sum(
+            column[f"Mouth{part}{side}"] for part in ("UpperUp", "LowerDown") for side in ("Left", "Right")
+        ),
+        "SmileFrownRight": column["MouthCornerPullRight"] * 0.8
+        + column["MouthCornerSlantRight"] * 0.2
+        - column["MouthFrownRight"],
+        "MouthTightenerStretchLeft": column["MouthTightenerLeft"] - column["MouthStretchLeft"],
+    }
+    for name, expected in sums.items():
+        np.testing.assert_allclose(combined.factors[:, combined.names.index(name)], expected, err_msg=name)
+    lowest = np.minimum(combined.factors, 0).sum(axis=0)
+    np.testing.assert_array_equal(combined.low, np.where(lowest < 0, -1, 0))
+    assert not set(base.names) & set(combined.names)
+
+
+@given(value=st.floats(-1, 1), bits=st.integers(1, 8))
+def test_bits_are_the_number_that_vrcfacetracking_makes(value, bits):
+    weights = np.zeros(52)
+    weights[BLENDSHAPE_INDEX["jawRight" if value > 0 else "jawLeft"]] = abs(value)
+    values = parameters(VrChat(bits=bits)(Sample(weights=weights)))
+    assert all(type(each) is bool for each in values.values())
+    number = sum(2**bit for bit in range(bits) if values[f"JawX{2**bit}"])
+    assert f"JawX{2**bits}" not in values
+    whole = 2**bits - 1 if abs(value) > 0.99999 else int(abs(value) * 2**bits)
+    assert number == whole
+    assert values["JawXNegative"] == (value < 0)
+
+
+def test_a_prefix_of_the_avatar_s():
+    assert "JawOpen" in parameters(VrChat(prefix="FT/v2")(acted()), "/avatar/parameters/FT/v2/")
+
+
+def test_what_did_not_change_is_sent_again_each_second_alone():
+    vrchat, sample = VrChat(), acted()
+    sizes = [len(parameters(vrchat(sample))) for _ in range(2 * _ALL_AFTER)]
+    whole = sizes[0]
+    assert whole > 100
+    assert sizes == ([whole] + [0] * (_ALL_AFTER - 1)) * 2
+    moved = Sample(weights=sample.weights.copy(), gaze=sample.gaze)
+    vrchat(sample)
+    moved.weights[BLENDSHAPE_INDEX["jawOpen"]] = 0.125
+    assert parameters(vrchat(moved)) == {"JawOpen": 0.125}
+
+
+def test_a_lost_face_is_told_and_moves_nothing():
+    vrchat = VrChat()
+    vrchat(acted())
+    got = messages(vrchat(lost()))
+    assert [(each.address.split("/")[-1], each.params) for each in got] == [
+        (name, [False]) for name in ("EyeTrackingActive", "ExpressionTrackingActive", "LipTrackingActive")
+    ]
+    assert vrchat(lost()) == []
+
+
+@given(sample=ANY_SAMPLE)
+def test_whatever_stages_leave_is_within_range(sample):
+    values = np.array([float(value) for value in parameters(VrChat()(sample)).values()])
+    assert ((values >= -1) & (values <= 1)).all()
