@@ -44,6 +44,7 @@ SPARED = {
     "facegen/machine.py": {"socket"},  # asks for this machine's own name, which opens no connection
     "room/server/": {"asyncio", "ssl"},  # listens for those who meet, by https where it is told to
     "track/page/": {"asyncio"},  # listens for browsers, on this machine unless told otherwise
+    "track/sinks/room.py": {"asyncio"},  # speaks to the room whose link stands behind --to
     "track/sinks/udp.py": {
         "socket"
     },  # sends to who stands behind --to, on this machine unless named otherwise

@@ -31,11 +31,11 @@ class SinkKind:
     module
         Of `track.sinks`, imported when the sink is opened: it has ``open_sink(target, tell)``.
     port
-        Where its receivers listen by default; None for what is written to a file or has a URL.
+        Where its receivers listen by default; None for what is written to a file or has a link.
     options
         By name the values that are allowed; none of them means any text.
     needs
-        What must stand behind the name where there is no port: ``FILE`` or ``URL``.
+        What must stand behind the name where there is no port: ``FILE`` or ``LINK``.
     """
 
     description: str
@@ -70,6 +70,11 @@ SINKS: dict[str, SinkKind] = {
         port=9000,
         options={"prefix": (), "bits": tuple(map(str, range(9)))},
     ),
+    "room": SinkKind(
+        description="a person's face in a room, by the link that the room's page shows to that person",
+        module="room",
+        needs="LINK",
+    ),
     "csv": SinkKind(description="the table of `regress predict`", module="tables"),
     "livelink-csv": SinkKind(description="a recording as the Live Link Face app keeps it", module="tables"),
 }
@@ -86,7 +91,7 @@ class Target:
     host, port
         Of a receiver; empty and None where there is none.
     place
-        File or URL, where there is one.
+        File or link, where there is one.
     options
         As they were given.
     """

@@ -1,8 +1,8 @@
 """Writes samples as VRChat takes them by OSC: an avatar's face-tracking parameters, and its eyes.
 
 Avatars choose which parameters they have and how: as floats, or as bits of a number (``JawOpen1``, ``JawOpen2``,
-``JawOpen4``, and ``JawXNegative``) to save their budget. VRChat drops what an avatar has not. Nobody asks it here which it has:
-VRCFaceTracking does, and takes our Live Link or iFacialMocap (docs/track-sinks.md).
+``JawOpen4``, and ``JawXNegative``) to save their budget. VRChat drops what an avatar has not, and nobody asks it here
+which it has: VRCFaceTracking does, and takes our Live Link or iFacialMocap (docs/track-sinks.md).
 
 References
 ----------

@@ -1,0 +1,141 @@
+"""A face in a room: the same bytes as the room's own vectors, and a real room that shows it to the others."""
+
+import asyncio
+import json
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from room.protocol import Message, decode
+from room.protocol.texts import Changed
+from tests.room.guests import open_room
+from tests.track.sinks.receivers import acted, lost
+from track.errors import InputError
+from track.sinks.axes import head_pose
+from track.sinks.room_state import TRACKED, face_state
+from track.sinks.targets import open_sink, parse_target
+
+VECTORS = json.loads(Path("room/protocol/vectors.json").read_text())["states"]
+FACE = ("flags", "sequence", "time_ms", "weights", "head_m", "rotation", "gaze")
+BODY = 78
+"""From here on are body, heading and animation, which a face leaves alone."""
+
+
+@pytest.mark.parametrize("vector", VECTORS, ids=[vector["name"] for vector in VECTORS])
+def test_bytes_are_those_of_the_room_s_vectors(vector):
+    face = {
+        name: vector["state"][name]
+        for name in ("flags", "sequence", "time_ms", "weights", "head_m", "rotation", "gaze")
+    }
+    content = face_state(**face)
+    assert content[:BODY].hex() == vector["hex"][: 2 * BODY]
+    assert content[BODY:] == bytes(7)
+    assert len(content) * 2 == len(vector["hex"])
+
+
+def test_what_is_not_known_rests():
+    assert decode(face_state(flags=0, sequence=65537, time_ms=2**32 + 5, weights=np.zeros(52))) == Message(
+        sequence=1, time_ms=5
+    )
+
+
+def test_others_in_a_room_see_the_face_move():
+    told, sample = [], acted(time_s=2.0)
+
+    async def meet() -> Message:
+        async with open_room() as place:
+            ada, bob = await place.guest(), await place.guest(name="Bob")
+            link = f"{place.address}/room/{place.name}#{place.join().key}.{ada.secret}"
+            sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
+            assert ada.secret not in sink.title
+            while ada.number not in bob.states:  # the newest alone is kept until the room has let the face in
+                sink.send(sample)
+                await asyncio.sleep(0.02)
+            await bob.told(Changed, lambda answer: answer.person.face == "program")
+            seen = bob.states[ada.number]
+            await asyncio.to_thread(sink.close)
+            await bob.told(Changed, lambda answer: answer.person.face == "page")
+            await ada.go()
+            await bob.go()
+            return seen
+
+    seen = asyncio.run(asyncio.wait_for(meet(), 20))
+    assert seen.flags == TRACKED
+    np.testing.assert_allclose(seen.weights, sample.weights, atol=0.5001 / 255)
+    np.testing.assert_allclose(seen.rotation, head_pose(sample.head).rotation, atol=1e-4)
+    np.testing.assert_allclose(seen.gaze, sample.gaze, atol=np.radians(0.25001))
+    assert seen.head_m == (0, 0, 0)  # it rests where it was seen first
+    assert told == []
+    assert threading.active_count() == 1
+
+
+def test_a_face_of_nobody_is_told_once_and_tried_again():
+    told = []
+
+    async def meet() -> None:
+        async with open_room() as place:
+            link = f"{place.address}/room/{place.name}#{place.join().key}.{'x' * 22}"
+            sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
+            sink.send(lost())
+            while not told:
+                await asyncio.sleep(0.02)
+            ada = await place.guest(secret="x" * 22)
+            bob = await place.guest(name="Bob")
+            while ada.number not in bob.states:
+                sink.send(acted())
+                await asyncio.sleep(0.02)
+            await asyncio.to_thread(sink.close)
+            await ada.go()
+            await bob.go()
+
+    asyncio.run(asyncio.wait_for(meet(), 20))
+    assert len(told) == 1
+    assert "open the page first" in told[0]
+
+
+def test_a_wrong_key_ends_it():
+    told = []
+
+    async def meet() -> None:
+        async with open_room() as place:
+            link = f"{place.address}/room/{place.name}#{'k' * 22}.{'x' * 22}"
+            sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
+            while not told:
+                await asyncio.sleep(0.02)
+            sink.send(acted())
+            await asyncio.to_thread(sink.close)
+            sink.send(acted())
+
+    asyncio.run(asyncio.wait_for(meet(), 20))
+    assert "is not, or no longer, one of this room" in told[0]
+
+
+def test_a_room_that_is_away_is_told_once_and_costs_nothing():
+    told = []
+    sink = open_sink(parse_target(f"room:http://127.0.0.1:9/room/a#{'k' * 22}.{'x' * 22}"), told.append)
+    for _ in range(20):
+        sink.send(acted())
+    while not told:
+        threading.Event().wait(0.02)
+    sink.close()
+    assert len(told) == 1
+    assert "nobody answers" in told[0]
+
+
+@pytest.mark.parametrize(
+    "link",
+    [
+        "http://127.0.0.1:8443/room/a",
+        "http://127.0.0.1:8443/room/a#key",
+        "http://127.0.0.1:8443/room/A#" + "k" * 22 + "." + "x" * 22,
+        "ws://127.0.0.1:8443/room/a#" + "k" * 22 + "." + "x" * 22,
+        "127.0.0.1:8443",
+        "http:///room/a#" + "k" * 22 + "." + "x" * 22,
+    ],
+)
+def test_a_link_that_is_none_of_a_face_is_refused_without_its_secret(link):
+    with pytest.raises(InputError, match="shows it as") as refused:
+        open_sink(parse_target(f"room:{link}"), pytest.fail)
+    assert "xxx" not in str(refused.value)

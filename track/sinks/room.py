@@ -1,0 +1,168 @@
+"""Moves somebody's face in a room: a connection of its own thread, which takes the newest state alone.
+
+The link is the one that the room's page shows to its person, ``http://HOST:PORT/room/NAME#KEY.SECRET``. What is behind
+the ``#`` never is part of a request; it says once, in the first message, whose face this is (room/protocol/texts.py).
+"""
+
+import asyncio
+import json
+import re
+import threading
+from urllib.parse import urlsplit
+
+import numpy as np
+from aiohttp import ClientError, ClientSession, ClientTimeout, ClientWebSocketResponse, WSMsgType
+
+from regress.runtime.sample import Sample
+from track.errors import InputError
+from track.sinks.axes import head_pose
+from track.sinks.room_state import TRACKED, face_state
+from track.sinks.sink import Sink, Tell, has_face
+from track.sinks.targets import Target
+
+STATES_PER_S = 30
+"""As many as a room passes on; it closes on who sends more than sixty."""
+
+PAUSES_S = (0.5, 1.0, 2.0, 5.0)
+"""Before each new try to come in; the last one from then on."""
+
+_JOIN_S = 5.0
+_LINK = re.compile(r"/room/([a-z0-9][a-z0-9-]{0,39})")
+_KEYS = re.compile(r"([A-Za-z0-9_-]{22})\.([A-Za-z0-9_-]{22,64})")
+
+
+class RoomSink(Sink):
+    """A face on its way to a room.
+
+    Parameters
+    ----------
+    target
+        With the person's link.
+    tell
+        Takes one sentence where the room does not let the face in, and one where nobody answers.
+
+    Raises
+    ------
+    InputError
+        Where the link is none of a person in a room.
+    """
+
+    def __init__(self, target: Target, tell: Tell) -> None:
+        link = urlsplit(target.place)
+        name, keys = _LINK.fullmatch(link.path), _KEYS.fullmatch(link.fragment)
+        if link.scheme not in ("http", "https") or not link.netloc or name is None or keys is None:
+            raise InputError(
+                "--to room: the link is none of a person's face; the room's page shows it as "
+                "http://HOST:PORT/room/NAME#KEY.SECRET"
+            )
+        self.title = f"room to {link.netloc}{link.path}"
+        self._address = f"{link.scheme}://{link.netloc}{link.path}/socket"
+        self._join = {
+            "kind": "join",
+            "version": 1,
+            "key": keys[1],
+            "secret": keys[2],
+            "name": "face",
+            "role": "face",
+        }
+        self._tell, self._told = tell, False
+        self._rest_m: np.ndarray | None = None
+        self._sequence, self._newest = 0, b""
+        self._loop = asyncio.new_event_loop()
+        self._fresh, self._stopped = asyncio.Event(), asyncio.Event()
+        self._thread = threading.Thread(target=self._run, name="room", daemon=True)
+        self._thread.start()
+
+    def send(self, sample: Sample) -> None:
+        """Leave a sample's state to the connection; one that was not sent yet is forgotten."""
+        pose = head_pose(sample.head)
+        if self._rest_m is None and pose is not None:
+            self._rest_m = pose.position  # where the head is seen first is where it rests
+        seen = has_face(sample)
+        gaze = sample.gaze
+        self._sequence += 1
+        self._newest = face_state(
+            flags=TRACKED if seen else 0,
+            sequence=self._sequence,
+            time_ms=0 if sample.time_s is None else round(float(np.nan_to_num(sample.time_s)) * 1000),
+            weights=sample.weights if seen else np.zeros(52),
+            head_m=None if pose is None or not seen else pose.position - self._rest_m,
+            rotation=None if pose is None or not seen else pose.rotation,
+            gaze=None if gaze is None or not seen or np.isnan(gaze).any() else gaze,
+        )
+        self._wake(self._fresh)
+
+    def close(self) -> None:
+        """Leave the room; the page has the face again."""
+        self._wake(self._stopped)
+        self._thread.join(_JOIN_S)
+
+    def _wake(self, event: asyncio.Event) -> None:
+        try:
+            self._loop.call_soon_threadsafe(event.set)
+        except RuntimeError:  # the room has refused this face, and the loop is closed
+            return
+
+    def _run(self) -> None:
+        try:
+            self._loop.run_until_complete(self._stay())
+        finally:
+            self._loop.close()
+
+    async def _stay(self) -> None:
+        """Come in, again and again, until the room says that it makes no sense, or the sink is closed."""
+        stopping = asyncio.ensure_future(self._stopped.wait())
+        async with ClientSession(timeout=ClientTimeout(total=_JOIN_S)) as session:
+            tries = 0
+            while not self._stopped.is_set():
+                meeting = asyncio.ensure_future(self._meet(session))
+                await asyncio.wait({meeting, stopping}, return_when=asyncio.FIRST_COMPLETED)
+                if not meeting.done():
+                    meeting.cancel()
+                    await asyncio.gather(meeting, return_exceptions=True)
+                    return
+                came_in, again = meeting.result()
+                if not again:
+                    return
+                tries = 0 if came_in else tries + 1
+                pause = PAUSES_S[min(tries, len(PAUSES_S) - 1)]
+                await asyncio.wait({stopping}, timeout=pause)
+
+    async def _meet(self, session: ClientSession) -> tuple[bool, bool]:
+        """One connection; says whether it came in, and whether to try again."""
+        sending: asyncio.Future[None] | None = None
+        try:
+            async with session.ws_connect(self._address, heartbeat=20) as socket:
+                await socket.send_str(json.dumps(self._join))
+                async for message in socket:
+                    answer = json.loads(message.data) if message.type is WSMsgType.TEXT else {}
+                    if answer.get("kind") == "refused":
+                        self._say(str(answer.get("text")))
+                        return sending is not None, bool(answer.get("again"))
+                    if answer.get("kind") == "welcome" and sending is None:
+                        self._told = False
+                        sending = asyncio.ensure_future(self._send_states(socket))
+        except (ClientError, OSError, asyncio.TimeoutError, ValueError) as error:
+            self._say(f"nobody answers ({type(error).__name__}); trying again")
+        finally:
+            if sending is not None:
+                sending.cancel()
+                await asyncio.gather(sending, return_exceptions=True)
+        return sending is not None, True
+
+    async def _send_states(self, socket: ClientWebSocketResponse) -> None:
+        while not socket.closed:
+            await self._fresh.wait()
+            self._fresh.clear()
+            await socket.send_bytes(self._newest)
+            await asyncio.sleep(1 / STATES_PER_S)
+
+    def _say(self, what: str) -> None:
+        if not self._told:
+            self._told = True
+            self._tell(f"{self.title}: {what}")
+
+
+def open_sink(target: Target, tell: Tell) -> Sink:
+    """A face on its way to a room."""
+    return RoomSink(target, tell)
