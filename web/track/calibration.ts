@@ -1,0 +1,83 @@
+/** Shows what calibration asks for: the face to make, how long, and how it went. */
+
+import { words, type Step } from "./messages.js";
+
+/** A result stays as long where no further step comes. */
+const TOLD_MS = 4000;
+
+const STATES: Readonly<Record<Step["state"], string>> = {
+  countdown: "Get ready",
+  recording: "Hold it",
+  done: "Done",
+  again: "Once more",
+  cancelled: "Cancelled",
+};
+
+function byId<T extends HTMLElement>(id: string): T {
+  return document.getElementById(id) as T;
+}
+
+export class CalibrationView {
+  private readonly card = byId("asking");
+  private readonly name = byId("asking-name");
+  private readonly seconds = byId("asking-seconds");
+  private readonly text = byId("asking-text");
+  private readonly progress = byId<HTMLProgressElement>("asking-progress");
+  private readonly cancel = byId<HTMLButtonElement>("asking-cancel");
+  private phase = "";
+  private most = 1;
+  private told = 0;
+
+  constructor(start: (step: string) => void, cancel: () => void) {
+    byId<HTMLFormElement>("calibrate").addEventListener("submit", (event) => {
+      event.preventDefault();
+      start(byId<HTMLSelectElement>("step").value);
+    });
+    this.cancel.addEventListener("click", cancel);
+    addEventListener("keydown", ({ key }) => {
+      if (key === "Escape" && this.runs) cancel();
+    });
+  }
+
+  private get runs(): boolean {
+    return this.phase.endsWith("countdown") || this.phase.endsWith("recording");
+  }
+
+  /** What can be asked for. */
+  offer(steps: readonly string[]): void {
+    const options = steps.map((step) => new Option(words(step), step));
+    if (steps.length > 1) options.unshift(new Option("All faces", "all"));
+    byId<HTMLSelectElement>("step").replaceChildren(...options);
+  }
+
+  show(step: Step | null): void {
+    if (!step) {
+      if (this.runs) this.hide(); // it was cut off
+      return;
+    }
+    const phase = `${step.name} ${step.state}`;
+    if (phase !== this.phase) {
+      this.phase = phase;
+      this.most = Math.max(step.seconds_left, 0.1);
+      clearTimeout(this.told);
+      if (!this.runs) this.told = setTimeout(() => this.hide(), TOLD_MS);
+    }
+    this.card.hidden = false;
+    this.card.dataset["state"] = step.state;
+    this.write(this.name, `${words(step.name)} · ${STATES[step.state]}`);
+    this.write(this.text, step.text);
+    this.write(this.seconds, this.runs ? `${Math.ceil(step.seconds_left)}` : "");
+    this.progress.hidden = this.cancel.hidden = !this.runs;
+    this.progress.value = 1 - Math.min(step.seconds_left / this.most, 1);
+  }
+
+  private hide(): void {
+    this.phase = "";
+    this.card.hidden = true;
+  }
+
+  /** Only what changed, or screen readers would read it again. */
+  private write(element: HTMLElement, text: string): void {
+    if (element.textContent !== text) element.textContent = text;
+  }
+}

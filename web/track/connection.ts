@@ -1,0 +1,82 @@
+/** The line to the server, which comes back by itself. */
+
+import { VERSION, type Command, type Frame, type Hello, type Message } from "./messages.js";
+
+/** Between tries: at once at first, then ever more slowly. */
+const PAUSES_S = [0.5, 1, 2, 4, 5];
+/** Without a frame for so long, nothing comes from the cameras. */
+const SILENT_S = 2;
+/** WebSocket's word for a server that ends on purpose. */
+const GOING_AWAY = 1001;
+
+export type State = "connecting" | "live" | "waiting" | "lost";
+
+export interface Listener {
+  state(state: State, sentence: string): void;
+  hello(hello: Hello): void;
+  frame(frame: Frame): void;
+  picture(camera: number, jpeg: Blob): void;
+  refused(sentence: string): void;
+}
+
+export class Connection {
+  private socket: WebSocket | undefined;
+  private tries = 0;
+  private silence = 0;
+
+  constructor(private readonly listener: Listener) {
+    this.open();
+  }
+
+  send(command: Command): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
+  }
+
+  private open(): void {
+    const address = new URL(`stream${location.search}`, location.href);
+    address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+    const socket = new WebSocket(address);
+    socket.binaryType = "arraybuffer";
+    socket.addEventListener("message", ({ data }) => this.hear(data));
+    socket.addEventListener("close", ({ code }) => this.closed(code));
+    this.socket = socket;
+  }
+
+  private hear(data: string | ArrayBuffer): void {
+    if (typeof data !== "string") {
+      const camera = new Uint8Array(data, 0, 1)[0]!;
+      this.listener.picture(camera, new Blob([new Uint8Array(data, 1)], { type: "image/jpeg" }));
+      return;
+    }
+    const message = JSON.parse(data) as Message;
+    if (message.type === "frame") {
+      this.send({ verb: "seen", value: message.number });
+      this.listener.state("live", "Live");
+      this.expect();
+      this.listener.frame(message);
+    } else if (message.type === "hello") {
+      this.tries = 0;
+      if (message.version !== VERSION) {
+        this.listener.refused("This page is of another version than track: load it again.");
+      }
+      this.listener.state("waiting", "Waiting for the camera");
+      this.listener.hello(message);
+    } else {
+      this.listener.refused(message.text);
+    }
+  }
+
+  /** Say so where no further frame comes. */
+  private expect(): void {
+    clearTimeout(this.silence);
+    this.silence = setTimeout(() => this.listener.state("waiting", "Nothing comes from the camera"), 1000 * SILENT_S);
+  }
+
+  private closed(code: number): void {
+    clearTimeout(this.silence);
+    const pause = PAUSES_S[Math.min(this.tries++, PAUSES_S.length - 1)]!;
+    const why = code === GOING_AWAY ? "track has ended" : "track does not answer";
+    this.listener.state("lost", `${why}; this page goes on when it is there again`);
+    setTimeout(() => this.open(), 1000 * pause);
+  }
+}

@@ -1,0 +1,82 @@
+/** The buttons that record a take and play it back. */
+
+import type { Face } from "../avatar/index.js";
+import { clock, MOST_SECONDS, Take } from "./take.js";
+
+function byId<T extends HTMLElement>(id: string): T {
+  return document.getElementById(id) as T;
+}
+
+export class Recorder {
+  private readonly take = new Take();
+  private readonly record = byId<HTMLButtonElement>("record");
+  private readonly play = byId<HTMLButtonElement>("play");
+  private readonly moment = byId("moment");
+  private readonly slider = this.moment.querySelector("input")!;
+  private readonly output = this.moment.querySelector("output")!;
+  private recording = false;
+  /** When the take's start would have been played; undefined while it is not. */
+  private playedFrom: number | undefined;
+
+  constructor(
+    private readonly tell: (recording: boolean) => void,
+    private readonly say: (sentence: string) => void,
+  ) {
+    this.record.addEventListener("click", () => {
+      this.set(!this.recording);
+      tell(this.recording);
+    });
+    this.play.addEventListener("click", () => this.playing(this.playedFrom === undefined));
+    this.slider.addEventListener("input", () => {
+      this.playedFrom = performance.now() - 1000 * this.slider.valueAsNumber;
+    });
+  }
+
+  /** What the session says it does: another tab may have asked. */
+  follow(recording: boolean | undefined): void {
+    if (recording !== undefined && recording !== this.recording && performance.now() > this.heldUntil) this.set(recording);
+  }
+
+  private heldUntil = 0;
+
+  private set(recording: boolean): void {
+    this.recording = recording;
+    this.heldUntil = performance.now() + 1000; // until the session has heard of it
+    if (recording) {
+      this.playing(false);
+      this.take.begin(performance.now());
+    }
+    this.record.ariaPressed = `${recording}`;
+    this.play.disabled = recording || this.take.length === 0;
+    this.record.querySelector("span")!.textContent = recording ? "Stop 0:00" : "Record";
+  }
+
+  private playing(on: boolean): void {
+    this.playedFrom = on ? performance.now() : undefined;
+    this.play.ariaPressed = `${on}`;
+    this.play.querySelector("span")!.textContent = on ? "Back to live" : "Play back";
+    this.moment.hidden = !on;
+    this.slider.max = this.take.length.toFixed(2);
+  }
+
+  /** Take in what is live. */
+  add(face: Face): void {
+    if (!this.recording) return;
+    if (!this.take.add(face, performance.now())) {
+      this.set(false);
+      this.tell(false);
+      this.say(`A take on this page is at most ${clock(MOST_SECONDS)} long; it ended there.`);
+      return;
+    }
+    this.record.querySelector("span")!.textContent = `Stop ${clock(this.take.length)}`;
+  }
+
+  /** What is played just now, over and over; undefined while all is live. */
+  played(): Face | undefined {
+    if (this.playedFrom === undefined) return undefined;
+    const seconds = ((performance.now() - this.playedFrom) / 1000) % Math.max(this.take.length, 0.1);
+    if (document.activeElement !== this.slider) this.slider.value = `${seconds}`;
+    this.output.textContent = `${clock(seconds)} / ${clock(this.take.length)}`;
+    return this.take.at(seconds);
+  }
+}
