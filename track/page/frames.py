@@ -13,6 +13,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from track.messages import Moment
+from track.sinks.axes import head_pose
 
 VERSION = 1
 """Of these messages; a page of another version asks to be loaded again."""
@@ -21,8 +22,6 @@ LARGEST_SIDE = 640
 """Pixels of a picture's longer side on its way: what a page shows at most, in 20 to 40 kB."""
 
 JPEG_QUALITY = 75
-
-_GLTF_FROM_CAMERA = np.array([1.0, -1.0, -1.0, 1.0, 1.0, 1.0])
 
 
 def hello(*, cameras: Sequence[str], steps: Sequence[str], settings: Mapping[str, object]) -> str:
@@ -56,7 +55,7 @@ def frame(moment: Moment, number: int, *, cameras: Sequence[str]) -> str:
     cameras
         Names by their places in ``hello``.
     """
-    sample = moment.sample
+    sample, pose = moment.sample, head_pose(moment.sample.head)
     weights = (
         sample.weights if sample.weights is not None and len(sample.weights) == len(BLENDSHAPES) else None
     )
@@ -67,7 +66,7 @@ def frame(moment: Moment, number: int, *, cameras: Sequence[str]) -> str:
             "time": sample.time_s,
             "weights": _numbers(weights, 4),
             "gaze": _numbers(sample.gaze, 4),
-            "head": None if sample.head is None else _numbers(sample.head * _GLTF_FROM_CAMERA, 4),
+            "head": None if pose is None else _numbers(np.concatenate([pose.position, pose.angles_rad]), 4),
             "cameras": {
                 name: {
                     "size": [picture.shape[1], picture.shape[0]],

@@ -82,7 +82,7 @@ function drawPoints(context: CanvasRenderingContext2D, { size, points }: View, c
   };
   if (!Number.isFinite(at(0)[0])) return;
   context.strokeStyle = context.fillStyle = colour;
-  context.lineWidth = Math.max(1, width / 320);
+  context.lineWidth = Math.max(1, width / 210);
   context.lineJoin = "round";
   context.globalAlpha = 0.65;
   for (const [first, last, closes] of RUNS) {
@@ -92,7 +92,7 @@ function drawPoints(context: CanvasRenderingContext2D, { size, points }: View, c
     context.stroke();
   }
   context.globalAlpha = 1;
-  const radius = Math.max(1.2, width / 260);
+  const radius = Math.max(1.2, width / 170);
   for (let index = 0; index < 68; index++) {
     context.beginPath();
     context.arc(...at(index), radius, 0, 2 * Math.PI);

@@ -7,12 +7,15 @@ const REGIONS: Readonly<Record<string, readonly string[]>> = {
   Eyes: ["eyeBlink*", "eyeWide*", "eyeSquint*", "eyeLookUp*", "eyeLookDown*", "eyeLookIn*", "eyeLookOut*"],
   Brows: ["browInnerUp", "browOuterUp*", "browDown*"],
   Jaw: ["jawOpen", "jawForward", "jaw*"],
-  Mouth: ["mouthSmile*", "mouthFrown*", "mouthStretch*", "mouth*", "mouthFunnel", "mouthPucker", "mouthClose"],
+  Mouth: [
+    ...["mouthSmile*", "mouthFrown*", "mouthStretch*", "mouth*"],
+    ...["mouthFunnel", "mouthPucker", "mouthClose", "tongueOut"],
+  ],
   Lips: [
     ...["mouthUpperUp*", "mouthLowerDown*", "mouthPress*", "mouthDimple*"],
     ...["mouthRollUpper", "mouthRollLower", "mouthShrugUpper", "mouthShrugLower"],
   ],
-  "Cheeks, nose, tongue": ["cheekPuff", "cheekSquint*", "noseSneer*", "tongueOut"],
+  "Cheeks, nose": ["cheekPuff", "cheekSquint*", "noseSneer*"],
 };
 const LARGEST_GAIN = 3;
 /** Numbers that change faster cannot be read, and screen readers need a calmer pace still. */
@@ -66,7 +69,10 @@ class Bar {
   show(weight: number, numbers: boolean, spoken: boolean): void {
     const known = Number.isFinite(weight);
     this.fill.style.transform = `scaleX(${known ? Math.min(Math.max(weight, 0), 1) : 0})`;
-    if (numbers) this.number.textContent = known ? weight.toFixed(2) : "–";
+    if (numbers) {
+      this.number.textContent = known ? weight.toFixed(2) : "–";
+      this.number.classList.toggle("resting", !(weight >= 0.005));
+    }
     if (spoken) this.meter.ariaValueNow = known ? weight.toFixed(2) : "0";
   }
 
@@ -103,9 +109,7 @@ export class Weights {
     const bars: Bar[] = SHAPES.map((shape) => new Bar(shape, setGain));
     for (const [region, rows] of Object.entries(REGIONS)) {
       const section = make("section", "region");
-      const heading = make("div", "region-heading");
-      heading.append(make("h3", "", region), make("span", "side", "left"), make("span", "side", "right"));
-      section.append(heading);
+      section.append(make("h3", "", region));
       for (const row of rows) {
         const shapes = row.endsWith("*") ? ["Left", "Right"].map((side) => row.replace("*", side)) : [row];
         const line = make("div", shapes.length === 1 ? "row single" : "row");

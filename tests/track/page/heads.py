@@ -35,14 +35,18 @@ class _File:
 
     def add(self, values: np.ndarray, kind: str, **more: object) -> int:
         component = {"f4": 5126, "u2": 5123, "u1": 5121}[values.dtype.str[1:]]
-        self.views.append(
-            {"buffer": 0, "byteOffset": len(self.binary), "byteLength": values.nbytes, **more}
-        )
+        self.views.append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": values.nbytes, **more})
         self.binary += values.tobytes() + bytes(-values.nbytes % 4)
         bounds = {"min": values.min(0).tolist(), "max": values.max(0).tolist()} if kind == "VEC3" else {}
         count = values.size if kind == "SCALAR" else len(values)
         self.accessors.append(
-            {"bufferView": len(self.views) - 1, "componentType": component, "count": count, "type": kind, **bounds}
+            {
+                "bufferView": len(self.views) - 1,
+                "componentType": component,
+                "count": count,
+                "type": kind,
+                **bounds,
+            }
         )
         return len(self.accessors) - 1
 
@@ -87,7 +91,9 @@ def head(
     skin += (at["head"] + [0, 0.09, 0]).astype(np.float32)
     ball, ball_triangles = egg(12, 16, (0.014, 0.014, 0.014))
     parts = [(skin, skin_triangles, "head", colour)]
-    parts += [(ball + at[name].astype(np.float32), ball_triangles, name, (0.95, 0.95, 0.95, 1)) for name in EYES]
+    parts += [
+        (ball + at[name].astype(np.float32), ball_triangles, name, (0.95, 0.95, 0.95, 1)) for name in EYES
+    ]
     primitives, materials = [], []
     for number, (vertices, triangles, bone, paint) in enumerate(parts):
         joint = np.zeros((len(vertices), 4), np.uint8)
@@ -162,13 +168,20 @@ def _bind(index: int) -> dict:
 def vrm1(nodes: dict[str, int], shapes: list[str], *, custom: bool = True) -> dict:
     """VRM 1.0: Perfect Sync's expressions, or presets alone; eyes by bones, 10 degrees for 90."""
     far = {"inputMaxValue": 90.0, "outputScale": 10.0}
-    presets = {"aa": "jawOpen", "ou": "mouthPucker", "blinkLeft": "eyeBlinkLeft", "blinkRight": "eyeBlinkRight"}
+    presets = {
+        "aa": "jawOpen",
+        "ou": "mouthPucker",
+        "blinkLeft": "eyeBlinkLeft",
+        "blinkRight": "eyeBlinkRight",
+    }
     spelled = [shape[0].lower() + shape[1:] for shape in shapes]
     return {
         "VRMC_vrm": {
             "specVersion": "1.0",
             "meta": {"name": "egg", "authors": ["facegen"], "licenseUrl": "https://vrm.dev/licenses/1.0/"},
-            "humanoid": {"humanBones": {name: {"node": node} for name, node in nodes.items() if name != "mesh"}},
+            "humanoid": {
+                "humanBones": {name: {"node": node} for name, node in nodes.items() if name != "mesh"}
+            },
             "expressions": {
                 "preset": {name: _bind(spelled.index(shape)) for name, shape in presets.items()},
                 "custom": {name: _bind(index) for index, name in enumerate(shapes)} if custom else {},
@@ -206,7 +219,11 @@ def vrm0(nodes: dict[str, int], shapes: list[str]) -> dict:
             },
             "blendShapeMaster": {
                 "blendShapeGroups": [
-                    {"name": name, "presetName": "unknown", "binds": [{"mesh": 0, "index": index, "weight": 100}]}
+                    {
+                        "name": name,
+                        "presetName": "unknown",
+                        "binds": [{"mesh": 0, "index": index, "weight": 100}],
+                    }
                     for index, name in enumerate(shapes)
                 ]
             },
