@@ -7,7 +7,7 @@ import pyarrow.parquet as pq
 
 from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
-from facegen.packing.plan import Options, PackFile, PackFormat, read_rows, shards
+from facegen.packing.plan import Options, PackFile, PackFormat, read_rows, split_shards
 from facegen.store import Dataset
 
 SHARD_SAMPLES = 100_000
@@ -45,6 +45,7 @@ KEYPOINTS = PackFormat(
     rendered=False,
     options=frozenset({"shard_size", "columns"}),
     shard_size=SHARD_SAMPLES,
-    parts=shards("shard-{:06d}.parquet"),
+    parts=split_shards,
     write=write_keypoints,
+    carded=True,
 )

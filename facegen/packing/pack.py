@@ -9,6 +9,7 @@ from pathlib import Path
 from facegen.errors import InputError
 from facegen.files import output_errors
 from facegen.packing.arrays import ARRAYS
+from facegen.packing.card import cards
 from facegen.packing.coco import COCO
 from facegen.packing.keypoints import KEYPOINTS, chosen_columns
 from facegen.packing.livelink import LIVELINK
@@ -100,7 +101,8 @@ def write_pack(
     """Write a pack; run it again after a stop and it goes on.
 
     The folder gets ``pack.json`` (format, dataset, licence, samples) first and ``index.json`` (files with
-    sizes and checksums) last: a pack with an index is complete.
+    sizes and checksums) last: a pack with an index is complete. Packs of Parquet have a card and Croissant
+    metadata as well (`facegen.packing.card`).
 
     Parameters
     ----------
@@ -131,8 +133,13 @@ def write_pack(
                 commit_file(stage / part.name, folder.path / part.name)
             written += 1
         on_progress(done + 1)
+    entries = [_entry(folder.path, part) for part in plan.parts]
     with staging(folder, "pack") as stage:
-        write_json(stage / INDEX, [_entry(folder.path, part) for part in plan.parts])
+        texts = cards(folder.path, _description(plan), entries) if form.carded else {}
+        for name, content in texts.items():
+            (stage / name).write_bytes(content)
+            commit_file(stage / name, folder.path / name)
+        write_json(stage / INDEX, entries)
         commit_file(stage / INDEX, folder.path / INDEX)
     with contextlib.suppress(OSError):  # not empty: another run packs the same
         (folder.path / "tmp").rmdir()

@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import InvalidData
 from facegen.labels import VIEW_LABEL_KEYS, further_columns
-from facegen.packing.plan import Options, PackFile, PackFormat, shards
+from facegen.packing.plan import Options, PackFile, PackFormat, split_shards
 from facegen.packing.rendered import RenderedFiles, chosen_views, read_rendered
 from facegen.store import Dataset
 from facegen.store.sample import ADVICE
@@ -99,6 +99,7 @@ PARQUET = PackFormat(
     rendered=True,
     options=frozenset({"shard_size", "views"}),
     shard_size=SHARD_SAMPLES,
-    parts=shards("shard-{:06d}.parquet"),
+    parts=split_shards,
     write=write_rows,
+    carded=True,
 )

@@ -68,6 +68,8 @@ class PackFormat:
         Cuts sample numbers into files.
     write
         Writes one file to a path; equal input gives equal bytes.
+    carded
+        Whether a card and Croissant metadata go along, for files that are named after their split.
     """
 
     description: str
@@ -76,6 +78,7 @@ class PackFormat:
     shard_size: int
     parts: Callable[[Dataset, Sequence[int], Options], list[PackFile]]
     write: Callable[[Dataset, PackFile, Options, Path], None]
+    carded: bool = False
 
 
 def shards(name: str) -> Callable[[Dataset, Sequence[int], Options], list[PackFile]]:
@@ -90,6 +93,14 @@ def shards(name: str) -> Callable[[Dataset, Sequence[int], Options], list[PackFi
         ]
 
     return cut
+
+
+def split_shards(dataset: Dataset, samples: Sequence[int], options: Options) -> list[PackFile]:
+    """Cuts the samples of each split into Parquet files of ``shard_size``: ``train-000000.parquet``."""
+    parts: list[PackFile] = []
+    for split in SPLITS:
+        parts += shards(f"{split}-{{:06d}}.parquet")(dataset, _of_split(dataset, samples, split), options)
+    return parts
 
 
 def read_rows(dataset: Dataset, numbers: Sequence[int], columns: Sequence[str]) -> Iterator[pa.Table]:

@@ -15,10 +15,11 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 import pytest
 
-from facegen.conventions import BLENDSHAPES
+from facegen.conventions import BLENDSHAPES, SPLITS
 from facegen.errors import InputError, InvalidData
 from facegen.geometry import direction_from_angles
 from facegen.packing import PACK_FORMATS, Options, PackFile, plan_pack, write_pack
@@ -51,7 +52,9 @@ def test_equal_input_gives_equal_bytes_and_the_licence_goes_along(request, tmp_p
     assert "CC0" in about["licence"]
     assert about["dataset"]["spec_hash"] == rendered.hash
     index = json.loads((one / "index.json").read_text())
-    assert sorted(entry["name"] for entry in index) == sorted(files(one).keys() - {"pack.json", "index.json"})
+    assert sorted(entry["name"] for entry in index) == sorted(
+        files(one).keys() - {"pack.json", "index.json", "README.md", "croissant.json"}
+    )
     assert all((one / entry["name"]).stat().st_size == entry["bytes"] for entry in index)
     again = write_pack(plan_pack(rendered, name), one)
     assert (again.written, again.found) == (0, len(index))
@@ -94,7 +97,8 @@ def test_webdataset_entries_are_sorted_and_tell_no_time_and_no_owner(rendered, t
 def test_parquet_opens_in_pandas(rendered, tmp_path):
     pandas = pytest.importorskip("pandas")
     out = make(rendered, tmp_path / "pack", "parquet")
-    frame = pandas.read_parquet(out / "shard-000000.parquet")
+    frame = pandas.concat([pandas.read_parquet(path) for path in sorted(out.glob("*.parquet"))])
+    frame = frame.sort_values("sample", ignore_index=True)
     assert frame["sample"].tolist() == [0, 1]
     record = rendered.sample(1)
     assert json.loads(frame["record"][1]) == record
@@ -106,24 +110,29 @@ def test_parquet_opens_in_pandas(rendered, tmp_path):
     weights = dict(zip(BLENDSHAPES, frame["weights"][1], strict=True))
     assert weights["jawOpen"] == np.float32(record["weights"]["jawOpen"])
     assert frame["component"][1] == record["component"]
-    assert "CC0" in pq.read_schema(out / "shard-000000.parquet").metadata[b"licence"].decode()
+    assert "CC0" in pq.read_schema(next(out.glob("*.parquet"))).metadata[b"licence"].decode()
 
 
 def test_keypoints_with_chosen_columns_in_files_of_a_chosen_size(rendered, tmp_path):
     out = make(rendered, tmp_path / "pack", "keypoints", columns=("detected_2d", "split"), shard_size=12)
-    tables = [pq.read_table(path) for path in sorted(out.glob("*.parquet"))]
-    assert [len(table) for table in tables] == [12, 12, 6]
-    assert tables[0].column_names == ["sample", "split", "detected_2d"]
     whole = rendered.keypoints()
-    for name in tables[0].column_names:
-        assert [v for table in tables for v in table[name].to_pylist()] == whole[name].to_pylist()
+    for split in SPLITS:
+        tables = [pq.read_table(path) for path in sorted(out.glob(f"{split}-*.parquet"))]
+        rows = whole.filter(pc.equal(whole["split"], split))
+        assert [len(table) for table in tables] == [
+            min(12, len(rows) - start) for start in range(0, len(rows), 12)
+        ]
+        for name in ("sample", "split", "detected_2d"):
+            assert [v for table in tables for v in table[name].to_pylist()] == rows[name].to_pylist()
+            assert all(table.column_names == ["sample", "split", "detected_2d"] for table in tables)
 
 
 def test_a_split_is_packed_alone(rendered, tmp_path):
     split = rendered.keypoints()["split"].to_pylist()
     for name in sorted(set(split)):
         out = make(rendered, tmp_path / name, "keypoints", split=name, columns=("split",))
-        table = pq.read_table(out / "shard-000000.parquet")
+        assert {path.name for path in out.glob("*.parquet")} == {f"{name}-000000.parquet"}
+        table = pq.read_table(out / f"{name}-000000.parquet")
         assert table["sample"].to_pylist() == [n for n, s in enumerate(split) if s == name]
     with pytest.raises(InputError, match="none of train, validation, test"):
         plan_pack(rendered, "keypoints", Options(split="dev"))
