@@ -1,12 +1,34 @@
-"""``track devices``: which cameras there are."""
+"""``track devices``: which cameras there are, and what each of them sees."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from facegen.console import say
 
 
-def devices() -> None:
-    """List the cameras of this machine.
+def devices(
+    pictures: Annotated[
+        Path | None, typer.Option(help="Folder to write a picture of each camera into, camera-N.jpg")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print a JSON list")] = False,
+) -> None:
+    """List the cameras of this machine, with the size of their pictures, and a picture of each where asked.
 
-    Example: track devices
+    Example: track devices --pictures cameras
     """
-    from track.sources.webcams import list_webcams
+    from track.sources.devices import look_at_webcams
 
-    for webcam in list_webcams():
-        print(f"{webcam.number}  {webcam.name}")
+    seen = look_at_webcams(pictures)
+    if not seen and not as_json:
+        say("track devices: this machine has no camera that its system tells of; plug one in, or name a film")
+    if as_json:
+        print(json.dumps([each.record() for each in seen], indent=2, ensure_ascii=False))
+        return
+    for each in seen:
+        size = f"{each.width} x {each.height}" if each.fault is None else each.fault
+        print(
+            "  ".join([f"{each.number:2}", each.name, size, *([str(each.picture)] if each.picture else [])])
+        )

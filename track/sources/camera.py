@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from enum import Enum
 
-from track.errors import CameraError
+from track.errors import InputError
 from track.sources.faults import CameraFault, PictureWatch
 from track.sources.source import Picture, Source
 
@@ -20,8 +20,11 @@ SILENT_S = 1.0
 _STEP_S = 1 / 30
 """Between two pictures whose times do not rise, where nothing is known of the camera's rate."""
 
-_ENDS_WITHIN_S = 15.0
-"""A driver that hangs gives up after ten seconds (OpenCV's wait for Video4Linux)."""
+_LATEST_S = 1e10
+"""Of a first time: seconds since 1970 are 2e9."""
+
+_FARTHEST_S = 24 * 3600.0
+"""A time that is farther ahead is no picture's: the clock was set."""
 
 Opener = Callable[[], Source]
 
@@ -44,10 +47,14 @@ class Camera:
         The newest picture that nobody took, at times that rise; its pixels are None where it is of no use.
     came_s
         When it came, by ``time.monotonic``.
+    untaken_s
+        When the first picture came that nobody took, not even a newer one.
     fault
         What is wrong just now.
     ended
         Whether nothing more will come.
+    error
+        Why, where it ended by one: lines that hold no points.
     """
 
     def __init__(
@@ -59,8 +66,9 @@ class Camera:
         self.newest: Picture | None = None
         self.fault: Enum | None = None
         self.ended = False
-        self.came_s = time.monotonic()
-        self._clock = _RisingClock()
+        self.error: InputError | None = None
+        self.came_s = self.untaken_s = time.monotonic()
+        self._clock = RisingClock()
         self._watch = PictureWatch(moving=self.endless)
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"camera {self.title}", daemon=True)
@@ -90,11 +98,22 @@ class Camera:
         with self._news:
             self._news.notify_all()
         if self._thread.is_alive():
-            self._thread.join(_ENDS_WITHIN_S)
+            self._thread.join(self._source.ends_within_s)
         else:
             self._source.close()
 
     def _run(self) -> None:
+        try:
+            self._read_on()
+        except InputError as error:
+            self.error = error
+        finally:
+            self._source.close()
+            with self._news:
+                self.ended = True
+                self._news.notify_all()
+
+    def _read_on(self) -> None:
         tries = 0
         while not self._stop.is_set():
             picture = self._source.read()
@@ -106,10 +125,6 @@ class Camera:
                 tries += 1
             else:
                 break
-        self._source.close()
-        with self._news:
-            self.ended = True
-            self._news.notify_all()
 
     def _keep(self, picture: Picture) -> None:
         time_s, disorder = self._clock.step(picture.time_s)
@@ -119,7 +134,10 @@ class Camera:
         with self._news:
             while not self.live and self.newest is not None and not self._stop.is_set():
                 self._news.wait()
-            self.newest, self.fault, self.came_s = picture, fault, time.monotonic()
+            self.came_s = time.monotonic()
+            if self.newest is None:
+                self.untaken_s = self.came_s
+            self.newest, self.fault = picture, fault
             self._news.notify_all()
 
     def _open_again(self, tries: int) -> None:
@@ -132,26 +150,29 @@ class Camera:
             try:
                 self._source = self._opener()
                 return
-            except CameraError:
+            except InputError:
                 tries += 1
 
 
-class _RisingClock:
+class RisingClock:
     """Makes times rise strictly: one that goes back is taken for a clock that was set, and all after it go with it."""
 
     def __init__(self) -> None:
-        self._last_s, self._step_s, self._added_s = -math.inf, _STEP_S, 0.0
+        self._last_s: float | None = None
+        self._step_s, self._added_s = _STEP_S, 0.0
 
     def step(self, time_s: float) -> tuple[float, bool]:
         """The next time, and whether it had to be made."""
         given_s = time_s + self._added_s
-        if given_s > self._last_s:
-            if math.isfinite(self._last_s):
-                self._step_s = min(given_s - self._last_s, _STEP_S)
+        if self._last_s is None and abs(given_s) < _LATEST_S:
             self._last_s = given_s
             return given_s, False
-        # nan, too, comes here, and adds nothing
-        self._last_s += self._step_s
-        if math.isfinite(time_s):
-            self._added_s = self._last_s - time_s
-        return self._last_s, True
+        last_s = 0.0 if self._last_s is None else self._last_s
+        told = last_s < given_s < last_s + _FARTHEST_S
+        if told:
+            self._step_s, self._last_s = min(given_s - last_s, _STEP_S), given_s
+        else:
+            self._last_s = last_s + self._step_s
+            if math.isfinite(time_s):
+                self._added_s = self._last_s - time_s
+        return self._last_s, not told

@@ -86,10 +86,16 @@ class Capture:
         Sample or None
             Its pictures are those that can be used; its faults say by camera why others cannot. Where live cameras give
             nothing for `EMPTY_AFTER_S` it has no pictures.
+
+        Raises
+        ------
+        InputError
+            Where what comes is not what it should be, as standard input without points.
         """
         until_s = time.monotonic() + EMPTY_AFTER_S
         with self._news:
             while True:
+                self._raise_errors()
                 if all(camera.ended and camera.newest is None for camera in self._cameras.values()):
                     return None
                 wait_s = self._wait_s(until_s) if self.live else self._wait_for_all_s()
@@ -106,6 +112,11 @@ class Capture:
         for camera in self._cameras.values():
             camera.close()
 
+    def _raise_errors(self) -> None:
+        for camera in self._cameras.values():
+            if camera.error is not None and camera.newest is None:
+                raise camera.error
+
     def _wait_s(self, until_s: float) -> float:
         """How long a moment of live cameras is still waited for."""
         new = [camera for camera in self._cameras.values() if camera.newest is not None]
@@ -117,7 +128,7 @@ class Capture:
         if new and len(new) == len(expected):
             return 0.0
         if new:
-            until_s = min(camera.came_s for camera in new) + WAIT_S
+            until_s = min(camera.untaken_s for camera in new) + WAIT_S
         return until_s - time.monotonic()
 
     def _wait_for_all_s(self) -> float | None:

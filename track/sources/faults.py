@@ -1,15 +1,18 @@
 """What is wrong with a camera, and who is told of it when: each fault once as it comes, and once as it goes."""
 
-from collections.abc import Mapping
 from enum import Enum
 
 import numpy as np
 
 from regress.runtime.headset.faults import DARK
+from regress.runtime.sample import Sample
 from track.sources.source import Picture
 
 FROZEN_S = 0.5
 """The same bytes for longer are no picture: a sensor's noise alone changes some byte of each."""
+
+GONE_S = 1.0
+"""Without a fault for longer it is over: a camera that lags is late, and not, several times a second."""
 
 _STRIDE = 8
 """Of the rows and columns by which pictures are first compared, and by which they are called black."""
@@ -23,6 +26,7 @@ class CameraFault(Enum):
     BLACK = "a black picture: a lens cap, a shutter, or no light"
     FROZEN = "the same picture over and over"
     LATE = "pictures that come later than those of the other cameras, so it is left out"
+    UNREADABLE = "a file that is no picture"
     DISORDER = "a time that is not later than the one before"
 
 
@@ -58,16 +62,21 @@ def _same(one: np.ndarray, other: np.ndarray) -> bool:
 
 
 class Told:
-    """Remembers which faults have been told."""
+    """Makes sentences of faults: each is told as it comes, and once more when it has gone for good."""
 
     def __init__(self) -> None:
-        self._faults: dict[str, Enum] = {}
+        self._told: dict[str, tuple[Enum, float]] = {}
 
-    def step(self, faults: Mapping[str, Enum]) -> list[str]:
-        """Sentences for what is new in the next sample's faults: what has come, and what has gone."""
-        came = [
-            f"{name} has {fault.value}" for name, fault in faults.items() if self._faults.get(name) != fault
-        ]
-        went = [f"{name} is well again" for name in self._faults if name not in faults]
-        self._faults = dict(faults)
-        return came + went
+    def step(self, sample: Sample) -> list[str]:
+        """Sentences for what is new in the next sample; a fault that comes and goes is told once until it is gone."""
+        lines = []
+        for name, fault in sample.faults.items():
+            known = self._told.get(name)
+            if known is None or known[0] is not fault:
+                lines.append(f"{name}: {fault.value}")
+            self._told[name] = (fault, sample.time_s)
+        for name, (_, last_s) in list(self._told.items()):
+            if name not in sample.faults and sample.time_s - last_s > GONE_S:
+                lines.append(f"{name}: well again")
+                del self._told[name]
+        return lines

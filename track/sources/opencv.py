@@ -5,12 +5,14 @@ import os
 import cv2
 import numpy as np
 
+from facegen.formats.picture_size import MOST_PIXELS
+
 _WAIT_MS = 3000
 """For an address to answer, and for its next picture."""
 
 
-def opened(place: str | int, backend: int, *, options: str | None = None) -> cv2.VideoCapture | None:
-    """A camera, a film or an address; None where OpenCV cannot open it.
+def opened(place: str | int, backend: int) -> cv2.VideoCapture | None:
+    """A camera, a film or an address; None where OpenCV cannot open it, or its pictures are too large.
 
     Parameters
     ----------
@@ -18,21 +20,16 @@ def opened(place: str | int, backend: int, *, options: str | None = None) -> cv2
         A camera's number, a file's name, or an address.
     backend
         One of OpenCV's ``CAP_``.
-    options
-        For FFmpeg, ``"name;value|name;value"``.
     """
     cv2.setLogLevel(0)
-    os.environ["OPENCV_FFMPEG_LOGLEVEL"] = "-8"  # AV_LOG_QUIET
-    if options is None:
-        os.environ.pop("OPENCV_FFMPEG_CAPTURE_OPTIONS", None)
-    else:
-        os.environ["OPENCV_FFMPEG_CAPTURE_OPTIONS"] = options
+    os.environ["OPENCV_FFMPEG_LOGLEVEL"] = "-8"  # AV_LOG_QUIET; read whenever something is opened
     waits = [cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, _WAIT_MS, cv2.CAP_PROP_READ_TIMEOUT_MSEC, _WAIT_MS]
     try:
         capture = cv2.VideoCapture(place, backend, waits if backend == cv2.CAP_FFMPEG else [])
     except cv2.error:
         return None
-    if not capture.isOpened():
+    pixels = capture.get(cv2.CAP_PROP_FRAME_WIDTH) * capture.get(cv2.CAP_PROP_FRAME_HEIGHT)
+    if not capture.isOpened() or pixels > MOST_PIXELS:
         capture.release()
         return None
     return capture

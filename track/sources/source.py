@@ -42,11 +42,16 @@ class Source:
         Whether pictures come by themselves: a live source loses what nobody read, a kept one waits.
     endless
         Whether no end is foreseen: a camera that gives no more has a fault and is opened again, a film is over.
+    ends_within_s
+        How long `read` may go on after someone wants it closed.
     """
 
     title: str
     live: bool = True
     endless: bool = True
+    ends_within_s: float = (
+        15.0  # a driver that hangs gives up after ten seconds (OpenCV's wait for Video4Linux)
+    )
 
     def read(self) -> Picture | None:
         """The next picture; None where there are no more: a film's end, a camera that was unplugged."""

@@ -4,8 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from track.errors import CameraError
+from track.sources.addresses import AddressSource, is_address
 from track.sources.capture import Capture
 from track.sources.films import Film
+from track.sources.folders import Folder
+from track.sources.lines import Lines
 from track.sources.source import Source
 from track.sources.webcams import WebcamSource
 
@@ -46,9 +50,24 @@ class SourceKind:
 
 
 SOURCES: dict[str, SourceKind] = {
+    "lines": SourceKind(
+        description="- for lines of 68 points on standard input",
+        matches=lambda text: text == "-",
+        open=lambda text, pace: Lines(fast=pace.fast, fps=pace.fps),
+    ),
+    "address": SourceKind(
+        description="an address of MJPEG over HTTP, or RTSP",
+        matches=is_address,
+        open=lambda text, pace: AddressSource(text),
+    ),
+    "folder": SourceKind(
+        description="a folder of pictures",
+        matches=lambda text: _there(text, Path.is_dir),
+        open=lambda text, pace: Folder(Path(text), fast=pace.fast, fps=pace.fps),
+    ),
     "film": SourceKind(
         description="a film's file",
-        matches=lambda text: Path(text).is_file(),
+        matches=lambda text: _there(text, Path.is_file),
         open=lambda text, pace: Film(Path(text), fast=pace.fast),
     ),
     "webcam": SourceKind(
@@ -68,6 +87,10 @@ def open_source(text: str, pace: Pace | None = None) -> Source:
     CameraError
         Where it cannot be opened; a sentence says what can be done.
     """
+    if text.strip() == "":
+        raise CameraError(
+            f"a camera has no name; give {', or '.join(each.description for each in SOURCES.values())}"
+        )
     kind = next(kind for kind in SOURCES.values() if kind.matches(text))
     return kind.open(text, pace or Pace())
 
@@ -85,3 +108,11 @@ def open_capture(texts: Mapping[str, str], pace: Pace | None = None) -> Capture:
 
 def _opener(text: str, pace: Pace | None) -> Callable[[], Source]:
     return lambda: open_source(text, pace)
+
+
+def _there(text: str, test: Callable[[Path], bool]) -> bool:
+    """Whether a file or folder of this name is there; what can be no name is none."""
+    try:
+        return test(Path(text))
+    except (OSError, ValueError):
+        return False

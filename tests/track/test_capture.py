@@ -1,0 +1,331 @@
+"""Threads of cameras: the newest picture, rising times, faults told once, and cameras that come back by themselves."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from regress.runtime.sample import Sample
+from tests.track.faces import film_of
+from tests.track.virtual import Switches, VirtualCamera, noise
+from track.errors import CameraError, InputError
+from track.sources import CameraFault, Capture, Pace, Told, open_capture
+from track.sources.camera import PAUSES_S, SILENT_S, RisingClock
+from track.sources.faults import GONE_S
+from track.sources.webcams import WebcamSource
+
+PAUSES = (0.05, 0.1, 0.2)
+
+
+@pytest.fixture(autouse=True)
+def _no_thread_stays() -> Iterator[None]:
+    before = set(threading.enumerate())
+    yield
+    assert set(threading.enumerate()) <= before
+
+
+def _capture(**cameras: Switches) -> Capture:
+    openers = {name: lambda switches=switches: VirtualCamera(switches) for name, switches in cameras.items()}
+    return Capture(openers, pauses_s=PAUSES)
+
+
+def _until(capture: Capture, wanted: Callable[[Sample], bool], *, within_s: float = 5.0) -> list[Sample]:
+    """Samples up to the first wanted one."""
+    samples, until_s = [], time.monotonic() + within_s
+    while time.monotonic() < until_s:
+        samples.append(capture.read())
+        if wanted(samples[-1]):
+            return samples
+    raise AssertionError(f"did not come; the last samples have {[each.faults for each in samples[-3:]]}")
+
+
+def _for(capture: Capture, seconds: float) -> list[Sample]:
+    """Samples of a little more than this time."""
+    samples = [capture.read()]
+    while samples[-1].time_s < samples[0].time_s + seconds + 0.1:
+        samples.append(capture.read())
+    return samples
+
+
+def _well(sample: Sample) -> bool:
+    return bool(sample.pictures) and not sample.faults
+
+
+def _rises(samples: list[Sample]) -> bool:
+    return bool((np.diff([sample.time_s for sample in samples]) > 0).all())
+
+
+def test_a_slow_reader_gets_the_newest_picture_and_its_own_time():
+    switches = Switches(fps=100)
+    with _capture(eye=switches) as capture:
+        ages, numbers = [], []
+        for _ in range(6):
+            time.sleep(0.1)
+            sample = capture.read()
+            ages.append(capture.now_s() - sample.time_s)
+            of = range(switches.given, 0, -1)
+            numbers.append(
+                next(number for number in of if np.array_equal(sample.pictures["eye"], noise(number)))
+            )
+    assert np.median(ages) < 0.1, "a queue of pictures would be half a second old by now"
+    assert np.median(np.diff(numbers)) >= 3, "those between were let go"
+
+
+@given(st.lists(st.floats(allow_nan=True, allow_infinity=True, width=64), min_size=1, max_size=50))
+def test_times_rise_whatever_the_driver_says(times: list[float]):
+    clock = RisingClock()
+    made = [clock.step(time_s)[0] for time_s in times]
+    assert np.isfinite(made).all()
+    assert (np.diff(made) > 0).all()
+
+
+@given(st.lists(st.floats(0.001, 1.0), min_size=2, max_size=20), st.integers(1, 19), st.floats(1.0, 1e4))
+def test_a_clock_that_was_set_back_costs_one_fault(steps: list[float], at: int, back_s: float):
+    times = np.cumsum(steps)
+    times[at:] -= back_s + 20
+    clock = RisingClock()
+    made, faults = zip(*(clock.step(time_s) for time_s in times), strict=True)
+    assert sum(faults) == (at < len(times))
+    later = np.diff(made)[at:]
+    assert np.allclose(later, np.diff(times)[at:], atol=1e-6), (
+        "behind it, pictures are as far apart as before"
+    )
+
+
+def test_the_pauses_between_tries_double():
+    assert PAUSES_S[0] == 0.5
+    assert PAUSES_S[-1] == 8.0
+    assert all(later == 2 * sooner for sooner, later in pairwise(PAUSES_S))
+
+
+def test_an_unplugged_camera_is_told_once_tried_with_growing_pauses_and_comes_back():
+    switches, told = Switches(), Told()
+    with _capture(eye=switches) as capture:
+        samples = _until(capture, _well)
+        switches.plugged = False
+        samples += _until(capture, lambda sample: sample.faults.get("eye") is CameraFault.UNPLUGGED)
+        since_s = time.monotonic()
+        while time.monotonic() < since_s + 0.8:
+            samples.append(capture.read())
+        switches.plugged = True
+        samples += _until(capture, _well) + _for(capture, GONE_S)
+    assert _rises(samples)
+    pauses = np.diff(switches.tries_s[1:])
+    assert len(pauses) >= 3
+    assert pauses[0] >= PAUSES[1]
+    assert (pauses[1:] >= PAUSES[2]).all()
+    lines = [line for sample in samples for line in told.step(sample)]
+    assert lines == [f"eye: {CameraFault.UNPLUGGED.value}", "eye: well again"]
+
+
+def test_a_camera_that_opens_and_gives_nothing_is_tried_ever_less_often():
+    class Empty(VirtualCamera):
+        def read(self):
+            return None
+
+    switches = Switches()
+    with Capture({"eye": lambda: Empty(switches)}, pauses_s=PAUSES) as capture:
+        since_s = time.monotonic()
+        while time.monotonic() < since_s + 0.8:
+            assert capture.read().pictures == {}
+    gaps = np.diff(switches.tries_s)
+    assert gaps[0] >= PAUSES[0]
+    assert gaps[1] >= PAUSES[1]
+    assert (gaps[2:] >= PAUSES[2]).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "fault"),
+    [
+        ({"frozen": True}, CameraFault.FROZEN),
+        ({"dark": True}, CameraFault.BLACK),
+        ({"silent": True}, CameraFault.SILENT),
+    ],
+)
+def test_what_a_camera_does_wrong_is_told_once_and_its_pictures_do_not_count(
+    change: dict, fault: CameraFault
+):
+    switches, told = Switches(), Told()
+    with _capture(eye=switches) as capture:
+        samples = _until(capture, _well)
+        vars(switches).update(change)
+        samples += _until(capture, lambda sample: sample.faults == {"eye": fault})
+        wrong = [capture.read() for _ in range(3)]
+        vars(switches).update(dict.fromkeys(change, False))
+        samples += wrong + _until(capture, _well) + _for(capture, GONE_S)
+    assert all(sample.pictures == {} and sample.faults == {"eye": fault} for sample in wrong)
+    assert _rises(samples)
+    lines = [line for sample in samples for line in told.step(sample)]
+    assert lines == [f"eye: {fault.value}", "eye: well again"]
+
+
+def test_a_camera_that_stops_is_called_silent_after_its_time():
+    switches = Switches()
+    with _capture(eye=switches) as capture:
+        _until(capture, _well)
+        switches.silent, since_s = True, time.monotonic()
+        _until(capture, lambda sample: "eye" in sample.faults)
+        took_s = time.monotonic() - since_s
+        switches.silent = False
+    assert took_s > SILENT_S - 0.1
+
+
+def test_light_that_jumps_is_no_fault():
+    switches = Switches()
+    with _capture(eye=switches) as capture:
+        samples = _until(capture, _well)
+        for light in (1.6, 0.4, 1.0):
+            switches.light = light
+            samples += [capture.read() for _ in range(5)]
+    assert all(_well(sample) for sample in samples)
+
+
+def test_a_clock_that_goes_back_spoils_no_picture():
+    switches, told = Switches(), Told()
+    with _capture(eye=switches) as capture:
+        samples = _until(capture, _well)
+        switches.clock_s = -100.0
+        samples += _until(capture, lambda sample: bool(sample.faults))
+        samples += _for(capture, GONE_S)
+    assert _rises(samples)
+    assert all("eye" in sample.pictures for sample in samples)
+    lines = [line for sample in samples for line in told.step(sample)]
+    assert lines == [f"eye: {CameraFault.DISORDER.value}", "eye: well again"]
+
+
+def test_several_cameras_make_one_sample_a_moment():
+    switches = {name: Switches(fps=50) for name in ("left", "right", "mouth")}
+    with _capture(**switches) as capture:
+        samples = _until(capture, lambda sample: len(sample.pictures) == 3)
+        samples += [capture.read() for _ in range(40)]
+    whole = [sample for sample in samples[-40:] if len(sample.pictures) == 3 and not sample.faults]
+    assert len(whole) >= 30, "a busy machine may wake a thread too late now and then"
+    assert _rises(samples)
+    assert np.median(np.diff([sample.time_s for sample in whole])) == pytest.approx(1 / 50, rel=0.5)
+
+
+def test_a_camera_that_lags_is_left_out_and_told_once():
+    switches, told, lines = {"left": Switches(), "mouth": Switches()}, Told(), []
+    with _capture(**switches) as capture:
+        _until(capture, lambda sample: len(sample.pictures) == 2)
+        switches["mouth"].fps = 4
+        late = _until(capture, lambda sample: sample.faults.get("mouth") is CameraFault.LATE)
+        assert set(late[-1].pictures) == {"left"}
+        late += _for(capture, 1.0)
+        lines += [line for sample in late for line in told.step(sample)]
+        assert lines == [f"mouth: {CameraFault.LATE.value}"]
+        switches["mouth"].fps = 60
+        _until(capture, lambda sample: told.step(sample) == ["mouth: well again"])
+
+
+def test_one_unplugged_camera_does_not_hold_up_the_others():
+    switches = {"left": Switches(fps=50), "mouth": Switches(fps=50)}
+    with _capture(**switches) as capture:
+        _until(capture, lambda sample: len(sample.pictures) == 2)
+        switches["mouth"].plugged = False
+        _until(capture, lambda sample: sample.faults.get("mouth") is CameraFault.UNPLUGGED)
+        since_s = time.monotonic()
+        samples = [capture.read() for _ in range(20)]
+        assert all(set(sample.pictures) == {"left"} for sample in samples)
+        assert time.monotonic() - since_s < 2 * 20 / 50
+
+
+def test_cameras_that_were_exchanged_are_found_by_their_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    films = {}
+    for number, level in ((0, 80), (1, 160)):  # what is seen from each socket
+        films[number] = film_of(tmp_path / f"{number}.mp4", [np.full((48, 64, 3), level, np.uint8)])
+    system = tmp_path / "video4linux"
+    _name(system, {0: "Left Eye", 1: "Mouth"})
+    opened = _films_for_cameras(films)
+    monkeypatch.setattr("track.sources.webcams.opened", opened)
+
+    def level(name: str) -> int:
+        camera = WebcamSource(name, folder=system)
+        try:
+            return int(camera.read().pixels.mean())
+        finally:
+            camera.close()
+
+    assert level("left eye") == pytest.approx(80, abs=3)
+    _name(system, {0: "Mouth", 1: "Left Eye"})
+    assert level("left eye") == pytest.approx(160, abs=3)
+
+
+def _name(system: Path, names: dict[int, str]) -> None:
+    for number, name in names.items():
+        (system / f"video{number}").mkdir(parents=True, exist_ok=True)
+        (system / f"video{number}" / "name").write_text(name + "\n")
+
+
+def _films_for_cameras(films: dict[int, Path]):
+    import cv2
+
+    def opened(place: int, backend: int):
+        return cv2.VideoCapture(str(films[place]), cv2.CAP_FFMPEG) if place in films else None
+
+    return opened
+
+
+def test_films_that_wait_lose_no_picture_and_are_paired_by_their_times(tmp_path: Path):
+    pictures = [np.full((48, 64, 3), 60 + 9 * number, np.uint8) for number in range(20)]
+    films = {name: str(film_of(tmp_path / f"{name}.avi", pictures, fps=25)) for name in ("left", "right")}
+    with open_capture(films, Pace(fast=True)) as capture:
+        samples = []
+        for sample in capture:
+            time.sleep(0.002)
+            samples.append(sample)
+    assert len(samples) == 20
+    for sample, picture in zip(samples, pictures, strict=True):
+        assert not sample.faults
+        for pixels in sample.pictures.values():
+            assert abs(pixels.mean() - picture.mean()) < 4, "the codec is off by 3, the next frame by 9"
+    assert [sample.time_s for sample in samples] == pytest.approx(np.arange(20) / 25)
+
+
+def test_a_black_stretch_of_a_film_keeps_its_frames(tmp_path: Path):
+    pictures = [np.full((48, 64, 3), 0 if 5 <= number < 9 else 120, np.uint8) for number in range(15)]
+    path = str(film_of(tmp_path / "film.avi", pictures))
+    with open_capture({"camera": path}, Pace(fast=True)) as capture:
+        samples = list(capture)
+    assert [bool(sample.pictures) for sample in samples] == [
+        number not in range(5, 9) for number in range(15)
+    ]
+    assert {sample.faults.get("camera") for sample in samples[5:9]} == {CameraFault.BLACK}
+
+
+def test_a_film_has_its_own_pace(tmp_path: Path):
+    path = str(film_of(tmp_path / "film.avi", [noise(number) for number in range(12)], fps=30))
+    since_s = time.monotonic()
+    with open_capture({"camera": path}) as capture:
+        samples = list(capture)
+    assert time.monotonic() - since_s >= 11 / 30
+    assert _rises(samples)
+    assert samples[-1].time_s == pytest.approx(11 / 30, abs=0.01)
+
+
+def test_a_second_camera_that_cannot_be_opened_lets_the_first_one_go():
+    switches = Switches()
+    with pytest.raises(CameraError, match="not plugged in"):
+        Capture(
+            {"left": lambda: VirtualCamera(switches), "right": lambda: VirtualCamera(Switches(plugged=False))}
+        )
+
+
+def test_what_is_wrong_with_lines_comes_out_of_the_thread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    path = tmp_path / "lines.txt"
+    path.write_text("this is no point\n")
+    with open(path) as stream:
+        monkeypatch.setattr("sys.stdin", stream)
+        with (
+            open_capture({"camera": "-"}, Pace(fast=True)) as capture,
+            pytest.raises(InputError, match="not a number"),
+        ):
+            list(capture)

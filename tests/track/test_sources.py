@@ -1,0 +1,268 @@
+"""Every kind of source by what a person writes; the tests run over the table."""
+
+import io
+import sys
+import threading
+import time
+from itertools import pairwise
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from regress.runtime.inputs import Fault
+from tests.track.faces import film_of
+from tests.track.mjpeg_server import MANNERS, MjpegServer, mjpeg_server
+from tests.track.virtual import noise
+from track.errors import CameraError
+from track.sources import SOURCES, CameraFault, Pace, Source, Told, open_capture, open_source
+from track.sources.addresses import SCHEMES, is_address, without_secrets
+from track.sources.folders import FOLLOWED_S
+from track.sources.lines import Lines
+from track.sources.webcams import WebcamSource, list_webcams
+
+LINE = " ".join(map(str, range(136)))
+
+
+def _numbered(number: int) -> np.ndarray:
+    """A picture (48, 64, 3) whose grey level says its number, and which differs from the same one."""
+    return noise(number) // 20 + np.uint8(60 + 8 * number)
+
+
+def _folder(path: Path, names: list[str]) -> Path:
+    path.mkdir()
+    for number, name in enumerate(names):
+        cv2.imwrite(str(path / name), _numbered(number))
+    return path
+
+
+def _all(source: Source) -> list:
+    pictures = []
+    while (picture := source.read()) is not None:
+        pictures.append(picture)
+    source.close()
+    return pictures
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("-", "lines"),
+        ("http://10.0.0.7:81/stream", "address"),
+        ("rtsp://camera.local/live", "address"),
+        ("ftp://camera.local/live", "address"),
+        ("FOLDER", "folder"),
+        ("FOLDER/film.avi", "film"),
+        ("0", "webcam"),
+        ("HD Webcam", "webcam"),
+        ("a\0b", "webcam"),
+    ],
+)
+def test_what_is_written_finds_its_kind(text: str, kind: str, tmp_path: Path):
+    (tmp_path / "film.avi").touch()
+    text = text.replace("FOLDER", str(tmp_path))
+    assert next(name for name, each in SOURCES.items() if each.matches(text)) == kind
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "a camera has no name; give - for lines"),
+        ("97", "there is no camera 97"),
+        ("no such thing", "there is no camera no such thing"),
+        (
+            "ftp://me:secret@camera.local/live",
+            "ftp://camera.local/live is no camera's address; these begin with http",
+        ),
+        ("http://", "is no camera's address"),
+        ("http://a:b:c/", "is no camera's address"),
+        ("http://me:secret@127.0.0.1:9/stream?token=secret", "http://127.0.0.1:9/stream cannot be reached"),
+        ("rtsp://me:secret@127.0.0.1:9/live", "rtsp://127.0.0.1:9/live cannot be reached"),
+        ("FOLDER/empty", "holds no picture; files that end in .png"),
+        ("FOLDER/text.mp4", "text.mp4 is no film that can be read"),
+    ],
+)
+def test_what_cannot_be_opened_is_one_sentence(
+    text: str, said: str, tmp_path: Path, capfd: pytest.CaptureFixture
+):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "text.mp4").write_text("no film\n" * 100)
+    with pytest.raises(CameraError) as refused:
+        open_source(text.replace("FOLDER", str(tmp_path)))
+    assert said in str(refused.value)
+    assert "\n" not in str(refused.value)
+    heard = capfd.readouterr()
+    assert heard.err + heard.out == "", "OpenCV's own talk is not for people"
+    assert "secret" not in str(refused.value)
+
+
+_SIGNS = st.text(st.characters(codec="ascii", categories=["L", "N", "P", "S"]), max_size=8)
+
+
+@given(
+    scheme=st.sampled_from(SCHEMES),
+    before=_SIGNS,
+    behind=_SIGNS,
+    ending=st.sampled_from(["", "/", "/a", "/a?b=c"]),
+)
+def test_no_title_holds_a_password(scheme: str, before: str, behind: str, ending: str):
+    address = f"{scheme}://me:{before}secret{behind}@camera.local:8080{ending}"
+    assert is_address(address)
+    assert without_secrets(address) in (
+        f"{scheme}://camera.local:8080{ending.partition('?')[0]}",
+        f"{scheme}://…",
+    )
+
+
+@given(before=_SIGNS, behind=_SIGNS)
+def test_nor_one_that_stands_behind_a_question_mark(before: str, behind: str):
+    assert "secret" not in without_secrets(
+        f"http://camera.local/live?user=me&password={before}secret{behind}"
+    )
+
+
+@pytest.mark.parametrize("manners", MANNERS)
+def test_servers_of_any_manners_are_read(manners: str):
+    with mjpeg_server(MjpegServer(picture=noise, manners=manners, fps=100)) as server:
+        source = open_source(f"http://127.0.0.1:{server.port}/stream")
+        pictures = [source.read() for _ in range(5)]
+        source.close()
+    assert all(picture.pixels.shape == (48, 64, 3) for picture in pictures)
+    assert (np.diff([picture.time_s for picture in pictures]) >= 0).all()
+    assert all(not np.array_equal(one.pixels, other.pixels) for one, other in pairwise(pictures))
+
+
+def test_a_server_that_stops_is_told_and_found_again():
+    server, told, before = MjpegServer(picture=noise, password="secret"), Told(), threading.active_count()
+    lines, samples = [], []
+
+    def read_until(wanted) -> None:
+        until_s = time.monotonic() + 10
+        while not samples or not wanted(samples[-1]):
+            assert time.monotonic() < until_s
+            samples.append(capture.read())
+            lines.extend(told.step(samples[-1]))
+
+    with mjpeg_server(server):
+        capture = open_capture({"camera": f"http://me:secret@127.0.0.1:{server.port}/stream"})
+        assert capture.titles == {"camera": f"http://127.0.0.1:{server.port}/stream"}
+        read_until(lambda sample: sample.pictures)
+    read_until(lambda sample: sample.faults)
+    server.stopped = False
+    with mjpeg_server(server):
+        read_until(lambda sample: sample.pictures)
+        read_until(lambda _: len(lines) == 2)
+        capture.close()
+    assert lines == [f"camera: {CameraFault.UNPLUGGED.value}", "camera: well again"]
+    assert (np.diff([sample.time_s for sample in samples]) > 0).all()
+    assert threading.active_count() == before
+
+
+def test_a_wrong_password_is_refused():
+    with mjpeg_server(MjpegServer(picture=noise, password="right")) as server:
+        with pytest.raises(CameraError, match="wants another password"):
+            open_source(f"http://me:wrong@127.0.0.1:{server.port}/stream")
+        assert server.sent == 0
+
+
+def test_a_folder_is_read_in_natural_order_at_its_pace(tmp_path: Path):
+    folder = _folder(tmp_path / "takes", [f"frame_{number}.png" for number in range(12)])
+    (folder / "notes.txt").write_text("no picture")
+    pictures = _all(open_source(str(folder), Pace(fast=True, fps=50)))
+    assert [round((picture.pixels.mean() - 66) / 8) for picture in pictures] == list(range(12))
+    assert [picture.time_s for picture in pictures] == pytest.approx(np.arange(12) / 50)
+
+
+def test_a_folder_that_grows_is_followed_until_it_stops(tmp_path: Path):
+    folder = _folder(tmp_path / "takes", ["0.png"])
+
+    def grow() -> None:
+        for number in (1, 2, 3):
+            time.sleep(0.3)
+            encoded = cv2.imencode(".png", _numbered(number))[1].tobytes()
+            with open(folder / f"{number}.png", "wb") as file:  # slowly, as some programs write
+                file.write(encoded[:500])
+                file.flush()
+                time.sleep(0.1)
+                file.write(encoded[500:])
+
+    writer = threading.Thread(target=grow)
+    writer.start()
+    source = open_source(str(folder), Pace(fps=30))
+    pictures = _all(source)
+    since_last_s = source.now_s() - pictures[-1].time_s
+    writer.join()
+    assert [picture.fault for picture in pictures] == [None] * 4
+    assert [round((picture.pixels.mean() - 66) / 8) for picture in pictures] == [0, 1, 2, 3]
+    assert np.diff([picture.time_s for picture in pictures]).min() > 0.25, "when they came"
+    assert since_last_s >= FOLLOWED_S
+
+
+def test_a_file_that_is_no_picture_costs_no_more_than_itself(tmp_path: Path):
+    folder = _folder(tmp_path / "takes", ["0.png", "1.png", "2.png"])
+    (folder / "1.png").write_bytes(b"no picture")
+    with open_capture({"camera": str(folder)}, Pace(fast=True)) as capture:
+        samples = list(capture)
+    assert [sample.faults.get("camera") for sample in samples] == [None, CameraFault.UNREADABLE, None]
+    assert [bool(sample.pictures) for sample in samples] == [True, False, True]
+
+
+def test_lines_give_points_with_their_times():
+    text = f"0.5 {LINE}\n1.0 {LINE}\n1.5 something else\n2.0\n2.5 {LINE}\n"
+    frames = _all(Lines(fps=30, fast=True, stream=io.StringIO(text)))
+    assert [frame.time_s for frame in frames][:2] == [0.5, 1.0]
+    assert len(frames) == 5
+    assert [frame.fault for frame in frames][2] is Fault.UNREADABLE
+    assert np.array_equal(frames[0].points.ravel(), np.arange(136))
+    assert frames[0].pixels is None
+
+
+def test_lines_without_times_have_those_of_their_coming_or_of_a_rate():
+    text = f"{LINE}\n" * 3
+    fast = _all(Lines(fps=50, fast=True, stream=io.StringIO(text)))
+    assert [frame.time_s for frame in fast] == [0.0, 0.02, 0.04]
+    source = Lines(fps=50, stream=io.StringIO(text))
+    live = [source.read(), time.sleep(0.05), source.read()]
+    assert live[2].time_s - live[0].time_s >= 0.05
+    assert source.now_s() - live[2].time_s < 0.05
+
+
+def test_webcams_are_listed_by_number_with_their_names(tmp_path: Path):
+    for number, name in ((10, "Mouth"), (2, "HD Webcam: HD Webcam"), (3, "HD Webcam: IR")):
+        (tmp_path / f"video{number}").mkdir()
+        (tmp_path / f"video{number}" / "name").write_text(f"{name}\n")
+    (tmp_path / "video-without-number").mkdir()
+    webcams = list_webcams(tmp_path)
+    assert [(webcam.number, webcam.name) for webcam in webcams] == [
+        (2, "HD Webcam: HD Webcam"),
+        (3, "HD Webcam: IR"),
+        (10, "Mouth"),
+    ]
+    with pytest.raises(
+        CameraError, match="several cameras: HD Webcam: HD Webcam, HD Webcam: IR; give more of one"
+    ):
+        WebcamSource("hd webcam", folder=tmp_path)
+    with pytest.raises(CameraError, match=r"mouth gives no picture: another program may be using it"):
+        WebcamSource("mouth", folder=tmp_path)
+    with pytest.raises(
+        CameraError, match=r"there is no camera nose, nor a file of this name; cameras here: 2 \(HD"
+    ):
+        WebcamSource("nose", folder=tmp_path)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the system's list is Linux's")
+def test_elsewhere_numbers_are_tried(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    film = film_of(tmp_path / "0.avi", [noise(0)])
+    tried = []
+
+    def opened(number: int, backend: int) -> cv2.VideoCapture | None:
+        tried.append(number)
+        return cv2.VideoCapture(str(film)) if number == 1 else None
+
+    monkeypatch.setattr("track.sources.webcams.opened", opened)
+    monkeypatch.setattr("sys.platform", "win32")
+    assert [(webcam.number, webcam.name) for webcam in list_webcams()] == [(1, "camera 1")]
+    assert tried == list(range(8))

@@ -1,0 +1,65 @@
+"""A camera that does what a test wants: unplugged, frozen, dark, silent, or with a clock that goes back."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from track.errors import CameraError
+from track.sources import Picture, Source
+
+
+def noise(number: int) -> np.ndarray:
+    """Another picture for every number, as a sensor gives it: (48, 64, 3) uint8."""
+    return np.random.default_rng(number).integers(60, 200, (48, 64, 3), dtype=np.uint8)
+
+
+@dataclass
+class Switches:
+    """What a camera does just now; tests change it while the camera runs."""
+
+    plugged: bool = True
+    frozen: bool = False
+    dark: bool = False
+    silent: bool = False
+    light: float = 1.0
+    clock_s: float = 0.0
+    fps: float = 60.0
+    tries_s: list[float] = field(default_factory=list)
+    given: int = 0
+
+
+class VirtualCamera(Source):
+    """Gives ``picture(number)`` at ``fps``; its tries to open are noted."""
+
+    def __init__(
+        self,
+        switches: Switches,
+        picture: Callable[[int], np.ndarray] = noise,
+        *,
+        title: str = "virtual camera",
+    ) -> None:
+        switches.tries_s.append(time.monotonic())
+        if not switches.plugged:
+            raise CameraError("it is not plugged in")
+        self.title, self._switches, self._picture, self._closed = title, switches, picture, False
+        self._due_s = time.monotonic()
+
+    def read(self) -> Picture | None:
+        assert not self._closed
+        self._due_s = max(self._due_s + 1 / self._switches.fps, time.monotonic())
+        time.sleep(max(0.0, self._due_s - time.monotonic()))
+        until_s = time.monotonic() + 3
+        while self._switches.silent and time.monotonic() < until_s:
+            time.sleep(0.01)
+        if not self._switches.plugged or self._switches.silent:
+            return None
+        self._switches.given += not self._switches.frozen
+        pixels = np.clip(self._picture(self._switches.given) * self._switches.light, 0, 255).astype(np.uint8)
+        pixels = np.zeros_like(pixels) if self._switches.dark else pixels
+        taken_s = time.monotonic() + self._switches.clock_s
+        return Picture(time_s=taken_s, pixels=pixels)
+
+    def close(self) -> None:
+        self._closed = True

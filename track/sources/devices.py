@@ -1,0 +1,81 @@
+"""Looks through each webcam of this machine once."""
+
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import cv2
+
+from facegen.files import output_errors, write_whole
+from track.errors import CameraError
+from track.sources.webcams import FOLDER, Webcam, WebcamSource, list_webcams
+
+_SETTLING = 5
+"""Pictures until a camera's exposure has found the room's light; the first ones are often black."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Seen:
+    """A webcam, and what it showed.
+
+    Parameters
+    ----------
+    number, name
+        As in `Webcam`.
+    width, height
+        Of its pictures; None where it gives none.
+    picture
+        File of the one that was kept.
+    fault
+        Why it gives none, a sentence.
+    """
+
+    number: int
+    name: str
+    width: int | None = None
+    height: int | None = None
+    picture: Path | None = None
+    fault: str | None = None
+
+    def record(self) -> dict[str, object]:
+        """For JSON."""
+        return {**asdict(self), "picture": None if self.picture is None else str(self.picture)}
+
+
+def look_at_webcams(pictures: Path | None = None, *, folder: Path = FOLDER) -> list[Seen]:
+    """All webcams, each opened for a moment.
+
+    Parameters
+    ----------
+    pictures
+        Folder for a JPEG of each, ``camera-N.jpg``; nothing is kept without.
+
+    Raises
+    ------
+    OutputError
+        Where it cannot be written there.
+    """
+    if pictures is not None:
+        with output_errors(pictures):
+            pictures.mkdir(parents=True, exist_ok=True)
+    return [_look(webcam, pictures, folder) for webcam in list_webcams(folder)]
+
+
+def _look(webcam: Webcam, pictures: Path | None, folder: Path) -> Seen:
+    try:
+        camera = WebcamSource(str(webcam.number), folder=folder)
+    except CameraError as error:
+        return Seen(number=webcam.number, name=webcam.name, fault=str(error))
+    try:
+        pixels = None
+        for _ in range(_SETTLING):
+            picture = camera.read()
+            pixels = pixels if picture is None else picture.pixels
+    finally:
+        camera.close()
+    file = None
+    if pictures is not None:
+        file = write_whole(
+            pictures / f"camera-{webcam.number}.jpg", cv2.imencode(".jpg", pixels)[1].tobytes()
+        )
+    height, width = pixels.shape[:2]
+    return Seen(number=webcam.number, name=webcam.name, width=width, height=height, picture=file)

@@ -1,0 +1,122 @@
+"""Pictures of a folder, in the natural order of their names; a folder that still grows is followed."""
+
+import re
+import time
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from facegen.documents import read_bytes
+from facegen.formats.picture_size import MOST_PIXELS, picture_size
+from regress.runtime.headset.pictures import MOST_PICTURE_BYTES, PICTURES
+from track.errors import CameraError, InputError
+from track.sources.faults import CameraFault
+from track.sources.source import Picture, Source
+
+FOLLOWED_S = 2.0
+"""A folder in which nothing new has appeared for longer is over."""
+
+_LOOK_EVERY_S = 0.02
+
+
+class Folder(Source):
+    """A folder of pictures, once from the first to the last.
+
+    Parameters
+    ----------
+    folder
+        Holds files with endings of pictures; others are passed over.
+    fps
+        Pictures a second.
+    fast
+        Whether every picture is wanted, as soon as the one before has been taken; such a folder is not followed.
+
+    Raises
+    ------
+    CameraError
+        Where it holds no picture.
+    """
+
+    endless = False
+
+    def __init__(self, folder: Path, *, fps: float, fast: bool = False) -> None:
+        self.title, self.live = folder.name or str(folder), not fast
+        self._folder, self._step_s = folder, 1 / fps
+        self._given: _Natural = []
+        self._waiting = self._listed()
+        if not self._waiting:
+            raise CameraError(f"{folder} holds no picture; files that end in {', '.join(PICTURES)} are read")
+        self._next_s = self._last_s = 0.0
+        self._begun_s: float | None = None
+
+    def read(self) -> Picture | None:
+        """The next picture, when it is due; None where no other one has come for `FOLLOWED_S`."""
+        until_s = time.monotonic() + (FOLLOWED_S if self.live else 0.0)
+        while (found := self._found(last_try=time.monotonic() >= until_s)) is None:
+            if time.monotonic() >= until_s:
+                return None
+            time.sleep(_LOOK_EVERY_S)
+        if self.live:
+            time.sleep(max(0.0, self._next_s - self.now_s()))
+            if self.now_s() > self._next_s + self._step_s:  # it was not there when it was due
+                self._next_s = self.now_s()
+        self._last_s, self._next_s = self._next_s, self._next_s + self._step_s
+        pixels = found[0]
+        fault = CameraFault.UNREADABLE if pixels is None else None
+        return Picture(time_s=self._last_s, pixels=pixels, fault=fault)
+
+    def now_s(self) -> float:
+        """Time since the first picture; of a fast folder, that of the picture that was read last."""
+        if not self.live:
+            return self._last_s
+        if self._begun_s is None:
+            self._begun_s = time.monotonic()
+        return time.monotonic() - self._begun_s
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+    def _found(self, *, last_try: bool) -> tuple[np.ndarray | None] | None:
+        """The next file's picture, None within for a file that is none; None where there is no file yet."""
+        self._waiting = self._waiting or self._listed()
+        if not self._waiting:
+            return None
+        file = self._waiting[0]
+        pixels = _read_picture(file)
+        if pixels is None and self.live and len(self._waiting) == 1 and not last_try:
+            return None  # the newest one may be half written
+        self._given = _natural(self._waiting.pop(0))
+        return (pixels,)
+
+    def _listed(self) -> list[Path]:
+        """Pictures that come behind the last one that was given."""
+        try:
+            files = [file for file in self._folder.iterdir() if file.suffix.lower() in PICTURES]
+        except OSError as error:
+            raise CameraError(f"{self._folder} cannot be read ({error.strerror})") from None
+        return sorted((file for file in files if _natural(file) > self._given), key=_natural)
+
+
+_Natural = list[tuple[int, str]]
+
+
+def _natural(file: Path) -> _Natural:
+    """By which ``frame_2`` stands before ``frame_10``."""
+    pieces = re.split(r"(\d+)", file.name)
+    return [(int(piece), "") if piece.isdecimal() else (-1, piece) for piece in pieces]
+
+
+def _read_picture(file: Path) -> np.ndarray | None:
+    """Pixels (h, w, 3) of a file; None where it is no picture, or too large."""
+    try:
+        content = read_bytes(file, most_bytes=MOST_PICTURE_BYTES)
+    except InputError:
+        return None
+    size = picture_size(content)
+    if size is None or size[0] * size[1] > MOST_PIXELS:
+        return None
+    try:
+        return cv2.imdecode(np.frombuffer(content, dtype=np.uint8), cv2.IMREAD_COLOR)
+    except cv2.error:
+        return None
