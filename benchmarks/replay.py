@@ -96,12 +96,12 @@ def replay(
         true = np.broadcast_to(take.weights, (len(take.exact), *take.weights.shape))
         for bias in biased:
             for noise_px in noises:
-                said = {name: [] for name in ("model", *ridges)}
+                answers = {name: [] for name in ("model", *ridges)}
                 for neutral, frames in take.seen(noise_px, biased=bias):
-                    said["model"].append(model.calibrate(neutral).predict(frames))
+                    answers["model"].append(model.calibrate(neutral).predict(frames))
                     for name, ridge in ridges.items():
-                        said[name].append(predict_ridge(ridge, model, frames, neutral))
-                stacked = {name: np.stack(each) for name, each in said.items()} | {
+                        answers[name].append(predict_ridge(ridge, model, frames, neutral))
+                stacked = {name: np.stack(each) for name, each in answers.items()} | {
                     "zero": np.zeros_like(true)
                 }
                 rows.append(
@@ -142,7 +142,7 @@ def judge(predicted: np.ndarray, true: np.ndarray, shapes: list[str]) -> Figures
         column = BLENDSHAPE_INDEX[name]
         pairs = zip(predicted[..., column], true[..., column], strict=True)
         figures[name] = {
-            "r": float(np.mean([correlation(said, meant) for said, meant in pairs])),
+            "r": float(np.mean([correlation(one, other) for one, other in pairs])),
             "mae": float(np.abs(predicted[..., column] - true[..., column]).mean()),
             "moves": float(predicted[..., column].std(axis=1).mean() / true[..., column].std(axis=1).mean()),
         }

@@ -4,6 +4,7 @@ import hashlib
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 from regress.errors import ModelError
 from regress.runtime.headset.figures import Evaluation
@@ -131,7 +132,18 @@ def _keypoint_texts(record: TrainingRecord) -> dict[str, str]:
         "dataset": dataset.name,
         "data_sha256": dataset.keypoints_sha256,
         "data_licence": str(dataset.licence),
+        "heads": _heads(dataset.rig),
     }
+
+
+def _heads(rigs: Any) -> str:
+    """What a dataset says of the rigs of its people, in words; older ones, and foreign ones, say what they like."""
+    if isinstance(rigs, dict) and isinstance(rigs.get("name"), str):
+        return f"one rig (`{rigs['name']}`)"
+    try:
+        return "several rigs (" + ", ".join(f"`{rig['name']}`: {rig['share']:.0%}" for rig in rigs) + ")"
+    except (TypeError, KeyError, ValueError):
+        return "rigs that its dataset does not name"
 
 
 def _headset_texts(model: HeadsetModel, scores: Evaluation) -> dict[str, str]:

@@ -35,7 +35,8 @@ _FROM_SHARDS = ("sample", "person", "session", "clip", "frame", "time_s", "split
 
 
 def array_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> list[PackFile]:
-    """One file a camera, and three of what goes with them."""
+    """One file a camera, and three of what goes with them; the face is one rig's, so several are refused here."""
+    _ = dataset.rig
     pictures = [
         PackFile(name=f"{view}.npy", samples=samples, view=view) for view in chosen_views(dataset, options)
     ]

@@ -95,11 +95,12 @@ def clip_of_dataset(dataset: Dataset, clip: int) -> Performance:
             f"{dataset.folder.path}: has no clip {clip}; there are clips {table['clip'][0]}-{table['clip'][-1]}"
         )
     table = table.take(rows)
+    rig = dataset.rig_of(table["sample"][0].as_py())
     person, session, kind = (table.column(name)[0].as_py() for name in ("person", "session", "component"))
     head_in_camera = column_array(table, "camera_from_head").reshape(-1, 4, 4)[:, :3, :3]
     return Performance(
-        rig=dataset.rig,
-        identity=column_array(table, "identity")[0].astype(np.float64),
+        rig=rig,
+        identity=column_array(table, "identity")[0, : rig.components].astype(np.float64),
         weights=column_array(table, "weights").astype(np.float64),
         gaze=column_array(table, "gaze").astype(np.float64),
         rotation=np.diag([1.0, -1.0, -1.0])

@@ -8,6 +8,7 @@ import pyarrow as pa
 from facegen.conventions import SHARD_ROWS, Visibility
 from facegen.geometry import angles_from_direction, angles_from_rotation
 from facegen.rigs import eye_centers
+from facegen.sampling import rig_of
 from facegen.sampling.cameras import FACING
 from facegen.store import Dataset, column_array
 
@@ -133,7 +134,13 @@ def _measures(dataset: Dataset, column: dict[str, np.ndarray]) -> tuple[Measure,
     rows = still[first]
     points = 1e3 * column["points_3d"][rows]
     lengths = {name: np.linalg.norm(points[:, a] - points[:, b], axis=1) for name, (a, b) in MEASURES.items()}
-    eyes = 1e3 * eye_centers(dataset.rig, column["identity"][rows].astype(np.float64))
+    identity, whose = (
+        column["identity"][rows].astype(np.float64),
+        rig_of(dataset.spec, column["person"][rows]),
+    )
+    eyes = np.empty((len(rows), 2, 3))
+    for index, rig in enumerate(dataset.rigs):
+        eyes[whose == index] = 1e3 * eye_centers(rig, identity[whose == index, : rig.components])
     lengths = {"interpupillary distance": np.linalg.norm(eyes[:, 0] - eyes[:, 1], axis=1)} | lengths
     return tuple(
         Measure(

@@ -36,7 +36,7 @@ def statistics_page(dataset: Dataset, statistics: Statistics) -> str:
         }
     return environment.get_template("statistics.html").render(
         name=dataset.folder.path.resolve().name,
-        rig=dataset.spec.rig,
+        rig=", ".join(rig.name for rig in dataset.rigs),
         seed=dataset.spec.seed,
         samples=dataset.plan.samples,
         statistics=statistics,

@@ -11,7 +11,7 @@ from facegen.randomness import stream
 from facegen.rigs import Rig
 from facegen.rigs.threads import one_blas_thread
 from facegen.sampling.blocks import blocks_of
-from facegen.spec import Spec, draw
+from facegen.spec import Spec, draw, shares_of
 
 LARGEST_SCORE = 2.5
 """Standard normal draws are cut here: identities further out fold the skin at nose and lips."""
@@ -74,6 +74,16 @@ def people_of(spec: Spec, rig: Rig, person: np.ndarray) -> People:
         return np.concatenate([getattr(people, name) for people in drawn])[row]
 
     return People(**{name: pick(name) for name in ("female", "age_years", "ancestry", "identity")})
+
+
+def rig_of(spec: Spec, person: np.ndarray) -> np.ndarray:
+    """Index into the spec's rigs (`facegen.spec.shares_of`) of people (n,); each is drawn by the rigs' shares."""
+    edges = np.cumsum(list(shares_of(spec.rig).values()))[:-1]
+    if not len(edges):
+        return np.zeros(len(person), np.int64)
+    blocks, row = blocks_of(person)
+    unit = np.concatenate([stream(spec.seed, "rig", block).random(BLOCK) for block in blocks])[row]
+    return np.searchsorted(edges, unit, side="right")
 
 
 def split_of(spec: Spec, unit: np.ndarray) -> np.ndarray:

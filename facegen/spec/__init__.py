@@ -4,6 +4,7 @@ from facegen.number_ranges import format_ranges, format_runs, listed, sample_num
 from facegen.spec.distribution import Distribution, draw
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
 from facegen.spec.reference import spec_reference
+from facegen.spec.rigs import shares_of
 from facegen.spec.spec import Expression, Gaze, Landmarks, Looks, Playback, Spec
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "parse_spec",
     "sample_numbers",
     "sample_ranges",
+    "shares_of",
     "spec_hash",
     "spec_reference",
     "spec_schema",

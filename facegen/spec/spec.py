@@ -8,6 +8,7 @@ from pydantic.dataclasses import dataclass
 
 from facegen.expression import COMPONENTS
 from facegen.spec.distribution import Distribution, parse, quantity
+from facegen.spec.rigs import Rigs
 
 _STRICT = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True)
 # every key's docstring is its line in docs/spec.md and in the JSON schema
@@ -254,8 +255,8 @@ class Spec:
     """Everything drawn follows from it."""
     people: Annotated[int, Field(ge=1, le=100_000_000)]
     """Number of people."""
-    rig: str = "anny"
-    """Name of a rig in blender_assets/build."""
+    rig: Rigs = "anny"
+    """Name of a rig in blender_assets/build, or several with shares of the people: ``{anny = 0.5, ict = 0.5}``."""
     split: Literal["person", "session"] = "person"
     """What stays together in the split; by session, a person can be in all three."""
     split_shares: tuple[Share, Share, Share] = (0.70, 0.15, 0.15)

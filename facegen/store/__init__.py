@@ -1,5 +1,6 @@
 """Datasets on disk."""
 
+from facegen.store.blocks import draw_block, label_block
 from facegen.store.dataset import Dataset, begin, open_dataset, resolve
 from facegen.store.description import read_description
 from facegen.store.folder import (
@@ -32,9 +33,11 @@ __all__ = [
     "column_array",
     "commit_file",
     "commit_folder",
+    "draw_block",
     "exr_bytes",
     "keypoint_schema",
     "keypoint_table",
+    "label_block",
     "labels_reference",
     "merge",
     "open_dataset",

@@ -14,7 +14,15 @@ from facegen.sampling import COMPONENT_NAMES, Samples
 _DRAWN = {field.name for field in fields(Samples)}
 
 IDENTITY = "identity"
-"""The column whose width is the rig's number of identity components."""
+"""The column whose width is the rig's number of identity components, or the most that one of several rigs has."""
+
+RIG = pa.field(
+    "rig",
+    pa.string(),
+    nullable=False,
+    metadata={"description": "name of the person's rig, where there are several"},
+)
+"""The last column of datasets of several rigs; others have none."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,8 +22,16 @@ from facegen.files import output_errors
 from facegen.headsets import Headset, headset_path, load_headset
 from facegen.refusals import refusal
 from facegen.rigs import Rig, load_rig
-from facegen.sampling import Plan, plan_dataset
-from facegen.spec import LABEL_VERSION, Spec, load_spec, sample_ranges, spec_hash, spec_table
+from facegen.sampling import Plan, plan_dataset, rig_of
+from facegen.spec import (
+    LABEL_VERSION,
+    Spec,
+    load_spec,
+    sample_ranges,
+    shares_of,
+    spec_hash,
+    spec_table,
+)
 from facegen.store.description import FORMAT, read_description
 from facegen.store.folder import DatasetFolder, commit_file, shard_samples, write_json
 from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
@@ -48,15 +56,17 @@ class Dataset:
         Where the dataset is, or will be.
     plan
         The spec, its recording and the number of samples.
-    rig, headset
-        What the spec names; the headset's pictures already have the spec's size.
+    rigs
+        What the spec names, in the order of `facegen.spec.shares_of`.
+    headset
+        What the spec names; its pictures already have the spec's size.
     hash
         `facegen.spec.spec_hash` of all of it.
     """
 
     folder: DatasetFolder
     plan: Plan
-    rig: Rig
+    rigs: tuple[Rig, ...]
     headset: Headset
     hash: str
 
@@ -64,6 +74,27 @@ class Dataset:
     def spec(self) -> Spec:
         """The checked spec."""
         return self.plan.spec
+
+    @property
+    def rig(self) -> Rig:
+        """The rig of everyone.
+
+        Raises
+        ------
+        InputError
+            If there are several.
+        """
+        if len(self.rigs) > 1:
+            names = ", ".join(rig.name for rig in self.rigs)
+            raise InputError(
+                f"{self.folder.path}: its people are of several rigs ({names}), and this takes a dataset of one; "
+                "make one of each"
+            )
+        return self.rigs[0]
+
+    def rig_of(self, sample: int) -> Rig:
+        """The rig of a sample's person."""
+        return self.rigs[int(rig_of(self.spec, np.array([sample // self.plan.frames]))[0])]
 
     @property
     def shards(self) -> int:
@@ -83,7 +114,7 @@ class Dataset:
     @property
     def keypoint_schema(self) -> pa.Schema:
         """Columns of the keypoint shards."""
-        return keypoint_schema(self.spec, self.rig.components)
+        return keypoint_schema(self.spec, max(rig.components for rig in self.rigs))
 
     def samples_to_render(self, ranges: str | None = None) -> Sequence[int]:
         """Sorted numbers of the samples to render: ``ranges`` (``"0-99,140"``) or, without, the spec's own.
@@ -155,10 +186,10 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
         If the rig, the headset or the recording is missing or damaged, or the pictures get too large.
     """
     plan = plan_dataset(spec)
-    rig = _asset("rig", load_rig, spec.rig)
+    rigs = tuple(_asset("rig", load_rig, name) for name in shares_of(spec.rig))
     headset = _asset("render.headset", load_headset, spec.render.headset)
     assets = {
-        "rig": rig.sha256,
+        **({"rig": rigs[0].sha256} if len(rigs) == 1 else {f"rig {rig.name}": rig.sha256 for rig in rigs}),
         "headset": _content_sha256(TypeAdapter(Headset).dump_python(headset, mode="json")),
     }
     if plan.recording is not None:
@@ -166,7 +197,7 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
     return Dataset(
         folder=DatasetFolder(Path(out)),
         plan=plan,
-        rig=rig,
+        rigs=rigs,
         headset=_scaled(headset, spec.render.size_px),
         hash=spec_hash(spec, asset_sha256=assets),
     )
@@ -235,8 +266,9 @@ def open_dataset(path: str | Path) -> Dataset:
     spec = load_spec(folder.spec_toml)
     dataset = resolve(spec, path)
     if dataset.hash != described["spec_hash"]:
+        rigs = " or ".join(map(repr, shares_of(spec.rig)))
         raise InputError(
-            f"{path}: was made with another version of rig {spec.rig!r}, of its headset.toml or of facegen's labels "
+            f"{path}: was made with another version of rig {rigs}, of its headset.toml or of facegen's labels "
             f"({described['label_version']}, now {LABEL_VERSION}); build that again, or make the dataset anew"
         )
     return dataset
@@ -250,18 +282,25 @@ def _description(dataset: Dataset) -> dict:
         "seed": dataset.spec.seed,
         "samples": dataset.plan.samples,
         "people": dataset.spec.people,
-        "rig": {
-            "name": dataset.rig.name,
-            "sha256": dataset.rig.sha256,
-            "version": dataset.rig.version,
-            "source": dataset.rig.source,
-            "licence": dataset.rig.licence,
-        },
+        **_rigs(dataset),
         "headset": dataset.headset.name,
-        "licence": f"Pictures and labels derive from the rig {dataset.rig.name!r}: {dataset.rig.licence}",
+        "licence": "Pictures and labels derive from "
+        + " and ".join(f"the rig {rig.name!r}: {rig.licence}" for rig in dataset.rigs),
         "blendshapes": list(BLENDSHAPES),
         "versions": _versions(),
     }
+
+
+def _rigs(dataset: Dataset) -> dict:
+    """The key ``rig``, or where there are several, ``rigs`` with their shares."""
+    about = [
+        {"name": rig.name, **{key: getattr(rig, key) for key in ("sha256", "version", "source", "licence")}}
+        for rig in dataset.rigs
+    ]
+    if len(about) == 1:
+        return {"rig": about[0]}
+    shares = shares_of(dataset.spec.rig)
+    return {"rigs": [{**each, "share": shares[each["name"]]} for each in about]}
 
 
 def _versions() -> dict[str, str]:

@@ -10,8 +10,8 @@ import pyarrow.parquet as pq
 from facegen.errors import InvalidData
 from facegen.labels import Keypoints, further_columns
 from facegen.sampling import Samples
-from facegen.spec import Spec
-from facegen.store.columns import shard_columns
+from facegen.spec import Spec, shares_of
+from facegen.store.columns import RIG, shard_columns
 
 MOST_ROW_BYTES = 16 * 1024
 """Of one row, unpacked: it has some 900 numbers and three words, about 4 kB."""
@@ -20,8 +20,12 @@ MOST_HEADER_BYTES = 1024**2
 
 
 def keypoint_schema(spec: Spec, components: int) -> pa.Schema:
-    """Columns of a spec's shards, whose rig has that many identity components; each says its unit and shape."""
-    return pa.schema([column.field for column in shard_columns(components, further_columns(spec))])
+    """Columns of a spec's shards, whose rigs have at most that many identity components; each says its unit and shape.
+
+    Where there are several rigs, the last column names each row's.
+    """
+    fields = [column.field for column in shard_columns(components, further_columns(spec))]
+    return pa.schema(fields if len(shares_of(spec.rig)) == 1 else [*fields, RIG])
 
 
 def keypoint_table(spec: Spec, samples: Samples, keypoints: Keypoints) -> pa.Table:

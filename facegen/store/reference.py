@@ -17,7 +17,7 @@ orders.
 
 Columns of `keypoints/shard-*.parquet`; arrays are flat in their cells. Columns in italics are there where the spec
 asks for them (`[landmarks]`), and in `keypoints` of `sample.json` too. `identity` has as many numbers as the rig has
-components.
+components. Datasets of several rigs have one column more, `rig`, the name of the person's.
 
 | column | type | shape | unit | meaning |
 |---|---|---|---|---|

@@ -8,9 +8,7 @@ import pyarrow as pa
 from facegen.conventions import BLOCK
 from facegen.errors import InvalidData
 from facegen.geometry import apply_transform, project_pinhole
-from facegen.labels import label_keypoints
-from facegen.sampling import draw_samples
-from facegen.store import Dataset, column_array, keypoint_table, read_shard, shard_samples
+from facegen.store import Dataset, column_array, draw_block, label_block, read_shard, shard_samples
 from facegen.store.keypoint_table import has_columns
 from facegen.validation.agreement import differing_rows
 from facegen.validation.finding import Finding
@@ -76,12 +74,11 @@ def _ranges(dataset: Dataset, table: pa.Table) -> Iterator[tuple[int, str, str]]
 
 
 def _labels(dataset: Dataset, table: pa.Table) -> Iterator[tuple[int, str, str]]:
-    spec, first = dataset.spec, table["sample"][0].as_py()
+    first = table["sample"][0].as_py()
     for start in range(0, len(table), BLOCK):
         stored = table.slice(start, BLOCK)
-        block = draw_samples(dataset.plan, dataset.rig, (first + start) // BLOCK)
-        samples = block.rows(slice(0, len(stored)))
-        made = keypoint_table(spec, samples, label_keypoints(spec, dataset.rig, samples))
+        block = (first + start) // BLOCK
+        made = label_block(dataset, block, draw_block(dataset, block))
         for name in stored.column_names:
             rows = np.flatnonzero(differing_rows(column_array(stored, name), column_array(made, name)))
             if len(rows):

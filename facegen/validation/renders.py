@@ -11,11 +11,11 @@ from facegen.conventions import BLENDSHAPES, BLOCK, LANDMARK_COUNT, SIDES, Part,
 from facegen.errors import InputError
 from facegen.geometry import Camera, project
 from facegen.labels import label_rendered
-from facegen.sampling import Samples, draw_samples
+from facegen.sampling import Samples
 from facegen.scene import Layers
 from facegen.scene.beards import LENGTH_M
 from facegen.sessions import draw_sample_scene
-from facegen.store import Dataset, read_exr, read_json, read_png, sample_record
+from facegen.store import Dataset, draw_block, read_exr, read_json, read_png, sample_record
 from facegen.validation.agreement import disagreements
 from facegen.validation.finding import Finding, FindingKind
 from facegen.validation.keypoints import FAR_SHARE, REPROJECTION_PX
@@ -43,8 +43,9 @@ RENDER_SETTINGS = {
 
 def check_renders(dataset: Dataset, numbers: tuple[int, ...]) -> Iterator[Finding]:
     """Findings in rendered samples of one block, which is drawn once for all of them."""
-    block = draw_samples(dataset.plan, dataset.rig, numbers[0] // BLOCK)
+    drawn = draw_block(dataset, numbers[0] // BLOCK)
     for number in numbers:
+        block = drawn[dataset.rig_of(number).name]
         yield from check_render(dataset, number, block.rows(slice(number % BLOCK, number % BLOCK + 1)))
 
 
@@ -128,12 +129,11 @@ def _sha256(path: Path) -> str:
 
 
 def _check_labels(dataset: Dataset, record: dict, samples: Samples) -> _Wrong:
+    rig = dataset.rig_of(int(samples.sample[0]))
     made = sample_record(
-        label_rendered(
-            dataset.spec, dataset.rig, draw_sample_scene(dataset.spec, dataset.rig, dataset.headset, samples)
-        ),
+        label_rendered(dataset.spec, rig, draw_sample_scene(dataset.spec, rig, dataset.headset, samples)),
         dataset_hash=dataset.hash,
-        rig=dataset.rig.name,
+        rig=rig.name,
     )
     labels = {key: value for key, value in record.items() if key not in ("render", "sha256")}
     for name, what in disagreements(labels, json.loads(json.dumps(made))):

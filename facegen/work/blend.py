@@ -44,7 +44,9 @@ def save_blend(dataset: Dataset, number: int, path: Path, *, view: str | None = 
     from facegen.blender import open_renderer
 
     spec, render = dataset.spec, dataset.spec.render
-    labelled = label_sample(dataset, number, draw_samples(dataset.plan, dataset.rig, number // BLOCK))
+    labelled = label_sample(
+        dataset, number, draw_samples(dataset.plan, dataset.rig_of(number), number // BLOCK)
+    )
     seed = draw_render_seed(spec.seed, view, number)
     with output_errors(path):
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -8,17 +8,18 @@ from collections.abc import Callable
 import pyarrow as pa
 
 from facegen.conventions import BLOCK
-from facegen.labels import RenderedSample, label_keypoints, label_rendered, with_glints
+from facegen.labels import RenderedSample, label_rendered, with_glints
 from facegen.randomness import stream
-from facegen.sampling import Samples, draw_samples
+from facegen.sampling import Samples
 from facegen.sensor import develop_view
 from facegen.sessions import draw_sample_scene
 from facegen.store import (
     Dataset,
     commit_file,
     commit_folder,
+    draw_block,
     exr_bytes,
-    keypoint_table,
+    label_block,
     png_bytes,
     sample_record,
     shard_samples,
@@ -44,7 +45,7 @@ class Worker:
         self.dataset = dataset
         self.threads = threads
         self._renderer = None
-        self._block: tuple[int, Samples] | None = None
+        self._block: tuple[int, dict[str, Samples]] | None = None
 
     def make(self, task: Task, on_phase: Callable[[str], None] = lambda phase: None) -> int:
         """Make one task and let it appear under its name; returns the bytes written.
@@ -54,21 +55,19 @@ class Worker:
         make = self._make_shard if task.kind == "shard" else self._make_sample
         return make(task.number, on_phase)
 
-    def _samples(self, block: int) -> Samples:
+    def _drawn(self, block: int) -> dict[str, Samples]:
+        """A block as each rig shows it."""
         if self._block is None or self._block[0] != block:
-            self._block = block, draw_samples(self.dataset.plan, self.dataset.rig, block)
+            self._block = block, draw_block(self.dataset, block)
         return self._block[1]
 
     def _make_shard(self, number: int, on_phase: Callable[[str], None]) -> int:
-        dataset, spec = self.dataset, self.dataset.spec
+        dataset = self.dataset
         rows = shard_samples(number, total=dataset.plan.samples)
         tables = []
         for block in range(rows.start // BLOCK, -(-rows.stop // BLOCK)):
             on_phase(f"block {block}")
-            # a block is drawn whole; a row's labels follow from the row alone, so only real rows get them
-            samples = self._samples(block).rows(slice(0, min(BLOCK, rows.stop - block * BLOCK)))
-            keypoints = label_keypoints(spec, dataset.rig, samples)
-            tables.append(keypoint_table(spec, samples, keypoints))
+            tables.append(label_block(dataset, block, self._drawn(block)))
         with staging(dataset.folder, f"shard-{number}") as stage:
             path = stage / "shard.parquet"
             write_shard(pa.concat_tables(tables).combine_chunks(), path)
@@ -79,9 +78,10 @@ class Worker:
     def _make_sample(self, number: int, on_phase: Callable[[str], None]) -> int:
         dataset = self.dataset
         on_phase("draw")
-        rendered = label_sample(dataset, number, self._samples(number // BLOCK))
+        rig = dataset.rig_of(number)
+        rendered = label_sample(dataset, number, self._drawn(number // BLOCK)[rig.name])
         files = self._pictures(rendered, on_phase)
-        record = sample_record(rendered, dataset_hash=dataset.hash, rig=dataset.rig.name)
+        record = sample_record(rendered, dataset_hash=dataset.hash, rig=rig.name)
         record["render"] = {
             "engine": "cycles",
             "blender": importlib.metadata.version("bpy"),
@@ -138,7 +138,6 @@ def draw_render_seed(seed: int, view: str, sample: int) -> int:
 
 
 def label_sample(dataset: Dataset, number: int, block: Samples) -> RenderedSample:
-    """Scene and labels of one sample out of its drawn block."""
-    row = block.rows(slice(number % BLOCK, number % BLOCK + 1))
-    sample = draw_sample_scene(dataset.spec, dataset.rig, dataset.headset, row)
-    return label_rendered(dataset.spec, dataset.rig, sample)
+    """Scene and labels of one sample out of its block, drawn on its person's rig."""
+    row, rig = block.rows(slice(number % BLOCK, number % BLOCK + 1)), dataset.rig_of(number)
+    return label_rendered(dataset.spec, rig, draw_sample_scene(dataset.spec, rig, dataset.headset, row))

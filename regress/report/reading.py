@@ -173,9 +173,11 @@ def _provenance(model: Model) -> tuple[tuple[str, str], ...]:
 
 
 def _rig(rig: Any) -> tuple[tuple[str, str], ...]:
-    """A row for each thing a dataset says of its rig: attribution is among them."""
+    """A row for each thing a dataset says of its rig or rigs: attribution is among them."""
     if isinstance(rig, dict):
         return tuple((f"rig {key.replace('_', ' ')}", _as_text(value)) for key, value in rig.items())
+    if isinstance(rig, list):  # of several, each person has one
+        return tuple(row for each in rig for row in _rig(each))
     return (("rig", _as_text(rig)),)
 
 

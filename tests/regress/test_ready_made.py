@@ -33,6 +33,26 @@ def test_a_ready_made_model_loads_and_its_card_is_of_it(name: str):
     assert card.size_bytes < 10e6
 
 
+@pytest.mark.parametrize(
+    ("rigs", "words"),
+    [
+        ({"name": "me"}, "All heads come from one rig (`me`), turned"),
+        (
+            [{"name": "anny", "share": 0.5}, {"name": "me", "share": 0.5}],
+            "All heads come from several rigs (`anny`: 50%, `me`: 50%), turned",
+        ),
+        (None, "All heads come from rigs that its dataset does not name, turned"),
+    ],
+)
+def test_a_card_says_whose_heads_there_were(tmp_path: Path, rigs: object, words: str):
+    folder = tmp_path / "model"
+    shutil.copytree(ready_made_models()[LANDMARKS], folder)
+    model = json.loads((folder / "model.json").read_text())
+    model["record"]["dataset"]["rig"] = rigs
+    (folder / "model.json").write_text(json.dumps(model))
+    assert words in card_markdown("mine", folder)
+
+
 def test_predict_takes_the_ready_made_model_by_itself_by_name_and_by_folder(run, points: Path):
     folder = ready_made_models()[LANDMARKS]
     calls = [[points], [LANDMARKS, points], [folder, points], [points, "--model", LANDMARKS]]

@@ -62,7 +62,7 @@ def training_record(
             name=dataset.name,
             spec_hash=dataset.description.get("spec_hash"),
             keypoints_sha256=dataset.sha256,
-            rig=dataset.description.get("rig"),
+            rig=dataset.description.get("rig", dataset.description.get("rigs")),
             licence=dataset.description.get("licence"),
             samples={split: len(dataset.rows(split)) for split in SPLITS},
             people=len(np.unique(dataset.person)),
