@@ -1,4 +1,4 @@
-"""Defines ``facegen rig build | add | info | preview | landmarks``."""
+"""Defines ``facegen rig build | add | info | preview | landmarks | export``."""
 
 import json
 from pathlib import Path
@@ -131,4 +131,27 @@ def landmarks(
     points = neutral_landmarks(rig, np.zeros((1, rig.components)))[0]
     with whole_file(out) as part, open(part, "wb") as file:
         np.save(file, points)
+    typer.echo(str(out))
+
+
+@rig_app.command()
+def export(
+    name: Annotated[str, typer.Argument(help="Name of a built rig")] = "anny",
+    out: Annotated[Path, typer.Option(help="Avatar to write, .glb")] = Path("head.glb"),
+    seed: Annotated[int, typer.Option(min=0, max=2**31, help="Of teeth, hair and what is painted")] = 7,
+) -> None:
+    """Write a rig as an avatar: skin, eyes, mouth and hair, 52 morph targets, bones of head and eyes.
+
+    Example: facegen rig export anny --out head.glb
+    """
+    from facegen.avatars import head_bytes
+    from facegen.errors import InputError
+    from facegen.files import write_whole
+    from facegen.rigs import load_rig
+
+    if out.suffix.lower() != ".glb":
+        raise InputError(
+            f"--out is {out}; an avatar is written as binary glTF: name a file that ends with .glb"
+        )
+    write_whole(out, head_bytes(load_rig(name), seed=seed))
     typer.echo(str(out))

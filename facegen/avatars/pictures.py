@@ -1,0 +1,34 @@
+"""Encodes pictures for an avatar's file, and noise to paint them with."""
+
+import cv2
+import numpy as np
+
+JPEG_QUALITY = 88
+
+
+def png(picture: np.ndarray) -> bytes:
+    """PNG of a picture (h, w), (h, w, 3) or (h, w, 4) uint8, red first."""
+    return _encoded(".png", picture, [cv2.IMWRITE_PNG_COMPRESSION, 9])
+
+
+def jpeg(picture: np.ndarray, quality: int = JPEG_QUALITY) -> bytes:
+    """JPEG of a picture (h, w, 3) uint8, red first."""
+    return _encoded(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, quality])
+
+
+def _encoded(kind: str, picture: np.ndarray, settings: list[int]) -> bytes:
+    if picture.ndim == 3:
+        order = [2, 1, 0, 3][: picture.shape[2]]
+        picture = np.ascontiguousarray(picture[..., order])
+    return cv2.imencode(kind, picture, settings)[1].tobytes()
+
+
+def noise(points: np.ndarray, wavelength_m: float, rng: np.random.Generator, waves: int = 20) -> np.ndarray:
+    """Smooth noise at points (n, 3), about -1 to 1, whose spots are about half of ``wavelength_m`` wide."""
+    direction = rng.standard_normal((waves, 3))
+    direction *= (rng.uniform(0.6, 1.4, waves) / np.linalg.norm(direction, axis=1))[:, None]
+    phase = rng.uniform(0.0, 2.0 * np.pi, waves)
+    turns = (points @ (direction.T * (2.0 * np.pi / wavelength_m))).astype(np.float32) + phase.astype(
+        np.float32
+    )
+    return np.cos(turns).sum(axis=1) * np.sqrt(2.0 / waves) / 1.6

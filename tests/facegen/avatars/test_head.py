@@ -1,0 +1,142 @@
+"""The avatar's head: its file says what the rig says, and other programs open it."""
+
+import json
+import shutil
+import struct
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from facegen.avatars import head_bytes
+from facegen.avatars.eyeballs import clearance
+from facegen.avatars.shapes import CLEAR_M, face_shapes
+from facegen.cli.rig import rig_app
+from facegen.conventions import BLENDSHAPES, Part
+from facegen.errors import InputError
+from facegen.formats.gltf import read_gltf
+from facegen.rigs import Rig
+
+COMMITTED = Path(__file__).parents[3] / "track" / "page" / "static" / "head.glb"
+MOST_BYTES = 1_500_000
+"""Of the page's avatar."""
+
+
+@pytest.fixture(scope="module")
+def head(anny: Rig, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("avatar") / "head.glb"
+    path.write_bytes(head_bytes(anny))
+    return path
+
+
+def _document(path: Path) -> dict:
+    content = path.read_bytes()
+    return json.loads(content[20 : 20 + struct.unpack_from("<I", content, 12)[0]])
+
+
+def test_skin_is_the_rigs(anny: Rig, head: Path) -> None:
+    """Skin away from the lids is where the rig has it, at rest and with every shape."""
+    skin = next(part for part in read_gltf(head) if part.material == "skin")
+    assert list(skin.morphs) == list(BLENDSHAPES)
+    coarse = anny.cage_vertices
+    gap = np.linalg.norm(skin.positions[:, None] - anny.vertices[None, :coarse], axis=-1)
+    row, near = gap.argmin(axis=1), gap.min(axis=1)
+    lids = np.isin(row, anny.lid_vertices)
+    kept = ~lids & (skin.positions[:, 1] > -0.15)
+    assert kept.sum() > 2000
+    assert near[kept].max() < 1e-6
+    for index, name in enumerate(BLENDSHAPES):
+        difference = skin.morphs[name][kept] - anny.expression[index, row[kept]]
+        assert np.linalg.norm(difference, axis=1).max() < 1.51e-4, name
+
+
+def test_lids_never_cut_the_eye(anny: Rig) -> None:
+    """On the straight way from open to shut the lids' skin stays before the eye that is drawn."""
+    shapes = face_shapes(anny)
+    lashes = np.setdiff1d(anny.faces[anny.part == Part.LASHES], [-1])
+    for eye, side in enumerate(("Left", "Right")):
+        lid = np.setdiff1d(np.concatenate([anny.upper_lid[eye], anny.lower_lid[eye]]), lashes)
+        moved = shapes.moved[BLENDSHAPES.index(f"eyeBlink{side}")][lid]
+        for weight in np.linspace(0.0, 1.0, 21):
+            gap = clearance(
+                shapes.neutral[lid] + weight * moved,
+                anny.eye_center[eye],
+                float(anny.eye_radius[eye]),
+                np.array([0.0, 0.0, 1.0]),
+            )
+            assert gap.min() > 0.5 * CLEAR_M, (side, weight)
+
+
+def test_bones_leave_the_rest_as_it_is(head: Path) -> None:
+    """Skinned by the pose in the file, vertices lie where the file has them unskinned."""
+    document = _document(head)
+    skinned = read_gltf(head)
+    positions = [
+        document["accessors"][primitive["attributes"]["POSITION"]]
+        for mesh in document["meshes"]
+        for primitive in mesh["primitives"]
+    ]
+    assert len(skinned) == len(positions)
+    for part, accessor in zip(skinned, positions, strict=True):
+        assert np.abs(part.positions.min(axis=0) - accessor["min"]).max() < 1e-6
+        assert np.abs(part.positions.max(axis=0) - accessor["max"]).max() < 1e-6
+    names = [node["name"] for node in document["nodes"]]
+    assert {"Neck", "Head", "LeftEye", "RightEye"} <= set(names)
+
+
+def test_file_says_what_it_is(head: Path) -> None:
+    asset = _document(head)["asset"]
+    assert "CC0" in asset["copyright"]
+    assert asset["extras"]["licence"].startswith("CC0")
+    assert len(head.read_bytes()) <= MOST_BYTES
+
+
+def test_committed_head_is_what_the_command_writes(head: Path) -> None:
+    made, kept = read_gltf(head), read_gltf(COMMITTED)
+    assert [part.material for part in made] == [part.material for part in kept]
+    for one, other in zip(made, kept, strict=True):
+        np.testing.assert_array_equal(one.triangles, other.triangles)
+        np.testing.assert_allclose(one.positions, other.positions, atol=2e-5)
+        for name in one.morphs:
+            np.testing.assert_allclose(one.morphs[name], other.morphs[name], atol=1.7e-4)
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node")
+def test_validator_has_no_complaint(head: Path) -> None:
+    """Khronos's validator, of the web folder's development packages."""
+    modules = Path(__file__).parents[3] / "web" / "node_modules"
+    if not (modules / "gltf-validator").is_dir():
+        pytest.skip("gltf-validator is not installed (npm ci in web/)")
+    script = (
+        "const v=require('gltf-validator');v.validateBytes(new Uint8Array(require('fs').readFileSync("
+        "process.argv[1])),{maxIssues:0}).then(r=>console.log(JSON.stringify(r.issues)))"
+    )
+    run = subprocess.run(
+        ["node", "-e", script, str(head)],
+        cwd=modules.parent,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    issues = json.loads(run.stdout)
+    assert not issues["messages"], issues["messages"][:5]
+
+
+@pytest.mark.blender
+def test_blender_opens_it(head: Path) -> None:
+    bpy = pytest.importorskip("bpy")
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=str(head))
+    face = bpy.data.objects["Head"]
+    assert [key.name for key in face.data.shape_keys.key_blocks[1:]] == list(BLENDSHAPES)
+    assert {"Neck", "Head", "LeftEye", "RightEye"} <= {bone.name for bone in bpy.data.armatures[0].bones}
+
+
+def test_other_endings_are_refused(anny: Rig, tmp_path: Path) -> None:
+    run = CliRunner().invoke(rig_app, ["export", "anny", "--out", str(tmp_path / "head.obj")])
+    assert isinstance(run.exception, InputError)
+    assert "ends with .glb" in str(run.exception)
+    assert not list(tmp_path.iterdir())
