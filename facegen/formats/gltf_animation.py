@@ -10,6 +10,7 @@ References
 """
 
 import base64
+from collections.abc import Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,8 @@ import numpy as np
 
 from facegen.errors import FormatError
 from facegen.formats.gltf_container import BIN, MOST_BYTES, glb_bytes, open_glb, padded
-from facegen.formats.gltf_head import head_bone
+from facegen.formats.gltf_expressions import read_expressions
+from facegen.formats.gltf_head import head_bone, listed, record
 
 _FLOAT = 5126
 
@@ -35,7 +37,7 @@ class AnimatedAvatar:
     content
         Bytes of the .glb file.
     missing
-        Names that no mesh of the avatar has, in their order.
+        Names that no expression with morph targets and no mesh of the avatar has, in their order.
     headless
         Whether a head's turn was given and the avatar has no bone for it.
     """
@@ -56,8 +58,9 @@ def animate_avatar(
 ) -> AnimatedAvatar:
     """Add one animation that moves every mesh with known morph targets, and the head, interpolated linearly.
 
-    Names match without regard to case and underscores, and ``_L``/``_R`` means ``Left``/``Right``. Targets
-    without a weight keep what the file gives them at rest.
+    A name is that of an expression of a VRM avatar, which moves the morph targets that it binds
+    (`gltf_expressions`), or else that of a morph target. Names match without regard to case and underscores, and
+    ``_L``/``_R`` means ``Left``/``Right``. Targets without a weight keep what the file gives them at rest.
 
     Parameters
     ----------
@@ -89,29 +92,27 @@ def animate_avatar(
     meshes, nodes = (_records(document, key, path) for key in ("meshes", "nodes"))
     file = _Additions(document, path)
     clock = file.accessor(times, min=[float(times[0])], max=[float(times[-1])])
-    matched: set[str] = set()
-    for index, node in enumerate(nodes):
-        mesh = _mesh_of(node, index, meshes, path)
-        keys = [_key(name) for name in _target_names(mesh, path)]
-        moved = columns.keys() & set(keys)
-        if not moved:
-            continue
-        matched |= moved
-        rest = _at_rest(node, mesh, len(keys), index, path)
-        file.check_room(len(times) * len(keys))
-        values = np.stack(
-            [columns.get(key, np.full(len(times), at)) for key, at in zip(keys, rest, strict=True)], axis=1
+    faces = [_mesh_of(node, index, meshes, path) for index, node in enumerate(nodes)]
+    movements, matched = _movements(document, faces, columns.keys(), path)
+    if not matched:
+        raise FormatError(
+            f"{path} has no morph target called {names[0]}, {names[1]} or like any other of the {len(names)} "
+            "shapes, and no expression; a retargeting to its own names may help"
         )
+    for index, targets in sorted(movements.items()):
+        rest = _at_rest(nodes[index], faces[index], len(_targets(faces[index])), index, path)
+        file.check_room(len(times) * len(rest))
+        values = np.tile(np.array(rest, dtype=np.float64), (len(times), 1))
+        for target, shares in targets.items():
+            values[:, target] = sum(
+                share * ((columns[key] > 0.5) if binary else columns[key])
+                for (key, binary), share in shares.items()
+            )
         animation["channels"].append(
             {"sampler": len(animation["samplers"]), "target": {"node": index, "path": "weights"}}
         )
         animation["samplers"].append(
             {"input": clock, "output": file.accessor(values.astype("<f4")), "interpolation": "LINEAR"}
-        )
-    if not matched:
-        raise FormatError(
-            f"{path} has no morph target called {names[0]}, {names[1]} or like any other of the {len(names)} "
-            "shapes; a retargeting to its own names may help"
         )
     bone = None if head_rad is None else head_bone(document)
     if bone is not None:
@@ -130,6 +131,33 @@ def animate_avatar(
         missing=tuple(name for name in names if _key(name) not in matched),
         headless=head_rad is not None and bone is None,
     )
+
+
+_Shares = dict[tuple[str, bool], float]
+"""What drives one morph target: by column, and whether of it only all or nothing counts, the share that is added."""
+
+
+def _movements(
+    document: dict[str, Any], faces: list[dict[str, Any]], columns: Set[str], path: Path
+) -> tuple[dict[int, dict[int, _Shares]], set[str]]:
+    """What drives each morph target of each node, and the columns that drive any."""
+    counts = [len(_targets(mesh)) for mesh in faces]
+    movements: dict[int, dict[int, _Shares]] = {}
+    matched: set[str] = set()
+    for expression in read_expressions(document):
+        key = _key(expression.name)
+        for bind in expression.binds if key in columns else ():
+            if bind.node < len(counts) and bind.target < counts[bind.node]:
+                shares = movements.setdefault(bind.node, {}).setdefault(bind.target, {})
+                shares[key, expression.binary] = shares.get((key, expression.binary), 0.0) + bind.weight
+                matched.add(key)
+    named: set[str] = set()
+    for index, mesh in enumerate(faces):
+        for target, key in enumerate(map(_key, _target_names(mesh, path))):
+            if key in columns and key not in matched:
+                movements.setdefault(index, {}).setdefault(target, {(key, False): 1.0})
+                named.add(key)
+    return movements, matched | named
 
 
 class _Additions:
@@ -224,6 +252,11 @@ def _at_rest(
             f"{path} is damaged: node {number} has {targets} morph targets, and no {targets} numbers for their weights"
         )
     return rest
+
+
+def _targets(mesh: dict[str, Any]) -> list[Any]:
+    """Morph targets of a mesh, which all its primitives have."""
+    return listed(record(next(iter(listed(mesh.get("primitives"))), None)).get("targets"))
 
 
 def _target_names(mesh: dict[str, Any], path: Path) -> list[str]:

@@ -64,7 +64,7 @@ def head_bone(document: dict[str, Any]) -> HeadBone | None:
     parents = {
         child: number
         for number, node in enumerate(nodes)
-        for child in _listed(node.get("children"))
+        for child in listed(node.get("children"))
         if isinstance(child, int)
     }
     above, at, passed = np.array([0.0, 0.0, 0.0, 1.0]), named, {named}
@@ -76,21 +76,23 @@ def head_bone(document: dict[str, Any]) -> HeadBone | None:
 
 def _named_by_vrm(document: dict[str, Any]) -> tuple[object, bool]:
     """Number of the node that the VRM extension calls head, and whether the model faces -z."""
-    extensions = _record(document.get("extensions"))
-    bones = _record(_record(extensions.get("VRMC_vrm")).get("humanoid")).get("humanBones")
+    extensions = record(document.get("extensions"))
+    bones = record(record(extensions.get("VRMC_vrm")).get("humanoid")).get("humanBones")
     if bones is not None:
-        return _record(_record(bones).get("head")).get("node"), False
-    bones = _record(_record(extensions.get("VRM")).get("humanoid")).get("humanBones")
+        return record(record(bones).get("head")).get("node"), False
+    bones = record(record(extensions.get("VRM")).get("humanoid")).get("humanBones")
     return next(
-        (_record(bone).get("node") for bone in _listed(bones) if _record(bone).get("bone") == "head"), None
+        (record(bone).get("node") for bone in listed(bones) if record(bone).get("bone") == "head"), None
     ), ("VRM" in extensions)
 
 
-def _listed(value: object) -> list[Any]:
+def listed(value: object) -> list[Any]:
+    """A list as it is; an empty one for what is none."""
     return value if isinstance(value, list) else []
 
 
-def _record(value: object) -> dict[str, Any]:
+def record(value: object) -> dict[str, Any]:
+    """A record as it is; an empty one for what is none."""
     return value if isinstance(value, dict) else {}
 
 

@@ -15,6 +15,7 @@ from regress.runtime.stages.retargeting.shipped import shipped_targets
 from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.stages.smoothing import LandmarkSmoothing
 from tests.facegen.formats.test_gltf_animation import avatar
+from tests.facegen.formats.test_gltf_expressions import vrm
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 
 FACES = drawn_faces(np.random.default_rng(4), 12)
@@ -88,6 +89,27 @@ def test_an_avatar_moves(run, quick_model, quick_model_folder, take, tmp_path):
     jaw = np.frombuffer(gltf.binary_blob(), "<f4", 11, view.byteOffset)
     expected = np.delete(quick_model.predict(np.load(take))[:, BLENDSHAPES.index("jawOpen")], 7)
     np.testing.assert_allclose(jaw, expected, atol=1e-6)
+
+
+@pytest.mark.parametrize(("kind", "target"), [("VRM 1.0", "vrm1"), ("VRM 0.x", "vrm0")])
+def test_a_vrm_s_expressions_move_what_they_bind(
+    kind, target, run, quick_model, quick_model_folder, take, tmp_path
+):
+    avatar_and_target = ("--gltf", vrm(tmp_path / "a.vrm", kind), "--retarget", target)
+    options = (*avatar_and_target, "--fps", 25, "--filter", "none", "--out", tmp_path / "b.glb")
+    code, out, err = run("predict", quick_model_folder, take, *options, "--keep-guessed-gaze")
+    assert (code, out) == (0, "")
+    assert f"no morph target for {len(read_retargeting(target).names) - 3}" in err
+    gltf = GLTF2().load(str(tmp_path / "b.glb"))
+    view = gltf.bufferViews[gltf.accessors[gltf.animations[-1].samplers[0].output].bufferView]
+    moved = np.frombuffer(gltf.binary_blob(), "<f4", 11 * 5, view.byteOffset).reshape(11, 5)
+    shapes = np.delete(quick_model.predict(np.load(take)), 7, axis=0)
+    smile = shapes[:, [BLENDSHAPES.index("mouthSmileLeft"), BLENDSHAPES.index("mouthSmileRight")]].mean(
+        axis=1
+    )
+    np.testing.assert_allclose(moved[:, 4], 0.5 * np.clip(smile, 0, 1), atol=1e-6)
+    jaw = np.clip(shapes[:, BLENDSHAPES.index("jawOpen")], 0, 1)
+    np.testing.assert_allclose(moved[:, 0], 0.75 * jaw, atol=1e-6)
 
 
 @pytest.mark.parametrize(
