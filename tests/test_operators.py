@@ -43,6 +43,9 @@ FORBIDDEN = (
 SPARED = {
     "facegen/machine.py": {"socket"},  # asks for this machine's own name, which opens no connection
     "room/server/": {"asyncio", "ssl"},  # listens for those who meet, by https where it is told to
+    "track/comparison/phone.py": {
+        "socket"
+    },  # listens for a phone while `track compare` runs, and sends nothing
     "track/page/": {"asyncio"},  # listens for browsers, on this machine unless told otherwise
     "track/sinks/room.py": {"asyncio"},  # speaks to the room whose link stands behind --to
     "track/sinks/udp.py": {

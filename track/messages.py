@@ -61,6 +61,8 @@ class Moment:
         Behind the last stage: weights (52,) by ARKit's names, gaze, head, points in pixels of ``pictures``.
     pictures : mapping of (h, w, 3) or (h, w) uint8
         By camera; empty where nobody looks at them.
+    points : mapping of (n, 2) float64
+        To draw, by camera, in pixels of its picture; a camera without any is left out.
     fps
         Frames a second that came through lately.
     latency_ms
@@ -75,6 +77,7 @@ class Moment:
 
     sample: Sample
     pictures: Mapping[str, np.ndarray] = field(default_factory=dict)
+    points: Mapping[str, np.ndarray] = field(default_factory=dict)
     fps: float = 0.0
     latency_ms: Mapping[str, float] = field(default_factory=dict)
     faults: tuple[str, ...] = ()

@@ -3,20 +3,37 @@
 A command imports what it needs when it is called, so that ``--help`` is quick.
 """
 
-from facegen.extras import LIVE
-from facegen.program import program, run
+import sys
+
+from facegen.extras import LEARN, LIVE
+from facegen.program import program
+from facegen.program import run as run_program
 from track import __version__
+from track.cli.calibrate import calibrate
+from track.cli.compare import compare
 from track.cli.devices import devices
+from track.cli.profiles import profiles
+from track.cli.run import run
 
 app = program(
     "track",
     version=__version__,
-    about="A camera in, an avatar's face out: live, on this machine alone.",
+    about="A camera in, an avatar's face out: live, on this machine alone. Without a command it is `track run`.",
     libraries=("numpy", "onnxruntime", "mediapipe"),
 )
+app.command()(run)
+app.command()(calibrate)
+app.command()(compare)
 app.command()(devices)
+app.add_typer(profiles, name="profiles")
+
+_ITS_OWN = ("--help", "-h", "--version")
+"""Words of the program itself."""
 
 
 def main() -> None:
-    """Entry point of the console script."""
-    run(app, extras=(LIVE,))
+    """Entry point of the console script: what begins with no command is for `run`."""
+    commands = {"run", "calibrate", "compare", "devices", "profiles"}
+    if len(sys.argv) < 2 or sys.argv[1] not in (*commands, *_ITS_OWN):
+        sys.argv.insert(1, "run")
+    run_program(app, extras=(LIVE, LEARN))

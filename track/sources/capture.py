@@ -78,21 +78,26 @@ class Capture:
         while (sample := self.read()) is not None:
             yield sample
 
-    def read(self) -> Sample | None:
+    def read(self, within_s: float | None = None) -> Sample | None:
         """The next moment, as soon as there is one; None where all films are over.
+
+        Parameters
+        ----------
+        within_s
+            How long live cameras are waited for; `EMPTY_AFTER_S` by default.
 
         Returns
         -------
         Sample or None
             Its pictures are those that can be used; its faults say by camera why others cannot. Where live cameras give
-            nothing for `EMPTY_AFTER_S` it has no pictures.
+            nothing for so long it has no pictures.
 
         Raises
         ------
         InputError
             Where what comes is not what it should be, as standard input without points.
         """
-        until_s = time.monotonic() + EMPTY_AFTER_S
+        until_s = time.monotonic() + (EMPTY_AFTER_S if within_s is None else within_s)
         with self._news:
             while True:
                 self._raise_errors()

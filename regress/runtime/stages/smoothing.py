@@ -175,10 +175,12 @@ class OneEuroSmoothing(Stage):
     ----------
     settings
         Of the filter.
+    faster
+        Factor on the cutoff by region of the face; eyes alone by default.
     """
 
-    def __init__(self, settings: OneEuro) -> None:
-        self._settings = settings
+    def __init__(self, settings: OneEuro, faster: Mapping[str, float] | None = None) -> None:
+        self._settings, self._faster = settings, faster
         self._filter: OneEuroFilter | None = None
 
     def step(self, sample: Sample) -> Sample:
@@ -197,7 +199,7 @@ class OneEuroSmoothing(Stage):
         if self._filter is None:
             gaze_hz = EYES_FASTER * self._settings.cutoff_hz
             cutoffs_hz = np.append(
-                by_region(self._settings), np.full(len(row) - len(sample.weights), gaze_hz)
+                by_region(self._settings, self._faster), np.full(len(row) - len(sample.weights), gaze_hz)
             )
             self._filter = OneEuroFilter(self._settings, cutoffs_hz)
         try:

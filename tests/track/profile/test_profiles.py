@@ -1,0 +1,131 @@
+"""Profiles: the same after writing and reading, refused in a sentence where they are something else."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from track.errors import InputError
+from track.profile import places
+from track.profile.places import person_of, profile_path, stored_path, stored_profiles
+from track.profile.profile import (
+    FULL_GAIN,
+    LARGEST_GAIN,
+    SMALLEST_RANGE,
+    ModelMark,
+    NeutralFace,
+    Profile,
+    lines_of,
+    read_profile,
+    write_profile,
+)
+
+SHAPES = st.sampled_from(BLENDSHAPES)
+ANGLES = st.floats(-1, 1, allow_subnormal=False)
+
+
+@st.composite
+def neutrals(draw: st.DrawFn) -> NeutralFace:
+    count = draw(st.integers(1, 3))
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    return NeutralFace(
+        detector=draw(st.sampled_from(["mediapipe", "points"])),
+        picture=(640, 480),
+        points=lines_of(rng.normal(300, 100, (count, 68, 2)), places=2),
+        irises=lines_of(rng.normal(300, 100, (count, 2, 2)), places=2),
+        heads=lines_of(rng.normal(0, 1, (count, 6)), places=4),
+    )
+
+
+PROFILES = st.builds(
+    Profile,
+    person=st.text(min_size=1, max_size=20),
+    camera=st.text(min_size=1, max_size=20),
+    mirror=st.booleans(),
+    gaze=st.none() | st.tuples(ANGLES, ANGLES, ANGLES, ANGLES),
+    model=st.none()
+    | st.builds(ModelMark, kind=st.sampled_from(["landmarks", "headset"]), sha256=st.just("ab" * 32)),
+    neutral=st.none() | neutrals(),
+    ranges=st.dictionaries(SHAPES, st.floats(SMALLEST_RANGE, 1), max_size=5),
+    gains=st.dictionaries(SHAPES, st.floats(0, LARGEST_GAIN), max_size=5),
+)
+
+
+@given(profile=PROFILES)
+def test_what_is_written_is_read(tmp_path_factory, profile):
+    path = write_profile(tmp_path_factory.mktemp("profiles") / "new" / "a.toml", profile)
+    assert read_profile(path) == profile
+
+
+@given(profile=PROFILES)
+def test_a_full_movement_reads_one_unless_the_gain_ends(profile):
+    plain = profile.model_copy(update={"gains": {}})
+    for name, reading in plain.ranges.items():
+        full = reading * plain.factors()[BLENDSHAPE_INDEX[name]]
+        assert full == pytest.approx(min(1.0, FULL_GAIN * reading))
+    unnamed = [index for name, index in BLENDSHAPE_INDEX.items() if name not in plain.ranges]
+    assert np.all(plain.factors()[unnamed] == 1)
+
+
+GOOD = 'format = "track-profile"\nversion = 1\nperson = "a"\ncamera = "b"\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "key 'person' is missing"),
+        ("not toml", "not valid TOML"),
+        (GOOD.replace("track-profile", "other"), "format"),
+        (GOOD.replace("version = 1", "version = 2"), "version"),
+        (GOOD + "age = 3\n", "unknown key 'age'"),
+        (GOOD + "[ranges]\njawOpen = 0.0\n", "ranges.jawOpen = 0.0"),
+        (GOOD + "[ranges]\njawopen = 0.5\n", "not one of the 52 ARKit names"),
+        (GOOD + "[gains]\njawOpen = 1e9\n", "gains.jawOpen"),
+        (GOOD + "gaze = [0.0, nan, 0.0, 0.0]\n", "gaze"),
+        (GOOD + '[neutral]\npoints = ["1, 2, 3"]\n', "must be 136 finite numbers"),
+        (GOOD + '[neutral]\nirises = ["1, 2, 3, x"]\n', "4 finite numbers"),
+        (
+            GOOD + '[neutral]\nirises = ["1, 2, 3, 4"]\nheads = ["1,2,3,4,5,6", "1,2,3,4,5,6"]\n',
+            "same frames",
+        ),
+        (GOOD + '[model]\nkind = "landmarks"\nsha256 = "xyz"\n', "model.sha256"),
+    ],
+)
+def test_what_is_no_profile_is_refused_in_a_sentence(tmp_path, text, words):
+    path = tmp_path / "p.toml"
+    path.write_text(text)
+    with pytest.raises(InputError) as refused:
+        read_profile(path)
+    assert words in str(refused.value)
+    assert str(path) in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(places, "profile_folder", lambda: tmp_path)
+    return tmp_path
+
+
+def test_each_person_and_camera_has_a_file(folder):
+    assert profile_path(None, "camera 0") == folder / "me.camera-0.toml"
+    assert profile_path("anna", "http://host/x?y") == folder / "anna.http-host-x-y.toml"
+    assert profile_path("here/p.toml", "camera 0").name == "p.toml"
+    assert person_of(folder / "anna.camera-0.toml") == "anna"
+    with pytest.raises(InputError, match="neither a file"):
+        profile_path("../anna", "camera 0")
+
+
+def test_stored_profiles_are_found_by_their_person(folder):
+    assert stored_profiles() == {}
+    with pytest.raises(InputError, match="no profile 'anna'"):
+        stored_path("anna")
+    for camera in ("camera 0", "camera 1"):
+        write_profile(profile_path("anna", camera), Profile(person="anna", camera=camera))
+    write_profile(profile_path("ben", "camera 0"), Profile(person="ben", camera="camera 0"))
+    (folder / "broken.toml").write_text("x = [")
+    assert list(stored_profiles()) == ["anna.camera-0", "anna.camera-1", "ben.camera-0"]
+    assert stored_path("ben") == folder / "ben.camera-0.toml"
+    with pytest.raises(InputError, match="2 profiles"):
+        stored_path("anna")

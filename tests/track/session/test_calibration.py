@@ -1,0 +1,145 @@
+"""The state machine of calibration: what is asked for, when, and what is made of it."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPE_INDEX
+from regress.runtime.sample import Sample
+from track.errors import InputError
+from track.session.calibration import (
+    COUNTDOWN_S,
+    FACES,
+    FIRST_COUNTDOWN_S,
+    OTHERS_RECORDING_S,
+    RECORDING_S,
+    TOLD_S,
+    TRIES,
+    Calibration,
+    faces_of,
+)
+from track.session.steadiness import steadiness
+
+FPS = 30
+LEAST = 0.015
+
+
+def act(calibration: Calibration, person, *, most_s: float = 120.0):
+    """Run it with a person, who is told each step and shows (weights, signature); gives steps and outcomes."""
+    steps, outcomes, frame, shown = [], [], 0, (np.zeros(52), np.zeros(4))
+    while not calibration.finished:
+        weights, signature = shown
+        step = calibration.step(frame / FPS, Sample(time_s=frame / FPS, weights=weights), signature)
+        steps.append(step)
+        outcomes += calibration.outcomes()
+        shown = person(step, frame)
+        frame += 1
+        assert frame / FPS < most_s
+    return steps, outcomes
+
+
+def obedient(step, frame):
+    """A person who does what is asked for, with a little noise."""
+    rng = np.random.default_rng(frame)
+    weights = np.clip(rng.normal(0, 0.01, 52), 0, 1)
+    for name in FACES[step.name].shapes:
+        weights[BLENDSHAPE_INDEX[name]] = 0.7
+    return weights, rng.normal(0, 0.002, 4)
+
+
+def test_an_obedient_person_is_asked_for_each_face_once():
+    steps, outcomes = act(Calibration(faces_of("all"), least=LEAST), obedient)
+    assert [outcome.name for outcome in outcomes] == list(FACES)
+    assert {step.state for step in steps} == {"countdown", "recording", "done"}
+    assert outcomes[0].ranges is None
+    assert len(outcomes[0].samples) == pytest.approx(RECORDING_S["neutral"] * FPS, abs=2)
+    for outcome in outcomes[1:]:
+        assert set(outcome.ranges) == set(FACES[outcome.name].shapes)
+        assert all(reading == pytest.approx(0.7) for reading in outcome.ranges.values())
+    expected_s = FIRST_COUNTDOWN_S + RECORDING_S["neutral"] + TOLD_S
+    expected_s += (len(FACES) - 1) * (COUNTDOWN_S + OTHERS_RECORDING_S + TOLD_S)
+    assert len(steps) / FPS == pytest.approx(expected_s, abs=1.0)
+
+
+def test_nothing_of_the_first_seconds_is_recorded():
+    _, outcomes = act(Calibration(("neutral",), least=LEAST), obedient)
+    assert outcomes[0].samples[0].time_s >= FIRST_COUNTDOWN_S
+
+
+def test_the_countdown_runs_down():
+    steps, _ = act(Calibration(("neutral",), least=LEAST), obedient)
+    left = [step.seconds_left for step in steps if step.state == "countdown"]
+    assert left[0] == FIRST_COUNTDOWN_S
+    np.testing.assert_allclose(np.diff(left), -1 / FPS)
+
+
+@pytest.mark.parametrize(
+    ("person", "reason"),
+    [
+        (lambda step, frame: (np.zeros(52), np.full(4, frame * 0.002)), "You moved"),
+        (lambda step, frame: (np.full(52, np.nan), None), "Your face was seen in 0 of"),
+        (lambda step, frame: (np.zeros(52), np.zeros(4) if frame % 2 else None), "Your face was seen in"),
+    ],
+)
+def test_a_poor_neutral_face_is_asked_for_again_and_never_kept(person, reason):
+    steps, outcomes = act(Calibration(faces_of("all"), least=LEAST), person)
+    again = [step for step in steps if step.state == "again"]
+    assert again
+    assert all(step.text.startswith(reason) for step in again)
+    assert len({step.text for step in again if step.text.endswith("as it was")}) == 1
+    assert outcomes == []
+    assert steps[-1].state == "cancelled"
+    assert {step.name for step in steps} == {"neutral"}  # without it no range means anything
+    countdowns = sum(a.state == "again" and b.state == "countdown" for a, b in itertools.pairwise(steps))
+    assert countdowns == TRIES - 1
+
+
+def test_a_face_that_is_not_seen_is_left_out_and_the_others_kept():
+    def person(step, frame):
+        weights, signature = obedient(step, frame)
+        weights[BLENDSHAPE_INDEX["cheekPuff"]] = 0.0
+        return weights, signature
+
+    steps, outcomes = act(Calibration(faces_of("all"), least=LEAST), person)
+    assert [outcome.name for outcome in outcomes] == [name for name in FACES if name != "cheeks"]
+    assert any("cheekPuff" in step.text for step in steps)
+    assert steps[-1].state == "done"
+
+
+def test_one_side_that_is_faint_keeps_its_range_as_it_was():
+    def person(step, frame):
+        weights, signature = obedient(step, frame)
+        weights[BLENDSHAPE_INDEX["mouthSmileLeft"]] = 0.1
+        return weights, signature
+
+    _, outcomes = act(Calibration(("smile",), least=LEAST), person)
+    assert set(outcomes[0].ranges) == {"mouthSmileRight"}
+
+
+def test_cancelling_ends_it():
+    calibration = Calibration(faces_of("all"), least=LEAST)
+    calibration.step(0.0, Sample(time_s=0.0, weights=np.zeros(52)), np.zeros(4))
+    assert calibration.cancel().state == "cancelled"
+    assert calibration.finished
+
+
+def test_a_face_that_there_is_not_is_refused():
+    with pytest.raises(InputError, match=r"no face 'ears'.*neutral, jaw_open"):
+        faces_of("ears")
+
+
+@pytest.mark.parametrize("noise", [0.001, 0.003, 0.01])
+def test_noise_alone_is_still_and_a_slow_drift_is_not(noise):
+    rng = np.random.default_rng(1)
+    held = rng.normal(0, noise, (60, 136))
+    drift = held + np.linspace(0, 8 * max(noise, LEAST), 60)[:, None]
+    assert steadiness(held, least=LEAST).still
+    assert not steadiness(drift, least=LEAST).still
+
+
+def test_a_blink_is_no_movement():
+    rng = np.random.default_rng(2)
+    values = rng.normal(0, 0.003, (60, 136))
+    values[28:32, 80:90] += 0.06
+    assert steadiness(values, least=LEAST).still

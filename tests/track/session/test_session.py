@@ -1,0 +1,152 @@
+"""A session over a talking face: answers, commands, calibration, profiles."""
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPE_INDEX
+from regress.runtime.model import load_model
+from regress.runtime.ready_made import model_folder
+from regress.runtime.stages.stage import Chain
+from tests.track.session.faces import Kept, calibrated_profile, frames, new_session, talking_face
+from track.messages import Command
+from track.profile.profile import Profile
+
+
+def test_answers_without_a_filter_are_those_of_predict():
+    session = new_session(filter_name="none", profile=calibrated_profile())
+    for sample in frames(0, 300):
+        session.answer(sample)
+    (kept,) = session.sinks
+    neutral = session.profile.neutral.frames("points")
+    model = load_model(model_folder("landmarks-default")).calibrate(neutral)
+    expected = model.predict(talking_face().points[:300])
+    back = 8  # frames that the face is faded to at first
+    looks = [index for name, index in BLENDSHAPE_INDEX.items() if name.startswith("eyeLook")]
+    others = np.setdiff1d(np.arange(52), looks)
+    np.testing.assert_allclose(kept.weights[back:, others], expected[back:, others], atol=1e-9)
+
+
+def test_the_mirror_exchanges_sides_and_the_profile_remembers():
+    stored: list[Profile] = []
+    plain, mirrored = new_session(filter_name="none"), new_session(filter_name="none", keep=stored.append)
+    mirrored.ask(Command(verb="mirror", value=True))
+    for sample in frames(100, 140):
+        plain.answer(sample)
+        mirrored.answer(sample)
+    left, right = BLENDSHAPE_INDEX["mouthSmileLeft"], BLENDSHAPE_INDEX["mouthSmileRight"]
+    np.testing.assert_allclose(plain.sinks[0].weights[:, left], mirrored.sinks[0].weights[:, right])
+    assert stored[-1].mirror
+
+
+def test_a_gain_multiplies_and_ends_at_one():
+    plain, louder = (new_session(filter_name="none", profile=calibrated_profile()) for _ in range(2))
+    louder.ask(Command(verb="gain", shape="jawOpen", value=1.7))
+    for sample in frames(0, 400):
+        plain.answer(sample)
+        louder.answer(sample)
+    jaw = BLENDSHAPE_INDEX["jawOpen"]
+    expected = np.minimum(plain.sinks[0].weights[30:, jaw] * 1.7, 1)
+    np.testing.assert_allclose(louder.sinks[0].weights[30:, jaw], expected, atol=1e-9)
+    assert plain.sinks[0].weights[:, jaw].max() > 0.2
+
+
+def test_calibration_finds_the_neutral_face_and_keeps_it():
+    stored: list[Profile] = []
+    said: list[str] = []
+    session = new_session(said=said, keep=stored.append)
+    session.ask(Command(verb="calibrate", value="neutral"))
+    still = frames(0, 60)
+    states = []
+    time_s = 0.0
+    while session.step_of_calibration is None or session.calibrating:
+        sample = still[int(time_s * 30) % 60]
+        session.answer(frames_at(sample, time_s))
+        states.append(session.step_of_calibration.state)
+        time_s += 1 / 30
+        assert time_s < 20
+    assert [state for state, before in zip(states, [None, *states], strict=False) if state != before] == [
+        "countdown",
+        "recording",
+        "done",
+    ]
+    assert stored[-1].neutral is not None
+    assert stored[-1].model == session.pipeline.mark
+    assert said == ["calibration: done"]
+
+
+def test_who_moves_is_asked_once_more_and_nothing_is_kept():
+    stored: list[Profile] = []
+    session = new_session(keep=stored.append)
+    session.ask(Command(verb="calibrate", value="neutral"))
+    texts = set()
+    for sample in frames(120, 900):  # talks all the time
+        session.answer(sample)
+        step = session.step_of_calibration
+        if step.state == "again":
+            texts.add(step.text)
+    assert any(text.startswith("You moved") and text.endswith("once more") for text in texts)
+    assert session.step_of_calibration.state == "cancelled"
+    assert stored == []
+
+
+def test_the_page_s_recording_is_opened_and_closed():
+    made: list[Kept] = []
+
+    def new_recording() -> Kept:
+        made.append(Kept())
+        return made[-1]
+
+    session = new_session(new_recording=new_recording)
+    session.answer(frames(0, 1)[0])
+    session.ask(Command(verb="record", value=True))
+    for sample in frames(1, 5):
+        session.answer(sample)
+    assert session.moment(session.sinks[0].samples[-1]).settings["recording"]
+    session.ask(Command(verb="record", value=False))
+    session.answer(frames(5, 6)[0])
+    assert [len(each.samples) for each in made] == [4]
+    assert made[0].closed
+    assert len(session.sinks) == 1
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        Command(verb="calibrate", value="ears"),
+        Command(verb="dance"),
+        Command(verb="gain", value=1.0),
+        Command(verb="cancel"),
+        Command(verb="record", value=False),
+    ],
+)
+def test_commands_that_mean_nothing_stop_nothing(command):
+    session = new_session()
+    session.ask(command)
+    assert len(session.answer(frames(0, 1)[0])) == 1
+
+
+def test_what_is_measured_has_each_stage():
+    session = new_session()
+    for sample in frames(0, 40):
+        session.answer(sample)
+    summary = session.summary()
+    assert summary.frames == summary.faces == 40
+    assert set(summary.cpu_ms) == {*session.pipeline.stages, "person", "sinks"}
+    assert summary.seconds == pytest.approx(39 / 30, abs=1e-3)
+
+
+def test_the_stages_are_those_of_a_chain():
+    """Frame by frame through the session's loop is what a chain of the same stages gives."""
+    session, other = new_session(), new_session()
+    chain = Chain(other.pipeline.stages.values())
+    for sample in frames(0, 60):
+        session.answer(sample)
+        last = chain.step(sample)
+    np.testing.assert_allclose(session.sinks[0].weights[-1], last.weights)
+
+
+def frames_at(sample, time_s):
+    """The same frame at another time."""
+    from dataclasses import replace
+
+    return replace(sample, time_s=time_s)

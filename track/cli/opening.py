@@ -1,0 +1,200 @@
+"""Opens what a person named on the command line: cameras, model, profile, sinks."""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from track.errors import InputError
+from track.profile.places import person_of, profile_path
+from track.profile.profile import NeutralFace, Profile, read_profile
+
+if TYPE_CHECKING:
+    from track.session.pipeline import Pipeline
+    from track.sources import Capture
+
+_NAMED = re.compile(r"([A-Za-z0-9][A-Za-z0-9_.-]{0,63})=(.+)", re.DOTALL)
+
+ONE = "camera"
+"""What the camera of a landmark model is called."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wishes:
+    """What was asked for, of cameras and model.
+
+    Parameters
+    ----------
+    cameras
+        As they were written.
+    model, detector, detector_file, profile, filter_name, neutral
+        Options' values.
+    fast, fps
+        Pace of kept pictures.
+    """
+
+    cameras: Sequence[str] = ()
+    model: str | None = None
+    detector: str | None = None
+    detector_file: Path | None = None
+    profile: str | None = None
+    filter_name: str = "groups"
+    neutral: str | None = None
+    fast: bool = False
+    fps: float = 30.0
+
+
+def camera_texts(cameras: Sequence[str], *, headset: bool) -> dict[str, str]:
+    """What opens each camera, by its name.
+
+    Raises
+    ------
+    InputError
+        Where a headset's camera has no name, a name comes twice, or a landmark model has several cameras.
+    """
+    if not headset:
+        if len(cameras) > 1:
+            raise InputError(
+                f"{len(cameras)} cameras are given, and a model of landmarks takes one; --model names a headset's"
+            )
+        return {ONE: (cameras or ["0"])[0]}
+    texts = {}
+    for written in cameras:
+        match = _NAMED.fullmatch(written)
+        if match is None:
+            raise InputError(
+                f"--camera {written}: a headset's camera needs its name before it, as in left_eye={written}"
+            )
+        if match[1] in texts:
+            raise InputError(f"--camera {match[1]} is given twice")
+        texts[match[1]] = match[2]
+    return texts
+
+
+def is_headset(wishes: Wishes) -> bool:
+    """Whether the model is a headset's; cameras with names say so where no model is named."""
+    from regress.runtime.headset.predictor import is_headset_model
+
+    if wishes.model is not None:
+        return is_headset_model(wishes.model)
+    return bool(wishes.cameras) and all(_NAMED.fullmatch(each) for each in wishes.cameras)
+
+
+def open_pipeline(wishes: Wishes, texts: dict[str, str], say: Callable[[str], None]) -> "Pipeline":
+    """The stages for these cameras.
+
+    Raises
+    ------
+    InputError
+        Where model, detector or cameras cannot be used together.
+    """
+    from regress.runtime.ready_made import HEADSET, LANDMARKS
+
+    if is_headset(wishes):
+        from track.session.headset import HeadsetPipeline
+
+        if wishes.detector is not None:
+            raise InputError(
+                f"--detector {wishes.detector} finds 68 points, and a headset's model takes pictures"
+            )
+        if wishes.neutral not in (None, "none"):
+            raise InputError(
+                f"--neutral {wishes.neutral} is of points; a headset's neutral face comes from `track calibrate`"
+            )
+        pipeline = HeadsetPipeline(wishes.model or HEADSET, fps=wishes.fps, filter_name=wishes.filter_name)
+        strangers = [name for name in texts if name not in pipeline.cameras]
+        if strangers or not texts:
+            found = f"there is no camera {strangers[0]!r}" if strangers else "no camera is given"
+            raise InputError(
+                f"{found}; the model's are {', '.join(pipeline.cameras)}: --camera {pipeline.cameras[0]}=0"
+            )
+        return pipeline
+    from track.detectors import open_detector
+    from track.session.landmarks import LandmarkPipeline
+
+    (text,) = texts.values()
+    name = wishes.detector or ("points" if text == "-" else "mediapipe")
+    return LandmarkPipeline(
+        wishes.model or LANDMARKS,
+        detector=open_detector(name, wishes.detector_file),
+        detector_name=name,
+        filter_name=wishes.filter_name,
+        auto=wishes.neutral == "auto",
+        say=say,
+    )
+
+
+def open_cameras(wishes: Wishes, texts: dict[str, str]) -> "Capture":
+    """Begin to read the cameras.
+
+    Raises
+    ------
+    CameraError
+        Where one cannot be opened.
+    """
+    from track.sources import Pace, open_capture
+
+    return open_capture(texts, Pace(fast=wishes.fast, fps=wishes.fps))
+
+
+def open_profile(
+    wishes: Wishes, pipeline: "Pipeline", titles: dict[str, str], say: Callable[[str], None]
+) -> tuple[Profile, Path]:
+    """The person's profile for these cameras and this model, and where it lies; a new one where there is none.
+
+    Raises
+    ------
+    InputError
+        Where it is of another kind of model, or cannot be read.
+    """
+    camera = " ".join(titles.values())
+    path = profile_path(wishes.profile, camera)
+    profile = Profile(person=person_of(path)[:64], camera=camera[:200])
+    if path.is_file():
+        profile = fitted(read_profile(path), pipeline, path, say)
+    elif wishes.profile is not None and wishes.profile.endswith(".toml"):
+        say(f"{path} does not exist yet; calibrating makes it")
+    if wishes.neutral in ("auto", "none"):
+        profile = profile.model_copy(update={"neutral": None, "ranges": {}})
+    elif wishes.neutral is not None:
+        profile = profile.model_copy(
+            update={"neutral": _neutral_file(wishes.neutral, pipeline), "ranges": {}}
+        )
+    elif profile.neutral is None:
+        say(
+            "no neutral face is known yet, so movements are guessed: calibrate on the page, or by `track calibrate`"
+        )
+    return profile, path
+
+
+def fitted(profile: Profile, pipeline: "Pipeline", path: Path, say: Callable[[str], None]) -> Profile:
+    """A profile as this model can use it: another one's readings are left out.
+
+    Raises
+    ------
+    InputError
+        Where it is of another kind of model.
+    """
+    mark = profile.model
+    if mark is None or mark == pipeline.mark:
+        return profile
+    if mark.kind != pipeline.mark.kind:
+        raise InputError(
+            f"{path} is a profile for a {mark.kind} model, and this one is a {pipeline.mark.kind} model; "
+            f"--profile names another"
+        )
+    if profile.ranges:
+        say(f"{path}: its ranges were read by another model and are left out; calibrate again")
+    return profile.model_copy(update={"ranges": {}, "model": None})
+
+
+def _neutral_file(name: str, pipeline: "Pipeline") -> NeutralFace:
+    from regress.runtime.inputs import read_frames
+
+    if not Path(name).exists():
+        raise InputError(f"--neutral {name!r} is no file; auto and none are allowed too")
+    samples = [each for each in read_frames(name).samples() if pipeline.signature(each) is not None]
+    if not samples:
+        raise InputError(f"--neutral {name}: no frame has a face")
+    return pipeline.neutral_of(samples)

@@ -1,0 +1,163 @@
+"""Runs a session for a command: opens what was asked for, lets Ctrl-C end it, and closes everything."""
+
+import contextlib
+import signal
+import threading
+import webbrowser
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from track.cli.opening import Wishes, camera_texts, is_headset, open_cameras, open_pipeline, open_profile
+from track.errors import InputError
+from track.profile.profile import write_profile
+
+if TYPE_CHECKING:
+    from track.session.session import Screen, Session, Summary
+    from track.sinks.sink import Sink
+
+RECORDINGS = {".csv": "csv", ".glb": "gltf", ".vrma": "vrma"}
+"""Sinks by a recording's ending."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunOptions:
+    """What was asked for besides cameras and model; names are those of the options of ``track run``."""
+
+    to: Sequence[str] = ()
+    record: Path | None = None
+    retarget: str | None = None
+    mirror: bool | None = None
+    page: bool = True
+    browser: bool = True
+    avatar: Path | None = None
+    host: str = "127.0.0.1"
+    port: int = 0
+    seconds: float | None = None
+
+
+def run_session(wishes: Wishes, options: RunOptions, say: Callable[[str], None]) -> "Summary":
+    """Run until the end, and say how it went."""
+    texts = camera_texts(wishes.cameras, headset=is_headset(wishes))
+    with contextlib.ExitStack() as closing:
+        sinks = open_sinks(options, say, closing)
+        session, capture = open_session(wishes, texts, sinks, say, closing, options=options)
+        screen = _open_page(options, session, texts, say, closing) if options.page else None
+        with ended_by_signals(session):
+            return session.run(capture, screen, seconds=options.seconds)
+
+
+def open_session(
+    wishes: Wishes,
+    texts: dict[str, str],
+    sinks: "list[Sink]",
+    say: Callable[[str], None],
+    closing: contextlib.ExitStack,
+    *,
+    options: RunOptions,
+) -> "tuple[Session, object]":
+    """A session and its cameras, which ``closing`` lets go."""
+    from track.session.session import Session
+
+    pipeline = open_pipeline(wishes, texts, say)
+    closing.callback(pipeline.close)
+    capture = open_cameras(wishes, texts)
+    closing.callback(capture.close)
+    profile, path = open_profile(wishes, pipeline, capture.titles, say)
+    session = Session(
+        pipeline=pipeline,
+        sinks=sinks,
+        profile=profile,
+        say=say,
+        keep=lambda changed: write_profile(path, changed),
+        new_recording=lambda: _open(f"csv:{_free_name()}", say),
+        mirror=options.mirror,
+        timed=not wishes.fast,
+    )
+    closing.callback(session.close)
+    return session, capture
+
+
+def open_sinks(
+    options: RunOptions, say: Callable[[str], None], closing: contextlib.ExitStack
+) -> "list[Sink]":
+    """Sinks as they were written.
+
+    Raises
+    ------
+    InputError, OutputError
+        Where one is not known, or its place cannot be used.
+    """
+    written = list(options.to)
+    if options.record is not None:
+        if options.record.suffix not in RECORDINGS:
+            raise InputError(f"--record {options.record}: a recording ends with {', '.join(RECORDINGS)}")
+        written.append(f"{RECORDINGS[options.record.suffix]}:{options.record}")
+    if options.retarget is not None:
+        written = [
+            f"{each},names={options.retarget}" if each.startswith("csv:") else each for each in written
+        ]
+    sinks = []
+    for each in written:
+        sinks.append(_open(each, say))
+        say(f"sending {sinks[-1].title}")
+    return sinks
+
+
+def _open(written: str, say: Callable[[str], None]) -> "Sink":
+    from track.sinks.targets import open_sink, parse_target
+
+    return open_sink(parse_target(written), say)
+
+
+def _free_name() -> Path:
+    """The first of ``track-001.csv``, ``track-002.csv`` … that is not there yet."""
+    return next(path for number in range(1, 10**6) if not (path := Path(f"track-{number:03d}.csv")).exists())
+
+
+def _open_page(
+    options: RunOptions,
+    session: "Session",
+    texts: dict[str, str],
+    say: Callable[[str], None],
+    closing: contextlib.ExitStack,
+) -> "Screen":
+    from track.page import Page
+    from track.session.calibration import FACES
+
+    page = Page(
+        session.ask,
+        options.host,
+        options.port,
+        cameras=tuple(texts),
+        steps=tuple(FACES),
+        avatar=options.avatar,
+    )
+    closing.callback(page.close)
+    say(f"the page is at {page.url}; pictures stay on this machine")
+    if options.browser:
+        threading.Thread(target=webbrowser.open, args=(page.url,), daemon=True).start()
+    return page
+
+
+@contextlib.contextmanager
+def ended_by_signals(session: "Session") -> Iterator[None]:
+    """Let the first Ctrl-C or SIGTERM end the session after its frame; the next one stops at once, as ever."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def end(_number: int, _frame: object) -> None:
+        session.stop()
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+    for number in before:
+        signal.signal(number, end)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,93 @@
+"""Where profiles lie: one file a person and camera in the user's configuration folder, or any file that is named."""
+
+import re
+from pathlib import Path
+
+from track.errors import InputError
+from track.profile.profile import Profile, read_profile
+
+ENDING = ".toml"
+
+DEFAULT_PERSON = "me"
+"""Whose profile is taken where nobody says."""
+
+_PERSON = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
+
+
+def profile_folder() -> Path:
+    """The folder of all profiles, which need not exist."""
+    import platformdirs
+
+    return Path(platformdirs.user_config_dir("track", appauthor=False)) / "profiles"
+
+
+def profile_path(named: str | None, camera: str) -> Path:
+    """The file that ``--profile`` stands for: a name of a person, or a file by its ending.
+
+    Parameters
+    ----------
+    named
+        None for `DEFAULT_PERSON`.
+    camera
+        Title of the camera, or of all of them.
+
+    Raises
+    ------
+    InputError
+        Where it is neither.
+    """
+    named = named or DEFAULT_PERSON
+    if named.endswith(ENDING):
+        return Path(named)
+    if not _PERSON.fullmatch(named):
+        raise InputError(
+            f"--profile {named[:60]!r} is neither a file ending with {ENDING} nor a name of up to 64 letters, digits, "
+            f"'_' and '-'"
+        )
+    return profile_folder() / f"{named}.{_as_name(camera)}{ENDING}"
+
+
+def person_of(path: Path) -> str:
+    """Whose profile a file is by its name."""
+    return path.name.removesuffix(ENDING).split(".")[0] or DEFAULT_PERSON
+
+
+def stored_profiles() -> dict[str, Profile]:
+    """Profiles of the folder by their names; those that cannot be read are left out."""
+    found = {}
+    for path in sorted(profile_folder().glob(f"*{ENDING}")):
+        try:
+            found[path.name.removesuffix(ENDING)] = read_profile(path)
+        except InputError:
+            continue
+    return found
+
+
+def stored_path(name: str) -> Path:
+    """The file of a stored profile by its name or its person's, or a file that is named itself.
+
+    Raises
+    ------
+    InputError
+        Where there is none, or a person has several.
+    """
+    if name.endswith(ENDING) and Path(name).is_file():
+        return Path(name)
+    folder = profile_folder()
+    names = sorted(path.name.removesuffix(ENDING) for path in folder.glob(f"*{ENDING}"))
+    fitting = [each for each in names if each == name] or [
+        each for each in names if each.split(".")[0] == name
+    ]
+    if len(fitting) == 1:
+        return folder / f"{fitting[0]}{ENDING}"
+    if fitting:
+        raise InputError(f"{name} has {len(fitting)} profiles, name one of {', '.join(fitting)}")
+    raise InputError(
+        f"there is no profile {name!r} in {folder}; "
+        + (f"there are {', '.join(names)}" if names else "`track calibrate` makes one")
+    )
+
+
+def _as_name(camera: str) -> str:
+    """A camera's title as part of a file's name."""
+    return re.sub(r"[^A-Za-z0-9_-]+", "-", camera).strip("-")[:80].lower() or "camera"

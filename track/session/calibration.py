@@ -1,0 +1,249 @@
+"""Asks a person for faces, one after another, and judges what came: a state machine of times in and steps out.
+
+::
+
+    countdown ─► recording ─► done ─► countdown of the next face … ─► finished
+                     └─► again (why) ─► countdown of the same face; after `TRIES` the face is left as it was
+
+Nothing here knows cameras, models or pages; the first second of anything is never taken for a neutral face.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX
+from regress.runtime.sample import Sample
+from track.errors import InputError
+from track.messages import Step
+from track.session.steadiness import steadiness
+
+FIRST_COUNTDOWN_S, COUNTDOWN_S = 3.0, 2.0
+"""Before the first face, and before others: who has just read a sentence needs less."""
+
+RECORDING_S = {"neutral": 2.0}
+OTHERS_RECORDING_S = 1.5
+"""Of the neutral face 60 frames, whose median is good to a tenth of the noise; grimaces are hard to hold."""
+
+TOLD_S, TOLD_AGAIN_S = 0.7, 2.0
+"""How long a result stays, and a reason, which must be read."""
+
+TRIES = 3
+"""Of one face."""
+
+SEEN_SHARE = 0.7
+"""Of a recording's frames that must have a face."""
+
+FEWEST_FRAMES = 12
+"""With a face: below 8 a second for a second and a half nothing can be judged."""
+
+FAINT = 0.25
+"""Reading of a full movement below which it was not made, or the model does not see it: gains end at 2."""
+
+_FULL = 0.6
+"""Quantile of a recording that is the full movement: people need a third of the time to get there."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Face:
+    """One face that people are asked for.
+
+    Parameters
+    ----------
+    text
+        What to do.
+    shapes
+        Whose ranges it gives; none of the neutral face.
+    """
+
+    text: str
+    shapes: tuple[str, ...] = ()
+
+
+FACES: Mapping[str, Face] = {
+    "neutral": Face(text="Look into the camera, mouth shut, face at rest"),
+    "jaw_open": Face(text="Open your mouth as wide as it goes", shapes=("jawOpen",)),
+    "smile": Face(
+        text="Smile as broadly as you can, teeth shut", shapes=("mouthSmileLeft", "mouthSmileRight")
+    ),
+    "brows_up": Face(
+        text="Raise your brows as high as they go",
+        shapes=("browInnerUp", "browOuterUpLeft", "browOuterUpRight"),
+    ),
+    "pucker": Face(text="Pucker your lips as for a kiss", shapes=("mouthPucker",)),
+    "cheeks": Face(text="Puff out both cheeks", shapes=("cheekPuff",)),
+    "eyes_shut": Face(
+        text="Shut both eyes until three seconds are over", shapes=("eyeBlinkLeft", "eyeBlinkRight")
+    ),
+}
+"""In the order of asking; names as a command's value has them."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Outcome:
+    """What a face gave.
+
+    Parameters
+    ----------
+    name
+        Of the face.
+    samples
+        Of the neutral face: the frames.
+    ranges
+        Of another face: readings of its shapes.
+    """
+
+    name: str
+    samples: tuple[Sample, ...] = ()
+    ranges: Mapping[str, float] | None = None
+
+
+def faces_of(asked: str) -> tuple[str, ...]:
+    """Names of the faces that a command's value asks for: one, or ``all``.
+
+    Raises
+    ------
+    InputError
+        Where there is no such face.
+    """
+    if asked == "all":
+        return tuple(FACES)
+    if asked not in FACES:
+        raise InputError(
+            f"there is no face {str(asked)[:40]!r} to calibrate; all, {', '.join(FACES)} are known"
+        )
+    return (asked,)
+
+
+class Calibration:
+    """Goes through faces as time passes.
+
+    Parameters
+    ----------
+    names
+        Keys of `FACES`.
+    least
+        Movement of a signature that counts, in the signature's unit (`steadiness`).
+    """
+
+    def __init__(self, names: Sequence[str], *, least: float) -> None:
+        self._names, self._least = tuple(names), least
+        self._number, self._tries, self._over = 0, 0, False
+        self._state, self._until_s, self._text = "", 0.0, ""
+        self._frames: list[tuple[Sample, np.ndarray]] = []
+        self._missed = 0
+        self._outcomes: list[Outcome] = []
+        self.kept: list[str] = []
+        """Names of faces that gave something."""
+
+    @property
+    def finished(self) -> bool:
+        """Whether there is no face left to ask for."""
+        return self._over
+
+    @property
+    def name(self) -> str:
+        """Of the face that is asked for; of the last one at the end."""
+        return self._names[self._number]
+
+    def outcomes(self) -> list[Outcome]:
+        """What has been found since this was last asked."""
+        found, self._outcomes = self._outcomes, []
+        return found
+
+    def cancel(self) -> Step:
+        """End it; what was found before stays."""
+        self._over = True
+        return Step(
+            name=self.name, state="cancelled", text="Stopped; what was calibrated before stays as it was"
+        )
+
+    def step(self, time_s: float, sample: Sample, signature: np.ndarray | None) -> Step:
+        """Where it is at a frame's time.
+
+        Parameters
+        ----------
+        sample
+            Before the person's ranges.
+        signature : (k,) float64 or None
+            What of the frame must keep still; None where there is no face.
+        """
+        if not self._state:
+            self._count_down(time_s, FIRST_COUNTDOWN_S)
+        if self._state == "recording":
+            self._record(sample, signature)
+        if time_s >= self._until_s:
+            self._go_on(time_s)
+        left = max(0.0, self._until_s - time_s)
+        return Step(name=self.name, state=self._state, seconds_left=left, text=self._text)
+
+    def _record(self, sample: Sample, signature: np.ndarray | None) -> None:
+        if signature is None or sample.weights is None or np.isnan(sample.weights).any():
+            self._missed += 1
+        else:
+            self._frames.append((sample, signature))
+
+    def _count_down(self, time_s: float, seconds: float) -> None:
+        self._state, self._until_s, self._text = "countdown", time_s + seconds, FACES[self.name].text
+
+    def _go_on(self, time_s: float) -> None:
+        if self._state == "countdown":
+            self._state, self._text = "recording", FACES[self.name].text
+            self._until_s = time_s + RECORDING_S.get(self.name, OTHERS_RECORDING_S)
+            self._frames, self._missed = [], 0
+        elif self._state == "recording":
+            self._judge(time_s)
+        elif self._state == "again" and self._tries < TRIES:
+            self._count_down(time_s, COUNTDOWN_S)
+        elif self._number + 1 < len(self._names) and not (self._state == "again" and self.name == "neutral"):
+            self._number, self._tries = self._number + 1, 0
+            self._count_down(time_s, COUNTDOWN_S)
+        else:
+            self._end()
+
+    def _end(self) -> None:
+        self._over = True
+        if self.kept:
+            self._state, self._text = "done", "All done" if len(self._names) > 1 else "Done"
+        else:
+            self._state, self._text = "cancelled", "Nothing was calibrated; everything stays as it was"
+
+    def _judge(self, time_s: float) -> None:
+        self._tries += 1
+        reason = self._reason()
+        if reason is None:
+            self._state, self._until_s = "done", time_s + TOLD_S
+            self._text = "Good"
+            self._outcomes.append(self._outcome())
+            self.kept.append(self.name)
+            return
+        self._state, self._until_s = "again", time_s + TOLD_AGAIN_S
+        last = self._tries >= TRIES
+        self._text = f"{reason}; it stays as it was" if last else f"{reason}; once more"
+
+    def _reason(self) -> str | None:
+        """Why the recording is of no use; None where it is."""
+        count = len(self._frames)
+        if count < max(FEWEST_FRAMES, SEEN_SHARE * (count + self._missed)):
+            return f"Your face was seen in {count} of {count + self._missed} frames"
+        if self.name == "neutral":
+            seen = steadiness(np.array([signature for _, signature in self._frames]), least=self._least)
+            return (
+                None if seen.still else f"You moved, by {seen.moved / seen.allowed:.1f} times what is allowed"
+            )
+        faint = [name for name, reading in self._readings().items() if reading < FAINT]
+        if len(faint) == len(FACES[self.name].shapes):
+            return f"Nothing was seen of it ({', '.join(faint)} {self._readings()[faint[0]]:.2f})"
+        return None
+
+    def _readings(self) -> dict[str, float]:
+        weights = np.array([sample.weights for sample, _ in self._frames])
+        full = np.quantile(weights, _FULL, axis=0)
+        return {name: float(full[BLENDSHAPE_INDEX[name]]) for name in FACES[self.name].shapes}
+
+    def _outcome(self) -> Outcome:
+        if self.name == "neutral":
+            return Outcome(name=self.name, samples=tuple(sample for sample, _ in self._frames))
+        readings = {name: reading for name, reading in self._readings().items() if reading >= FAINT}
+        return Outcome(name=self.name, ranges=readings)

@@ -1,0 +1,75 @@
+"""Whether a headset's cameras were exchanged while it is worn: each picture against what every camera showed lately."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from enum import Enum
+
+import cv2
+import numpy as np
+
+from regress.runtime.headset.typical import TYPICAL_SIDE
+from regress.runtime.sample import Sample
+from regress.runtime.stages.stage import Stage
+
+LEARNT = 0.02
+"""Share of a new picture in what a camera showed lately: half a second at 120 frames a second."""
+
+MARGIN = 0.15
+"""Correlation by which another camera's look must be liker than the own: faces and light change both alike."""
+
+
+class CameraFault(Enum):
+    """What is wrong with a camera's place; the value says what it has."""
+
+    EXCHANGED = "pictures that look like another camera's; are two exchanged?"
+
+
+class ExchangeWatch(Stage):
+    """Takes pictures away that look like another camera's.
+
+    Parameters
+    ----------
+    typical
+        (24, 24) uint8 by camera, of the model's training; a camera without one is known from its first picture on.
+    """
+
+    def __init__(self, typical: Mapping[str, np.ndarray]) -> None:
+        self._looks = {name: _standard(picture) for name, picture in typical.items()}
+        self._learnt: set[str] = set()
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample without exchanged pictures; ``faults`` names their cameras."""
+        seen = {name: _standard(_small(picture)) for name, picture in (sample.pictures or {}).items()}
+        faults = {}
+        for name, look in seen.items():
+            own = self._likeness(look, name)
+            others = [self._likeness(look, other) for other in self._looks if other != name]
+            if others and max(others) > own + MARGIN:
+                faults[name] = CameraFault.EXCHANGED
+        if not faults:
+            for name, look in seen.items():
+                self._learn(name, look)
+            return sample
+        pictures = {name: picture for name, picture in sample.pictures.items() if name not in faults}
+        return replace(sample, pictures=pictures, faults={**sample.faults, **faults})
+
+    def _likeness(self, look: np.ndarray, name: str) -> float:
+        return float(look @ self._looks[name]) if name in self._looks else -1.0
+
+    def _learn(self, name: str, look: np.ndarray) -> None:
+        # training's look is of other people: the first own picture takes its place
+        share = LEARNT if name in self._learnt else 1.0
+        self._learnt.add(name)
+        mixed = look if share == 1.0 else (1 - share) * self._looks[name] + share * look
+        self._looks[name] = mixed / max(float(np.linalg.norm(mixed)), 1e-9)
+
+
+def _small(picture: np.ndarray) -> np.ndarray:
+    return cv2.resize(picture, (TYPICAL_SIDE, TYPICAL_SIDE), interpolation=cv2.INTER_AREA)
+
+
+def _standard(picture: np.ndarray) -> np.ndarray:
+    """Grey levels (576,) about their mean, of length 1; zeros of a picture of one level."""
+    values = picture.astype(np.float32).ravel()
+    values -= values.mean()
+    return values / max(float(np.linalg.norm(values)), 1e-9)

@@ -1,0 +1,136 @@
+"""From the pictures of a headset's cameras to weights."""
+
+import base64
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from regress.runtime.headset.faults import Fault
+from regress.runtime.headset.networks import HeadsetNetworks
+from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.soundness import PictureSoundness
+from regress.runtime.sample import Sample
+from regress.runtime.stages.stage import Stage
+from track.errors import InputError
+from track.profile.profile import ModelMark, NeutralFace, base64_of
+from track.session.exchange import ExchangeWatch
+from track.session.pipeline import Pipeline, filter_of
+
+LEAST_MOVEMENT = 0.15
+"""Of a weight, as the network reads it without a neutral face: what calm frames of a take differ by
+(regress.runtime.headset.neutral)."""
+
+
+class HeadsetPipeline(Pipeline):
+    """Grey pictures at the network's size, cameras in their places, network, filter.
+
+    Parameters
+    ----------
+    folder
+        Of the model, or a ready-made model's name.
+    fps
+        Frames a second of the cameras.
+    filter_name
+        As `filter_of` takes it.
+    """
+
+    least_movement = LEAST_MOVEMENT
+
+    def __init__(self, folder: str | Path, *, fps: float, filter_name: str) -> None:
+        self._predictor = load_headset_predictor(folder)
+        self.mark = ModelMark(kind="headset", sha256=self._predictor.model.network_sha256)
+        self._networks = HeadsetNetworks(self._predictor, fps=fps)
+        self.stages = {
+            "grey": _Grey(),
+            "soundness": _Soundness(self._predictor.sizes),
+            "exchange": ExchangeWatch(self._predictor.typical),
+            "networks": self._networks,
+        }
+        smoothing = filter_of(filter_name)
+        if smoothing is not None:
+            self.stages["filter"] = smoothing
+
+    @property
+    def cameras(self) -> tuple[str, ...]:
+        """Of the model, in its order."""
+        return tuple(self._predictor.sizes)
+
+    def signature(self, sample: Sample) -> np.ndarray | None:
+        """The weights (52,), where every camera has a picture."""
+        whole = sample.pictures is not None and set(sample.pictures) == set(self.cameras)
+        return sample.weights if whole and not np.isnan(sample.weights).any() else None
+
+    def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
+        """The frame that is nearest to the median of all: a mean of pictures would be blurred."""
+        weights = np.array([each.weights for each in samples])
+        nearest = samples[int(np.argmin(np.abs(weights - np.median(weights, axis=0)).sum(axis=1)))]
+        return NeutralFace(
+            pictures={
+                name: base64_of(cv2.imencode(".png", picture)[1].tobytes())
+                for name, picture in nearest.pictures.items()
+            }
+        )
+
+    def use_neutral(self, neutral: NeutralFace) -> None:
+        """Compare pictures with these."""
+        if not neutral.pictures:
+            raise InputError(
+                "the profile's neutral face is of points, and this model takes a headset's pictures"
+            )
+        self._networks.reseated.clear()
+        self._networks.use_neutral({name: self._picture(name, neutral) for name in self.cameras})
+
+    def _picture(self, name: str, neutral: NeutralFace) -> np.ndarray:
+        width, height = self._predictor.sizes[name]
+        if name not in neutral.pictures:
+            raise InputError(f"the profile has no neutral picture of {name}; calibrate again")
+        content = np.frombuffer(base64.b64decode(neutral.pictures[name]), dtype=np.uint8)
+        picture = cv2.imdecode(content, cv2.IMREAD_GRAYSCALE) if len(content) else None
+        if picture is None or picture.shape != (height, width):
+            size = "none" if picture is None else f"{picture.shape[1]} x {picture.shape[0]}"
+            raise InputError(
+                f"the profile's neutral picture of {name} is {size}, and the model takes {width} x {height}; calibrate "
+                f"again"
+            )
+        return picture
+
+    def points(self, sample: Sample) -> Mapping[str, np.ndarray]:
+        """Nothing: the stages do not hand on what the network traces."""
+        return {}
+
+    def sentences(self, sample: Sample) -> dict[str, str]:
+        """Faults by camera, and a seat that changed."""
+        found = super().sentences(sample)
+        if self._networks.reseated:
+            found["seat"] = "the headset has moved since it was calibrated; calibrate again"
+        return found
+
+    def forget_neutral(self) -> None:
+        """Take frames by themselves, and any seat for the right one."""
+        self._networks.use_neutral(None)
+        self._networks.reseated.clear()
+
+
+class _Soundness(PictureSoundness):
+    """Of a camera that gives nothing its source knows more than that its picture is missing."""
+
+    def step(self, sample: Sample) -> Sample:
+        found = super().step(sample)
+        known = {
+            name: fault for name, fault in sample.faults.items() if found.faults.get(name) is Fault.MISSING
+        }
+        return replace(found, faults={**found.faults, **known})
+
+
+class _Grey(Stage):
+    """One grey level a pixel, as infra-red cameras have it."""
+
+    def step(self, sample: Sample) -> Sample:
+        pictures = {
+            name: picture if picture.ndim == 2 else cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
+            for name, picture in (sample.pictures or {}).items()
+        }
+        return replace(sample, pictures=pictures)

@@ -1,0 +1,65 @@
+"""What a session takes: processor time of each stage, frames a second, and from a picture's time to the sinks."""
+
+import time
+from collections import deque
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+REMEMBERED = 600
+"""Frames over which figures are taken: 20 s at 30 a second."""
+
+LATELY_S = 2.0
+"""Over which frames are counted."""
+
+
+class Measures:
+    """Figures of the last frames; memory does not grow."""
+
+    def __init__(self) -> None:
+        self._cpu_s: dict[str, deque[float]] = {}
+        self._latency_s: deque[float] = deque(maxlen=REMEMBERED)
+        self._times_s: deque[float] = deque(maxlen=REMEMBERED)
+        self.frames = 0
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Measure what this thread does inside."""
+        start = time.thread_time()
+        yield
+        if name not in self._cpu_s:
+            self._cpu_s[name] = deque(maxlen=REMEMBERED)
+        self._cpu_s[name].append(time.thread_time() - start)
+
+    def frame(self, now_s: float, latency_s: float | None) -> None:
+        """Count a frame that went out."""
+        self.frames += 1
+        self._times_s.append(now_s)
+        if latency_s is not None:
+            self._latency_s.append(latency_s)
+
+    @property
+    def fps(self) -> float:
+        """Frames a second, lately."""
+        if len(self._times_s) < 2:
+            return 0.0
+        lately = [each for each in self._times_s if each > self._times_s[-1] - LATELY_S]
+        span = lately[-1] - lately[0]
+        return (len(lately) - 1) / span if span > 0 else 0.0
+
+    def latency_ms(self) -> dict[str, float]:
+        """p50, p95 and p99 in ms; empty where pictures' times say nothing of now."""
+        return quantiles_ms(self._latency_s)
+
+    def cpu_ms(self) -> dict[str, dict[str, float]]:
+        """Of each stage p50, p95 and p99 in ms."""
+        return {name: quantiles_ms(taken) for name, taken in self._cpu_s.items()}
+
+
+def quantiles_ms(seconds: deque[float]) -> dict[str, float]:
+    """p50, p95 and p99 in ms, rounded to a microsecond; empty of nothing."""
+    if not seconds:
+        return {}
+    values = np.quantile(np.array(seconds), [0.5, 0.95, 0.99]) * 1e3
+    return {name: round(float(value), 3) for name, value in zip(("p50", "p95", "p99"), values, strict=True)}

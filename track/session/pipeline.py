@@ -1,0 +1,94 @@
+"""The one interface of what turns a frame into weights: of landmarks, or of a headset's pictures."""
+
+from collections.abc import Mapping, Sequence
+from enum import Enum
+
+import numpy as np
+
+from regress.runtime.sample import Sample
+from regress.runtime.stages.filters import FILTERS
+from regress.runtime.stages.one_euro import OneEuro
+from regress.runtime.stages.output import filter_stage
+from regress.runtime.stages.smoothing import OneEuroSmoothing
+from regress.runtime.stages.stage import Stage
+from track.errors import InputError
+from track.profile.profile import ModelMark, NeutralFace
+
+GROUPS = "groups"
+"""The filter of live faces: One-Euro, with `FASTER`."""
+
+FASTER: Mapping[str, float] = {"eyes": 3.0, "brows": 0.5}
+"""Factor on One-Euro's cutoff at rest by region: a blink is over in a tenth of a second, brows take their time and are
+what detectors shake most."""
+
+
+class Pipeline:
+    """Stages from pictures to weights, by name, and what calibration needs to know of them.
+
+    Attributes
+    ----------
+    stages
+        In their order; one may be exchanged between two frames.
+    mark
+        Of the model.
+    least_movement
+        Of a signature, in its unit, that counts as a movement (`track.session.steadiness`).
+    """
+
+    stages: dict[str, Stage]
+    mark: ModelMark
+    least_movement: float
+
+    def signature(self, sample: Sample) -> np.ndarray | None:
+        """What of a frame must keep still while a neutral face is recorded; None where there is no face."""
+        raise NotImplementedError
+
+    def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
+        """The neutral face of frames that show it."""
+        raise NotImplementedError
+
+    def use_neutral(self, neutral: NeutralFace) -> None:
+        """Compare frames with this neutral face from now on.
+
+        Raises
+        ------
+        InputError
+            Where it is of another kind of model, other cameras or another detector.
+        """
+        raise NotImplementedError
+
+    def forget_neutral(self) -> None:
+        """Take frames by themselves while a neutral face is recorded."""
+
+    def points(self, sample: Sample) -> Mapping[str, np.ndarray]:
+        """Points (n, 2) to draw, in pixels of the sample's pictures, by camera."""
+        raise NotImplementedError
+
+    def sentences(self, sample: Sample) -> dict[str, str]:
+        """What is wrong with a frame, for the person, by what it concerns."""
+        return {name: f"{name} has {words(fault)}" for name, fault in sample.faults.items()}
+
+    def close(self) -> None:
+        """Let go what the stages hold."""
+
+
+def words(fault: Enum) -> str:
+    """A fault's value, as part of a sentence."""
+    return str(fault.value)
+
+
+def filter_of(name: str) -> Stage | None:
+    """A new stage of a filter: `GROUPS`, one of `FILTERS`, or none.
+
+    Raises
+    ------
+    InputError
+        Where no filter has that name.
+    """
+    if name == "none":
+        return None
+    if name == GROUPS:
+        return OneEuroSmoothing(OneEuro(), FASTER)
+    if name not in FILTERS:
+        raise InputError(f"there is no filter {name[:40]!r}; {GROUPS}, none, {', '.join(FILTERS)} are known")
+    return filter_stage(name)
