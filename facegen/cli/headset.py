@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from facegen.console import say
+
 if TYPE_CHECKING:
     from facegen.headsets import Headset
 
@@ -81,13 +83,17 @@ def preview(
     Example: facegen headset preview tracking3 --out tracking3.png
     """
     from facegen.files import whole_file
-    from facegen.headsets import load_headset
+    from facegen.headsets import headset_path, load_headset
     from facegen.preview.headsets import draw_headset
+    from facegen.preview.wearer import placement_faults, put_on
     from facegen.rigs import load_rig
 
-    figure = draw_headset(load_headset(name), load_rig(rig))
+    headset, wearing = load_headset(name), load_rig(rig)
+    figure = draw_headset(headset, wearing)
     with whole_file(out, suffix=".png") as part:
         figure.savefig(part, metadata={"Software": None})
+    for fault in placement_faults(put_on(headset, wearing)):
+        say(f"{headset_path(name)}: {fault}")
     typer.echo(out)
 
 

@@ -5,15 +5,14 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from facegen.conventions import BLENDSHAPES, Part
 from facegen.geometry import apply_transform, project, rotation_from_angles, unproject
-from facegen.headsets import Headset, head_from_headset
-from facegen.preview.portraits import drawn_mesh, shade
-from facegen.raster import hidden, nearest_along_z, nearest_triangles, triangles_of
-from facegen.rigs import Rig, evaluate
+from facegen.headsets import Headset
+from facegen.preview.portraits import shade
+from facegen.preview.wearer import EDGE, Wearer, put_on, seen_landmarks
+from facegen.raster import nearest_along_z, nearest_triangles
+from facegen.rigs import Rig
 from facegen.scene import View
-from facegen.scene.assembly import headset_lamps, headset_views
-from facegen.scene.housing import headset_meshes
+from facegen.scene.assembly import headset_lamps
 from facegen.sensor.lens import transmission
 
 SIDES_DEG = {"from the front": (0.0, 0.0), "from the left": (75.0, 0.0), "from below": (0.0, -55.0)}
@@ -23,21 +22,13 @@ WINDOW_M = (-0.12, 0.085, 0.13, -0.165)
 STEP_M = 0.6e-3
 CORNER_M = 0.022
 """How far along the rays of its picture's corners a camera is drawn."""
-EDGE = {"pinhole": 0.087, "fisheye": -0.3}
-"""Cosine of the angle from a camera's axis beyond which nothing is drawn: a pinhole's pixels run into the millions
-there (85 degrees), a fisheye's triangles reach round the picture."""
-HIDDEN_M = 1e-3
 VIEW_PX = 320
 _COLORS = ("#0050ff", "#e07000", "#009050", "#c000a0", "#806000", "#00a0b0", "#d02020", "#5050a0", "#60a000")
 
 
 def draw_headset(headset: Headset, rig: Rig) -> Figure:
     """Figure of a headset on the rig's mean head, without tolerances: from three sides, then camera by camera."""
-    gaze = np.tile((0.0, 0.0, 1.0), (1, 2, 1))
-    face = evaluate(rig, np.zeros((1, rig.components)), np.zeros((1, len(BLENDSHAPES))), gaze)
-    fit = head_from_headset(headset, face.landmarks[0, 27], np.zeros(6))
-    head = drawn_mesh(rig, face, 0, gaze[0])
-    housing = _with_housing(head, headset, fit)
+    wearer = put_on(headset.scaled(VIEW_PX), rig)
     cameras = len(headset.cameras)
     columns = min(max(cameras, 2), 5)
     lines = -(-cameras // columns)
@@ -45,40 +36,29 @@ def draw_headset(headset: Headset, rig: Rig) -> Figure:
     FigureCanvasAgg(figure)
     top, rest = figure.subfigures(2, 1, height_ratios=(1 / 3, lines / columns))
     for axes, (title, (yaw, pitch)) in zip(top.subplots(1, 3), SIDES_DEG.items(), strict=True):
-        _draw_side(axes, headset, fit, head, housing, yaw, pitch)
+        _draw_side(axes, wearer, yaw, pitch)
         axes.set_title(title, fontsize=8, y=0.97)
     grid = rest.subplots(lines, columns, squeeze=False).ravel()
     for axes in grid:
         axes.set_axis_off()
-    for axes, view, color in zip(grid, headset_views(headset, fit), _cycle(cameras), strict=False):
-        _draw_view(axes, headset, view, housing, face.landmarks[0], color)
+    for axes, view, color in zip(grid, wearer.views, _cycle(cameras), strict=False):
+        _draw_view(axes, wearer, view)
+        camera = headset.camera(view.name)
+        seen = f"{seen_landmarks(wearer, view)[1].sum()} points"
+        title = f"{view.name}: {camera.model}, {camera.width}x{camera.height}, {seen}"
+        axes.set_title(title, fontsize=7, color=color, y=0.98)
     for part in (top, rest):
         part.subplots_adjust(left=0.005, right=0.995, bottom=0.01, top=0.95, wspace=0.03, hspace=0.12)
     return figure
 
 
-_Mesh = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Vertices (V, 3), triangles (T, 3), part of each triangle."""
-
-
-def _with_housing(head: _Mesh, headset: Headset, fit: np.ndarray) -> _Mesh:
-    vertices, triangles, part = head
-    for mesh in headset_meshes(headset, fit):
-        added = triangles_of(mesh.faces)
-        triangles = np.concatenate([triangles, added + len(vertices)])
-        part = np.concatenate([part, np.full(len(added), Part.HEADSET)])
-        vertices = np.concatenate([vertices, mesh.vertices])
-    return vertices, triangles, part
-
-
-def _draw_side(
-    axes: Axes, headset: Headset, fit: np.ndarray, head: _Mesh, housing: _Mesh, yaw: float, pitch: float
-) -> None:
+def _draw_side(axes: Axes, wearer: Wearer, yaw: float, pitch: float) -> None:
+    headset, fit = wearer.headset, wearer.head_from_headset
     turn = rotation_from_angles(np.radians(yaw), np.radians(pitch), 0.0)
     left, top, right, bottom = WINDOW_M
     shape = (round((top - bottom) / STEP_M), round((right - left) / STEP_M))
     pictures = []
-    for vertices, triangles, part in (head, housing):
+    for vertices, triangles, part in (wearer.head, wearer.housed):
         turned = vertices @ turn
         depth = nearest_along_z(turned, triangles, origin=np.array([left, top]), step=STEP_M, shape=shape)
         pictures.append(shade(turned, triangles, part, depth))
@@ -105,11 +85,9 @@ def _draw_side(
     axes.set_axis_off()
 
 
-def _draw_view(
-    axes: Axes, headset: Headset, view: View, housing: _Mesh, landmarks: np.ndarray, color: str
-) -> None:
-    camera = headset.camera(view.name).scaled(VIEW_PX)
-    vertices, triangles, part = housing
+def _draw_view(axes: Axes, wearer: Wearer, view: View) -> None:
+    camera = wearer.headset.camera(view.name)
+    vertices, triangles, part = wearer.housed
     vertices = apply_transform(view.camera_from_head, vertices)
     distance = np.linalg.norm(vertices, axis=-1)
     in_front = vertices[:, 2] > EDGE[camera.model] * distance
@@ -119,20 +97,13 @@ def _draw_view(
     depth = nearest_triangles(pixels, nearness, triangles, shape=(camera.height, camera.width))
     picture = shade(vertices * (1.0, -1.0, -1.0), triangles, part, depth)
     axes.imshow(picture * transmission(camera)[..., None], interpolation="nearest")
-    points = apply_transform(view.camera_from_head, landmarks)
-    landmarks_px = project(camera.camera, points)
-    seen = camera.camera.contains(landmarks_px) & (camera.inside_aperture_px(landmarks_px) >= 0)
-    seen &= ~hidden(points, vertices, triangles, tolerance_m=HIDDEN_M)
+    landmarks_px, seen = seen_landmarks(wearer, view)
     for number in np.flatnonzero(seen):
         x, y = landmarks_px[number]
         axes.plot(x, y, ".", color="#0040ff", ms=3)
         axes.annotate(
             str(number), (x, y), (1.5, 1.5), textcoords="offset points", fontsize=5, color="#a00000"
         )
-    shape = f"{headset.camera(view.name).width}x{headset.camera(view.name).height}"
-    axes.set_title(
-        f"{view.name}: {camera.model}, {shape}, {seen.sum()} points", fontsize=7, color=color, y=0.98
-    )
     axes.set_xlim(-0.5, camera.width - 0.5)
     axes.set_ylim(camera.height - 0.5, -0.5)
 
