@@ -11,7 +11,6 @@ References
    100.
 """
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -78,7 +77,7 @@ def _of_vrm_1(extensions: dict[str, Any]) -> Iterator[Expression]:
 def _of_vrm_0(extensions: dict[str, Any], document: dict[str, Any]) -> Iterator[Expression]:
     meshes: dict[object, list[int]] = {}
     for number, node in enumerate(map(record, listed(document.get("nodes")))):
-        if isinstance(node.get("mesh"), int):
+        if _is_number(node.get("mesh")):
             meshes.setdefault(node["mesh"], []).append(number)
     groups = record(record(extensions.get("VRM")).get("blendShapeMaster")).get("blendShapeGroups")
     for group in map(record, listed(groups)):
@@ -87,7 +86,7 @@ def _of_vrm_0(extensions: dict[str, Any], document: dict[str, Any]) -> Iterator[
         binds = (
             _bind(node, bind.get("index"), bind.get("weight"), _VRM_0_WHOLE)
             for bind in map(record, listed(group.get("binds")))
-            if isinstance(bind.get("mesh"), int)
+            if _is_number(bind.get("mesh"))
             for node in meshes.get(bind["mesh"], [])
         )
         yield Expression(name=str(name), binds=_known(binds), binary=group.get("isBinary") is True)
@@ -98,7 +97,13 @@ def _known(binds: Iterator[Bind | None]) -> tuple[Bind, ...]:
 
 
 def _bind(node: object, target: object, weight: object, whole: float) -> Bind | None:
-    numbers = isinstance(node, int) and isinstance(target, int) and isinstance(weight, int | float)
-    if not numbers or not 0 <= weight <= whole or not math.isfinite(weight):
+    if not (_is_number(node) and _is_number(target)) or isinstance(weight, bool):
+        return None
+    if not isinstance(weight, int | float) or not 0 <= weight <= whole:
         return None
     return Bind(node=node, target=target, weight=weight / whole)
+
+
+def _is_number(value: object) -> bool:
+    """Whether something can be a record's number; in Python true and false are whole numbers as well."""
+    return isinstance(value, int) and not isinstance(value, bool) and value >= 0
