@@ -12,6 +12,7 @@ function byId<T extends HTMLElement>(id: string): T {
 export class Stage {
   avatar: Avatar | undefined;
   private readonly portrait: Portrait | undefined;
+  private stale = true;
   private drawnAt = 0;
   private changedAt = 0;
   private newest = 0;
@@ -51,12 +52,15 @@ export class Stage {
       this.avatar.drive(face);
       this.changed();
     }
-    if (!this.portrait || now - this.changedAt > SETTLE_MS) return;
+    const springs = this.avatar?.vrm && now - this.changedAt < SETTLE_MS;
+    if (!this.portrait || !(this.stale || springs)) return;
     this.portrait.draw(Math.min((now - this.drawnAt) / 1000, 0.1));
     this.drawnAt = now;
+    this.stale = false;
   }
 
   private changed(): void {
+    this.stale = true;
     this.changedAt = performance.now();
   }
 

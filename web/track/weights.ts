@@ -56,7 +56,7 @@ class Bar {
   ) {
     this.meter.role = "meter";
     this.meter.ariaLabel = shape;
-    this.meter.ariaValueMin = "0";
+    this.meter.ariaValueNow = this.meter.ariaValueMin = "0";
     this.meter.ariaValueMax = "1";
     this.meter.append(this.fill);
     Object.assign(this.slider, { type: "range", min: "0", max: `${LARGEST_GAIN}`, step: "0.05", value: "1" });
