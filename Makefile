@@ -29,7 +29,7 @@ TESTED  := headset-test headset-slip
 TWO     := --numprocesses 2 --dist loadfile
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lock rig dataset train export headset models samples web wheel test test-farm test-headset test-quick fuzz lint format \
+.PHONY: help setup lock rig dataset train export headset models samples web wheel test test-farm test-headset test-quick docs-test fuzz lint format \
   clean distclean
 .DELETE_ON_ERROR:
 
@@ -94,6 +94,9 @@ test-quick: $(TESTER) $(RIG)  ## Tests that need neither Blender nor much time (
 
 fuzz: $(TESTER) $(RIG)  ## Damaged inputs, new ones for MINUTES=60 (SEED= repeats); tests/hostile/corpus keeps what fails
 	$(BIN)/python -m tests.hostile fuzz --minutes $(MINUTES) $(if $(SEED),--seed $(SEED))
+
+docs-test: $(TESTER)  ## Links, headings, commands and options of README and docs, and the code that they show
+	$(BIN)/python -m pytest tests/test_docs.py tests/facegen/test_reading_a_dataset.py tests/regress/exporters/test_examples.py
 
 lint: $(TESTER)  ## Style, and the direction of imports
 	$(BIN)/ruff check .

@@ -1,0 +1,100 @@
+"""What README and docs say is there: files and headings that links name, commands and options that lines call."""
+
+import re
+import shlex
+from collections.abc import Iterator
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+from typer.main import get_command
+
+ROOT = Path(__file__).parents[1]
+PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
+PROGRAMS = ("facegen", "regress", "track", "room")
+
+LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+FENCE = re.compile(r"^```.*?^```", re.M | re.S)
+
+
+def _text(page: Path) -> str:
+    return page.read_text(encoding="utf-8")
+
+
+@cache
+def _anchors(page: Path) -> set[str]:
+    """Names that GitHub gives a page's headings."""
+    headings = re.findall(r"^#+ (.*)$", FENCE.sub("", _text(page)), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path):
+    for link in LINK.findall(FENCE.sub("", _text(page))):
+        if "://" in link or link.startswith("mailto:"):
+            continue
+        path, _, anchor = link.partition("#")
+        target = (page.parent / path).resolve() if path else page
+        assert target.exists(), f"{page.name} links to {link}, which is not there"
+        if anchor and target.suffix == ".md":
+            assert anchor in _anchors(target), f"{page.name} links to {link}; there is no such heading"
+
+
+def _lines(page: Path) -> Iterator[str]:
+    """Lines of code blocks, those that go on put together, without comments."""
+    blocks = [
+        block.split("\n", 1)[1][:-3] for block in FENCE.findall(_text(page)) if "python" not in block[:12]
+    ]
+    blocks.append("\n".join(line[4:] for line in _text(page).splitlines() if line.startswith("    ")))
+    blocks += re.findall(r"`([^`\n]+)`", FENCE.sub("", _text(page)))
+    for block in blocks:
+        for line in block.replace("\\\n", " ").splitlines():
+            yield re.split(r"\s#\s|\s\|\s|&&|;|>", line.strip())[0].strip()
+            yield from (part.strip() for part in re.split(r"&&|;|\s\|\s", line)[1:])
+
+
+def _calls(page: Path) -> Iterator[list[str]]:
+    """Calls of the programs, in words."""
+    for line in _lines(page):
+        words = re.sub(r"^\S*bin/", "", re.sub(r"^(\$ |srun |sudo )", "", line)).split(" ", 1)
+        if words[0] in PROGRAMS and len(words) == 2 and ":" not in words[1][:1]:
+            try:
+                yield shlex.split(f"{words[0]} {words[1]}", comments=True)
+            except ValueError:  # half of a quotation that goes on
+                continue
+
+
+def _refused(call: list[str]) -> str | None:
+    """What a program does not know of a call: its command, or an option."""
+    program, *words = call
+    command = get_command(import_module(f"{program}.cli").app)
+    while words and hasattr(command, "commands") and not words[0].startswith("-"):
+        name = words.pop(0)
+        if name not in command.commands:
+            return None if program == "track" and name == "run" else f"there is no command {name!r}"
+        command = command.commands[name]
+    if program == "track" and hasattr(command, "commands") and "run" in command.commands:
+        command = command.commands["run"]  # the default
+    known = {
+        option for parameter in command.params for option in (*parameter.opts, *parameter.secondary_opts)
+    }
+    known |= {"--help", "-h", "--version"}
+    unknown = [word.partition("=")[0] for word in words if re.match(r"--?[a-z]", word)]
+    unknown = [word for word in unknown if word not in known]
+    return f"there is no option {unknown[0]!r}" if unknown else None
+
+
+@pytest.mark.parametrize("page", [*PAGES[:1], *PAGES[2:]], ids=lambda page: page.name)
+def test_commands_and_options_are_there(page: Path):
+    refused = {" ".join(call): _refused(call) for call in _calls(page)}
+    assert {call: why for call, why in refused.items() if why} == {}
+
+
+def test_calls_are_found_and_wrong_ones_are_refused():
+    calls = [call for page in PAGES for call in _calls(page)]
+    assert len(calls) > 150
+    assert {call[0] for call in calls} >= {"facegen", "regress"}
+    assert _refused(["facegen", "generat", "x"]) == "there is no command 'generat'"
+    assert _refused(["facegen", "generate", "x", "--ouT", "y"]) == "there is no option '--ouT'"
+    assert _refused(["facegen", "farm", "submit", "x", "--engine=slurm"]) is None
