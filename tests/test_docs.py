@@ -11,7 +11,13 @@ import pytest
 from typer.main import get_command
 
 ROOT = Path(__file__).parents[1]
-PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CHANGELOG.md",
+    ROOT / "CONTRIBUTING.md",
+    ROOT / "SECURITY.md",
+    *sorted((ROOT / "docs").glob("*.md")),
+]
 PROGRAMS = ("facegen", "regress", "track", "room")
 
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
@@ -98,3 +104,13 @@ def test_calls_are_found_and_wrong_ones_are_refused():
     assert _refused(["facegen", "generat", "x"]) == "there is no command 'generat'"
     assert _refused(["facegen", "generate", "x", "--ouT", "y"]) == "there is no option '--ouT'"
     assert _refused(["facegen", "farm", "submit", "x", "--engine=slurm"]) is None
+
+
+def test_what_contributing_names_is_there():
+    rows = [line for line in _text(ROOT / "CONTRIBUTING.md").splitlines() if line.startswith("| a")]
+    assert len(rows) > 8
+    for row in rows:
+        for table, path in re.findall(r"`([A-Z_]+)` in `([^`]+)`", row):
+            assert re.search(rf"^{table}\b", _text(ROOT / path), re.M), f"{path} has no {table}"
+        for path in re.findall(r"`((?:facegen|regress|track|tests|blender_assets)/[^`]+)`", row):
+            assert (ROOT / path).exists() or (ROOT / path).parent.is_dir(), path
