@@ -1,6 +1,6 @@
 """What `regress headset predict` sees: the cameras' frames and the neutral pictures that its options name."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,7 @@ from regress.runtime.ready_made import HEADSET, ready_made_models
 if TYPE_CHECKING:
     from regress.runtime.headset.footage import Footage
     from regress.runtime.headset.neutral import Neutral
+    from regress.runtime.headset.placement import CameraPlacement
     from regress.runtime.headset.predictor import HeadsetPredictor
 
 
@@ -95,6 +96,7 @@ def read_footage(
     from_start: bool,
     fps: float | None,
     bits: int | None = None,
+    placement: "Mapping[str, CameraPlacement] | None" = None,
 ) -> "Footage":
     """The cameras' frames, side by side, from a dataset or from a path each.
 
@@ -117,7 +119,14 @@ def read_footage(
         if dataset is not None:
             recordings[name] = read_rendered(dataset, name, width=width, height=height)
         elif name in paths:
-            recordings[name] = read_recording(paths[name], name, width=width, height=height, bits=bits)
+            recordings[name] = read_recording(
+                paths[name],
+                name,
+                width=width,
+                height=height,
+                bits=bits,
+                placement=(placement or {}).get(name),
+            )
     return line_up(recordings, predictor.sizes, from_start=from_start, still=dataset is not None, fps=fps)
 
 
@@ -128,6 +137,8 @@ def read_neutrals(
     *,
     still: bool,
     bits: int | None = None,
+    placement: "Mapping[str, CameraPlacement] | None" = None,
+    tables: Mapping[str, np.ndarray] | None = None,
 ) -> "list[Neutral]":
     """Neutral pictures as the options ask for them; none where frames are to be seen alone.
 
@@ -148,7 +159,7 @@ def read_neutrals(
             "each its own"
         )
     if len(named) == 1:
-        return _one_neutral(predictor, footage, named[0], bits)
+        return _one_neutral(predictor, footage, named[0], bits, placement or {}, tables or {})
     rows = [_row(footage, name) for name in named]
     if rows != sorted(set(rows)):
         raise InputError(f"--neutral frames {', '.join(named)} are not in the order of time")
@@ -171,7 +182,12 @@ def _row(footage: "Footage", named: str) -> int:
 
 
 def _one_neutral(
-    predictor: "HeadsetPredictor", footage: "Footage", named: str, bits: int | None
+    predictor: "HeadsetPredictor",
+    footage: "Footage",
+    named: str,
+    bits: int | None,
+    placement: "Mapping[str, CameraPlacement]",
+    tables: Mapping[str, np.ndarray],
 ) -> "list[Neutral]":
     """A frame, a folder's pictures or the calmest frame; nothing where none can be relied on."""
     from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
@@ -191,7 +207,10 @@ def _one_neutral(
     if Path(named).is_dir():
         sizes = zip(predictor.sizes.items(), footage.given, strict=True)
         needed = {name: size for (name, size), there in sizes if there}
-        pictures = read_neutral(Path(named), needed, bits=bits)
+        pictures = read_neutral(Path(named), needed, bits=bits, placement=placement)
+        pictures = {
+            name: tables[name][picture] if name in tables else picture for name, picture in pictures.items()
+        }
         return [Neutral(row=0, pictures=pictures)]
     first, last = footage.numbers[[0, -1]]
     raise InputError(

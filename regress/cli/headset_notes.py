@@ -1,7 +1,9 @@
 """What `regress headset predict` refuses or says of a model, its footage and how the answers came about."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+
+import numpy as np
 
 from facegen.console import say
 from regress.errors import InputError
@@ -10,6 +12,9 @@ from regress.runtime.headset.orientation import told_orientation
 from regress.runtime.headset.points import check_points
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.temporal import TAPS
+
+_SAME_LEVEL = 4
+"""Grey levels by which any may be moved without a word."""
 
 _SAME_RATE = 0.05
 """Relative difference of frame rates that --temporal does not speak of: 29.97 are 30."""
@@ -31,6 +36,16 @@ def tell_of(footage: Footage, predictor: HeadsetPredictor, *, strict: bool) -> N
         raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
     for note in (*footage.notes, *told_orientation(footage, predictor.typical)):
         say(note)
+
+
+def level_notes(tables: Mapping[str, np.ndarray]) -> Iterator[str]:
+    """A sentence for each camera whose grey levels are not left as they are."""
+    for name, table in tables.items():
+        if np.abs(table - np.arange(256.0)).max() > _SAME_LEVEL:
+            yield (
+                f"{name}: its grey levels are not those of training and are stretched to them (64 becomes {table[64]}, "
+                f"192 {table[192]})"
+            )
 
 
 def seat_notes(reseated: tuple[str, ...], *, keep_neutral: bool) -> Iterator[str]:

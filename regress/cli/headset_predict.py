@@ -59,6 +59,13 @@ def predict(
             "--bits", min=8, max=16, help="How many bits the cameras use, of pictures with 16 bits a pixel."
         ),
     ] = None,
+    placement: Annotated[
+        Path | None,
+        typer.Option(
+            "--placement",
+            help="TOML of `regress headset check`: what of each camera's pictures counts, at which levels.",
+        ),
+    ] = None,
     out: OutOption = None,
     table_format: FormatOption = TableFormat.csv,
     retarget: RetargetOption = None,
@@ -141,12 +148,14 @@ def predict(
         read_footage,
         read_neutrals,
     )
-    from regress.cli.headset_notes import check_model, rate_note, seat_notes, tell_of
+    from regress.cli.headset_notes import check_model, level_notes, rate_note, seat_notes, tell_of
     from regress.cli.output import output_of
     from regress.cli.results import check_targets, needs_times, write_prediction
     from regress.errors import InputError
     from regress.runtime.headset.film import check_film_name, write_film
+    from regress.runtime.headset.levels import levelled, tables_of
     from regress.runtime.headset.networks import ASSUMED_FPS
+    from regress.runtime.headset.placement_file import read_placement
     from regress.runtime.headset.points import points_csv
     from regress.runtime.headset.predict import predict_footage
     from regress.runtime.headset.predictor import load_headset_predictor
@@ -184,11 +193,27 @@ def predict(
     paths = camera_paths(
         predictor, camera or [], {name: path for name, path in short.items() if path is not None}
     )
-    footage = read_footage(predictor, dataset, paths, from_start=from_start, fps=fps, bits=bits)
+    placed = {} if placement is None else read_placement(placement, predictor.sizes)
+    footage = read_footage(
+        predictor, dataset, paths, from_start=from_start, fps=fps, bits=bits, placement=placed
+    )
     if footage.time_s is None and (output.needs_times or needs_times(table_format, gltf)):
         raise InputError(f"{footage.source} does not say when its frames were taken; give --fps")
     tell_of(footage, predictor, strict=strict)
-    neutrals = read_neutrals(predictor, footage, neutral or (), still=dataset is not None, bits=bits)
+    # pictures of a dataset are of many people, each with levels of their own
+    tables = {} if dataset is not None else tables_of(footage, predictor.model.looks, placed)
+    for note in level_notes(tables):
+        say(note)
+    footage = levelled(footage, tables)
+    neutrals = read_neutrals(
+        predictor,
+        footage,
+        neutral or (),
+        still=dataset is not None,
+        bits=bits,
+        placement=placed,
+        tables=tables,
+    )
     prediction, reseated = predict_footage(
         predictor, footage, neutrals, output=output, keep_neutral=keep_neutral, temporal=temporal
     )

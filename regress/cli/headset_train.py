@@ -56,6 +56,14 @@ def train(
     people: Annotated[
         int, typer.Option("--people", min=0, help="Train on the first so many people; 0 is all.")
     ] = 0,
+    start: Annotated[
+        Path | None,
+        typer.Option(
+            "--start",
+            metavar="MODEL",
+            help="Go on from a trained model, or a ready-made one by its name, in place of random numbers.",
+        ),
+    ] = None,
     settings: Annotated[
         list[str] | None,
         typer.Option(
@@ -87,6 +95,7 @@ def train(
     importlib.import_module("torch")  # first, so that its extra is named: it brings what the others need
     from regress.learning.headset.arrays import read_arrays
     from regress.learning.headset.training import train_headset
+    from regress.runtime.ready_made import model_folder
 
     frames = read_arrays(arrays)
     for note in side_notes(tuple(camera.name for camera in frames.cameras)):
@@ -94,7 +103,11 @@ def train(
     began = time.monotonic()
     with progress(unit="steps") as draw:
         model = train_headset(
-            frames, recipe, out, progress=lambda stage, *steps: draw(f"{out.name}: {stage}", *steps)
+            frames,
+            recipe,
+            out,
+            start=None if start is None else model_folder(start),
+            progress=lambda stage, *steps: draw(f"{out.name}: {stage}", *steps),
         )
     record = model.training
     say(f"trained on {record.rows} frames of {record.people} people in {time.monotonic() - began:.0f} s")

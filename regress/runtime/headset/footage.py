@@ -7,6 +7,7 @@ import numpy as np
 
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault, FrozenWatch, fault_sentences
+from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.recordings import Recording
 from regress.runtime.sample import Sample
 
@@ -39,6 +40,8 @@ class Footage:
         What a person should be told, a sentence each.
     scaled_from
         (n, 2) width and height of each recorded picture, of cameras of which any was scaled.
+    placement
+        What of the recorded pictures these are, of cameras of which they are not all.
     """
 
     cameras: tuple[str, ...]
@@ -49,6 +52,7 @@ class Footage:
     source: str
     notes: tuple[str, ...]
     scaled_from: dict[str, np.ndarray] = field(default_factory=dict)
+    placement: dict[str, CameraPlacement] = field(default_factory=dict)
 
     @property
     def present(self) -> np.ndarray:
@@ -173,6 +177,11 @@ def line_up(
         source=source,
         notes=tuple(notes),
         scaled_from=scaled_from,
+        placement={
+            name: recording.placement
+            for name, recording in recordings.items()
+            if recording.placement is not None
+        },
     )
 
 
@@ -199,7 +208,7 @@ def _check_rates(recordings: Mapping[str, Recording]) -> None:
 
 
 def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) -> list[str]:
-    if recording.scaled_from is None:
+    if recording.scaled_from is None or recording.placement is not None:
         return []
     wanted, *found = (
         f"{width} x {height}"

@@ -10,6 +10,7 @@ from annotated_types import Ge, Gt, Interval, Le, Len
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, VIEW_POINTS
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
 from regress.runtime.headset.figures import ClipSummary, Evaluation
+from regress.runtime.headset.looks import CameraLooks
 from regress.runtime.headset.typical import TYPICAL_SIDE
 
 GreyRow = Annotated[tuple[Annotated[int, Ge(0), Le(255)], ...], Len(TYPICAL_SIDE, TYPICAL_SIDE)]
@@ -111,6 +112,8 @@ class HeadsetTraining:
         Processor time.
     resumed_after_epochs
         Epochs that an earlier, stopped training had done.
+    began_as
+        SHA-256 of the network that it began as; empty where it began with random numbers.
     onnx_difference
         Largest difference between the exported graph and PyTorch.
     deviation_scale, mean_weights, mean_gaze
@@ -127,6 +130,7 @@ class HeadsetTraining:
     history: tuple[dict[str, float], ...] = ()
     cpu_s: float | None = None
     resumed_after_epochs: int = 0
+    began_as: str = ""
     onnx_difference: float | None = None
     deviation_scale: Annotated[tuple[float, ...], Len(_OUTPUTS, _OUTPUTS)] | None = None
     mean_weights: Weighted | None = None
@@ -162,6 +166,9 @@ class HeadsetModel:
     typical
         For each camera the mean picture of its training (24 x 24 grey levels), by which ``predict`` knows pictures
         that are turned or of another camera (``regress.runtime.headset.typical``); none in older models.
+    looks
+        For each camera how its training pictures looked, by which `predict` levels others and `check` judges them;
+        none in older models.
     weights
         Names of the columns of ``weights``, ``deviation`` and ``shares``.
     outputs
@@ -188,6 +195,7 @@ class HeadsetModel:
     calibration: Literal["optional", "none"]
     points: dict[str, tuple[str, ...]] = field(default_factory=dict)
     typical: dict[str, GreySquare] = field(default_factory=dict)
+    looks: dict[str, CameraLooks] = field(default_factory=dict)
     weights: tuple[str, ...] = BLENDSHAPES
     outputs: tuple[str, ...] = tuple(GRAPH_OUTPUTS)
     temporal: Temporal | None = None
@@ -209,12 +217,16 @@ class HeadsetModel:
             ("parts", self.parts, BLENDSHAPE_INDEX),
             ("points", self.points, VIEW_POINTS),
             ("typical", dict.fromkeys(self.typical, ()), ()),
+            ("looks", dict.fromkeys(self.looks, ()), ()),
         ):
             for name, entries in table.items():
                 if name not in names:
                     raise ValueError(f"{what} has {name[:60]!r}, and the cameras are {', '.join(names)}")
                 if not set(entries) <= set(known) or len(set(entries)) < len(entries):
                     raise ValueError(f"{what}.{name} names what there is not, or something twice")
+        for name, looks in self.looks.items():
+            if len(looks.points) not in (0, len(self.points.get(name, ()))):
+                raise ValueError(f"looks.{name} has {len(looks.points)} points, and the camera traces others")
         strangers = [
             camera.mirrored_of for camera in self.cameras if camera.mirrored_of not in (None, *names)
         ]

@@ -10,6 +10,7 @@ from facegen.conventions import BLENDSHAPES
 from regress.errors import InputError
 from regress.runtime.headset.confidence import HeadsetConfidence
 from regress.runtime.headset.estimates import Estimates
+from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.seats import SeatWatch
 from regress.runtime.headset.temporal import TAPS
@@ -32,12 +33,20 @@ class HeadsetNetworks(Stage):
     keep_neutral
         Stay calibrated after a change of seat: another seat's neutral picture of the same person is worth more than
         none, another person's is not.
+    levels
+        Levels pictures as they come, and neutral ones alike; None takes both as they are.
     """
 
     def __init__(
-        self, predictor: HeadsetPredictor, *, fps: float = ASSUMED_FPS, keep_neutral: bool = False
+        self,
+        predictor: HeadsetPredictor,
+        *,
+        fps: float = ASSUMED_FPS,
+        keep_neutral: bool = False,
+        levels: Levels | None = None,
     ) -> None:
         self._predictor, self._fps, self._keep = predictor, fps, keep_neutral
+        self.levels = levels
         scored = predictor.model.scores is not None
         self._confidence = HeadsetConfidence(predictor.model) if scored else None
         self._neutral: Mapping[str, np.ndarray] | None = None
@@ -64,7 +73,7 @@ class HeadsetNetworks(Stage):
             nothing = np.full(len(BLENDSHAPES), np.nan)
             trust = None if self._confidence is None else np.zeros(len(BLENDSHAPES))
             return replace(sample, weights=nothing, gaze=np.full(4, np.nan), confidence=trust)
-        estimates, calibrated = self._estimate(sample)
+        estimates, calibrated = self._estimate(sample if self.levels is None else self.levels.step(sample))
         trust = None
         if self._confidence is not None:
             present = np.array([name in sample.pictures for name in self._predictor.sizes])
@@ -83,7 +92,8 @@ class HeadsetNetworks(Stage):
             return self._predictor.predict(pictures), False
         if self._seat.changed and not self._keep:
             return self._predictor.predict(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
-        estimates = self._predictor.predict(pictures, neutral=self._neutral)
+        neutral = self._neutral if self.levels is None else self.levels.levelled(self._neutral)
+        estimates = self._predictor.predict(pictures, neutral=neutral)
         if not self._seat.changed:
             compared = self._seat.step(float(estimates.same_seat[0]))
             self._doubted_from = None if compared else self._doubted_from or sample.label

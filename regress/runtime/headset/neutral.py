@@ -10,6 +10,7 @@ from regress.errors import InputError
 from regress.runtime.calm import calm_frames
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.pictures import PICTURES, read_picture
+from regress.runtime.headset.placement import CameraPlacement
 
 _AGREEMENT = 0.15
 """Mean difference of weights, over the shapes that move, by which early and late calm frames may differ."""
@@ -85,7 +86,11 @@ def calmest_frame(weights: np.ndarray, usable: np.ndarray) -> NeutralFrame:
 
 
 def read_neutral(
-    folder: Path, cameras: Mapping[str, tuple[int, int]], *, bits: int | None = None
+    folder: Path,
+    cameras: Mapping[str, tuple[int, int]],
+    *,
+    bits: int | None = None,
+    placement: Mapping[str, CameraPlacement] | None = None,
 ) -> dict[str, np.ndarray]:
     """Neutral pictures from a folder with ``CAMERA.png`` for each camera, as a rendered sample's folder has.
 
@@ -97,6 +102,8 @@ def read_neutral(
         Width and height of those that are needed.
     bits
         How many of their 16 bits the cameras use, of pictures that have so many.
+    placement
+        What of the cameras' pictures the network is to see, of those of which it is not all.
 
     Returns
     -------
@@ -113,7 +120,8 @@ def read_neutral(
         path = next((file for file in files if file.is_file()), None)
         if path is None:
             raise InputError(f"{folder} has no neutral picture of {name}; {files[0].name} is looked for")
-        fitted = read_picture(path, width=width, height=height, bits=bits)
+        placed = (placement or {}).get(name)
+        fitted = read_picture(path, width=width, height=height, bits=bits, placement=placed)
         if fitted.fault is not None:
             raise InputError(f"{path} cannot be the neutral picture of {name}: it is {fitted.fault.value}")
         pictures[name] = fitted.picture

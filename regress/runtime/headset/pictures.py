@@ -11,6 +11,7 @@ from facegen.formats import FormatError
 from facegen.formats.picture_size import MOST_PIXELS, picture_size
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault, picture_fault
+from regress.runtime.headset.placement import CameraPlacement
 
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
 
@@ -40,13 +41,22 @@ class FittedPicture:
     scaled_from: tuple[int, int] | None
 
 
-def read_picture(path: Path, *, width: int, height: int, bits: int | None = None) -> FittedPicture:
+def read_picture(
+    path: Path,
+    *,
+    width: int,
+    height: int,
+    bits: int | None = None,
+    placement: CameraPlacement | None = None,
+) -> FittedPicture:
     """Read a picture in grey and bring it to a size; a file that is no picture is a fault of it.
 
     Parameters
     ----------
     bits
         How many of its 16 bits the camera uses, where the picture has so many: files do not say.
+    placement
+        What of it the network is to see.
 
     Raises
     ------
@@ -59,7 +69,7 @@ def read_picture(path: Path, *, width: int, height: int, bits: int | None = None
         return FittedPicture(picture=np.zeros((height, width), dtype=np.uint8), fault=grey, scaled_from=None)
     if grey.dtype != np.uint8:
         grey = _eight_bits(grey, path, bits)
-    return fit_picture(grey, width=width, height=height)
+    return fit_picture(grey, width=width, height=height, placement=placement)
 
 
 def _decoded(path: Path) -> np.ndarray | Fault:
@@ -99,10 +109,15 @@ def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
     return (grey >> (bits - 8)).astype(np.uint8)
 
 
-def fit_picture(grey: np.ndarray, *, width: int, height: int) -> FittedPicture:
-    """Bring a grey picture to a size, if only the size differs."""
+def fit_picture(
+    grey: np.ndarray, *, width: int, height: int, placement: CameraPlacement | None = None
+) -> FittedPicture:
+    """Bring a grey picture to a size: what a placement says of it, or all of it if only the size differs."""
     scaled_from, fault = None, None
-    if grey.shape != (height, width):
+    if placement is not None:
+        scaled_from = grey.shape[1], grey.shape[0]
+        grey = placement.view(grey, width=width, height=height)
+    elif grey.shape != (height, width):
         scaled_from = grey.shape[1], grey.shape[0]
         if abs(scaled_from[0] * height / (scaled_from[1] * width) - 1) > ASPECT:
             fault = Fault.SHAPE

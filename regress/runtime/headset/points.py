@@ -33,13 +33,27 @@ def traced_points(predictor: HeadsetPredictor, footage: Footage) -> dict[str, np
     for column, name in enumerate(footage.cameras):
         if name not in found:
             continue
-        if name in footage.scaled_from:
+        if name in footage.placement:
+            found[name] = _in_pictures(found[name], footage, name)
+        elif name in footage.scaled_from:
             height, width = footage.pictures[name].shape[1:]
             # 0 is the middle of the first pixel, before scaling and after
             scale = footage.scaled_from[name][:, None] / (width, height)
             found[name] = (found[name] + 0.5) * scale - 0.5
         found[name][~footage.present[:, column]] = np.nan
     return found
+
+
+def _in_pictures(found: np.ndarray, footage: Footage, name: str) -> np.ndarray:
+    """Pixels (n, P, 2) of a placed camera's views in its recorded pictures, which may be of several sizes."""
+    height, width = footage.pictures[name].shape[1:]
+    placed = np.empty_like(found)
+    sizes = footage.scaled_from[name]
+    for size in np.unique(sizes, axis=0):
+        rows = (sizes == size).all(axis=1)
+        matrix = footage.placement[name].picture_from_view((int(size[0]), int(size[1])), (width, height))
+        placed[rows] = found[rows] @ matrix[:, :2].T + matrix[:, 2]
+    return placed
 
 
 def points_csv(predictor: HeadsetPredictor, footage: Footage) -> str:

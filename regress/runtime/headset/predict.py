@@ -1,10 +1,12 @@
 """A headset's pictures through the stages: a recording's frames, or frames as cameras give them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import ASSUMED_FPS, HeadsetNetworks, TemporalConvolution
 from regress.runtime.headset.neutral import Neutral
+from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.soundness import PictureSoundness
 from regress.runtime.prediction import Prediction
@@ -28,6 +30,9 @@ class HeadsetStream(Stage):
         Stay calibrated after a change of seat (``HeadsetNetworks``).
     temporal
         Let the frames before count, as the model's taps say.
+    placement
+        What of each camera's pictures the network is to see, and at which levels
+        (``regress.runtime.headset.placement_file`` reads it); without, all of them, levelled by themselves.
 
     Raises
     ------
@@ -43,9 +48,11 @@ class HeadsetStream(Stage):
         fps: float = ASSUMED_FPS,
         keep_neutral: bool = False,
         temporal: bool = False,
+        placement: Mapping[str, CameraPlacement] | None = None,
     ) -> None:
-        self.soundness = PictureSoundness(predictor.sizes)
-        self.networks = HeadsetNetworks(predictor, fps=fps, keep_neutral=keep_neutral)
+        self.soundness = PictureSoundness(predictor.sizes, placement)
+        levels = Levels(predictor.model.looks, placement)
+        self.networks = HeadsetNetworks(predictor, fps=fps, keep_neutral=keep_neutral, levels=levels)
         taps = [TemporalConvolution(predictor)] if temporal else []
         self.after = Chain([*taps, *(output or Output()).stages()])
 
@@ -71,7 +78,9 @@ def predict_footage(
     keep_neutral: bool = False,
     temporal: bool = False,
 ) -> tuple[Prediction, tuple[str, ...]]:
-    """Weights, gaze and confidence of a recording: each frame as `HeadsetStream` steps it.
+    """Weights, gaze and confidence of a recording: each frame as `HeadsetStream` steps it, but for levels.
+
+    Pictures are taken as they are: `regress.runtime.headset.levels.levelled` levels a take as a whole.
 
     Parameters
     ----------
@@ -97,6 +106,7 @@ def predict_footage(
     stream = HeadsetStream(
         predictor, output, fps=footage.fps or ASSUMED_FPS, keep_neutral=keep_neutral, temporal=temporal
     )
+    stream.networks.levels = None
     starts = {neutral.row: neutral.pictures for neutral in neutrals[1:]}
     if neutrals:
         starts[0] = neutrals[0].pictures

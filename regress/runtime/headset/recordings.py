@@ -18,6 +18,7 @@ from facegen.formats.picture_size import MOST_PIXELS
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.pictures import PICTURES, FittedPicture, fit_picture, read_picture
+from regress.runtime.headset.placement import CameraPlacement
 
 FILMS = (".mp4", ".avi", ".mkv", ".mov", ".webm", ".m4v")
 
@@ -55,6 +56,8 @@ class Recording:
         Frames a second, where a film tells.
     scaled_from : (n, 2) int64 or None
         Width and height of each picture before it was scaled; None where none was.
+    placement
+        What of the recorded pictures these are; None where they are all of them.
     """
 
     camera: str
@@ -65,9 +68,18 @@ class Recording:
     faults: tuple[Fault | None, ...]
     fps: float | None = None
     scaled_from: np.ndarray | None = None
+    placement: CameraPlacement | None = None
 
 
-def read_recording(path: Path, camera: str, *, width: int, height: int, bits: int | None = None) -> Recording:
+def read_recording(
+    path: Path,
+    camera: str,
+    *,
+    width: int,
+    height: int,
+    bits: int | None = None,
+    placement: CameraPlacement | None = None,
+) -> Recording:
     """Read a folder of pictures or a film, in grey, scaled where only the size differs.
 
     All of it is held in memory: 28 kB a frame of three 96 x 96 views, 50 MB a minute.
@@ -76,6 +88,8 @@ def read_recording(path: Path, camera: str, *, width: int, height: int, bits: in
     ----------
     bits
         How many of their 16 bits the camera uses, of pictures that have so many.
+    placement
+        What of them the network is to see.
 
     Raises
     ------
@@ -96,22 +110,27 @@ def read_recording(path: Path, camera: str, *, width: int, height: int, bits: in
             raise InputError(f"{path} has no pictures of {camera}; {', '.join(PICTURES)} can be read")
         _check_count(len(files), path)
         numbers, files = _in_order(files)
-        fitted = [read_picture(file, width=width, height=height, bits=bits) for file in files]
-        return _recording(camera, path, numbers, fitted)
+        fitted = [
+            read_picture(file, width=width, height=height, bits=bits, placement=placement) for file in files
+        ]
+        return _recording(camera, path, numbers, fitted, placement=placement)
     if not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS:
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
     check_film_path(path)
     film = cv2.VideoCapture(os.fspath(path))
     try:
         fps = film.get(cv2.CAP_PROP_FPS)
-        fitted = [fit_picture(frame, width=width, height=height) for frame in _film_frames(film, path)]
+        fitted = [
+            fit_picture(frame, width=width, height=height, placement=placement)
+            for frame in _film_frames(film, path)
+        ]
     except cv2.error as error:
         raise InputError(f"{path} cannot be read as a film ({error.err})") from error
     finally:
         film.release()
     if not fitted:
         raise InputError(f"{path} cannot be read as a film: it has no frames, or a codec that OpenCV lacks")
-    return _recording(camera, path, [], fitted, fps=fps if 0 < fps < 1000 else None)
+    return _recording(camera, path, [], fitted, fps=fps if 0 < fps < 1000 else None, placement=placement)
 
 
 def read_rendered(dataset: Path, camera: str, *, width: int, height: int) -> Recording:
@@ -184,7 +203,13 @@ def _film_frames(film: cv2.VideoCapture, path: Path) -> Iterator[np.ndarray]:
 
 
 def _recording(
-    camera: str, source: Path, numbers: list[int], fitted: list[FittedPicture], *, fps: float | None = None
+    camera: str,
+    source: Path,
+    numbers: list[int],
+    fitted: list[FittedPicture],
+    *,
+    fps: float | None = None,
+    placement: CameraPlacement | None = None,
 ) -> Recording:
     """Fitted pictures as a recording; without numbers they are counted."""
     height, width = fitted[0].picture.shape
@@ -198,4 +223,5 @@ def _recording(
         faults=tuple(one.fault for one in fitted),
         fps=fps,
         scaled_from=np.array([one.scaled_from or (width, height) for one in fitted]) if scaled else None,
+        placement=placement,
     )

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from regress.runtime.headset.faults import Fault, FrozenWatch
 from regress.runtime.headset.pictures import fit_picture
+from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 
@@ -16,10 +17,16 @@ class PictureSoundness(Stage):
     ----------
     sizes
         Width and height of each camera's pictures, as the network takes them.
+    placement
+        What of a camera's pictures the network is to see; all, of cameras that are left out.
     """
 
-    def __init__(self, sizes: Mapping[str, tuple[int, int]]) -> None:
-        self._sizes = sizes
+    def __init__(
+        self,
+        sizes: Mapping[str, tuple[int, int]],
+        placement: Mapping[str, CameraPlacement] | None = None,
+    ) -> None:
+        self._sizes, self._placement = sizes, placement or {}
         self._watch = FrozenWatch()
 
     def step(self, sample: Sample) -> Sample:
@@ -35,7 +42,9 @@ class PictureSoundness(Stage):
             if name not in sample.pictures:
                 faults[name] = Fault.MISSING
                 continue
-            fitted = fit_picture(sample.pictures[name], width=width, height=height)
+            fitted = fit_picture(
+                sample.pictures[name], width=width, height=height, placement=self._placement.get(name)
+            )
             if fitted.fault is None:
                 pictures[name] = fitted.picture
             else:

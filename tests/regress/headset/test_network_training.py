@@ -21,6 +21,8 @@ from regress.learning.headset.evaluation import evaluate  # noqa: E402
 from regress.learning.headset.recipe import HeadsetRecipe, recipe_of  # noqa: E402
 from regress.learning.headset.training import train_headset  # noqa: E402
 from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
+from regress.learning.headset.training.loop import Training, answer_to  # noqa: E402
+from regress.learning.headset.training.photometry import draw_photometry  # noqa: E402
 from regress.runtime.headset import HeadsetGraph, read_headset_model  # noqa: E402
 from regress.runtime.headset.estimates import Estimates  # noqa: E402
 from regress.runtime.headset.model import HeadsetModel  # noqa: E402
@@ -167,6 +169,7 @@ def test_a_state_that_cannot_be_written_is_said(arrays: HeadsetArrays, tmp_path:
     [
         {"calibration": False},
         {"randomise": 1.0},
+        {"randomise": 1.0, "plain": 0.5, "shift": 0.06, "scale": 0.12, "rotation_deg": 8.0},
         {"part_loss": 0.0, "geometry_loss": 0.0, "mirror": False, "gaze_loss": 5.0},
     ],
 )
@@ -179,6 +182,53 @@ def test_settings_train(arrays: HeadsetArrays, tmp_path: Path, settings: dict):
     pictures, neutral = ({n: seen[at] for n, seen in arrays.pictures.items()} for at in ([1, 2], [0, 5]))
     alone, both = graph.run(pictures), graph.run(pictures, neutral=neutral)
     assert np.array_equal(alone.weights, both.weights) is not settings.get("calibration", True)
+
+
+def test_a_network_begins_as_the_one_that_it_starts_from(
+    trained: tuple[HeadsetModel, Path], arrays: HeadsetArrays, tmp_path: Path
+):
+    model, folder = trained
+    recipe = replace(
+        QUICK, architecture=model.architecture, epochs=1, learning_rate=0, matrix_learning_rate=0
+    )
+    # without a step it is the same network, whatever its normalisation has seen since
+    begun = Training(arrays, recipe, start=folder)
+    batch = begun._frames.plain_batch(arrays.rows("test"))
+    with torch.no_grad():
+        answer = answer_to(begun.network.eval(), batch)
+    weights = (answer.blended.mean * begun._std + begun._mean)[:, :52].clamp(0, 1)
+    rows = {name: pictures[arrays.rows("test")] for name, pictures in arrays.pictures.items()}
+    expected = HeadsetGraph(folder / "network.onnx", model.cameras).run(rows).weights
+    np.testing.assert_allclose(weights, expected, atol=2e-4)
+    # its normalisations are those of training data: training does not begin with a leap (from random numbers: .15)
+    frozen = HeadsetGraph(folder / "network.onnx", model.cameras)
+    further = train_headset(arrays, replace(recipe, learning_rate=1e-5), tmp_path / "further", start=folder)
+    assert further.training.began_as == model.network_sha256
+    again = HeadsetGraph(tmp_path / "further" / "network.onnx", model.cameras).run(rows).weights
+    assert np.abs(again - frozen.run(rows).weights).mean() < 0.04
+    other = replace(recipe, code=32)
+    with pytest.raises(InputError, match="start from a model of the same cameras and recipe"):
+        Training(arrays, other, start=folder)
+
+
+def test_plain_frames_keep_their_light_and_are_displaced_little(arrays: HeadsetArrays):
+    random, plain = np.random.default_rng(0), np.arange(6) % 2 == 0
+    seen = torch.from_numpy(arrays.pictures["mouth"][:6].astype(np.float32))[:, None]
+    pictures, neutral = draw_photometry(random, seen, seen, 1.0, plain)
+    for given in (pictures, neutral):
+        assert torch.equal(given[plain], seen[plain])
+        assert (given[~plain] != seen[~plain]).any(dim=(1, 2, 3)).all()
+
+    def moved(share: float) -> float:
+        recipe = HeadsetRecipe(
+            input_size=16, batch=len(arrays.rows("train")), plain=share, shift=0.1, scale=0, rotation_deg=0
+        )
+        frames = TrainingFrames(arrays, recipe, arrays.rows("train"))
+        (batch,) = frames.draw_epoch(np.random.default_rng(0))
+        assert (batch.plain == bool(share)).all()
+        return float(np.nanstd(batch.positions[2]))  # of the mouth's point, which hardly moves by itself
+
+    assert moved(1.0) < 0.6 * moved(0.0)
 
 
 def test_batches_pair_frames_with_neutral_pictures_of_the_same_person(arrays: HeadsetArrays):

@@ -8,7 +8,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.learning.headset.arrays import HeadsetArrays
-from regress.learning.headset.recipe import HeadsetRecipe
+from regress.learning.headset.recipe import PLAIN_DISPLACEMENT, HeadsetRecipe
 from regress.learning.headset.training.resampling import reduced, warp_matrix
 from regress.learning.headset.training.targets import outputs_of
 from regress.learning.headset.training.traced import mirrored_points, positions_of, traced_points
@@ -40,6 +40,8 @@ class Batch:
         By camera, where its traced points lie: 0 to 1 across and down what the encoder sees, NaN beyond.
     outputs : (n, 56) float32
         Weights and gaze.
+    plain : (n,) bool
+        Frames whose light is left as it is.
     """
 
     pictures: np.ndarray
@@ -49,6 +51,7 @@ class Batch:
     same_seat: np.ndarray
     positions: tuple[np.ndarray, ...]
     outputs: np.ndarray
+    plain: np.ndarray
 
 
 class TrainingFrames:
@@ -109,6 +112,7 @@ class TrainingFrames:
             same_seat=none,
             positions=self._positions(rows, warps, straight),
             outputs=self.outputs[rows],
+            plain=~straight,
         )
 
     def _draw_batch(self, random: np.random.Generator, rows: np.ndarray) -> Batch:
@@ -116,8 +120,11 @@ class TrainingFrames:
         mirrored = (random.random(count) < 0.5) & self._mirror
         kind, calibrated = random.random(count), random.random(count) >= recipe.calibration_dropout
         other = (kind < recipe.other_seat) & (self._other_seat[rows] >= 0)
-        frame = _draw_affine(random, recipe, np.ones(count), cameras)
-        seat = _draw_affine(random, recipe, np.where(other, 1.0, _SEAT), cameras)
+        # drawn only where it is asked for, so that trainings without it are those of before
+        plain = random.random(count) < recipe.plain if recipe.plain else np.zeros(count, bool)
+        displaced_by = np.where(plain, PLAIN_DISPLACEMENT, 1.0)
+        frame = _draw_affine(random, recipe, displaced_by, cameras)
+        seat = _draw_affine(random, recipe, displaced_by * np.where(other, 1.0, _SEAT), cameras)
         displaced = other | (kind >= 1 - recipe.jitter_neutral)
         neutral_rows = np.where(other, self._other_seat[rows], self._own_seat[rows])
         calibrated &= (neutral_rows >= 0) & recipe.calibration
@@ -135,6 +142,7 @@ class TrainingFrames:
             same_seat=(~displaced).astype(np.float32),
             positions=self._positions(rows, warps, mirrored),
             outputs=np.where(mirrored[:, None], outputs[:, MIRROR] * MIRROR_SIGN, outputs),
+            plain=plain,
         )
 
     def _sources(self, mirrored: np.ndarray) -> np.ndarray:

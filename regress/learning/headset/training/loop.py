@@ -22,9 +22,11 @@ from regress.learning.headset.training.losses import total_loss
 from regress.learning.headset.training.networks import Answer, HeadsetNetwork, network_of
 from regress.learning.headset.training.optimizer import optimizers_of
 from regress.learning.headset.training.photometry import draw_photometry
+from regress.learning.headset.training.start import LearnedGraph
 from regress.learning.headset.training.targets import Targets, target_scale
 from regress.learning.headset.training.traced import mirrored_points
 from regress.learning.progress import Progress
+from regress.runtime.headset.folder import read_headset_model
 from regress.runtime.headset.outputs import WEIGHTS
 
 _STATE_VERSION = 3
@@ -32,6 +34,9 @@ _STATE_VERSION = 3
 
 _SCALE_ROWS = 512
 """Training rows from which the pictures' mean and spread are taken."""
+
+_START_BATCHES = 8
+"""In which those rows pass a network that begins as another: 64 frames at a time."""
 
 
 class Training:
@@ -43,9 +48,17 @@ class Training:
         What it learns from, and how.
     checkpoint
         File that holds the state after each epoch; where it exists, training goes on from it. None keeps none.
+    start
+        Model folder whose network this one begins as; None begins with random numbers.
     """
 
-    def __init__(self, arrays: HeadsetArrays, recipe: HeadsetRecipe, checkpoint: Path | None = None) -> None:
+    def __init__(
+        self,
+        arrays: HeadsetArrays,
+        recipe: HeadsetRecipe,
+        checkpoint: Path | None = None,
+        start: Path | None = None,
+    ) -> None:
         self._began_s, self._earlier_s = time.process_time(), 0.0
         torch.set_num_threads(1)  # other splits of a sum end in other last bits
         torch.manual_seed(recipe.seed)
@@ -55,14 +68,20 @@ class Training:
         self._checkpoint = checkpoint
         self._frames = TrainingFrames(arrays, recipe, rows)
         self._validation = arrays.rows("validation")
-        self.targets = target_scale(self._frames.outputs[rows])
+        learned = None if start is None else LearnedGraph(start)
+        self.targets = target_scale(self._frames.outputs[rows]) if learned is None else learned.targets
         self._mean, self._std = torch.from_numpy(self.targets.mean), torch.from_numpy(self.targets.std)
         self._gram = _scaled_gram(arrays, self.targets, rows)
         names = tuple(camera.name for camera in arrays.cameras)
         self.network = network_of(recipe.architecture)(names, recipe, self._frames.traced)
         self._set_scales()
+        if learned is not None:
+            plain = [
+                self._frames.plain_batch(block) for block in np.array_split(self._some_rows(), _START_BATCHES)
+            ]
+            learned.give(self.network, plain, answer_to)
         self._optimizers = optimizers_of(self.network, recipe)
-        self._key = _key(arrays, recipe, rows)
+        self._key = _key(arrays, recipe, rows, start)
         if checkpoint is not None and checkpoint.exists():
             self._resume(checkpoint)
 
@@ -141,7 +160,7 @@ class Training:
     def _loss(self, batch: Batch, random: np.random.Generator) -> torch.Tensor:
         pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
         if self.recipe.randomise:
-            pictures, neutral = draw_photometry(random, pictures, neutral, self.recipe.randomise)
+            pictures, neutral = draw_photometry(random, pictures, neutral, self.recipe.randomise, batch.plain)
         calibrated = torch.from_numpy(batch.calibrated)
         present = torch.from_numpy(batch.present)
         answer = self.network(pictures.unbind(1), neutral.unbind(1), present, calibrated)
@@ -183,8 +202,7 @@ class Training:
 
     def _set_scales(self) -> None:
         """Give encoders the spread of training pictures, and their points' usual positions."""
-        rows = self.rows[:: max(1, len(self.rows) // _SCALE_ROWS)]
-        batch = self._frames.plain_batch(rows)
+        batch = self._frames.plain_batch(self._some_rows())
         pictures = batch.pictures.astype(np.float32)
         for column, camera in enumerate(self.network.cameras):
             if self.network.owners[camera] is not None:
@@ -193,6 +211,10 @@ class Training:
             encoder.set_usual(torch.from_numpy(batch.positions[column]))
             seen = pictures[:, column]
             encoder.set_scale(float(seen.mean()), max(float(seen.std()), 1.0))
+
+    def _some_rows(self) -> np.ndarray:
+        """Training rows that stand for all where means and spreads are taken."""
+        return self.rows[:: max(1, len(self.rows) // _SCALE_ROWS)]
 
     def _save(self, path: Path) -> None:
         state = {
@@ -240,12 +262,13 @@ def _scaled_gram(arrays: HeadsetArrays, targets: Targets, rows: np.ndarray) -> t
     return torch.from_numpy((gram / max(spread, 1e-12)).astype(np.float32))
 
 
-def _key(arrays: HeadsetArrays, recipe: HeadsetRecipe, rows: np.ndarray) -> str:
+def _key(arrays: HeadsetArrays, recipe: HeadsetRecipe, rows: np.ndarray, start: Path | None) -> str:
     """Of everything that a state must share with a training to go on with it."""
     settings: dict[str, Any] = {
         "version": _STATE_VERSION,
         "recipe": recipe.settings(),
         "arrays": arrays.description,
+        "start": "" if start is None else read_headset_model(start).network_sha256,
     }
     labels = [arrays.weights, arrays.gaze, np.asarray(rows)]
     text = json.dumps(settings, sort_keys=True).encode() + b"".join(array.tobytes() for array in labels)

@@ -11,11 +11,16 @@ the trial's: they took the error on a shifted camera from 1.59 to 1.30 mm."""
 
 
 def draw_photometry(
-    random: np.random.Generator, pictures: torch.Tensor, neutral: torch.Tensor, strength: float
+    random: np.random.Generator,
+    pictures: torch.Tensor,
+    neutral: torch.Tensor,
+    strength: float,
+    plain: np.ndarray,
 ) -> tuple[torch.Tensor, torch.Tensor]:
     """Randomised pictures and neutral pictures (n, cameras, size, size), grey levels in [0, 255].
 
-    A frame's camera treats its neutral picture alike, but for the noise.
+    A frame's camera treats its neutral picture alike, but for the noise. Frames that are ``plain`` (n,) bool are given
+    back as they are.
     """
     count, cameras, size, _ = pictures.shape
 
@@ -40,4 +45,7 @@ def draw_photometry(
         noise = torch.from_numpy(random.standard_normal(seen.shape).astype(np.float32))
         return 255 * torch.clamp(torch.pow(seen.clamp(min=1e-3), gamma) * light + sigma * noise, 0, 1)
 
-    return treated(pictures), treated(neutral)
+    as_they_are = torch.from_numpy(plain)[:, None, None, None]
+    return torch.where(as_they_are, pictures, treated(pictures)), torch.where(
+        as_they_are, neutral, treated(neutral)
+    )

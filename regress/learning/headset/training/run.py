@@ -11,12 +11,13 @@ import torch
 
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
+from regress.learning.headset.looks import camera_looks
 from regress.learning.headset.recipe import HeadsetRecipe, recipe_of
 from regress.learning.headset.training.export import export_graph
 from regress.learning.headset.training.loop import Training
 from regress.learning.progress import Progress
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
-from regress.runtime.headset.folder import save_headset_model
+from regress.runtime.headset.folder import read_headset_model, save_headset_model
 from regress.runtime.headset.graph import HeadsetGraph
 from regress.runtime.headset.model import HeadsetModel, HeadsetTraining
 from regress.runtime.headset.outputs import WEIGHTS
@@ -30,6 +31,7 @@ def train_headset(
     recipe: HeadsetRecipe,
     folder: str | os.PathLike[str],
     *,
+    start: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> HeadsetModel:
     """Train a network and write its model folder; stopped, it goes on where the last whole epoch ended.
@@ -42,6 +44,8 @@ def train_headset(
         All settings.
     folder
         Where the model goes. Until it is written its state is in a file beside it, ``.NAME.checkpoint``.
+    start
+        Model folder whose network this one begins as; None begins with random numbers.
     progress
         Called after each epoch.
 
@@ -57,7 +61,8 @@ def train_headset(
     folder, recipe = Path(folder), recipe_of(recipe.settings())
     check_place(folder, HEADSET)
     checkpoint = folder.parent / f".{folder.name}.checkpoint"
-    training = Training(arrays, recipe, checkpoint)
+    began_as = None if start is None else read_headset_model(start)
+    training = Training(arrays, recipe, checkpoint, None if start is None else Path(start))
     resumed = len(training.history)
     network = training.run(progress)
     owners = encoder_owners(tuple(camera.name for camera in arrays.cameras))
@@ -82,6 +87,9 @@ def train_headset(
         calibration="optional" if recipe.calibration else "none",
         points=points,
         typical={name: _typical(pictures, training.rows) for name, pictures in arrays.pictures.items()},
+        looks={
+            name: camera_looks(arrays, name, training.rows, points.get(name, ())) for name in arrays.pictures
+        },
         outputs=(*GRAPH_OUTPUTS, *map(points_output, points)),
         training=HeadsetTraining(
             recipe=recipe.settings(),
@@ -92,6 +100,7 @@ def train_headset(
             history=tuple(training.history),
             cpu_s=training.cpu_s,
             resumed_after_epochs=resumed,
+            began_as="" if began_as is None else began_as.network_sha256,
             onnx_difference=difference,
             deviation_scale=tuple(scale.tolist()),
             mean_weights=tuple(training.targets.mean[:WEIGHTS].tolist()),

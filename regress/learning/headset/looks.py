@@ -1,0 +1,46 @@
+"""Describes how a camera's training pictures look, person by person, for a model that is to judge others' pictures."""
+
+import numpy as np
+
+from facegen.conventions import VIEW_POINTS
+from regress.learning.headset.arrays import HeadsetArrays
+from regress.runtime.headset.looks import CameraLooks, looks_of
+
+_PEOPLE = 200
+"""Evenly chosen, of whom looks are measured: a hundredth of them are two."""
+
+
+def camera_looks(
+    arrays: HeadsetArrays, camera: str, rows: np.ndarray, points: tuple[str, ...]
+) -> CameraLooks:
+    """Looks of a camera's pictures over people.
+
+    Parameters
+    ----------
+    rows
+        Of the training.
+    points
+        Names of what the camera traces, in order.
+    """
+    people = np.unique(arrays.person[rows])
+    chosen = people[np.linspace(0, len(people) - 1, min(len(people), _PEOPLE)).round().astype(int)]
+    takes = [looks_of(arrays.pictures[camera][rows[arrays.person[rows] == person]]) for person in chosen]
+
+    def over_people(name: str) -> tuple[float, ...]:
+        found = np.percentile([getattr(take, name) for take in takes], [1, 50, 99])
+        return tuple(round(float(value), 4) for value in found)
+
+    columns = [VIEW_POINTS.index(name) for name in points]
+    shown = arrays.points[camera][rows][:, columns]
+    # a point that no picture shows has no place; it is traced nowhere near the others either
+    there = np.isfinite(shown).any(axis=(0, 2))
+    usual = np.zeros((len(columns), 2))
+    usual[there] = np.nanmean(shown[:, there], axis=0, dtype=np.float64)
+    return CameraLooks(
+        low=over_people("low"),
+        high=over_people("high"),
+        saturated=over_people("saturated"),
+        sharpness=over_people("sharpness"),
+        rim=over_people("rim"),
+        points=tuple((round(float(x), 2), round(float(y), 2)) for x, y in usual),
+    )

@@ -1,0 +1,121 @@
+"""Brings a camera's grey levels to those of a model's training, over a take or as frames come."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.looks import BRIGHT, DARK, CameraLooks, levels_of
+from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.sample import Sample
+from regress.runtime.stages.stage import Stage
+
+_MEMORY = 300
+"""Frames by which live levels forget: ten seconds, in which eyes close several times."""
+
+_LEAST_RANGE = 8.0
+"""Grey levels that a picture's darkest and brightest lie apart at least: stretching fewer makes pictures of noise."""
+
+
+def level_table(low: float, high: float, looks: CameraLooks, *, fixed: bool = False) -> np.ndarray:
+    """What each of 256 grey levels becomes (256,) uint8.
+
+    Levels as people's pictures had them in training stay as they are; others are stretched to the nearest of those.
+
+    Parameters
+    ----------
+    low, high
+        Percentiles `DARK` and `BRIGHT` of the camera's pictures.
+    looks
+        Of the camera in training.
+    fixed
+        Whether they become the middle one of training's in any case, as a placement's do.
+    """
+    high = max(high, low + _LEAST_RANGE)
+    if fixed:
+        wanted_low, wanted_high = looks.low[1], looks.high[1]
+    else:
+        wanted_low = float(np.clip(low, looks.low[0], looks.low[2]))
+        wanted_high = float(np.clip(high, looks.high[0], looks.high[2]))
+    slope = (wanted_high - wanted_low) / (high - low)
+    table = wanted_low + slope * (np.arange(256) - low)
+    return np.clip(np.rint(table), 0, 255).astype(np.uint8)
+
+
+def tables_of(
+    footage: Footage,
+    looks: Mapping[str, CameraLooks],
+    placement: Mapping[str, CameraPlacement],
+) -> dict[str, np.ndarray]:
+    """`level_table` of each camera of a take, of cameras whose looks the model knows and that have pictures.
+
+    Levels that a placement names go before those that the take has.
+    """
+    tables = {}
+    for column, name in enumerate(footage.cameras):
+        rows = footage.present[:, column]
+        if name not in looks or not rows.any():
+            continue
+        named = placement.get(name)
+        if named is not None and named.low is not None:
+            tables[name] = level_table(named.low, named.high, looks[name], fixed=True)
+        else:
+            tables[name] = level_table(*levels_of(footage.pictures[name][rows]), looks[name])
+    return tables
+
+
+def levelled(footage: Footage, tables: Mapping[str, np.ndarray]) -> Footage:
+    """A take whose pictures that count have a table's levels; those at fault stay 0."""
+    pictures = dict(footage.pictures)
+    for name, table in tables.items():
+        there = footage.present[:, footage.cameras.index(name)]
+        pictures[name] = np.where(there[:, None, None], table[pictures[name]], pictures[name])
+    return replace(footage, pictures=pictures)
+
+
+class Levels(Stage):
+    """Levels pictures as they come, by the levels of the last ten seconds or so.
+
+    Parameters
+    ----------
+    looks
+        Of cameras in training; pictures of others stay as they are.
+    placement
+        Whose levels go before those that are seen.
+    """
+
+    def __init__(
+        self, looks: Mapping[str, CameraLooks], placement: Mapping[str, CameraPlacement] | None = None
+    ) -> None:
+        self._looks = looks
+        self._counts: dict[str, np.ndarray] = {}
+        self._tables: dict[str, np.ndarray] = {}
+        self._fixed = {
+            name: level_table(one.low, one.high, looks[name], fixed=True)
+            for name, one in (placement or {}).items()
+            if one.low is not None and one.high is not None and name in looks
+        }
+        self._tables |= self._fixed
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with levelled pictures."""
+        for name, picture in (sample.pictures or {}).items():
+            if name in self._looks and name not in self._fixed:
+                self._tables[name] = self._table(name, picture)
+        return replace(sample, pictures=self.levelled(sample.pictures or {}))
+
+    def levelled(self, pictures: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """Pictures (..., h, w) uint8 by camera with the levels of the moment: a neutral picture's are the frames'."""
+        return {
+            name: self._tables[name][picture] if name in self._tables else picture
+            for name, picture in pictures.items()
+        }
+
+    def _table(self, name: str, picture: np.ndarray) -> np.ndarray:
+        seen = np.bincount(picture.ravel(), minlength=256) / picture.size
+        before = self._counts.get(name)
+        self._counts[name] = seen if before is None else seen + before * (1 - 1 / _MEMORY)
+        shares = np.cumsum(self._counts[name]) / self._counts[name].sum()
+        low, high = (float(np.searchsorted(shares, percent / 100)) for percent in (DARK, BRIGHT))
+        return level_table(low, high, self._looks[name])

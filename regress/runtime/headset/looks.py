@@ -1,0 +1,134 @@
+"""Measures how a camera's pictures look (levels, focus, dark rim, flicker), to hold it against training's."""
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+import cv2
+import numpy as np
+from annotated_types import Interval, Len
+
+SATURATED = 250
+"""Grey level from which a pixel counts as saturated."""
+
+DARK, BRIGHT = 2.0, 98.0
+"""Percentiles that stand for a picture's levels: glints and dead pixels are beyond them."""
+
+_RIM = 6
+"""Grey levels above the darkest that pixels of a lens's rim have in all frames at most."""
+
+_MOST_MEASURED = 120
+"""Frames, evenly chosen, of which a take is measured: twice as many change no figure in its second digit."""
+
+Level = Annotated[float, Interval(ge=0, le=255)]
+Share = Annotated[float, Interval(ge=0, le=1)]
+Sharpness = Annotated[float, Interval(ge=0, le=100)]
+Pixel = Annotated[tuple[float, float], Len(2, 2)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CameraLooks:
+    """How a camera's pictures looked in training, each as the 1st, 50th and 99th percentile over people.
+
+    Parameters
+    ----------
+    low, high
+        The 2nd and the 98th percentile of a person's grey levels.
+    saturated
+        Share of pixels that are saturated.
+    sharpness
+        `sharpness_of` a person's pictures.
+    rim
+        `rim_of` a person's pictures.
+    points
+        Mean pixels of what the camera traces, in the order of ``HeadsetModel.points``.
+    """
+
+    __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
+
+    low: Annotated[tuple[Level, ...], Len(3, 3)]
+    high: Annotated[tuple[Level, ...], Len(3, 3)]
+    saturated: Annotated[tuple[Share, ...], Len(3, 3)]
+    sharpness: Annotated[tuple[Sharpness, ...], Len(3, 3)]
+    rim: Annotated[tuple[Share, ...], Len(3, 3)]
+    points: tuple[Pixel, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class TakeLooks:
+    """How the pictures of one take look; fields as `CameraLooks` has them.
+
+    Parameters
+    ----------
+    low, high, saturated, sharpness, rim
+        Of the take.
+    flicker
+        `flicker_of` it.
+    """
+
+    low: float
+    high: float
+    saturated: float
+    sharpness: float
+    rim: float
+    flicker: float
+
+
+def looks_of(pictures: np.ndarray) -> TakeLooks:
+    """Measure the pictures (n, h, w) uint8 of a take, in the order of time."""
+    chosen = pictures[_evenly(len(pictures))]
+    low, high = levels_of(chosen)
+    return TakeLooks(
+        low=low,
+        high=high,
+        saturated=float((chosen >= SATURATED).mean()),
+        sharpness=sharpness_of(chosen),
+        rim=rim_of(chosen),
+        flicker=flicker_of(pictures),
+    )
+
+
+def levels_of(pictures: np.ndarray) -> tuple[float, float]:
+    """The percentiles `DARK` and `BRIGHT` of pictures (n, h, w) uint8."""
+    low, high = np.percentile(pictures, [DARK, BRIGHT])
+    return float(low), float(high)
+
+
+def sharpness_of(pictures: np.ndarray) -> float:
+    """How much pictures (n, h, w) uint8 change from pixel to pixel, over how much they change at all; the median.
+
+    Of the pictures' own scale: a soft lens takes the fine changes and leaves the coarse ones. A blur of two pixels
+    first, so that a sensor's grain does not pass for detail.
+    """
+    shares = []
+    for picture in pictures:
+        calm = cv2.GaussianBlur(picture, (0, 0), 0.7).astype(np.float32)
+        fine = calm - cv2.GaussianBlur(calm, (0, 0), 2.0)
+        shares.append(float(fine.std()) / max(float(calm.std()), 1e-6))
+    return float(np.median(shares))
+
+
+def rim_of(pictures: np.ndarray) -> float:
+    """Share of pixels that are as dark as any in all frames and hang together with a corner: a lens's rim."""
+    brightest = pictures.max(axis=0)
+    dark = (brightest <= np.percentile(pictures.min(axis=0), 1) + 2 * _RIM).astype(np.uint8)
+    count, labels = cv2.connectedComponents(dark, connectivity=4)
+    if count < 2:
+        return 0.0
+    corners = {int(label) for label in labels[[0, 0, -1, -1], [0, -1, 0, -1]]} - {0}
+    return float(np.isin(labels, list(corners)).mean()) if corners else 0.0
+
+
+def flicker_of(pictures: np.ndarray) -> float:
+    """By how much of itself a camera's light changes from frame to frame: the median over frames that follow.
+
+    Most of a face does not move from one frame to the next, so the median pixel's change is the light's.
+    """
+    if len(pictures) < 3:
+        return 0.0
+    light = np.log(np.maximum(pictures.astype(np.float32), 8))
+    changes = np.median(np.diff(light, axis=0).reshape(len(light) - 1, -1), axis=1)
+    return float(np.median(np.abs(changes)))
+
+
+def _evenly(count: int) -> np.ndarray:
+    return np.linspace(0, count - 1, min(count, _MOST_MEASURED)).round().astype(int)

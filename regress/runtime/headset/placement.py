@@ -1,0 +1,76 @@
+"""Says which part of a camera's picture a network is to see, and takes pixels from one to the other."""
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+import cv2
+import numpy as np
+from annotated_types import Interval
+
+Share = Annotated[float, Interval(ge=-2, le=3)]
+"""Of a picture's width or height; what the network sees may have its middle outside of the picture."""
+
+Level = Annotated[float, Interval(ge=-255, le=510)]
+"""A grey level; flat pictures are stretched from levels that no pixel has."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CameraPlacement:
+    """Where in a camera's picture the view lies that a network is to see; beyond the edges their pixels are repeated.
+
+    Parameters
+    ----------
+    x, y
+        Middle of the view, as shares of the picture's width and height.
+    size
+        Width of the view over that of the picture: below 1 the picture is cropped, above it is widened.
+    roll_deg
+        By how much the view is turned in the picture, clockwise as the picture is looked at.
+    mirror
+        Whether the view is looked at in a mirror.
+    low, high
+        Grey levels of the picture that become 2nd and 98th percentiles of training; None leaves levels to `predict`.
+    """
+
+    __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
+
+    x: Share = 0.5
+    y: Share = 0.5
+    size: Annotated[float, Interval(ge=0.05, le=10)] = 1.0
+    roll_deg: Annotated[float, Interval(ge=-180, le=180)] = 0.0
+    mirror: bool = False
+    low: Level | None = None
+    high: Level | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse levels of which one is lacking, or that are no range."""
+        if (self.low is None) != (self.high is None):
+            raise ValueError("low and high are given together, or neither")
+        if self.low is not None and self.high is not None and self.high - self.low < 1:
+            raise ValueError(
+                f"low {self.low:g} must lie below high {self.high:g}, by one grey level at least"
+            )
+
+    def picture_from_view(self, picture: tuple[int, int], view: tuple[int, int]) -> np.ndarray:
+        """(2, 3) float64: takes pixels of the view to the picture's; both are (width, height)."""
+        step = self.size * picture[0] / view[0]
+        angle = np.radians(self.roll_deg)
+        turn = step * np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        turn[:, 0] *= -1 if self.mirror else 1
+        middle = np.array([self.x * picture[0], self.y * picture[1]]) - 0.5
+        return np.column_stack([turn, middle - turn @ ((np.array(view) - 1) / 2)])
+
+    def view(self, picture: np.ndarray, *, width: int, height: int) -> np.ndarray:
+        """The view (height, width) of a picture (h, w) uint8; a finer picture is averaged, not sampled."""
+        matrix = self.picture_from_view((picture.shape[1], picture.shape[0]), (width, height))
+        finer = self.size * picture.shape[1] / width
+        if finer > 1:
+            # each pixel of the view covers so many of the picture's: a Gaussian of half of that lets none alias
+            picture = cv2.GaussianBlur(picture, (0, 0), 0.4 * np.sqrt(finer**2 - 1) + 1e-3)
+        return cv2.warpAffine(
+            picture,
+            matrix,
+            (width, height),
+            flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+            borderMode=cv2.BORDER_REPLICATE,
+        )

@@ -1,0 +1,249 @@
+"""Finds where in a camera's pictures the eye or the mouth lies, by the network's own points and confidence.
+
+A network's points lean towards where they lie in training: of an eye that is too large in the view it traces one that
+is a little too large. So a single look says too little, and a placement is looked for at which the eye, as traced, is
+just as large, as upright and in the place as in training; there the leaning stops. It is looked for from several
+sizes, upright and in a mirror, and that placement is taken at which the network is surest and whose points stay on the
+same pixels of the picture when the view is moved, scaled and turned a little.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from regress.errors import InputError
+from regress.runtime.headset.levels import level_table
+from regress.runtime.headset.looks import levels_of
+from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.predictor import HeadsetPredictor
+
+_FRAMES = 40
+"""Of a take, evenly chosen, that are looked at."""
+
+_STEPS = 8
+"""In which a placement is refined from a start; the films of real eyes settle in five."""
+
+_SIZES = (0.7, 1.0, 1.5)
+_SMALLEST, _LARGEST = 0.3, 2.5
+"""Of views over pictures."""
+
+_MOVES = ((0.0, 0.0, 1.0, 0.0), (-0.06, 0.03, 1.1, 6.0), (0.06, -0.03, 0.91, -6.0))
+"""By how much the view is moved (of its width), scaled and turned to see whether points stay."""
+
+_UPSIDE_DOWN = 0.6
+"""An upside-down view's score over the best upright one's, below which it is taken: cameras are seldom so, and a
+network that has not seen such eyes is now and then surer of them."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EyePoints:
+    """Columns of what an eye's camera traces.
+
+    Parameters
+    ----------
+    pupil
+        One column.
+    iris, upper, lower, brow
+        Outline, lids from the inner corner on, and brow; some may be empty.
+    usual : (P, 2)
+        Mean pixels of all in training.
+    """
+
+    pupil: int
+    iris: list[int]
+    upper: list[int]
+    lower: list[int]
+    brow: list[int]
+    usual: np.ndarray
+
+    @classmethod
+    def of(cls, predictor: HeadsetPredictor, camera: str) -> "EyePoints":
+        """Those of a camera.
+
+        Raises
+        ------
+        InputError
+            Where the model does not trace an eye there, or does not know how its pictures looked.
+        """
+        names = predictor.model.points.get(camera, ())
+        columns = {
+            part: [column for column, name in enumerate(names) if mark in name]
+            for part, mark in (
+                ("pupil", "_pupil"),
+                ("iris", "_iris_"),
+                ("upper", "_upper_lid_"),
+                ("lower", "_lower_lid_"),
+            )
+        }
+        if camera not in predictor.model.looks or not all(columns.values()):
+            raise InputError(
+                f"{camera}: the model says too little of its points or its looks to place pictures by them; train it "
+                f"with this version"
+            )
+        lids = {"landmark_42", "landmark_43", "landmark_44", "landmark_45", "landmark_46", "landmark_47"}
+        lids |= {f"landmark_{number}" for number in range(36, 42)}
+        brow = [
+            column for column, name in enumerate(names) if name.startswith("landmark_") and name not in lids
+        ]
+        return cls(
+            pupil=columns["pupil"][0],
+            iris=columns["iris"],
+            upper=columns["upper"],
+            lower=columns["lower"],
+            brow=brow,
+            usual=np.array(predictor.model.looks[camera].points),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class FoundPlacement:
+    """A placement, and how good the network finds what it sees there.
+
+    Parameters
+    ----------
+    placement
+        Without levels.
+    deviation
+        Mean predicted deviation of the camera's own shapes.
+    unrest
+        How far points move with the view, as a share of the eye's width; 0.06 is about half of the moves themselves.
+    unsettled
+        How far the last step still went: of the size, and of the view's width.
+    """
+
+    placement: CameraPlacement
+    deviation: float
+    unrest: float
+    unsettled: float
+
+    @property
+    def score(self) -> float:
+        """The smaller, the better."""
+        return self.deviation * self.unrest
+
+
+def find_placement(predictor: HeadsetPredictor, camera: str, pictures: np.ndarray) -> FoundPlacement:
+    """The best placement of an eye's pictures (n, h, w) uint8.
+
+    Raises
+    ------
+    InputError
+        See `EyePoints.of`.
+    """
+    points = EyePoints.of(predictor, camera)
+    chosen = pictures[np.linspace(0, len(pictures) - 1, min(len(pictures), _FRAMES)).round().astype(int)]
+    search = _Search(predictor, camera, points, chosen)
+    upright = [search.settled(start) for start in _starts(0.0)]
+    turned = [search.settled(start) for start in _starts(180.0)]
+    best, upside_down = (min(found, key=lambda one: one.score) for found in (upright, turned))
+    return upside_down if upside_down.score < _UPSIDE_DOWN * best.score else best
+
+
+def placement_of_points(
+    placement: CameraPlacement,
+    seen: np.ndarray,
+    points: EyePoints,
+    *,
+    picture: tuple[int, int],
+    view: tuple[int, int],
+) -> CameraPlacement:
+    """The placement at which points would lie as in training, if they lie so (n, P, 2) in the view of another one.
+
+    The size is the iris's, which is nearly the same in all people; the place is that of the lids' middle, and upright
+    is the line between the eye's corners.
+    """
+    size = np.median(_diameters(seen[:, points.iris])) / _diameters(points.usual[None, points.iris])[0]
+    middle = np.nanmedian(seen, axis=0)
+    lids = points.upper + points.lower
+    corners = [points.upper[0], points.upper[-1]]
+    turned = _angle(middle[corners]) - _angle(points.usual[corners])
+    turn = size * np.array([[np.cos(turned), -np.sin(turned)], [np.sin(turned), np.cos(turned)]])
+    matrix = placement.picture_from_view(picture, view)
+    linear = matrix[:, :2] @ turn
+    offset = (
+        matrix[:, :2] @ (middle[lids].mean(axis=0) - turn @ points.usual[lids].mean(axis=0)) + matrix[:, 2]
+    )
+    at = linear @ ((np.array(view) - 1) / 2) + offset
+    x, y = np.clip((at + 0.5) / picture, 0, 1)
+    wide = np.sqrt(abs(np.linalg.det(linear))) * view[0] / picture[0]
+    return replace(
+        placement,
+        x=float(x),
+        y=float(y),
+        size=float(np.clip(wide, _SMALLEST, _LARGEST)),
+        roll_deg=float(np.degrees(np.arctan2(-linear[0, 1], linear[1, 1]))),
+    )
+
+
+class _Search:
+    """Looks at a take's frames (n, h, w) at one placement after the other."""
+
+    def __init__(
+        self, predictor: HeadsetPredictor, camera: str, points: EyePoints, pictures: np.ndarray
+    ) -> None:
+        self._predictor, self._camera, self._points, self._pictures = predictor, camera, points, pictures
+        self._view = predictor.sizes[camera]
+        self._picture = (pictures.shape[2], pictures.shape[1])
+        names = predictor.model.weights
+        self._part = [names.index(name) for name in predictor.model.parts[camera]]
+
+    def settled(self, placement: CameraPlacement) -> FoundPlacement:
+        """Where the steps from a start end, and how good it is there."""
+        for _ in range(_STEPS):
+            seen = self._predictor.graph.trace({self._camera: self.views(placement)})[self._camera]
+            before = placement
+            placement = placement_of_points(
+                placement, seen, self._points, picture=self._picture, view=self._view
+            )
+        moved = np.hypot(placement.x - before.x, placement.y - before.y) / placement.size
+        unsettled = max(abs(np.log(placement.size / before.size)), moved)
+        return FoundPlacement(placement=placement, unsettled=float(unsettled), **self._quality(placement))
+
+    def views(self, placement: CameraPlacement) -> np.ndarray:
+        """(n, height, width) uint8 that the network sees, levelled."""
+        width, height = self._view
+        views = np.stack([placement.view(one, width=width, height=height) for one in self._pictures])
+        return level_table(*levels_of(views), self._predictor.model.looks[self._camera])[views]
+
+    def _quality(self, placement: CameraPlacement) -> dict[str, float]:
+        seen, deviations = [], []
+        for moved in _moved(placement):
+            views = self.views(moved)
+            traced = self._predictor.graph.trace({self._camera: views})[self._camera]
+            matrix = moved.picture_from_view(self._picture, self._view)
+            seen.append(traced @ matrix[:, :2].T + matrix[:, 2])
+            deviations.append(self._predictor.predict({self._camera: views}).deviation[:, self._part].mean())
+        lids_and_iris = self._points.upper + self._points.lower + self._points.iris
+        spread = np.array(seen)[:, :, lids_and_iris]
+        unrest = np.sqrt(((spread - spread.mean(axis=0)) ** 2).sum(axis=-1).mean(axis=(0, 2)))
+        corners = self._points.usual[[self._points.upper[0], self._points.upper[-1]]]
+        eye = np.linalg.norm(np.diff(corners, axis=0)) / self._view[0] * placement.size * self._picture[0]
+        return {"deviation": float(np.mean(deviations)), "unrest": float(np.median(unrest) / eye)}
+
+
+def _starts(roll_deg: float) -> Iterator[CameraPlacement]:
+    for mirror in (False, True):
+        for size in _SIZES:
+            yield CameraPlacement(size=size, mirror=mirror, roll_deg=roll_deg)
+
+
+def _moved(placement: CameraPlacement) -> Iterator[CameraPlacement]:
+    for across, down, scale, turn_deg in _MOVES:
+        yield replace(
+            placement,
+            x=placement.x + across * placement.size,
+            y=placement.y + down * placement.size,
+            size=placement.size * scale,
+            roll_deg=(placement.roll_deg + turn_deg + 180) % 360 - 180,
+        )
+
+
+def _diameters(outlines: np.ndarray) -> np.ndarray:
+    """(n,) of irises (n, k, 2): their points lie on ellipses, evenly."""
+    return 2 * np.linalg.norm(outlines - outlines.mean(axis=1, keepdims=True), axis=2).mean(axis=1)
+
+
+def _angle(corners: np.ndarray) -> float:
+    across, down = corners[1] - corners[0]
+    return float(np.arctan2(down, across))

@@ -1,0 +1,155 @@
+"""Placements: what of a picture a network sees, pixels there and back, and their file."""
+
+import string
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from regress.errors import InputError
+from regress.runtime.headset.footage import line_up
+from regress.runtime.headset.pictures import fit_picture
+from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.placement_file import Placement, read_placement, write_placement
+from regress.runtime.headset.points import traced_points
+from regress.runtime.headset.recordings import read_recording
+from tests.regress.headset.takes import write_pictures
+from tests.regress.headset.tiny import NAMES
+
+sides = st.tuples(st.integers(40, 200), st.integers(40, 200))
+placements = st.builds(
+    CameraPlacement,
+    x=st.floats(-0.5, 1.5),
+    y=st.floats(-0.5, 1.5),
+    size=st.floats(0.2, 3),
+    roll_deg=st.floats(-180, 180),
+    mirror=st.booleans(),
+)
+
+
+@given(placements, sides, sides)
+def test_the_views_middle_lies_where_it_says_and_its_width_is_as_large(placement, picture, view):
+    matrix = placement.picture_from_view(picture, view)
+    middle = matrix[:, :2] @ ((np.array(view) - 1) / 2) + matrix[:, 2]
+    np.testing.assert_allclose((middle + 0.5) / picture, [placement.x, placement.y], atol=1e-9)
+    across = matrix[:, 0] * view[0]
+    np.testing.assert_allclose(np.linalg.norm(across), placement.size * picture[0])
+    assert (np.linalg.det(matrix[:, :2]) < 0) == placement.mirror
+
+
+@given(placements)
+def test_a_spot_is_seen_where_pixels_are_taken_to(placement):
+    picture, view = (150, 120), (96, 80)
+    matrix = placement.picture_from_view(picture, view)
+    spot_view = np.array([41.0, 37.0])
+    spot = matrix[:, :2] @ spot_view + matrix[:, 2]
+    if not ((spot > 12) & (spot < np.array(picture) - 13)).all():
+        return
+    rows, columns = np.mgrid[: picture[1], : picture[0]]
+    # as wide in the view whatever the size, so that sampling does not move its middle
+    wide = 4 * placement.size * picture[0] / view[0]
+    light = 200 * np.exp(-((columns - spot[0]) ** 2 + (rows - spot[1]) ** 2) / (2 * wide**2))
+    seen = placement.view(light.astype(np.uint8), width=view[0], height=view[1]).astype(float)
+    peak = np.unravel_index(np.argmax(cv2.GaussianBlur(seen, (0, 0), 2)), seen.shape)
+    assert np.hypot(*(np.array(peak)[::-1] - spot_view)) < 2
+
+
+def test_without_anything_named_a_picture_is_only_scaled():
+    picture = cv2.GaussianBlur(np.random.default_rng(0).integers(0, 256, (96, 96), dtype=np.uint8), (0, 0), 2)
+    np.testing.assert_array_equal(CameraPlacement().view(picture, width=96, height=96), picture)
+    larger = picture.repeat(2, axis=0).repeat(2, axis=1)
+    half = CameraPlacement().view(larger, width=96, height=96).astype(int)
+    assert np.abs(half - picture).mean() < 3
+
+
+def test_beyond_the_edges_their_pixels_are_repeated():
+    picture = np.full((60, 80), 90, np.uint8)
+    picture[:, 0], picture[-1] = 140, 30
+    seen = CameraPlacement(size=2.0).view(picture, width=96, height=96)
+    assert seen.min() > 25  # nothing is filled black
+    assert (seen[40:50, :15] > 100).all()
+
+
+@given(
+    st.dictionaries(
+        st.text(string.ascii_letters + string.digits + "_-.", min_size=1, max_size=20),
+        placements.flatmap(lambda one: st.sampled_from([one, replace(one, low=-3.5, high=240.25)])),
+        max_size=4,
+    ),
+    st.text(max_size=50),
+)
+def test_a_file_says_what_was_written(tmp_path_factory, cameras, model):
+    path = tmp_path_factory.mktemp("placement") / "placement.toml"
+    write_placement(path, Placement(cameras=cameras, model=model))
+    found = read_placement(path, cameras)
+    assert list(found) == list(cameras)
+    for name, one in cameras.items():
+        for field, digits in (("x", 4), ("y", 4), ("size", 4), ("roll_deg", 2), ("low", 1), ("high", 1)):
+            wanted = getattr(one, field)
+            wanted = None if wanted is None else pytest.approx(wanted, abs=0.51 * 10**-digits)
+            assert getattr(found[name], field) == wanted
+        assert found[name].mirror == one.mirror
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("version = 2", "version = 2"),
+        ("colour = 1", "colour"),
+        ("[cameras.nose]\nx = 0.5", "the model has no camera 'nose'; it has left_eye"),
+        ("[cameras.mouth]\nsize = 0.0", "cameras.mouth.size = 0.0"),
+        ("[cameras.mouth]\nsize = nan", "cameras.mouth.size"),
+        ("[cameras.mouth]\nroll_deg = 181.0", "cameras.mouth.roll_deg = 181.0"),
+        ("[cameras.mouth]\nlow = 20.0", "low and high are given together"),
+        ("[cameras.mouth]\nlow = 90.0\nhigh = 90.5", "low 90 must lie below high 90.5"),
+        ("[cameras.mouth]\nzoom = 2.0", "zoom"),
+        ("cameras = 3", "cameras"),
+        ("x = ", "is not valid TOML"),
+    ],
+)
+def test_what_is_no_placement_is_refused_by_name(tmp_path: Path, text: str, said: str):
+    path = tmp_path / "placement.toml"
+    path.write_text(text if text.startswith("version") else f"version = 1\n{text}")
+    with pytest.raises(InputError, match="placement") as refused:
+        read_placement(path, dict.fromkeys(NAMES))
+    assert said in str(refused.value)
+
+
+class Tracer:
+    """Stands for a model that traces a view's middle, whatever it sees."""
+
+    def trace(self, pictures):
+        return {
+            name: np.full((len(stack), 1, 2), ((np.array(stack.shape[2:0:-1]) - 1) / 2).tolist(), np.float32)
+            for name, stack in pictures.items()
+        }
+
+
+def test_points_are_given_in_the_pixels_that_were_recorded(tmp_path: Path):
+    random = np.random.default_rng(1)
+    folder = write_pictures(tmp_path / "eye", random.integers(60, 200, (3, 90, 160), dtype=np.uint8))
+    placement = CameraPlacement(x=0.6, y=0.4, size=0.5, mirror=True)
+    plain = read_recording(folder, "left_eye", width=64, height=64)
+    assert all(fault is not None for fault in plain.faults)  # of another shape
+    recording = read_recording(folder, "left_eye", width=64, height=64, placement=placement)
+    footage = line_up({"left_eye": recording}, {"left_eye": (64, 64)})
+    assert footage.present.all()
+
+    class Predictor:
+        graph = Tracer()
+
+    found = traced_points(Predictor(), footage)["left_eye"]
+    np.testing.assert_allclose(found[:, 0], np.tile([0.6 * 160 - 0.5, 0.4 * 90 - 0.5], (3, 1)), atol=1e-4)
+
+
+def test_a_live_picture_is_placed_as_a_recorded_one(tmp_path: Path):
+    picture = np.random.default_rng(1).integers(60, 200, (90, 160), dtype=np.uint8)
+    folder = write_pictures(tmp_path / "eye", picture[None])
+    placement = CameraPlacement(x=0.6, y=0.4, size=0.7, roll_deg=12.0)
+    recorded = read_recording(folder, "left_eye", width=64, height=64, placement=placement)
+    live = fit_picture(picture, width=64, height=64, placement=placement)
+    np.testing.assert_array_equal(recorded.pictures[0], live.picture)
