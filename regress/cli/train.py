@@ -18,23 +18,30 @@ def train(
     recipe: Annotated[
         str, typer.Option("--recipe", help="How to train: default, exact, paper or another of RECIPES.")
     ] = "default",
+    detector: Annotated[
+        str | None,
+        typer.Option(
+            "--detector", help="Learn from points as this detector puts them: mediapipe. Without, as any may."
+        ),
+    ] = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the networks' starts.")] = 0,
 ) -> None:
     """Train the 31 networks on a dataset's keypoints and compare them with ridge regression and the mean.
 
     Example: regress train datasets/out/default --out models/default
     """
-    from regress.learning.training import RECIPES, read_dataset
+    from regress.learning.training import RECIPES, for_detector, read_dataset
     from regress.learning.training import train as train_model
     from regress.runtime.model import KEYPOINTS, check_place, save_model
 
     if recipe not in RECIPES:
         raise InputError(f"--recipe is {recipe!r}, but must be one of {', '.join(RECIPES)}")
+    chosen = RECIPES[recipe] if detector is None else for_detector(RECIPES[recipe], detector)
     keypoints = read_dataset(dataset)
     check_place(out, KEYPOINTS)
     began = time.monotonic()
     with progress(unit="steps") as draw:
-        model = train_model(keypoints, RECIPES[recipe], seed=seed, progress=draw)
+        model = train_model(keypoints, chosen, seed=seed, progress=draw)
     save_model(model, out)
     say(f"trained on {model.record.training_rows} rows in {time.monotonic() - began:.0f} s; model in {out}")
     for name, figures in model.record.summary.items():

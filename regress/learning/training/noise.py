@@ -5,6 +5,7 @@ brows are drawn wider or higher. On one face that constant stays, and one neutra
 what smoothing removes. The two are kept apart here.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,9 +61,24 @@ class DetectorNoise:
     eyes: float = 1.0
     copies: int = 1
 
+    def staying(self, rng: np.random.Generator, count: int) -> np.ndarray:
+        """What stays on each of ``count`` faces (count, 68, 2), outer-eye distances."""
+        return self.bias * draw_bias(rng, count)
 
-def draw_bias(rng: np.random.Generator, count: int) -> np.ndarray:
+    def passing(self, rng: np.random.Generator, count: int) -> np.ndarray:
+        """What one frame of each has besides jitter (count, 68, 2)."""
+        return self.drift * draw_bias(rng, count)
+
+
+def draw_bias(
+    rng: np.random.Generator, count: int, *, apart: Mapping[str, float] = DETECTOR_DISAGREEMENT
+) -> np.ndarray:
     """What ``count`` detectors put their points beside the truth by.
+
+    Parameters
+    ----------
+    apart
+        Root mean square of how far, by group of landmarks, outer-eye distances.
 
     Returns
     -------
@@ -77,7 +93,7 @@ def draw_bias(rng: np.random.Generator, count: int) -> np.ndarray:
         smooth = np.einsum("ckd,kn->cnd", rng.standard_normal((count, BIAS_BENDS, 2)), bends)
         alone = rng.standard_normal((count, len(numbers), 2)) * np.sqrt(BIAS_ALONE)
         shape = together + smooth * np.sqrt(BIAS_SMOOTH / BIAS_BENDS) + alone
-        offsets[:, list(numbers)] = shape * (DETECTOR_DISAGREEMENT[group] / np.sqrt(2))
+        offsets[:, list(numbers)] = shape * (apart[group] / np.sqrt(2))
     return offsets
 
 
@@ -93,7 +109,7 @@ def draw_displacements(
     """
     kind = rng.random((count, 1, 1))
     moved, biased = kind >= noise.clean, kind >= noise.clean + noise.unbiased
-    bias = biased * noise.bias * draw_bias(rng, count)
+    bias = biased * noise.staying(rng, count)
     jitter = noise.jitter
     if noise.jitter_most is not None:
         jitter = np.exp(rng.uniform(np.log(noise.jitter), np.log(noise.jitter_most), (count, 1, 1)))
@@ -102,7 +118,7 @@ def draw_displacements(
     quiet[list(_EYES)] = noise.eyes
 
     def passing() -> np.ndarray:
-        drift = biased * noise.drift * draw_bias(rng, count)
+        drift = biased * noise.passing(rng, count)
         return drift + moved * quiet * jitter * rng.standard_normal(bias.shape)
 
     return bias + passing(), bias + passing()
