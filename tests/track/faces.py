@@ -28,10 +28,12 @@ def seen(
     return cv2.warpAffine(photograph(), matrix, (WIDTH, HEIGHT), borderMode=cv2.BORDER_REPLICATE)
 
 
-def two_faces(*, left_zoom: float, right_zoom: float, shift: float = 0.0) -> np.ndarray:
-    """Two faces side by side in a picture of 640 x 240; the left one moved to the right by pixels."""
-    left = seen(zoom=left_zoom, beside=(shift, 0.0))
-    return np.hstack([left, seen(zoom=right_zoom)])
+def two_faces(*, left_zoom: float | None, right_zoom: float | None) -> np.ndarray:
+    """Two faces side by side in a picture of 320 x 240; None is nobody there, before a grey wall."""
+    middle = np.s_[:, WIDTH // 4 : -WIDTH // 4]
+    wall = np.full((HEIGHT, WIDTH, 3), 120, np.uint8)
+    sides = [wall if zoom is None else seen(zoom=zoom) for zoom in (left_zoom, right_zoom)]
+    return np.hstack([side[middle] for side in sides])
 
 
 def moving(count: int) -> list[np.ndarray]:

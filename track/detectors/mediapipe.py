@@ -1,7 +1,6 @@
 """Finds faces with MediaPipe's Face Landmarker, which runs on this machine and asks no other one."""
 
 import math
-import weakref
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 from track.detectors.faults import FaceFault
 from track.detectors.following import Following
+from track.detectors.head import fitted_head
 from track.detectors.mediapipe_points import NO_HEAD, NO_IRISES, NO_POINTS, head_of, irises_of, landmarks_of
 from track.detectors.model_file import model_file
 from track.errors import InputError
@@ -61,8 +61,6 @@ class MediapipeDetector(Stage):
                 self._found(_NOTHING, 0.0)  # its threads tell of themselves with their first picture
         except (RuntimeError, ValueError) as error:
             raise InputError(f"{file} is no model file of MediaPipe's Face Landmarker ({error})") from None
-        # left to the interpreter's end it throws, as the modules that it calls have gone by then
-        self._close = weakref.finalize(self, self._landmarker.close)
         self.own_weights: dict[str, float] | None = None
 
     def step(self, sample: Sample) -> Sample:
@@ -84,11 +82,13 @@ class MediapipeDetector(Stage):
             return nothing
         if found.face_blendshapes:
             self.own_weights = {each.category_name: each.score for each in found.face_blendshapes[chosen]}
+        matrix = np.asarray(found.facial_transformation_matrixes[chosen], dtype=np.float64)
+        height, width = pixels.shape[:2]
         return replace(
             nothing,
             points=faces[chosen],
             irises=irises_of(meshes[chosen]),
-            head=head_of(np.asarray(found.facial_transformation_matrixes[chosen], dtype=np.float64)),
+            head=fitted_head(faces[chosen], head_of(matrix), width=width, height=height),
         )
 
     def _found(self, pixels: np.ndarray, time_s: float | None) -> Any:
@@ -102,5 +102,5 @@ class MediapipeDetector(Stage):
         return self._landmarker.detect_for_video(picture, self._last_ms)
 
     def close(self) -> None:
-        """Let MediaPipe's threads go."""
-        self._close()
+        """Let MediaPipe's threads go; to be called, as at the interpreter's end it is too late for it and it throws."""
+        self._landmarker.close()

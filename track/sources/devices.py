@@ -13,6 +13,11 @@ _SETTLING = 5
 """Pictures until a camera's exposure has found the room's light; the first ones are often black."""
 
 
+NO_PICTURE = (
+    "gives no picture: another program may be using it, or it is no camera (some have a second, mute entry)"
+)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Seen:
     """A webcam, and what it showed.
@@ -26,7 +31,7 @@ class Seen:
     picture
         File of the one that was kept.
     fault
-        Why it gives none, a sentence.
+        Why it gives none.
     """
 
     number: int
@@ -41,7 +46,7 @@ class Seen:
         return {**asdict(self), "picture": None if self.picture is None else str(self.picture)}
 
 
-def look_at_webcams(pictures: Path | None = None, *, folder: Path = FOLDER) -> list[Seen]:
+def look_at_webcams(pictures: Path | None = None, *, folder: Path | None = None) -> list[Seen]:
     """All webcams, each opened for a moment.
 
     Parameters
@@ -54,6 +59,7 @@ def look_at_webcams(pictures: Path | None = None, *, folder: Path = FOLDER) -> l
     OutputError
         Where it cannot be written there.
     """
+    folder = FOLDER if folder is None else folder
     if pictures is not None:
         with output_errors(pictures):
             pictures.mkdir(parents=True, exist_ok=True)
@@ -63,8 +69,8 @@ def look_at_webcams(pictures: Path | None = None, *, folder: Path = FOLDER) -> l
 def _look(webcam: Webcam, pictures: Path | None, folder: Path) -> Seen:
     try:
         camera = WebcamSource(str(webcam.number), folder=folder)
-    except CameraError as error:
-        return Seen(number=webcam.number, name=webcam.name, fault=str(error))
+    except CameraError:
+        return Seen(number=webcam.number, name=webcam.name, fault=NO_PICTURE)
     try:
         pixels = None
         for _ in range(_SETTLING):
