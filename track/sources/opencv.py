@@ -22,7 +22,7 @@ def opened(place: str | int, backend: int) -> cv2.VideoCapture | None:
         One of OpenCV's ``CAP_``.
     """
     cv2.setLogLevel(0)
-    os.environ["OPENCV_FFMPEG_LOGLEVEL"] = "-8"  # AV_LOG_QUIET; read whenever something is opened
+    os.environ["OPENCV_FFMPEG_LOGLEVEL"] = "-8"  # AV_LOG_QUIET; asked for once, at the first opening
     waits = [cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, _WAIT_MS, cv2.CAP_PROP_READ_TIMEOUT_MSEC, _WAIT_MS]
     try:
         capture = cv2.VideoCapture(place, backend, waits if backend == cv2.CAP_FFMPEG else [])
