@@ -9,7 +9,6 @@ References
    value a target and keyframe), 4 the binary container. Targets' names stand in ``mesh.extras.targetNames``.
 """
 
-import base64
 from collections.abc import Set
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,11 +17,10 @@ from typing import Any
 import numpy as np
 
 from facegen.errors import FormatError
-from facegen.formats.gltf_container import BIN, MOST_BYTES, glb_bytes, open_glb, padded
+from facegen.formats.gltf_additions import Additions, records
+from facegen.formats.gltf_container import glb_bytes, open_glb
 from facegen.formats.gltf_expressions import read_expressions
 from facegen.formats.gltf_head import head_bone, listed, record
-
-_FLOAT = 5126
 
 _MOST_WEIGHT = 1e30
 """Of a target at rest: more is no number in float32, in which an animation has it."""
@@ -89,8 +87,8 @@ def animate_avatar(
         raise FormatError(f"no animation for {path}: rows with weights need times that start at 0 s and grow")
     columns = {_key(name): weights[known, column] for column, name in enumerate(names)}
     animation: dict[str, Any] = {"name": title, "channels": [], "samplers": []}
-    meshes, nodes = (_records(document, key, path) for key in ("meshes", "nodes"))
-    file = _Additions(document, path)
+    meshes, nodes = (records(document, key, path) for key in ("meshes", "nodes"))
+    file = Additions(document, path)
     clock = file.accessor(times, min=[float(times[0])], max=[float(times[-1])])
     faces = [_mesh_of(node, index, meshes, path) for index, node in enumerate(nodes)]
     movements, matched = _movements(document, faces, columns.keys(), path)
@@ -124,7 +122,7 @@ def animate_avatar(
         animation["samplers"].append(
             {"input": clock, "output": file.accessor(turns, kind="VEC4"), "interpolation": "LINEAR"}
         )
-    document["animations"] = [*_records(document, "animations", path), animation]
+    document["animations"] = [*records(document, "animations", path), animation]
     chunks = file.stored(chunks)
     return AnimatedAvatar(
         content=glb_bytes(document, chunks, path),
@@ -160,75 +158,6 @@ def _movements(
     return movements, matched | named
 
 
-class _Additions:
-    """Accessors more in a document, whose data wait for a buffer."""
-
-    def __init__(self, document: dict[str, Any], path: Path) -> None:
-        self._path = path
-        self._lists = {
-            key: list(_records(document, key, path)) for key in ("bufferViews", "accessors", "buffers")
-        }
-        document.update(self._lists)
-        self._views: list[dict[str, Any]] = []
-        self._data = bytearray()
-
-    def check_room(self, count: int) -> None:
-        """Refuse more float32 than a file takes, before they are made."""
-        if len(self._data) + 4 * count > MOST_BYTES:
-            raise FormatError(
-                f"an animation of {self._path} would take more than {MOST_BYTES:,} bytes; give the take in parts"
-            )
-
-    def accessor(self, values: np.ndarray, kind: str = "SCALAR", **bounds: list[float]) -> int:
-        """Index of a new accessor to scalars, or to rows of another kind."""
-        views, accessors = self._lists["bufferViews"], self._lists["accessors"]
-        view = {"byteOffset": len(self._data), "byteLength": values.nbytes}
-        self._views.append(view)
-        self._data += values.tobytes()
-        views.append(view)
-        accessors.append(
-            {
-                "bufferView": len(views) - 1,
-                "componentType": _FLOAT,
-                "count": values.size if kind == "SCALAR" else len(values),
-                "type": kind,
-            }
-            | bounds
-        )
-        return len(accessors) - 1
-
-    def stored(self, chunks: list[tuple[bytes, bytes]]) -> list[tuple[bytes, bytes]]:
-        """The file's chunks with the data behind its binary one, or in a buffer of their own without one."""
-        buffers = self._lists["buffers"]
-        start = 0
-        if chunks and chunks[0][0] == BIN and buffers and "uri" not in buffers[0]:
-            length = buffers[0].get("byteLength")
-            if not isinstance(length, int) or not 0 <= length <= len(chunks[0][1]):
-                raise FormatError(
-                    f"{self._path} is damaged: its buffer claims {length} of its {len(chunks[0][1])} bytes"
-                )
-            buffer, old = 0, padded(chunks[0][1][:length], b"\0")
-            start, data = len(old), old + bytes(self._data)
-            chunks = [(BIN, data), *chunks[1:]]
-            buffers[0]["byteLength"] = len(data)
-        else:
-            buffer = len(buffers)
-            uri = "data:application/octet-stream;base64," + base64.b64encode(self._data).decode()
-            buffers.append({"uri": uri, "byteLength": len(self._data)})
-        for view in self._views:
-            view["buffer"] = buffer
-            view["byteOffset"] += start
-        return chunks
-
-
-def _records(record: dict[str, Any], key: str, path: Path) -> list[dict[str, Any]]:
-    """A list of records under a key; none where it is absent or null."""
-    found = record.get(key) or []
-    if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
-        raise FormatError(f"{path} is damaged: its {key} are no list of records")
-    return found
-
-
 def _mesh_of(node: dict[str, Any], number: int, meshes: list[dict[str, Any]], path: Path) -> dict[str, Any]:
     """A node's mesh; an empty one where it has none."""
     index = node.get("mesh")
@@ -261,7 +190,7 @@ def _targets(mesh: dict[str, Any]) -> list[Any]:
 
 def _target_names(mesh: dict[str, Any], path: Path) -> list[str]:
     """Names of a mesh's morph targets; some exporters keep them with the first primitive."""
-    first = next(iter(_records(mesh, "primitives", path)), {})
+    first = next(iter(records(mesh, "primitives", path)), {})
     targets = first.get("targets")
     for place in (mesh, first):
         extras = place.get("extras")

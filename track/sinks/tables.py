@@ -5,6 +5,7 @@ Rows go to the disk as they come, so that an hour takes no more memory than a se
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from facegen.conventions import BLENDSHAPES
 from facegen.files import output_errors
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
+from regress.runtime.stages.retargeting.matrix import Retargeting
+from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.writers.csv_table import csv_lines
 from regress.runtime.writers.live_link import live_link_text
 from track.sinks.recording import Clock, Recording
@@ -64,11 +67,18 @@ class TableSink(Sink):
 
 def open_sink(target: Target, tell: Tell) -> Sink:
     """A table that is being written."""
-    return TableSink(target, _weights_csv if target.name == "csv" else _live_link_csv, tell)
+    if target.name == "livelink-csv":
+        return TableSink(target, _live_link_csv, tell)
+    names = target.options.get("names")
+    return TableSink(
+        target, partial(_weights_csv, to=None if names is None else read_retargeting(names)), tell
+    )
 
 
-def _weights_csv(sample: Sample) -> str:
-    return "".join(csv_lines([sample], BLENDSHAPES))
+def _weights_csv(sample: Sample, to: Retargeting | None) -> str:
+    if to is None:
+        return "".join(csv_lines([sample], BLENDSHAPES))
+    return "".join(csv_lines([replace(sample, weights=to.apply(sample.weights[None])[0])], to.names))
 
 
 def _live_link_csv(sample: Sample) -> str:

@@ -75,8 +75,22 @@ SINKS: dict[str, SinkKind] = {
         module="room",
         needs="LINK",
     ),
-    "csv": SinkKind(description="the table of `regress predict`", module="tables"),
+    "csv": SinkKind(
+        description="the table of `regress predict`; names: of a retargeting, or its file",
+        module="tables",
+        options={"names": ()},
+    ),
     "livelink-csv": SinkKind(description="a recording as the Live Link Face app keeps it", module="tables"),
+    "gltf": SinkKind(
+        description="an avatar (.glb, .vrm) that moves; names: of a retargeting, or its file",
+        module="animations",
+        options={"avatar": (), "names": ()},
+    ),
+    "vrma": SinkKind(
+        description="an animation for any VRM avatar",
+        module="animations",
+        options={"names": ("both", "vrm1", "perfect-sync")},
+    ),
 }
 
 

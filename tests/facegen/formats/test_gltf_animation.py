@@ -247,7 +247,7 @@ def test_many_nodes_of_one_mesh_do_not_make_gigabytes(
     path = avatar(tmp_path / "a.glb")
     document = _document(path.read_bytes())
     _rewritten(path, changed(document, "nodes", [{"mesh": 0}] * 1000))
-    monkeypatch.setattr("facegen.formats.gltf_animation.MOST_BYTES", 50_000)
+    monkeypatch.setattr("facegen.formats.gltf_additions.MOST_BYTES", 50_000)
     with pytest.raises(FormatError, match="more than 50,000 bytes; give the take in parts"):
         animate_avatar(path, BLENDSHAPES, weights, TIMES, title="take")
 

@@ -2,9 +2,6 @@
 
 import contextlib
 import copy
-import json
-import shutil
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -20,9 +17,7 @@ from facegen.formats.gltf_container import glb_bytes, open_glb
 from facegen.formats.gltf_expressions import Bind, Expression, read_expressions
 from tests.facegen.formats.test_gltf import VALUES, changed, places_of
 from tests.facegen.formats.test_gltf_animation import avatar
-
-ROOT = Path(__file__).resolve().parents[3]
-WEB = ROOT / "web"
+from tests.node_modules import answer_of
 
 VRM_1 = {
     "specVersion": "1.0",
@@ -224,8 +219,6 @@ console.log(JSON.stringify({ expressed, played }));
 
 @pytest.mark.parametrize("kind", EXTENSIONS)
 def test_three_vrm_shows_the_same_faces_by_expressions_and_by_the_animation(kind: str, tmp_path: Path):
-    if shutil.which("node") is None or not (WEB / "node_modules" / "@pixiv" / "three-vrm").is_dir():
-        pytest.skip("three-vrm is not there: npm ci in web/")
     path = vrm(tmp_path / "a.vrm", kind)
     document, chunks = open_glb(path)
     if kind == "VRM 0.x":
@@ -235,13 +228,8 @@ def test_three_vrm_shows_the_same_faces_by_expressions_and_by_the_animation(kind
     (tmp_path / "b.glb").write_bytes(made.content)
     # three-vrm gives the presets of 0.x the names of 1.0
     names = ["happy", "blinkLeft", "aa", "Surprised"] if kind == "VRM 0.x" else NAMES[kind]
-    given = [json.dumps(each) for each in (list(names), WEIGHTS.tolist(), (TIMES + 1e-9).tolist())]
-    run = subprocess.run(
-        ["node", "--input-type=module", "-e", THREE_VRM, tmp_path / "b.glb", *given],
-        **{"capture_output": True, "text": True, "timeout": 60, "check": False, "cwd": WEB},
-    )
-    assert run.returncode == 0, run.stderr
-    answer = json.loads(run.stdout)
+    given = (tmp_path / "b.glb", list(names), WEIGHTS.tolist(), (TIMES + 1e-9).tolist())
+    answer = answer_of(THREE_VRM, *given, packages=("three", "@pixiv/three-vrm"))
     for expressed, played in zip(answer["expressed"], answer["played"], strict=True):
         for one, other in zip(expressed, played, strict=True):
             np.testing.assert_allclose(one, other, atol=1e-6)
