@@ -70,7 +70,12 @@ gltf.scene.traverse((node) => nodes.push(node));
 console.log(JSON.stringify(times.map((time) => {
   mixer.setTime(time);
   return Object.fromEntries(nodes.map((node) => [
-    node.name, { weights: [...(node.morphTargetInfluences ?? [])], turn: node.quaternion.toArray(), place: node.position.toArray() },
+    node.name,
+    {
+      weights: [...(node.morphTargetInfluences ?? [])],
+      turn: node.quaternion.toArray(),
+      place: node.position.toArray(),
+    },
   ]));
 })));
 """
