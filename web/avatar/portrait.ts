@@ -18,17 +18,19 @@ import type { Avatar } from "./avatar.js";
 
 /** A portrait lens: 85 mm on 35 mm film sees 16 degrees in height; a little more leaves room for hair. */
 const FIELD_DEG = 20;
-/** Of what brows to chin take up, the picture's height. */
-const ROOM = 2.5;
+/** In heights of what the face's shapes move, brows to chin: below it to the shoulders, above it to the crown at most. */
+const [BELOW, ABOVE, MARGIN] = [0.4, 1.2, 0.12];
+/** Where a bust ends it has an edge; the picture ends above it. */
+const EDGE = 0.12;
 /** Nobody's eyes gain from more, and telephones claim up to 4. */
 const MOST_PIXEL_RATIO = 2;
 
 /** Key from the upper left, a cool fill from the right, a rim from behind: shapes show without hard shadows. */
 export function portraitLights(): Group {
   const lights = new Group();
-  lights.add(new HemisphereLight(0xffffff, 0x8d8478, 1.5));
+  lights.add(new HemisphereLight(0xffffff, 0xb3a79c, 1.7));
   for (const [colour, strength, x, y, z] of [
-    [0xfff1e0, 1.9, -1.2, 1.4, 2.2],
+    [0xfff1e0, 2.1, -1.2, 1.4, 2.2],
     [0xdfe9ff, 0.7, 2.0, 0.3, 1.4],
     [0xffffff, 1.3, 0.6, 1.8, -2.2],
   ] as const) {
@@ -44,16 +46,20 @@ export function frameOf(avatar: Avatar): { centre: Vector3; height: number } {
   avatar.root.updateMatrixWorld(true);
   const face = avatar.morphs.faceBox();
   const whole = new Box3().setFromObject(avatar.root);
+  if (face.isEmpty()) return frameOfBox(whole);
+  const { y } = face.getSize(new Vector3());
+  const bottom = Math.max(face.min.y - BELOW * y, whole.min.y + EDGE * y);
+  const top = Math.min(face.max.y + ABOVE * y, whole.max.y) + MARGIN * y;
+  return { centre: face.getCenter(new Vector3()).setY((top + bottom) / 2), height: top - bottom };
+}
+
+/** The upper quarter of a body, or the whole of what is no body. */
+function frameOfBox(whole: Box3): { centre: Vector3; height: number } {
   const size = whole.getSize(new Vector3());
-  if (!face.isEmpty()) {
-    const height = face.getSize(new Vector3()).y * ROOM;
-    const centre = face.getCenter(new Vector3());
-    return { centre, height: Math.min(height, Math.max(size.y * 1.15, height / 2)) };
-  }
-  // people are some seven and a half heads high; a bust is not
-  const bust = size.y < 2 * size.x;
-  const height = bust ? size.y * 1.15 : size.y / 4;
-  return { centre: whole.getCenter(new Vector3()).setY(bust ? whole.getCenter(new Vector3()).y : whole.max.y - size.y / 11), height };
+  const centre = whole.getCenter(new Vector3());
+  if (size.y < 2 * size.x) return { centre, height: size.y * 1.15 };
+  const height = size.y / 4;
+  return { centre: centre.setY(whole.max.y + height * 0.1 - height / 2), height };
 }
 
 export class Portrait {
