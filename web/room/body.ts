@@ -1,0 +1,184 @@
+/** A simple body under a head: chest, neck, and arms that make gestures; and a head made by code for who has no other. */
+
+import {
+  CapsuleGeometry,
+  CylinderGeometry,
+  Float32BufferAttribute,
+  Group,
+  LatheGeometry,
+  Mesh,
+  MeshStandardMaterial,
+  SphereGeometry,
+  Vector2,
+} from "three";
+
+/** Height of the eyes above the floor, standing and seated, in metres. */
+export const EYES_M = 1.6;
+export const SEATED_M = 1.18;
+
+/** Half profile of chest and neck from the eyes' height downwards: metres from the middle, metres below the eyes. */
+const PROFILE: readonly [number, number][] = [
+  [0.05, -0.13],
+  [0.055, -0.2],
+  [0.075, -0.235],
+  [0.15, -0.27],
+  [0.2, -0.33],
+  [0.205, -0.45],
+  [0.18, -0.65],
+  [0.17, -0.85],
+  [0.15, -0.98],
+  [0, -1.0],
+];
+const SHOULDER = { x: 0.215, y: -0.33 };
+const UPPER = 0.27;
+const LOWER = 0.25;
+
+/** Colours of clothes: told apart at the far side of a table, and none is a signal. */
+const CLOTHES = [0x2f6f73, 0x5b4a8a, 0x8a5a2f, 0x3f5f3a, 0x7a3b46, 0x33547d, 0x5c5c5c, 0x84703a];
+
+/** By animation's number: how upper and lower arm turn at a time in seconds, of the left arm (1) and the right one (-1). */
+type Pose = (seconds: number, side: 1 | -1) => { upper: [number, number, number]; lower: number };
+const HANGING: Pose = (seconds, side) => ({ upper: [0.03 * Math.sin(1.3 * seconds), 0, 0.09 * side], lower: -0.15 });
+const RIGHT_ALONE = (pose: Pose): Pose => (seconds, side) => (side === -1 ? pose : HANGING)(seconds, side);
+const POSES: Record<number, Pose> = {
+  1: RIGHT_ALONE((seconds) => ({ upper: [-0.5, 0, -2.2], lower: -0.9 + 0.45 * Math.sin(9 * seconds) })),
+  4: RIGHT_ALONE(() => ({ upper: [-1.45, 0.1, -0.1], lower: -0.05 })),
+  5: RIGHT_ALONE(() => ({ upper: [-2.9, 0, -0.15], lower: -0.1 })),
+  6: (seconds, side) => ({ upper: [-0.95, side * (0.35 + 0.12 * Math.sin(14 * seconds)), 0], lower: -0.9 }),
+};
+/** Of a step towards a new pose each second, as a rate: an arm is there in a third of a second. */
+const PACE = 9;
+
+class Arm {
+  readonly root = new Group();
+  private readonly elbow = new Group();
+
+  constructor(
+    private readonly side: 1 | -1,
+    cloth: MeshStandardMaterial,
+    skin: MeshStandardMaterial,
+  ) {
+    this.root.position.set(side * SHOULDER.x, SHOULDER.y, 0);
+    const upper = new Mesh(new CapsuleGeometry(0.048, UPPER - 0.05, 6, 12), cloth);
+    upper.position.y = -UPPER / 2;
+    const lower = new Mesh(new CapsuleGeometry(0.04, LOWER - 0.06, 6, 12), cloth);
+    lower.position.y = -LOWER / 2;
+    const hand = new Mesh(new SphereGeometry(0.05, 16, 12), skin);
+    hand.scale.set(0.7, 1.25, 0.9);
+    hand.position.y = -LOWER - 0.05;
+    this.elbow.position.y = -UPPER;
+    this.elbow.add(lower, hand);
+    this.root.add(upper, this.elbow);
+  }
+
+  update(animation: number, time: number, share: number): void {
+    const { upper, lower } = (POSES[animation] ?? HANGING)(time, this.side);
+    const { rotation } = this.root;
+    rotation.x += (upper[0] - rotation.x) * share;
+    rotation.y += (upper[1] - rotation.y) * share;
+    rotation.z += (upper[2] - rotation.z) * share;
+    this.elbow.rotation.x += (lower - this.elbow.rotation.x) * share;
+  }
+}
+
+export class Body {
+  /** Its origin lies between the eyes. */
+  readonly root = new Group();
+  private readonly arms: [Arm, Arm];
+  private time = 0;
+
+  constructor(number: number) {
+    const cloth = new MeshStandardMaterial({ color: CLOTHES[number % CLOTHES.length]!, roughness: 0.95 });
+    const skin = new MeshStandardMaterial({ color: 0xb98a6c, roughness: 0.7 });
+    const points = PROFILE.slice(2).map(([radius, y]) => new Vector2(radius, y)).reverse();
+    const chest = new Mesh(new LatheGeometry(points, 32), cloth);
+    chest.scale.z = 0.62;
+    chest.position.z = -0.085;
+    const neck = new Mesh(new CylinderGeometry(0.052, 0.062, 0.17, 24), skin);
+    neck.position.set(0, -0.18, -0.085);
+    this.arms = [new Arm(1, cloth, skin), new Arm(-1, cloth, skin)];
+    for (const { root } of this.arms) root.position.z = -0.085;
+    this.root.add(chest, neck, ...this.arms.map(({ root }) => root));
+    this.root.traverse((node) => void (node.castShadow = true));
+  }
+
+  update(animation: number, seconds: number): void {
+    this.time += seconds;
+    const share = 1 - Math.exp(-PACE * seconds);
+    for (const arm of this.arms) arm.update(animation, this.time, share);
+    this.root.scale.y = 1 + 0.002 * Math.sin(1.6 * this.time); // breath
+  }
+}
+
+/** How a gesture of the head adds to it: yaw and pitch in radians at a time in seconds. */
+export function headGesture(animation: number, time: number): { yaw: number; pitch: number } {
+  if (animation === 2) return { yaw: 0, pitch: -0.1 + 0.14 * Math.sin(9 * time) };
+  if (animation === 3) return { yaw: 0.22 * Math.sin(9 * time), pitch: 0 };
+  return { yaw: 0, pitch: 0 };
+}
+
+/** A head of spheres, in a head's frame, with the shapes that matter most: for rooms whose server has no avatars. */
+export function plainHead(): Group {
+  const skin = new MeshStandardMaterial({ color: 0xb98a6c, roughness: 0.7 });
+  const root = new Group();
+  const head = new Group();
+  head.name = "Head";
+  const skull = new SphereGeometry(0.105, 48, 36);
+  skull.scale(0.86, 1.22, 1.02);
+  skull.translate(0, -0.02, -0.075);
+  head.add(new Mesh(skull, skin));
+  for (const [name, x] of [
+    ["Left", 1],
+    ["Right", -1],
+  ] as const) {
+    const eye = new Group();
+    eye.name = `${name}Eye`;
+    eye.position.set(x * 0.033, 0, 0.005);
+    eye.add(new Mesh(new SphereGeometry(0.0145, 24, 16), new MeshStandardMaterial({ color: 0xf4f2ee, roughness: 0.3 })));
+    const iris = new Mesh(new SphereGeometry(0.0075, 16, 12), new MeshStandardMaterial({ color: 0x33251b, roughness: 0.3 }));
+    iris.position.z = 0.0095;
+    eye.add(iris);
+    head.add(eye);
+    const lid = new SphereGeometry(0.0158, 24, 8, 0, 2 * Math.PI, 0, Math.PI * 0.32);
+    head.add(shaped(lid, skin, x * 0.033, 0, 0.005, { [`eyeBlink${name}`]: (px, py, pz) => [px, py - 0.012, pz + 0.009] }));
+    const brow = new CapsuleGeometry(0.0035, 0.026, 4, 8).rotateZ(Math.PI / 2);
+    const raised: Move = (px, py, pz) => [px, py + 0.012, pz];
+    const lowered: Move = (px, py, pz) => [px, py - 0.008, pz];
+    const dark = new MeshStandardMaterial({ color: 0x3a2a20 });
+    head.add(
+      shaped(brow, dark, x * 0.033, 0.027, 0.014, { browInnerUp: raised, [`browOuterUp${name}`]: raised, [`browDown${name}`]: lowered }),
+    );
+  }
+  const nose = new Mesh(new SphereGeometry(0.014, 16, 12), skin);
+  nose.scale.set(0.8, 1.4, 1);
+  nose.position.set(0, -0.035, 0.03);
+  const mouth = new SphereGeometry(0.022, 32, 16).scale(1, 0.16, 0.3);
+  head.add(
+    nose,
+    shaped(mouth, new MeshStandardMaterial({ color: 0x5e2626, roughness: 0.6 }), 0, -0.072, 0.018, {
+      jawOpen: (px, py, pz) => [px * 0.85, py < 0 ? py * 7 : py * 2, pz],
+      mouthPucker: (px, py, pz) => [px * 0.5, py * 1.8, pz + 0.006],
+      mouthFunnel: (px, py, pz) => [px * 0.6, py * 2.5, pz + 0.004],
+      mouthSmileLeft: (px, py, pz) => (px > 0 ? [px * 1.25, py + 0.5 * px, pz] : [px, py, pz]),
+      mouthSmileRight: (px, py, pz) => (px < 0 ? [px * 1.25, py - 0.5 * px, pz] : [px, py, pz]),
+    }),
+  );
+  root.add(head);
+  return root;
+}
+
+type Move = (x: number, y: number, z: number) => [number, number, number];
+
+function shaped(geometry: SphereGeometry | CapsuleGeometry, material: MeshStandardMaterial, x: number, y: number, z: number, shapes: Record<string, Move>): Mesh {
+  const places = geometry.getAttribute("position");
+  geometry.morphAttributes.position = Object.entries(shapes).map(([name, move]) => {
+    const moved: number[] = [];
+    for (let i = 0; i < places.count; i++) moved.push(...move(places.getX(i), places.getY(i), places.getZ(i)));
+    const shape = new Float32BufferAttribute(moved, 3);
+    shape.name = name;
+    return shape;
+  });
+  const mesh = new Mesh(geometry, material);
+  mesh.position.set(x, y, z);
+  return mesh;
+}

@@ -1,0 +1,89 @@
+/** One's own face by the camera: pictures go to a worker of this page and nowhere else; weights, gaze and head come back. */
+
+import type { OwnFace } from "./own.js";
+import type { FromWorker, ToWorker } from "./face.worker.js";
+
+/** A face that was not found for this long is lost: the avatar goes over to what the voice tells. */
+const LOST_MS = 500;
+
+export class FaceCamera {
+  private readonly worker = new Worker("/static/face.worker.js", { type: "module" });
+  private readonly video = document.createElement("video");
+  private busy = true;
+  private found: OwnFace | undefined;
+  private foundAt = -Infinity;
+  /** What a person should know, for the page; empty while all is well. */
+  word = "loading the face detector (3 MB the first time) …";
+  detectMs = 0;
+
+  private constructor(private readonly stream: MediaStream) {
+    this.video.muted = true;
+    this.video.playsInline = true;
+    this.video.srcObject = stream;
+    this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.hear(data);
+    this.worker.onerror = ({ message }) => (this.word = `The face detector does not start (${message}); the voice moves your lips.`);
+    void this.video.play().then(() => this.feed());
+  }
+
+  static async ask(device?: string): Promise<FaceCamera> {
+    const size = { width: { ideal: 640 }, height: { ideal: 480 }, frameRate: { ideal: 30 } };
+    const video = { ...size, ...(device ? { deviceId: device } : { facingMode: "user" }) };
+    return new FaceCamera(await navigator.mediaDevices.getUserMedia({ video }));
+  }
+
+  /** The newest face; undefined while none is seen. */
+  face(now: number): OwnFace | undefined {
+    return now - this.foundAt < LOST_MS ? this.found : undefined;
+  }
+
+  /** The next face is how this person looks at rest. */
+  neutral(): void {
+    this.tell({ kind: "neutral" });
+  }
+
+  close(): void {
+    this.worker.terminate();
+    for (const track of this.stream.getTracks()) track.stop();
+  }
+
+  private feed(): void {
+    const next = (): void => {
+      this.video.requestVideoFrameCallback(() => void this.send().then(next));
+    };
+    next();
+  }
+
+  /** The newest picture, unless the worker still has one. */
+  private async send(): Promise<void> {
+    if (this.busy) return;
+    this.busy = true;
+    const picture = await createImageBitmap(this.video);
+    this.tell({ kind: "picture", picture, time: performance.now() }, [picture]);
+  }
+
+  private tell(message: ToWorker, moved: Transferable[] = []): void {
+    this.worker.postMessage(message, moved);
+  }
+
+  private hear(message: FromWorker): void {
+    this.busy = false;
+    switch (message.kind) {
+      case "ready":
+        this.word = "";
+        break;
+      case "failed":
+        this.word = `${message.text} The voice moves your lips instead.`;
+        this.busy = true;
+        break;
+      case "nobody":
+        this.word = performance.now() - this.foundAt < LOST_MS ? "" : "No face is seen by the camera.";
+        break;
+      case "face":
+        this.word = message.calibrated ? "" : "Look straight ahead, relaxed, and press “This is my neutral face”.";
+        this.found = { ...message, tracked: true };
+        this.foundAt = performance.now();
+        this.detectMs = message.ms;
+        break;
+    }
+  }
+}

@@ -1,0 +1,130 @@
+/** One person as others see them: avatar and body where they stand, a name, and a sign while they speak. */
+
+import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3 } from "three";
+
+import type { Avatar } from "../avatar/index.js";
+import { Body, EYES_M, headGesture, SEATED_M } from "./body.js";
+import { FLAG, type Message } from "./protocol.js";
+import type { Person } from "./texts.js";
+
+/** Above the eyes: clear of hair. */
+const NAME_M = 0.3;
+/** Taller than this from its lowest to its highest point, an avatar has a body of its own. */
+const WHOLE_M = 1.0;
+
+export class Figure {
+  /** On the floor, where the person stands. */
+  readonly root = new Group();
+  private readonly upper = new Group();
+  private readonly body: Body | undefined;
+  private readonly label = new Sprite(new SpriteMaterial({ transparent: true, depthWrite: false }));
+  private readonly sign: Mesh;
+  private readonly turn = new Quaternion();
+  private readonly angles = new Euler();
+  private time = 0;
+  private speaking = false;
+
+  constructor(
+    readonly avatar: Avatar,
+    number: number,
+    height: number,
+  ) {
+    const whole = height > WHOLE_M;
+    this.body = whole ? undefined : new Body(number);
+    this.upper.position.y = whole ? 0 : EYES_M;
+    this.upper.add(avatar.root);
+    if (this.body) this.upper.add(this.body.root);
+    avatar.root.traverse((node) => void (node.castShadow = true));
+    const top = (whole ? EYES_M : 0) + NAME_M;
+    this.label.position.y = top;
+    this.sign = new Mesh(new RingGeometry(0.022, 0.034, 32), new MeshBasicMaterial({ color: 0x2fbf6b, transparent: true }));
+    this.sign.position.y = top + 0.09;
+    this.sign.visible = false;
+    this.upper.add(this.label, this.sign);
+    this.root.add(this.upper);
+  }
+
+  /** Where the voice comes from. */
+  mouth(into: Vector3): Vector3 {
+    return this.root.localToWorld(into.set(0, EYES_M - 0.07, 0.05));
+  }
+
+  /** The name, and what others should know: away, muted, moved by a program or without a camera. */
+  call(person: Person, tracked: boolean): void {
+    const word = !person.present ? "away" : person.muted ? "muted" : person.face === "program" ? "face by a program" : tracked ? "" : "no camera";
+    const text = `${person.name}|${word}`;
+    if (this.label.userData["text"] === text) return;
+    this.label.userData["text"] = text;
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [512, 128];
+    const pen = canvas.getContext("2d")!;
+    pen.textAlign = "center";
+    pen.font = "600 44px system-ui, sans-serif";
+    const width = Math.min(500, Math.max(pen.measureText(person.name).width, 120) + 56);
+    pen.fillStyle = "rgba(22, 26, 30, 0.72)";
+    pen.beginPath();
+    pen.roundRect((512 - width) / 2, word ? 8 : 30, width, word ? 112 : 72, 24);
+    pen.fill();
+    pen.fillStyle = "#fff";
+    pen.fillText(person.name, 256, word ? 60 : 82, 460);
+    pen.font = "30px system-ui, sans-serif";
+    pen.fillStyle = "#c9d2d8";
+    if (word) pen.fillText(word, 256, 102, 460);
+    const { material } = this.label;
+    material.map?.dispose();
+    material.map = new CanvasTexture(canvas);
+    material.map.colorSpace = SRGBColorSpace;
+    material.needsUpdate = true;
+    this.label.scale.set(0.5, 0.125, 1);
+  }
+
+  /** The sign follows the newest message, not the delayed ones: a voice is heard at once. */
+  speak(speaking: boolean): void {
+    this.speaking = speaking;
+    this.sign.visible = speaking;
+  }
+
+  get signShown(): boolean {
+    return this.speaking;
+  }
+
+  /** Names are for others: one's own picture in the corner has none. */
+  nameless(): void {
+    this.label.removeFromParent();
+    this.sign.removeFromParent();
+  }
+
+  /** Show a state; `eye` is where it is seen from. */
+  show(message: Message, seconds: number, eye: Vector3): void {
+    this.time += seconds;
+    this.root.position.set(message.floor_m[0]!, 0, message.floor_m[1]!);
+    this.root.rotation.y = message.heading;
+    const seated = (message.flags & FLAG.seated) !== 0;
+    if (this.body) {
+      const height = (seated ? SEATED_M : EYES_M) + message.head_m[1]!;
+      this.upper.position.y += (height - this.upper.position.y) * (1 - Math.exp(-8 * seconds));
+      this.avatar.root.position.set(message.head_m[0]!, 0, message.head_m[2]!);
+    }
+    this.turn.set(message.rotation[0]!, message.rotation[1]!, message.rotation[2]!, message.rotation[3]!).normalize();
+    this.angles.setFromQuaternion(this.turn, "YXZ");
+    const gesture = headGesture(message.animation, this.time);
+    this.avatar.drive({
+      weights: message.weights,
+      gaze: [message.gaze[0]!, message.gaze[1]!, message.gaze[2]!, message.gaze[3]!],
+      head: [this.angles.y + gesture.yaw, -this.angles.x + gesture.pitch, -this.angles.z],
+    });
+    this.avatar.update(seconds);
+    this.body?.update(message.animation, seconds);
+    if (this.speaking) {
+      this.sign.lookAt(eye);
+      this.sign.scale.setScalar(1 + 0.15 * Math.sin(8 * this.time));
+    }
+  }
+
+  dispose(): void {
+    this.label.material.map?.dispose();
+    this.label.material.dispose();
+    this.sign.geometry.dispose();
+    this.root.removeFromParent();
+  }
+}
