@@ -4,7 +4,7 @@
 // of package-lock.json give the same bytes.
 
 import { mkdir, readFile, writeFile } from "node:fs/promises";
-import { dirname, join, relative } from "node:path";
+import { basename, dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 
@@ -17,6 +17,12 @@ const ROOT = values.out ?? dirname(HERE);
 /** By folder of the repository: what is bundled for it. */
 const PAGES = {
   "track/page/static": ["track/page.ts", "track/page.css", "track/index.html"],
+  "room/server/static": ["room/room.ts", "room/face.worker.ts", "room/frames.worklet.js", "room/room.css", "room/room.html"],
+};
+
+/** By folder: files of packages that are served as they are. */
+const COPIES = {
+  "room/server/static": ["@echogarden/fvad-wasm/fvad.wasm"],
 };
 
 /** Licences of the packages that a bundle holds, each whole, in the order of their names. */
@@ -28,7 +34,12 @@ async function licences(inputs) {
   }
   const texts = [...packages].sort().map(async (folder) => {
     const { name, version, license } = JSON.parse(await readFile(join(HERE, folder, "package.json"), "utf8"));
-    const text = await readFile(join(HERE, folder, "LICENSE"), "utf8");
+    // MediaPipe's package names its licence and has no copy of it; it is our own
+    const own = license === "Apache-2.0" ? join(dirname(HERE), "LICENSE") : undefined;
+    const text = await readFile(join(HERE, folder, "LICENSE"), "utf8").catch((error) => {
+      if (own) return readFile(own, "utf8");
+      throw error;
+    });
     return `${name} ${version} (${license})\n\n${text.trim()}\n`;
   });
   return (await Promise.all(texts)).join(`\n${"-".repeat(80)}\n\n`);
@@ -46,11 +57,15 @@ for (const [folder, sources] of Object.entries(PAGES)) {
     target: ["chrome120", "firefox121", "safari17.5"],
     legalComments: "none", // LICENSES.txt has them whole
     loader: { ".html": "copy" },
+    external: ["module"], // of Node, which a WebAssembly loader asks for there alone
     metafile: true,
     write: false,
     logLevel: "warning",
   });
   const files = outputFiles.map(({ path, contents }) => [path, contents]);
+  for (const copied of COPIES[folder] ?? []) {
+    files.push([join(ROOT, folder, basename(copied)), await readFile(join(HERE, "node_modules", copied))]);
+  }
   files.push([join(ROOT, folder, "LICENSES.txt"), await licences(Object.keys(metafile.inputs))]);
   for (const [path, contents] of files) {
     await mkdir(dirname(path), { recursive: true });

@@ -70,6 +70,7 @@ class Rooms:
         """Everything that is answered, and the ticks behind it."""
         application = web.Application(client_max_size=MOST_TEXT_BYTES)
         application.router.add_get("/", self._door)
+        application.router.add_get("/avatars.json", self._avatars)
         application.router.add_get("/health", self._health)
         application.router.add_get("/metrics", self._count)
         application.router.add_get("/room/{name}", self._page)
@@ -83,6 +84,9 @@ class Rooms:
 
     async def _door(self, request: web.Request) -> web.Response:
         return web.Response(text="a room has a link of its own; ask whoever holds the meeting\n")
+
+    async def _avatars(self, request: web.Request) -> web.Response:
+        return web.json_response(sorted(path.stem for path in (STATIC / "avatars").glob("*.glb")))
 
     async def _health(self, request: web.Request) -> web.Response:
         return web.Response(text="well\n")

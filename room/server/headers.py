@@ -10,8 +10,8 @@ HEADERS = {
             "default-src 'none'",
             "script-src 'self' 'wasm-unsafe-eval'",  # the face detector is WebAssembly; no eval of texts
             "worker-src 'self'",
-            "connect-src 'self'",  # its own WebSocket and files, nobody else's
-            "img-src 'self' blob: data:",  # textures of avatars are unpacked into blobs
+            "connect-src 'self' blob:",  # its own WebSocket and files, and textures of avatars that were unpacked
+            "img-src 'self' blob: data:",
             "media-src 'self' blob: mediastream:",
             "style-src 'self'",
             "base-uri 'none'",

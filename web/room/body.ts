@@ -18,18 +18,19 @@ export const SEATED_M = 1.18;
 
 /** Half profile of chest and neck from the eyes' height downwards: metres from the middle, metres below the eyes. */
 const PROFILE: readonly [number, number][] = [
-  [0.05, -0.13],
-  [0.055, -0.2],
-  [0.075, -0.235],
-  [0.15, -0.27],
-  [0.2, -0.33],
-  [0.205, -0.45],
-  [0.18, -0.65],
-  [0.17, -0.85],
-  [0.15, -0.98],
-  [0, -1.0],
+  [0.058, -0.14],
+  [0.085, -0.155],
+  [0.14, -0.18],
+  [0.185, -0.215],
+  [0.203, -0.27],
+  [0.2, -0.4],
+  [0.178, -0.58],
+  [0.168, -0.75],
+  [0.178, -0.88],
+  [0.172, -0.95],
+  [0, -0.97],
 ];
-const SHOULDER = { x: 0.215, y: -0.33 };
+const SHOULDER = { x: 0.205, y: -0.25 };
 const UPPER = 0.27;
 const LOWER = 0.25;
 
@@ -90,12 +91,12 @@ export class Body {
   constructor(number: number) {
     const cloth = new MeshStandardMaterial({ color: CLOTHES[number % CLOTHES.length]!, roughness: 0.95 });
     const skin = new MeshStandardMaterial({ color: 0xb98a6c, roughness: 0.7 });
-    const points = PROFILE.slice(2).map(([radius, y]) => new Vector2(radius, y)).reverse();
+    const points = PROFILE.map(([radius, y]) => new Vector2(radius, y)).reverse();
     const chest = new Mesh(new LatheGeometry(points, 32), cloth);
     chest.scale.z = 0.62;
     chest.position.z = -0.085;
-    const neck = new Mesh(new CylinderGeometry(0.052, 0.062, 0.17, 24), skin);
-    neck.position.set(0, -0.18, -0.085);
+    const neck = new Mesh(new CylinderGeometry(0.05, 0.058, 0.12, 24), skin);
+    neck.position.set(0, -0.12, -0.088);
     this.arms = [new Arm(1, cloth, skin), new Arm(-1, cloth, skin)];
     for (const { root } of this.arms) root.position.z = -0.085;
     this.root.add(chest, neck, ...this.arms.map(({ root }) => root));

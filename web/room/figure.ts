@@ -75,7 +75,6 @@ export class Figure {
     material.map = new CanvasTexture(canvas);
     material.map.colorSpace = SRGBColorSpace;
     material.needsUpdate = true;
-    this.label.scale.set(0.5, 0.125, 1);
   }
 
   /** The sign follows the newest message, not the delayed ones: a voice is heard at once. */
@@ -115,9 +114,13 @@ export class Figure {
     });
     this.avatar.update(seconds);
     this.body?.update(message.animation, seconds);
+    // names are read across the room as well: from two metres on they keep their size in the picture
+    const far = Math.max(1, eye.distanceTo(this.root.position) / 2);
+    this.label.scale.set(0.4 * far, 0.1 * far, 1);
+    this.sign.position.y = this.label.position.y + 0.085 * far;
     if (this.speaking) {
       this.sign.lookAt(eye);
-      this.sign.scale.setScalar(1 + 0.15 * Math.sin(8 * this.time));
+      this.sign.scale.setScalar(far * (1.1 + 0.15 * Math.sin(8 * this.time)));
     }
   }
 

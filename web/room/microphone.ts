@@ -14,7 +14,6 @@ const HERTZ = 48000;
 export class Microphone {
   /** Of the last 20 ms, 0 to 1 (0 dB). */
   level = 0;
-  /** Energy below and above 1 kHz, for lips without a camera. */
   speaking = false;
   private readonly recent: boolean[] = [];
   private lastVoiced = -Infinity;
@@ -25,13 +24,12 @@ export class Microphone {
     private readonly context: AudioContext,
     node: AudioWorkletNode,
     private readonly isVoice: (frame: Int16Array) => boolean,
-    private readonly changed: (speaking: boolean) => void,
   ) {
     node.port.onmessage = ({ data }: MessageEvent<Int16Array>) => this.hear(data);
   }
 
   /** Ask for a microphone; throws what the browser says where there is none, or the person refuses. */
-  static async ask(device: string | undefined, changed: (speaking: boolean) => void): Promise<Microphone> {
+  static async ask(device: string | undefined): Promise<Microphone> {
     const stream = await navigator.mediaDevices.getUserMedia({
       audio: { echoCancellation: true, noiseSuppression: true, autoGainControl: true, ...(device ? { deviceId: device } : {}) },
     });
@@ -39,7 +37,7 @@ export class Microphone {
     await context.audioWorklet.addModule("/static/frames.worklet.js");
     const node = new AudioWorkletNode(context, "frames", { numberOfOutputs: 0 });
     context.createMediaStreamSource(stream).connect(node);
-    return new Microphone(stream, context, node, await detector(), changed);
+    return new Microphone(stream, context, node, await detector());
   }
 
   get isOpen(): boolean {
@@ -49,7 +47,7 @@ export class Microphone {
   set isOpen(open: boolean) {
     this.open = open;
     for (const track of this.stream.getAudioTracks()) track.enabled = open;
-    if (!open) this.set(false);
+    if (!open) this.speaking = false;
   }
 
   resume(): Promise<void> {
@@ -69,13 +67,7 @@ export class Microphone {
     if (this.recent.length > FRAMES) this.recent.shift();
     const now = performance.now();
     if (this.recent.filter(Boolean).length >= VOICED) this.lastVoiced = now;
-    this.set(now - this.lastVoiced < HANG_MS);
-  }
-
-  private set(speaking: boolean): void {
-    if (speaking === this.speaking) return;
-    this.speaking = speaking;
-    this.changed(speaking);
+    this.speaking = now - this.lastVoiced < HANG_MS;
   }
 }
 

@@ -47,10 +47,10 @@ export function makePlace(): Group {
   }
   const rug = add(new Mesh(new CylinderGeometry(2.5, 2.5, 0.012, 64), plain(0x4f5d66, 1)), 0, 0.006, 0);
   rug.receiveShadow = true;
-  const ceiling = add(new Mesh(new PlaneGeometry(WIDTH, DEPTH), plain(0xf3f0ea)), 0, HEIGHT, 0);
+  const ceiling = add(new Mesh(new PlaneGeometry(WIDTH, DEPTH), new MeshBasicMaterial({ color: 0xd8d3ca })), 0, HEIGHT, 0);
   ceiling.rotation.x = Math.PI / 2;
 
-  const wall = plain(0xd9d4c9);
+  const wall = plain(0xe9e4da);
   const skirting = plain(0xf2efe8);
   for (const [x, z, turn, length] of [
     [0, -DEPTH / 2, 0, WIDTH],
@@ -72,8 +72,8 @@ export function makePlace(): Group {
   const foot = add(new Mesh(new CylinderGeometry(0.07, 0.3, TABLE_HEIGHT, 32), plain(0x3a3f44, 0.5)), 0, TABLE_HEIGHT / 2, 0);
   for (const mesh of [top, foot]) mesh.castShadow = true;
 
-  place.add(new AmbientLight(0xffffff, 0.25));
-  place.add(new HemisphereLight(0xfdf6ea, 0x8a7660, 1.6));
+  place.add(new AmbientLight(0xffffff, 0.35));
+  place.add(new HemisphereLight(0xfdf6ea, 0xb0a08a, 2.1));
   const sun = new DirectionalLight(0xfff0dc, 1.5);
   sun.position.set(1.8, 2.8, 2.4);
   sun.castShadow = true;

@@ -1,0 +1,1 @@
+var e=class extends AudioWorkletProcessor{frame=new Int16Array(960);filled=0;process([[s]]){for(let r of s??[])this.frame[this.filled++]=Math.max(-1,Math.min(1,r))*32767,this.filled===960&&(this.port.postMessage(this.frame,[this.frame.buffer]),this.frame=new Int16Array(960),this.filled=0);return!0}};registerProcessor("frames",e);

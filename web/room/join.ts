@@ -1,0 +1,95 @@
+/** The page before the room: name, avatar, microphone with its level, camera; and the link that it all comes from. */
+
+import { Microphone } from "./microphone.js";
+
+/** What is behind a link: the room's name, and the key that the server never sees in an address. */
+export interface Link {
+  readonly room: string;
+  readonly key: string;
+}
+
+export interface Choice {
+  readonly name: string;
+  readonly avatar: string;
+  readonly microphone: Microphone | undefined;
+  readonly camera: boolean;
+}
+
+/** -60 dB is silence on the meter, 0 dB its end. */
+const SILENT_DB = -60;
+
+export function readLink(): Link | undefined {
+  const room = /^\/room\/([a-z0-9][a-z0-9-]{0,39})$/.exec(location.pathname)?.[1];
+  const key = /^#([A-Za-z0-9_-]{22})$/.exec(location.hash)?.[1];
+  return room && key ? { room, key } : undefined;
+}
+
+/** This person's secret in this room: one for each tab, so that two tabs are two people, and the same after a reload. */
+export function secretOf({ room }: Link): string {
+  const place = `secret of ${room}`;
+  let secret = sessionStorage.getItem(place);
+  if (!secret) {
+    secret = btoa(String.fromCharCode(...crypto.getRandomValues(new Uint8Array(18)))).replaceAll("+", "-").replaceAll("/", "_");
+    sessionStorage.setItem(place, secret);
+  }
+  return secret;
+}
+
+/** Ask until the person presses "Come in". */
+export async function ask(avatars: string[]): Promise<Choice> {
+  const form = document.querySelector<HTMLFormElement>("#join")!;
+  const field = <T extends HTMLElement>(name: string): T => form.elements.namedItem(name) as T;
+  const [name, avatar, voice] = [field<HTMLInputElement>("name"), field<HTMLSelectElement>("avatar"), field<HTMLInputElement>("voice")];
+  const [devices, camera] = [field<HTMLSelectElement>("microphone"), field<HTMLInputElement>("camera")];
+  const word = document.querySelector<HTMLElement>("#word")!;
+  const level = document.querySelector<HTMLMeterElement>("#level")!;
+  avatar.replaceChildren(...avatars.map((each) => new Option(each)));
+  name.value = localStorage.getItem("name") ?? "";
+  let microphone: Microphone | undefined;
+
+  const listen = async (): Promise<void> => {
+    microphone?.close();
+    microphone = undefined;
+    word.textContent = "";
+    if (!voice.checked) return;
+    try {
+      microphone = await Microphone.ask(devices.value || undefined);
+      const found = (await navigator.mediaDevices.enumerateDevices()).filter(({ kind }) => kind === "audioinput");
+      const chosen = devices.value;
+      devices.replaceChildren(...found.map(({ label, deviceId }) => new Option(label || "microphone", deviceId)));
+      if (chosen) devices.value = chosen;
+    } catch (error) {
+      voice.checked = false;
+      word.textContent = sentence(error);
+    }
+  };
+  voice.addEventListener("change", () => void listen());
+  devices.addEventListener("change", () => void listen());
+  const shown = setInterval(() => {
+    const db = 20 * Math.log10(Math.max(microphone?.level ?? 0, 1e-6));
+    level.value = Math.max(0, 1 - db / SILENT_DB);
+  }, 50);
+  const submitted = new Promise<void>((resolve) => {
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (name.value.trim()) resolve();
+    });
+  });
+  const listening = listen();
+  await submitted;
+  await listening; // the question for the microphone is answered first
+  clearInterval(shown);
+  localStorage.setItem("name", name.value.trim());
+  form.hidden = true;
+  await microphone?.resume();
+  return { name: name.value.trim(), avatar: avatar.value, microphone, camera: camera.checked };
+}
+
+/** What a browser's refusal of a device means. */
+export function sentence(error: unknown): string {
+  const name = error instanceof DOMException ? error.name : "";
+  if (!isSecureContext) return "Browsers give devices to https pages alone; you can still listen and write.";
+  if (name === "NotAllowedError") return "The browser was told not to give the device; allow it beside the address, then tick again.";
+  if (name === "NotFoundError") return "No such device was found; you can still listen and write.";
+  return `The device cannot be used (${error instanceof Error ? error.message : error}).`;
+}

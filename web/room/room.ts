@@ -1,0 +1,344 @@
+/** The page of a room: asks who comes, then ties the line, the people, their voices and the picture together. */
+
+import { Quaternion, Vector3 } from "three";
+
+import { rotation } from "../avatar/index.js";
+import { Wardrobe } from "./avatars.js";
+import { EYES_M, SEATED_M } from "./body.js";
+import { FaceCamera } from "./face.js";
+import { Figure } from "./figure.js";
+import { ask, readLink, secretOf, sentence } from "./join.js";
+import { Line } from "./line.js";
+import { Idle, type OwnFace } from "./own.js";
+import { firstPlace } from "./place.js";
+import { Playback } from "./playback.js";
+import { ANIMATIONS, FLAG, type Message } from "./protocol.js";
+import { Sidebar } from "./sidebar.js";
+import type { Answer, Person, Welcome } from "./texts.js";
+import { View } from "./view.js";
+import { Voice } from "./voice.js";
+import { Walk } from "./walk.js";
+
+const HERTZ = 30;
+/** A gesture lasts so long; a raised hand and pointing stay until they are ended. */
+const GESTURE_S = 2.2;
+const STAYS = new Set(["point", "raise hand"]);
+
+const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
+
+/** Somebody else, or oneself, as this page knows them. */
+interface Known {
+  person: Person;
+  readonly playback: Playback;
+  figure: Figure | undefined;
+  wears: string;
+  newest: Message | undefined;
+}
+
+class Meeting {
+  readonly voice: Voice;
+  readonly known = new Map<number, Known>();
+  own: Welcome | undefined;
+  /** The newest state that was sent. */
+  sent: Message | undefined;
+  /** Whether pictures are drawn; tests without a graphics card leave the processor to the rest. */
+  drawing = true;
+  private readonly view = new View(find("view"), find("mirror"));
+  private readonly walk = new Walk(find("view"));
+  private readonly wardrobe = new Wardrobe();
+  private readonly idle = new Idle();
+  private readonly sidebar: Sidebar;
+  private readonly line: Line;
+  private camera: FaceCamera | undefined;
+  private placed = false;
+  private seated = false;
+  private animation = 0;
+  private animationEnds = Infinity;
+  private drawn = performance.now();
+  private moved = performance.now();
+  private locked = false;
+  private standing = EYES_M;
+
+  constructor(
+    address: string,
+    join: ConstructorParameters<typeof Line>[1],
+    private readonly microphone: Awaited<ReturnType<typeof ask>>["microphone"],
+    private readonly faceLink: string,
+  ) {
+    this.voice = new Voice((signal) => this.line.say(signal));
+    this.voice.speakInto(microphone?.stream);
+    this.sidebar = new Sidebar(
+      this.voice,
+      (action, number) => this.line.say({ kind: "moderate", action, number }),
+      (text) => this.line.say({ kind: "chat", text }),
+    );
+    this.line = new Line(address, join, {
+      welcome: (welcome) => this.welcome(welcome),
+      answer: (answer) => this.hear(answer),
+      state: (number, message) => this.see(number, message),
+      broken: () => this.tell("The connection broke; coming back …"),
+      ended: (text) => this.end(text),
+    });
+    this.controls();
+    find("meeting").hidden = false;
+    find("view").hidden = false;
+    find("mirror").hidden = false;
+    requestAnimationFrame(() => this.draw());
+    // a timer, not the picture: a hidden tab still speaks and stands somewhere, if more slowly
+    setInterval(() => this.move(), 1000 / HERTZ);
+  }
+
+  async watch(): Promise<void> {
+    try {
+      this.camera = await FaceCamera.ask();
+      find("neutral").hidden = false;
+    } catch (error) {
+      this.tell(`No camera: ${sentence(error)}`);
+    }
+  }
+
+  private welcome(welcome: Welcome): void {
+    this.own = welcome;
+    this.voice.configure(welcome.ice);
+    for (const known of this.known.values()) known.figure?.dispose();
+    this.known.clear();
+    for (const person of welcome.people) this.meet(person);
+    if (!this.placed) {
+      Object.assign(this.walk, firstPlace(welcome.number));
+      this.placed = true;
+    }
+    this.locked = welcome.locked;
+    this.tell("");
+    this.line.say({ kind: "voice", open: this.microphone?.isOpen ?? false });
+    this.show();
+  }
+
+  private hear(answer: Answer): void {
+    switch (answer.kind) {
+      case "person":
+        this.meet(answer.person);
+        break;
+      case "left":
+        this.known.get(answer.number)?.figure?.dispose();
+        this.known.delete(answer.number);
+        break;
+      case "line":
+        this.sidebar.line(answer.name, answer.text, answer.time_s);
+        return;
+      case "door":
+        this.locked = answer.locked;
+        this.tell(answer.locked ? "A moderator has locked the room: nobody new comes in." : "The room is open.");
+        break;
+      case "signal": {
+        const sender = this.known.get(answer.sender);
+        if (sender) void this.voice.hear(sender.person.id, answer.signal);
+        return;
+      }
+      case "notice":
+      case "refused":
+        this.tell(answer.text);
+        return;
+      default:
+        return;
+    }
+    this.show();
+  }
+
+  private meet(person: Person): void {
+    const known = this.known.get(person.number) ?? {
+      person,
+      playback: new Playback(),
+      figure: undefined,
+      wears: "",
+      newest: undefined,
+    };
+    known.person = person;
+    this.known.set(person.number, known);
+    if (known.wears === person.avatar) return;
+    known.wears = person.avatar;
+    this.dress(known, this.wardrobe.plain());
+    void this.wardrobe.another(person.avatar).then((dressed) => {
+      if (dressed && this.known.get(person.number) === known && known.wears === person.avatar) this.dress(known, dressed);
+    });
+  }
+
+  private dress(known: Known, { avatar, height }: { avatar: Figure["avatar"]; height: number }): void {
+    known.figure?.dispose();
+    known.figure = new Figure(avatar, known.person.number, height);
+    known.figure.root.visible = false; // until it is known where they stand
+    this.view.scene.add(known.figure.root);
+    if (known.person.number === this.own?.number) {
+      known.figure.nameless();
+      this.view.hide(known.figure.root);
+    }
+  }
+
+  private see(number: number, message: Message): void {
+    const known = this.known.get(number);
+    if (!known) return;
+    known.newest = message;
+    known.playback.push(message, performance.now());
+    if (number === this.own?.number && !this.sent) {
+      // the page was loaded anew: one stands where one stood
+      [this.walk.x, this.walk.z, this.walk.heading] = [message.floor_m[0]!, message.floor_m[1]!, message.heading];
+    }
+    const speaking = (message.flags & FLAG.speaking) !== 0;
+    known.figure?.speak(speaking);
+    this.sidebar.speak(number, speaking);
+  }
+
+  /** Thirty times a second: say how one looks and where one stands. */
+  private move(): void {
+    if (!this.own) return;
+    const now = performance.now();
+    const seconds = Math.min(0.2, (now - this.moved) / 1000);
+    this.moved = now;
+    this.walk.update(this.seated ? 0 : seconds);
+    if (now / 1000 > this.animationEnds) this.gesture(0);
+    const speaking = this.microphone?.speaking ?? false;
+    const idle = this.idle.update(seconds, speaking ? this.microphone!.level : 0);
+    const message = this.state(this.camera?.face(now) ?? idle, speaking);
+    this.sent = { ...message, sequence: 0, time_ms: 0, weights: Float64Array.from(message.weights) };
+    this.line.move(message);
+    if (this.camera?.word) this.tell(this.camera.word);
+    else if (this.camera) this.tell("");
+  }
+
+  private state(face: OwnFace, speaking: boolean): Omit<Message, "sequence" | "time_ms"> {
+    const [yaw, pitch, roll] = face.head;
+    const turn: Quaternion = rotation(yaw, pitch + this.walk.pitch, roll);
+    return {
+      flags: (speaking ? FLAG.speaking : 0) | (face.tracked ? FLAG.tracked : 0) | (this.seated ? FLAG.seated : 0),
+      weights: face.weights,
+      head_m: face.head_m,
+      rotation: turn.toArray(),
+      gaze: face.gaze,
+      floor_m: [this.walk.x, this.walk.z],
+      heading: this.walk.heading,
+      animation: this.animation,
+    };
+  }
+
+  private draw(): void {
+    requestAnimationFrame(() => this.draw());
+    const now = performance.now();
+    const seconds = Math.min(0.1, (now - this.drawn) / 1000);
+    this.drawn = now;
+    this.standing += ((this.seated ? SEATED_M : EYES_M) - this.standing) * (1 - Math.exp(-8 * seconds));
+    this.view.look(this.walk.x, this.walk.z, this.standing, this.walk.heading, this.walk.pitch);
+    const mouth = new Vector3();
+    for (const [number, { person, playback, figure }] of this.known) {
+      const shown = playback.at(now);
+      if (!figure || !shown) continue;
+      figure.root.visible = true;
+      const self = number === this.own?.number;
+      // one's own picture shows what was sent: a mirror that lags is worse than none
+      figure.show(self && this.sent ? this.sent : shown, seconds, this.view.eye);
+      if (self) continue;
+      figure.call(person, (shown.flags & FLAG.tracked) !== 0);
+      this.voice.place(person.id, figure.mouth(mouth));
+    }
+    const { forward, up } = this.view.ears();
+    this.voice.listen(this.view.eye, forward, up);
+    if (this.drawing) this.view.draw();
+  }
+
+  private show(): void {
+    if (!this.own) return;
+    const people = [...this.known.values()].map(({ person }) => person);
+    this.sidebar.list(people, this.own.number, this.own.moderator);
+    this.voice.meet(people, this.own.id);
+    const lock = find<HTMLButtonElement>("lock");
+    lock.hidden = !this.own.moderator;
+    lock.textContent = this.locked ? "Unlock the room" : "Lock the room";
+  }
+
+  private controls(): void {
+    const mute = find<HTMLButtonElement>("mute");
+    const muted = (): void => {
+      mute.textContent = this.microphone ? (this.microphone.isOpen ? "Mute me" : "Unmute me") : "No microphone";
+      mute.disabled = !this.microphone;
+      mute.setAttribute("aria-pressed", String(this.microphone ? !this.microphone.isOpen : false));
+    };
+    muted();
+    mute.addEventListener("click", () => {
+      this.microphone!.isOpen = !this.microphone!.isOpen;
+      this.line.say({ kind: "voice", open: this.microphone!.isOpen });
+      muted();
+    });
+    find("neutral").addEventListener("click", () => this.camera?.neutral());
+    const seat = find("seat");
+    seat.addEventListener("click", () => {
+      this.seated = !this.seated;
+      seat.textContent = this.seated ? "Stand up" : "Sit";
+    });
+    const gesture = find<HTMLSelectElement>("gesture");
+    gesture.replaceChildren(
+      ...ANIMATIONS.map((name, number) => new Option(number ? `${number} ${name}` : "Gesture …", String(number))),
+    );
+    gesture.addEventListener("change", () => {
+      this.gesture(Number(gesture.value));
+      gesture.blur();
+    });
+    addEventListener("keydown", ({ key, target, ctrlKey, metaKey, altKey }) => {
+      const typing = target instanceof HTMLElement && target.closest("input, textarea, select");
+      const number = Number(key);
+      if (!typing && !ctrlKey && !metaKey && !altKey && Number.isInteger(number) && number >= 0 && number < ANIMATIONS.length && key.trim()) {
+        this.gesture(this.animation === number ? 0 : number);
+      }
+    });
+    find("program").addEventListener("click", () => {
+      const command = `track --to 'room:${this.faceLink}'`;
+      void navigator.clipboard?.writeText(command).catch(() => undefined);
+      prompt("Copied. Run this on the machine with the camera or headset; whoever has this link moves your face:", command);
+    });
+    find("lock").addEventListener("click", () => this.line.say({ kind: "moderate", action: this.locked ? "unlock" : "lock" }));
+    find("leave").addEventListener("click", () => {
+      this.line.leave();
+      this.end("You have left. Load the page again to come back.");
+    });
+  }
+
+  private gesture(number: number): void {
+    this.animation = number;
+    this.animationEnds = number && !STAYS.has(ANIMATIONS[number]!) ? performance.now() / 1000 + GESTURE_S : Infinity;
+    find<HTMLSelectElement>("gesture").value = String(number);
+  }
+
+  private tell(text: string): void {
+    find("state").textContent = text;
+  }
+
+  private end(text: string): void {
+    this.voice.close();
+    this.microphone?.close();
+    this.camera?.close();
+    this.own = undefined;
+    for (const known of this.known.values()) known.figure?.dispose();
+    this.known.clear();
+    find("mirror").hidden = true;
+    this.tell(text);
+  }
+}
+
+async function main(): Promise<void> {
+  const link = readLink();
+  if (!link) {
+    find("word").textContent = "This link is not whole: it ends with # and 22 characters. Ask for it again.";
+    find("join").querySelector("button")!.disabled = true;
+    return;
+  }
+  const choice = await ask(await Wardrobe.names());
+  const secret = secretOf(link);
+  const { protocol, host, origin } = location;
+  const meeting = new Meeting(
+    `${protocol === "https:" ? "wss" : "ws"}://${host}/room/${link.room}/socket`,
+    { kind: "join", version: 1, key: link.key, secret, name: choice.name, avatar: choice.avatar, role: "page" },
+    choice.microphone,
+    `${origin}/room/${link.room}#${link.key}.${secret}`,
+  );
+  if (choice.camera) await meeting.watch();
+  Object.assign(globalThis, { meeting }); // for tests, and for who looks into the page
+}
+
+void main();

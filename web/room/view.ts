@@ -1,0 +1,100 @@
+/** Draws the room as one person sees it, and that person in a small mirror. */
+
+import { PCFSoftShadowMap, PerspectiveCamera, Quaternion, Scene, SRGBColorSpace, Vector3, WebGLRenderer, NeutralToneMapping, type Object3D } from "three";
+
+import { EYES_M } from "./body.js";
+import { BACKGROUND, makePlace } from "./place.js";
+
+const FIELD_DEG = 50;
+const MOST_PIXEL_RATIO = 2;
+/** The own body is on this layer, which the own eyes do not see. */
+const SELF = 1;
+/** The mirror hangs so far before the face, in metres. */
+const MIRROR_M = 0.62;
+
+export class View {
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera(FIELD_DEG, 1, 0.05, 40);
+  readonly eye = new Vector3();
+  private readonly mirror = new PerspectiveCamera(32, 150 / 170, 0.05, 20);
+  private readonly renderer: WebGLRenderer;
+  private readonly small: CanvasRenderingContext2D;
+
+  /** Throws where the browser gives no WebGL. */
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly glass: HTMLCanvasElement,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
+    this.renderer.outputColorSpace = SRGBColorSpace;
+    this.renderer.toneMapping = NeutralToneMapping;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFSoftShadowMap;
+    this.scene.background = BACKGROUND;
+    const place = makePlace();
+    place.traverse((node) => node.layers.enable(SELF));
+    this.scene.add(place);
+    this.mirror.layers.enable(SELF);
+    [glass.width, glass.height] = [300, 340];
+    this.small = glass.getContext("2d")!;
+  }
+
+  /** Make an object one's own: only the mirror shows it. */
+  hide(own: Object3D): void {
+    own.traverse((node) => node.layers.set(SELF));
+  }
+
+  /** Look from where one stands, turned by heading and pitch. */
+  look(x: number, z: number, height: number, heading: number, pitch: number): void {
+    this.eye.set(x, height, z);
+    this.camera.position.copy(this.eye);
+    // a camera looks along -z, a body along +z
+    this.camera.quaternion.copy(turned(heading + Math.PI, pitch));
+    const ahead = new Vector3(Math.sin(heading), 0, Math.cos(heading));
+    this.mirror.position.set(x, height - 0.05, z).addScaledVector(ahead, MIRROR_M);
+    this.mirror.lookAt(x, height - 0.06, z);
+  }
+
+  draw(): void {
+    const ratio = Math.min(devicePixelRatio, MOST_PIXEL_RATIO);
+    const [width, height] = [Math.round(innerWidth * ratio), Math.round(innerHeight * ratio)];
+    if (!this.glass.hidden) this.reflect();
+    if (this.canvas.width !== width || this.canvas.height !== height) {
+      this.renderer.setSize(width, height, false);
+      this.camera.aspect = width / height;
+      this.camera.updateProjectionMatrix();
+    }
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** The own picture, the other way round as in a mirror; drawn into a corner first, then copied. */
+  private reflect(): void {
+    const { width, height } = this.glass;
+    this.renderer.setViewport(0, 0, width, height);
+    this.renderer.setScissor(0, 0, width, height);
+    this.renderer.setScissorTest(true);
+    this.renderer.render(this.scene, this.mirror);
+    this.small.setTransform(-1, 0, 0, 1, width, 0);
+    this.small.drawImage(this.canvas, 0, this.canvas.height - height, width, height, 0, 0, width, height);
+    this.renderer.setScissorTest(false);
+    this.renderer.setViewport(0, 0, this.canvas.width, this.canvas.height);
+  }
+
+  /** Forward and up of the own head, for the ears. */
+  ears(): { forward: Vector3; up: Vector3 } {
+    const turn = this.camera.quaternion;
+    return { forward: new Vector3(0, 0, -1).applyQuaternion(turn), up: new Vector3(0, 1, 0).applyQuaternion(turn) };
+  }
+
+  static readonly height = EYES_M;
+}
+
+const about = { yaw: new Quaternion(), pitch: new Quaternion() };
+const UP = new Vector3(0, 1, 0);
+const SIDE = new Vector3(1, 0, 0);
+
+function turned(yaw: number, pitch: number): Quaternion {
+  about.yaw.setFromAxisAngle(UP, yaw);
+  about.pitch.setFromAxisAngle(SIDE, pitch);
+  return about.yaw.multiply(about.pitch);
+}
