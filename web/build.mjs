@@ -4,7 +4,7 @@
 // of package-lock.json give the same bytes.
 
 import { mkdir, readFile, writeFile } from "node:fs/promises";
-import { basename, dirname, join, relative } from "node:path";
+import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 
@@ -20,9 +20,10 @@ const PAGES = {
   "room/server/static": ["room/room.ts", "room/face.worker.ts", "room/frames.worklet.js", "room/room.css", "room/room.html"],
 };
 
-/** By folder: files of packages that are served as they are. */
+/** Files that are served as they are, and where they come from. */
 const COPIES = {
-  "room/server/static": ["@echogarden/fvad-wasm/fvad.wasm"],
+  "room/server/static/fvad.wasm": "web/node_modules/@echogarden/fvad-wasm/fvad.wasm",
+  "room/server/static/avatars/anny.glb": "track/page/static/head.glb",
 };
 
 /** Licences of the packages that a bundle holds, each whole, in the order of their names. */
@@ -45,6 +46,15 @@ async function licences(inputs) {
   return (await Promise.all(texts)).join(`\n${"-".repeat(80)}\n\n`);
 }
 
+/** Write files whole, and say how large they are. */
+async function write(files) {
+  for (const [path, contents] of files) {
+    await mkdir(dirname(path), { recursive: true });
+    await writeFile(path, contents);
+    console.log(`${relative(ROOT, path)}  ${Math.ceil(contents.length / 1000)} kB`);
+  }
+}
+
 for (const [folder, sources] of Object.entries(PAGES)) {
   const { outputFiles, metafile } = await build({
     absWorkingDir: HERE,
@@ -63,13 +73,10 @@ for (const [folder, sources] of Object.entries(PAGES)) {
     logLevel: "warning",
   });
   const files = outputFiles.map(({ path, contents }) => [path, contents]);
-  for (const copied of COPIES[folder] ?? []) {
-    files.push([join(ROOT, folder, basename(copied)), await readFile(join(HERE, "node_modules", copied))]);
-  }
   files.push([join(ROOT, folder, "LICENSES.txt"), await licences(Object.keys(metafile.inputs))]);
-  for (const [path, contents] of files) {
-    await mkdir(dirname(path), { recursive: true });
-    await writeFile(path, contents);
-    console.log(`${relative(ROOT, path)}  ${Math.ceil(contents.length / 1000)} kB`);
-  }
+  await write(files);
+}
+
+for (const [path, source] of Object.entries(COPIES)) {
+  await write([[join(ROOT, path), await readFile(join(dirname(HERE), source))]]);
 }

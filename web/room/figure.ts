@@ -44,11 +44,6 @@ export class Figure {
     this.root.add(this.upper);
   }
 
-  /** Where the voice comes from. */
-  mouth(into: Vector3): Vector3 {
-    return this.root.localToWorld(into.set(0, EYES_M - 0.07, 0.05));
-  }
-
   /** The name, and what others should know: away, muted, moved by a program or without a camera. */
   call(person: Person, tracked: boolean): void {
     const word = !person.present ? "away" : person.muted ? "muted" : person.face === "program" ? "face by a program" : tracked ? "" : "no camera";

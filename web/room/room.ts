@@ -1,6 +1,6 @@
 /** The page of a room: asks who comes, then ties the line, the people, their voices and the picture together. */
 
-import { Quaternion, Vector3 } from "three";
+import type { Quaternion } from "three";
 
 import { rotation } from "../avatar/index.js";
 import { Wardrobe } from "./avatars.js";
@@ -200,8 +200,21 @@ class Meeting {
     const message = this.state(this.camera?.face(now) ?? idle, speaking);
     this.sent = { ...message, sequence: 0, time_ms: 0, weights: Float64Array.from(message.weights) };
     this.line.move(message);
+    this.place(now);
     if (this.camera?.word) this.tell(this.camera.word);
     else if (this.camera) this.tell("");
+  }
+
+  /** Put voices and ears where heads are; with the timer, as voices of a hidden tab go on. */
+  private place(now: number): void {
+    for (const [number, { person, playback }] of this.known) {
+      const shown = number === this.own?.number ? undefined : playback.at(now);
+      if (!shown) continue;
+      const height = shown.flags & FLAG.seated ? SEATED_M : EYES_M;
+      this.voice.place(person.id, { x: shown.floor_m[0]!, y: height, z: shown.floor_m[1]! });
+    }
+    const { x, z, heading } = this.walk;
+    this.voice.listen({ x, y: this.standing, z }, heading);
   }
 
   private state(face: OwnFace, speaking: boolean): Omit<Message, "sequence" | "time_ms"> {
@@ -226,7 +239,6 @@ class Meeting {
     this.drawn = now;
     this.standing += ((this.seated ? SEATED_M : EYES_M) - this.standing) * (1 - Math.exp(-8 * seconds));
     this.view.look(this.walk.x, this.walk.z, this.standing, this.walk.heading, this.walk.pitch);
-    const mouth = new Vector3();
     for (const [number, { person, playback, figure }] of this.known) {
       const shown = playback.at(now);
       if (!figure || !shown) continue;
@@ -236,10 +248,7 @@ class Meeting {
       figure.show(self && this.sent ? this.sent : shown, seconds, this.view.eye);
       if (self) continue;
       figure.call(person, (shown.flags & FLAG.tracked) !== 0);
-      this.voice.place(person.id, figure.mouth(mouth));
     }
-    const { forward, up } = this.view.ears();
-    this.voice.listen(this.view.eye, forward, up);
     if (this.drawing) this.view.draw();
   }
 

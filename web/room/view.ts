@@ -1,8 +1,7 @@
 /** Draws the room as one person sees it, and that person in a small mirror. */
 
-import { PCFSoftShadowMap, PerspectiveCamera, Quaternion, Scene, SRGBColorSpace, Vector3, WebGLRenderer, NeutralToneMapping, type Object3D } from "three";
+import { PCFShadowMap, PerspectiveCamera, Quaternion, Scene, SRGBColorSpace, Vector3, WebGLRenderer, NeutralToneMapping, type Object3D } from "three";
 
-import { EYES_M } from "./body.js";
 import { BACKGROUND, makePlace } from "./place.js";
 
 const FIELD_DEG = 50;
@@ -29,7 +28,7 @@ export class View {
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFSoftShadowMap;
+    this.renderer.shadowMap.type = PCFShadowMap;
     this.scene.background = BACKGROUND;
     const place = makePlace();
     place.traverse((node) => node.layers.enable(SELF));
@@ -79,14 +78,6 @@ export class View {
     this.renderer.setScissorTest(false);
     this.renderer.setViewport(0, 0, this.canvas.width, this.canvas.height);
   }
-
-  /** Forward and up of the own head, for the ears. */
-  ears(): { forward: Vector3; up: Vector3 } {
-    const turn = this.camera.quaternion;
-    return { forward: new Vector3(0, 0, -1).applyQuaternion(turn), up: new Vector3(0, 1, 0).applyQuaternion(turn) };
-  }
-
-  static readonly height = EYES_M;
 }
 
 const about = { yaw: new Quaternion(), pitch: new Quaternion() };

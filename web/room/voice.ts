@@ -4,8 +4,6 @@
  * Connections follow MDN's "perfect negotiation": either side may offer at any time, and the polite one gives way.
  */
 
-import type { Vector3 } from "three";
-
 import type { Candidate, Description, Person } from "./texts.js";
 
 /** Full volume up to here, half at twice as far: a room's own law, not free air's. */
@@ -25,6 +23,13 @@ interface Peer {
   offering: boolean;
   ignoring: boolean;
   number: number;
+}
+
+/** Metres in the room. */
+export interface Place {
+  x: number;
+  y: number;
+  z: number;
 }
 
 export type Send = (said: Description | Candidate) => void;
@@ -90,7 +95,7 @@ export class Voice {
   }
 
   /** Put a voice where a head is. */
-  place(id: string, at: Vector3): void {
+  place(id: string, at: Place): void {
     const peer = this.peers.get(id);
     if (!peer) return;
     const until = this.context.currentTime + GLIDE_S;
@@ -99,15 +104,14 @@ export class Voice {
     peer.panner.positionZ.linearRampToValueAtTime(at.z, until);
   }
 
-  /** Put the ears where the own head is. */
-  listen(at: Vector3, forward: Vector3, up: Vector3): void {
+  /** Put the ears where the own head is, turned by its heading in radians (0 looks along z, to the left is positive). */
+  listen(at: Place, heading: number): void {
     const { listener, currentTime } = this.context;
     if (!listener.positionX) return; // Firefox before 2025 has only the old calls
     const until = currentTime + GLIDE_S;
     const glide = (parameter: AudioParam, value: number): void => void parameter.linearRampToValueAtTime(value, until);
     glide(listener.positionX, at.x), glide(listener.positionY, at.y), glide(listener.positionZ, at.z);
-    glide(listener.forwardX, forward.x), glide(listener.forwardY, forward.y), glide(listener.forwardZ, forward.z);
-    glide(listener.upX, up.x), glide(listener.upY, up.y), glide(listener.upZ, up.z);
+    glide(listener.forwardX, Math.sin(heading)), glide(listener.forwardZ, Math.cos(heading));
   }
 
   /** How loud somebody is here; 1 is as they are. */
