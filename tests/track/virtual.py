@@ -6,13 +6,24 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from regress.runtime.sample import Sample
 from track.errors import CameraError
+from track.session.fault_telling import FaultTelling
 from track.sources import Picture, Source
 
 
 def noise(number: int) -> np.ndarray:
     """Another picture for every number, as a sensor gives it: (48, 64, 3) uint8."""
     return np.random.default_rng(number).integers(60, 200, (48, 64, 3), dtype=np.uint8)
+
+
+def told(samples: list[Sample]) -> list[str]:
+    """What a session tells of these samples' faults, by name and word."""
+    lines: list[str] = []
+    telling = FaultTelling(lines.append)
+    for sample in samples:
+        telling.step(sample.time_s, {name: f"{name}: {fault.name}" for name, fault in sample.faults.items()})
+    return lines
 
 
 @dataclass

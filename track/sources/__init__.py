@@ -2,7 +2,7 @@
 
 from track.sources.camera import Opener
 from track.sources.capture import Capture
-from track.sources.faults import CameraFault, Told
+from track.sources.faults import CameraFault
 from track.sources.source import Picture, Source
 from track.sources.sources import SOURCES, Pace, SourceKind, open_capture, open_source
 
@@ -15,7 +15,6 @@ __all__ = [
     "Picture",
     "Source",
     "SourceKind",
-    "Told",
     "open_capture",
     "open_source",
 ]

@@ -1,18 +1,14 @@
-"""What is wrong with a camera, and who is told of it when: each fault once as it comes, and once as it goes."""
+"""What is wrong with a camera, and who finds it: black and frozen pictures."""
 
 from enum import Enum
 
 import numpy as np
 
 from regress.runtime.headset.faults import DARK
-from regress.runtime.sample import Sample
 from track.sources.source import Picture
 
 FROZEN_S = 0.5
 """The same bytes for longer are no picture: a sensor's noise alone changes some byte of each."""
-
-GONE_S = 1.0
-"""Without a fault for longer it is over: a camera that lags is late, and not, several times a second."""
 
 _STRIDE = 8
 """Of the rows and columns by which pictures are first compared, and by which they are called black."""
@@ -59,24 +55,3 @@ def _same(one: np.ndarray, other: np.ndarray) -> bool:
     """Whether two pictures have the same bytes; most differ in the few that are compared first."""
     few = np.s_[::_STRIDE, ::_STRIDE]
     return one.shape == other.shape and np.array_equal(one[few], other[few]) and np.array_equal(one, other)
-
-
-class Told:
-    """Makes sentences of faults: each is told as it comes, and once more when it has gone for good."""
-
-    def __init__(self) -> None:
-        self._told: dict[str, tuple[Enum, float]] = {}
-
-    def step(self, sample: Sample) -> list[str]:
-        """Sentences for what is new in the next sample; a fault that comes and goes is told once until it is gone."""
-        lines = []
-        for name, fault in sample.faults.items():
-            known = self._told.get(name)
-            if known is None or known[0] is not fault:
-                lines.append(f"{name}: {fault.value}")
-            self._told[name] = (fault, sample.time_s)
-        for name, (_, last_s) in list(self._told.items()):
-            if name not in sample.faults and sample.time_s - last_s > GONE_S:
-                lines.append(f"{name}: well again")
-                del self._told[name]
-        return lines
