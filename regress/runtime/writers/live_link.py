@@ -40,4 +40,4 @@ def app_angles(count: int, head: np.ndarray | None, gaze: np.ndarray | None) -> 
         angles[:, :3] = np.nan_to_num(head[:, 3:]) * [-1, -1, 1]
     if gaze is not None:
         angles[:, [3, 4, 6, 7]] = -np.nan_to_num(gaze)
-    return angles
+    return angles + 0.0  # of -0 it makes 0
