@@ -23,6 +23,7 @@ WITHIN = {
     "facegen.rigs.ict.MOST_COMPONENTS",
     "facegen.console.MOST_CHARACTERS",
     "facegen.validation.agreement.MOST_DIMENSIONS",
+    "facegen.avatars.glb.MOST_BONES",
 }
 """Constants of this kind of name that bound no input: how much is shown, drawn or taken of what was read."""
 
