@@ -21,7 +21,7 @@ def opened(place: str | int, backend: int) -> cv2.VideoCapture | None:
     backend
         One of OpenCV's ``CAP_``.
     """
-    cv2.setLogLevel(0)
+    _silence()
     os.environ["OPENCV_FFMPEG_LOGLEVEL"] = "-8"  # AV_LOG_QUIET; asked for once, at the first opening
     waits = [cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, _WAIT_MS, cv2.CAP_PROP_READ_TIMEOUT_MSEC, _WAIT_MS]
     try:
@@ -33,6 +33,12 @@ def opened(place: str | int, backend: int) -> cv2.VideoCapture | None:
         capture.release()
         return None
     return capture
+
+
+def _silence() -> None:
+    """Switch OpenCV's own log off: 4.11 does so by one name, 4.14 by another."""
+    set_level = cv2.setLogLevel if hasattr(cv2, "setLogLevel") else cv2.utils.logging.setLogLevel
+    set_level(0)
 
 
 def grabbed(capture: cv2.VideoCapture) -> np.ndarray | None:
