@@ -70,10 +70,9 @@ def frame(moment: Moment, number: int, *, cameras: Sequence[str]) -> str:
             "cameras": {
                 name: {
                     "size": [picture.shape[1], picture.shape[0]],
-                    # landmarks are found in the first camera's picture alone
-                    "points": _numbers(sample.points, 1) if place == 0 else None,
+                    "points": _numbers(moment.points.get(name), 1),
                 }
-                for place, name in enumerate(cameras)
+                for name in cameras
                 if (picture := moment.pictures.get(name)) is not None
             },
             "fps": moment.fps,

@@ -2,7 +2,7 @@
 
 import type { Frame, View } from "./messages.js";
 
-/** iBUG's 68: runs of points that are joined, and whether a run closes. */
+/** iBUG's 68: runs of points that are joined, and whether a run closes. A headset's traced points stand alone. */
 const RUNS: readonly (readonly [number, number, boolean])[] = [
   [0, 16, false],
   [17, 21, false],
@@ -73,19 +73,19 @@ export class Cameras {
 }
 
 function drawPoints(context: CanvasRenderingContext2D, { size, points }: View, colour: string): void {
-  if (!points || points.length !== 68) return;
+  if (!points) return;
   const { width, height } = context.canvas;
   // (0, 0) is the centre of the first pixel
   const at = (index: number): [number, number] => {
     const [x, y] = points[index]!;
     return [(((x ?? NaN) + 0.5) * width) / size[0], (((y ?? NaN) + 0.5) * height) / size[1]];
   };
-  if (!Number.isFinite(at(0)[0])) return;
   context.strokeStyle = context.fillStyle = colour;
   context.lineWidth = Math.max(1, width / 210);
   context.lineJoin = "round";
   context.globalAlpha = 0.65;
-  for (const [first, last, closes] of RUNS) {
+  const joined = points.length === 68 && points.every(([x]) => x !== null);
+  for (const [first, last, closes] of joined ? RUNS : []) {
     context.beginPath();
     for (let index = first; index <= last; index++) context.lineTo(...at(index));
     if (closes) context.closePath();
@@ -93,7 +93,7 @@ function drawPoints(context: CanvasRenderingContext2D, { size, points }: View, c
   }
   context.globalAlpha = 1;
   const radius = Math.max(1.2, width / 170);
-  for (let index = 0; index < 68; index++) {
+  for (let index = 0; index < points.length; index++) {
     context.beginPath();
     context.arc(...at(index), radius, 0, 2 * Math.PI);
     context.fill();

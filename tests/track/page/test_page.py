@@ -79,10 +79,10 @@ def told(weights: np.ndarray, name: str) -> float:
 def moment_of(weights: np.ndarray, *, pictures: bool = True, **changes: object) -> Moment:
     shape = load_reference_shape().points[:, :2] * [1, -1]
     points = (shape - shape.mean(0)) / np.ptp(shape[:, 0]) * 60 + [80, 60]
-    sample = {"time_s": 0.0, "weights": weights, "points": points}
+    sample = {"time_s": 0.0, "weights": weights}
     sample |= {key: changes.pop(key) for key in ("gaze", "head") if key in changes}
     shown = {"camera": np.full((120, 160, 3), 128, np.uint8)} if pictures else {}
-    return Moment(sample=Sample(**sample), pictures=shown, **changes)
+    return Moment(sample=Sample(**sample), pictures=shown, points={"camera": points}, **changes)
 
 
 @pytest.fixture(scope="module")
@@ -316,6 +316,12 @@ def test_what_is_clicked_is_asked_for_and_what_holds_is_shown(loop, stand):
     async def click():
         assert (await stand.asks(1))[0] == Command(verb="picture", value=True)
         await stand.publish_until("document.querySelector('#cameras canvas')")
+        drawn = """(() => {
+            const canvas = document.querySelector('#cameras canvas');
+            const colours = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+            return [canvas.width, canvas.height, colours.filter((value) => Math.abs(value - 128) > 40).length > 1000];
+        })()"""  # the fourth of each is opaque, so at least 19,200 differ: count those of points alone
+        assert await stand.tab.ask(drawn) == [160, 120, True]
         await stand.tab.ask(
             "step.value = 'jaw_open', document.querySelector('#calibrate button').click(), mirror.click(),"
             "recentre.click(), picture.click(), gains.click(), 0"

@@ -35,10 +35,9 @@ def moment(value: float = 0.25, *, pictures: bool = False, **changes: object) ->
         weights=weights,
         gaze=np.array([0.1, -0.1, 0.1, -0.1]),
         head=np.array([0.01, 0.02, 0.6, 0.1, 0.2, 0.3]),
-        points=np.full((68, 2), 12.34),
     )
     shown = {"camera": np.full((48, 64, 3), (10, 200, 30), np.uint8)} if pictures else {}
-    return Moment(sample=sample, pictures=shown, **changes)
+    return Moment(sample=sample, pictures=shown, points={"camera": np.array([[12.34, np.nan]])}, **changes)
 
 
 @asynccontextmanager
@@ -174,7 +173,8 @@ def test_pictures_come_only_while_a_tab_wants_them_and_no_more_than_it_may(page,
     async def look():
         async with tab(page) as (socket, _):
             page.publish(moment(pictures=True))
-            assert (await socket.receive(timeout=5)).type is aiohttp.WSMsgType.TEXT
+            told = json.loads(await socket.receive_str(timeout=5))
+            assert told["cameras"] == {"camera": {"size": [64, 48], "points": [[12.3, None]]}}
             assert not page.wants_pictures
             await socket.send_str('{"verb": "picture", "value": true}')
             await until(lambda: page.wants_pictures)
