@@ -31,91 +31,48 @@ const PROFILE: readonly [number, number][] = [
   [0, -0.97],
 ];
 const SHOULDER = { x: 0.205, y: -0.25 };
+/** The middle of neck and chest lies so far behind the eyes. */
+const BEHIND = -0.085;
 const UPPER = 0.27;
 const LOWER = 0.25;
 
 /** Colours of clothes: told apart at the far side of a table, and none is a signal. */
 const CLOTHES = [0x2f6f73, 0x5b4a8a, 0x8a5a2f, 0x3f5f3a, 0x7a3b46, 0x33547d, 0x5c5c5c, 0x84703a];
 
-/** By animation's number: how upper and lower arm turn at a time in seconds, of the left arm (1) and the right one (-1). */
-type Pose = (seconds: number, side: 1 | -1) => { upper: [number, number, number]; lower: number };
-const HANGING: Pose = (seconds, side) => ({ upper: [0.03 * Math.sin(1.3 * seconds), 0, 0.09 * side], lower: -0.15 });
-const RIGHT_ALONE = (pose: Pose): Pose => (seconds, side) => (side === -1 ? pose : HANGING)(seconds, side);
-const POSES: Record<number, Pose> = {
-  1: RIGHT_ALONE((seconds) => ({ upper: [-0.5, 0, -2.2], lower: -0.9 + 0.45 * Math.sin(9 * seconds) })),
-  4: RIGHT_ALONE(() => ({ upper: [-1.45, 0.1, -0.1], lower: -0.05 })),
-  5: RIGHT_ALONE(() => ({ upper: [-2.9, 0, -0.15], lower: -0.1 })),
-  6: (seconds, side) => ({ upper: [-0.95, side * (0.35 + 0.12 * Math.sin(14 * seconds)), 0], lower: -0.9 }),
-};
-/** Of a step towards a new pose each second, as a rate: an arm is there in a third of a second. */
-const PACE = 9;
-
-class Arm {
-  readonly root = new Group();
-  private readonly elbow = new Group();
-
-  constructor(
-    private readonly side: 1 | -1,
-    cloth: MeshStandardMaterial,
-    skin: MeshStandardMaterial,
-  ) {
-    this.root.position.set(side * SHOULDER.x, SHOULDER.y, 0);
-    const upper = new Mesh(new CapsuleGeometry(0.048, UPPER - 0.05, 6, 12), cloth);
-    upper.position.y = -UPPER / 2;
-    const lower = new Mesh(new CapsuleGeometry(0.04, LOWER - 0.06, 6, 12), cloth);
-    lower.position.y = -LOWER / 2;
-    const hand = new Mesh(new SphereGeometry(0.05, 16, 12), skin);
-    hand.scale.set(0.7, 1.25, 0.9);
-    hand.position.y = -LOWER - 0.05;
-    this.elbow.position.y = -UPPER;
-    this.elbow.add(lower, hand);
-    this.root.add(upper, this.elbow);
-  }
-
-  update(animation: number, time: number, share: number): void {
-    const { upper, lower } = (POSES[animation] ?? HANGING)(time, this.side);
-    const { rotation } = this.root;
-    rotation.x += (upper[0] - rotation.x) * share;
-    rotation.y += (upper[1] - rotation.y) * share;
-    rotation.z += (upper[2] - rotation.z) * share;
-    this.elbow.rotation.x += (lower - this.elbow.rotation.x) * share;
-  }
+/** An arm that hangs; its parts are called as Mixamo's bones, so that `Limbs` moves it like a skeleton's. */
+function makeArm(side: "Left" | "Right", cloth: MeshStandardMaterial, skin: MeshStandardMaterial): Group {
+  const arm = new Group();
+  arm.name = `${side}Arm`;
+  arm.position.set(side === "Left" ? SHOULDER.x : -SHOULDER.x, SHOULDER.y, BEHIND);
+  const upper = new Mesh(new CapsuleGeometry(0.048, UPPER - 0.05, 6, 12), cloth);
+  upper.position.y = -UPPER / 2;
+  const elbow = new Group();
+  elbow.name = `${side}ForeArm`;
+  elbow.position.y = -UPPER;
+  const lower = new Mesh(new CapsuleGeometry(0.04, LOWER - 0.06, 6, 12), cloth);
+  lower.position.y = -LOWER / 2;
+  const hand = new Mesh(new SphereGeometry(0.05, 16, 12), skin);
+  hand.name = `${side}Hand`;
+  hand.scale.set(0.7, 1.25, 0.9);
+  hand.position.y = -LOWER - 0.05;
+  arm.add(upper, elbow.add(lower, hand));
+  return arm;
 }
 
-export class Body {
-  /** Its origin lies between the eyes. */
-  readonly root = new Group();
-  private readonly arms: [Arm, Arm];
-  private time = 0;
-
-  constructor(number: number) {
-    const cloth = new MeshStandardMaterial({ color: CLOTHES[number % CLOTHES.length]!, roughness: 0.95 });
-    const skin = new MeshStandardMaterial({ color: 0xb98a6c, roughness: 0.7 });
-    const points = PROFILE.map(([radius, y]) => new Vector2(radius, y)).reverse();
-    const chest = new Mesh(new LatheGeometry(points, 32), cloth);
-    chest.scale.z = 0.62;
-    chest.position.z = -0.085;
-    const neck = new Mesh(new CylinderGeometry(0.05, 0.058, 0.12, 24), skin);
-    neck.position.set(0, -0.12, -0.088);
-    this.arms = [new Arm(1, cloth, skin), new Arm(-1, cloth, skin)];
-    for (const { root } of this.arms) root.position.z = -0.085;
-    this.root.add(chest, neck, ...this.arms.map(({ root }) => root));
-    this.root.traverse((node) => void (node.castShadow = true));
-  }
-
-  update(animation: number, seconds: number): void {
-    this.time += seconds;
-    const share = 1 - Math.exp(-PACE * seconds);
-    for (const arm of this.arms) arm.update(animation, this.time, share);
-    this.root.scale.y = 1 + 0.002 * Math.sin(1.6 * this.time); // breath
-  }
-}
-
-/** How a gesture of the head adds to it: yaw and pitch in radians at a time in seconds. */
-export function headGesture(animation: number, time: number): { yaw: number; pitch: number } {
-  if (animation === 2) return { yaw: 0, pitch: -0.1 + 0.14 * Math.sin(9 * time) };
-  if (animation === 3) return { yaw: 0.22 * Math.sin(9 * time), pitch: 0 };
-  return { yaw: 0, pitch: 0 };
+/** Chest, neck and arms; the origin lies between the eyes. */
+export function makeBody(number: number): Group {
+  const body = new Group();
+  const cloth = new MeshStandardMaterial({ color: CLOTHES[number % CLOTHES.length]!, roughness: 0.95 });
+  const skin = new MeshStandardMaterial({ color: 0xb98a6c, roughness: 0.7 });
+  const points = PROFILE.map(([radius, y]) => new Vector2(radius, y)).reverse();
+  const chest = new Mesh(new LatheGeometry(points, 32), cloth);
+  chest.scale.z = 0.62;
+  chest.position.z = BEHIND;
+  const neck = new Mesh(new CylinderGeometry(0.05, 0.058, 0.12, 24), skin);
+  neck.position.set(0, -0.12, BEHIND);
+  body.add(chest, neck, makeArm("Left", cloth, skin), makeArm("Right", cloth, skin));
+  body.traverse((node) => void (node.castShadow = true));
+  return body;
 }
 
 /** A head of spheres, in a head's frame, with the shapes that matter most: for rooms whose server has no avatars. */

@@ -3,7 +3,8 @@
 import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3 } from "three";
 
 import type { Avatar } from "../avatar/index.js";
-import { Body, EYES_M, headGesture, SEATED_M } from "./body.js";
+import { EYES_M, makeBody, SEATED_M } from "./body.js";
+import { headGesture, Limbs } from "./limbs.js";
 import { FLAG, type Message } from "./protocol.js";
 import type { Person } from "./texts.js";
 
@@ -12,17 +13,24 @@ const NAME_M = 0.3;
 /** Taller than this from its lowest to its highest point, an avatar has a body of its own. */
 const WHOLE_M = 1.0;
 
+/** Faster than a run is a jump to another place. */
+const MOST_PACE = 4;
+
 export class Figure {
   /** On the floor, where the person stands. */
   readonly root = new Group();
   private readonly upper = new Group();
-  private readonly body: Body | undefined;
+  private readonly limbs: Limbs;
+  private lowered = 0;
+  private readonly before = new Vector3();
   private readonly label = new Sprite(new SpriteMaterial({ transparent: true, depthWrite: false }));
   private readonly sign: Mesh;
   private readonly turn = new Quaternion();
   private readonly angles = new Euler();
   private time = 0;
   private speaking = false;
+  /** Height of what hangs on `upper` above the floor: a head and its simple body are made around the eyes. */
+  private readonly standing: number;
 
   constructor(
     readonly avatar: Avatar,
@@ -30,10 +38,10 @@ export class Figure {
     height: number,
   ) {
     const whole = height > WHOLE_M;
-    this.body = whole ? undefined : new Body(number);
-    this.upper.position.y = whole ? 0 : EYES_M;
-    this.upper.add(avatar.root);
-    if (this.body) this.upper.add(this.body.root);
+    const body = whole ? avatar.root : makeBody(number);
+    this.limbs = new Limbs(body);
+    this.standing = whole ? 0 : EYES_M;
+    this.upper.add(avatar.root, body);
     avatar.root.traverse((node) => void (node.castShadow = true));
     const top = (whole ? EYES_M : 0) + NAME_M;
     this.label.position.y = top;
@@ -94,11 +102,9 @@ export class Figure {
     this.root.position.set(message.floor_m[0]!, 0, message.floor_m[1]!);
     this.root.rotation.y = message.heading;
     const seated = (message.flags & FLAG.seated) !== 0;
-    if (this.body) {
-      const height = (seated ? SEATED_M : EYES_M) + message.head_m[1]!;
-      this.upper.position.y += (height - this.upper.position.y) * (1 - Math.exp(-8 * seconds));
-      this.avatar.root.position.set(message.head_m[0]!, 0, message.head_m[2]!);
-    }
+    this.lowered += ((seated ? EYES_M - SEATED_M : 0) - this.lowered) * (1 - Math.exp(-8 * seconds));
+    this.upper.position.y = this.standing - this.lowered;
+    if (this.standing) this.avatar.root.position.fromArray(message.head_m); // a head on the simple body moves by itself
     this.turn.set(message.rotation[0]!, message.rotation[1]!, message.rotation[2]!, message.rotation[3]!).normalize();
     this.angles.setFromQuaternion(this.turn, "YXZ");
     const gesture = headGesture(message.animation, this.time);
@@ -108,7 +114,7 @@ export class Figure {
       head: [this.angles.y + gesture.yaw, -this.angles.x + gesture.pitch, -this.angles.z],
     });
     this.avatar.update(seconds);
-    this.body?.update(message.animation, seconds);
+    this.limbs.update(message.animation, seated, this.pace(message, seconds), seconds);
     // names are read across the room as well: from two metres on they keep their size in the picture
     const far = Math.max(1, eye.distanceTo(this.root.position) / 2);
     this.label.scale.set(0.4 * far, 0.1 * far, 1);
@@ -117,6 +123,15 @@ export class Figure {
       this.sign.lookAt(eye);
       this.sign.scale.setScalar(far * (1.1 + 0.15 * Math.sin(8 * this.time)));
     }
+  }
+
+  /** How fast the body walks forward, in metres a second. */
+  private pace(message: Message, seconds: number): number {
+    const { position } = this.root;
+    const forward = (position.x - this.before.x) * Math.sin(message.heading) + (position.z - this.before.z) * Math.cos(message.heading);
+    this.before.copy(position);
+    const pace = seconds > 0 ? forward / seconds : 0;
+    return Math.abs(pace) < MOST_PACE ? pace : 0;
   }
 
   dispose(): void {

@@ -1,0 +1,105 @@
+"""Draws docs/pictures/room.png: a meeting as one of the people in it sees it, in a real browser without a camera.
+
+    python docs/figures/room.py
+
+The others are programs that send states: a smile, a word, raised brows, gestures. Needs Chromium; nothing is fetched.
+"""
+
+import asyncio
+import math
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES  # noqa: E402
+from room.server.application import STATIC  # noqa: E402
+from tests.browser import chromium  # noqa: E402
+from tests.room.guests import Guest, open_room  # noqa: E402
+
+OUT = ROOT / "docs/pictures/room.png"
+SIZE = {"width": 1280, "height": 800}
+
+SMILE = {"mouthSmileLeft": 0.8, "mouthSmileRight": 0.8, "cheekSquintLeft": 0.5, "cheekSquintRight": 0.5}
+WORD = {"jawOpen": 0.35, "mouthFunnel": 0.3, "browInnerUp": 0.3}
+WONDER = {
+    "browInnerUp": 0.8,
+    "browOuterUpLeft": 0.8,
+    "browOuterUpRight": 0.8,
+    "eyeWideLeft": 0.5,
+    "eyeWideRight": 0.5,
+}
+
+OTHERS = {
+    "Ben": {"at": (-1.05, -0.75), "shapes": SMILE, "flags": 2, "animation": 0},
+    "Cleo": {"at": (0.15, -1.35), "shapes": WORD, "flags": 3, "animation": 0},
+    "Dara": {"at": (1.0, -0.85), "shapes": WONDER, "flags": 2, "animation": 5},
+}
+"""Where each stands in metres, what their face does, speaking (1) and tracked (2), and the gesture."""
+
+LINES = ("Good to see you all.", "Shall we begin?", "One question first!")
+
+EYE = (0.1, 1.75)
+
+
+async def _stay(guest: Guest, described: dict) -> None:
+    """Thirty times a second, as a page does; all look at who looks at them."""
+    weights = [0.0] * len(BLENDSHAPES)
+    for name, weight in described["shapes"].items():
+        weights[BLENDSHAPE_INDEX[name]] = weight
+    x, z = described["at"]
+    state = {
+        "weights": tuple(weights),
+        "floor_m": (x, z),
+        "heading": math.atan2(EYE[0] - x, EYE[1] - z),
+        "flags": described["flags"],
+        "animation": described["animation"],
+    }
+    step = 0
+    while True:
+        await guest.move(**state, sequence=step, time_ms=33 * step)
+        step += 1
+        await asyncio.sleep(1 / 30)
+
+
+async def main() -> None:
+    """Let them meet, and draw."""
+    avatars = sorted(path.stem for path in (STATIC / "avatars").glob("*.glb"))
+    async with open_room() as place, chromium("--use-fake-ui-for-media-stream") as browser:
+        link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+        staying, guests = [], []
+        for index, (name, described) in enumerate(OTHERS.items()):
+            guest = await place.guest(
+                name=name, avatar=avatars[index % len(avatars)], moderator=name == "Cleo"
+            )
+            staying.append(asyncio.create_task(_stay(guest, described)))
+            if name != "Ben":
+                await guest.say(kind="voice", open=True)
+            await guest.say(
+                kind="chat",
+                text={"Ben": "Good to see you.", "Cleo": "Shall we begin?", "Dara": "A question"}[name],
+            )
+        async with browser.open(link) as tab:
+            await tab.look(**SIZE)
+            await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+            await tab.ask(
+                "(() => { const form = document.querySelector('#join'); form.elements.name.value = 'Ada';"
+                " if (form.elements.voice.checked) form.elements.voice.click(); form.requestSubmit(); })()"
+            )
+            await tab.until("globalThis.meeting?.own", 30)
+            await tab.ask(
+                f"void Object.assign(meeting.walk, {{ x: {EYE[0]}, z: {EYE[1]}, heading: Math.PI - 0.12, pitch: -0.06 }})"
+            )
+            await tab.until(
+                "[...meeting.known.values()].every(({ figure }) => figure.avatar.name !== 'plain')", 30
+            )
+            await asyncio.sleep(8)
+            await tab.picture(OUT)
+            print(f"{OUT.relative_to(ROOT)}; complaints: {tab.complaints}")
+        for task in staying:
+            task.cancel()
+
+
+if __name__ == "__main__":
+    asyncio.run(main())

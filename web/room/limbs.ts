@@ -1,0 +1,136 @@
+/** Moves arms and legs, of a skeleton or of the simple body, towards what a gesture, a seat or a step asks of them. */
+
+import { Quaternion, Vector3, type Object3D } from "three";
+
+import { Turn } from "../avatar/bones.js";
+
+/** Directions of a limb's two parts in the body's frame: x to the left, y up, z forward; of the left side, mirrored for the right. */
+type Directions = readonly [upper: readonly [number, number, number], lower: readonly [number, number, number]];
+type Pose = (seconds: number, side: 1 | -1) => Directions;
+
+const HANGING: Pose = (seconds) => [
+  [0.16, -1, 0.03 * Math.sin(1.3 * seconds)],
+  [0.1, -1, 0.28],
+];
+const rightAlone =
+  (pose: Pose): Pose =>
+  (seconds, side) => (side === -1 ? pose : HANGING)(seconds, side);
+
+/** By animation's number (`ANIMATIONS`); nods and shakes are the head's. */
+const ARMS: Record<number, Pose> = {
+  1: rightAlone((seconds) => [
+    [0.8, -0.45, 0.35],
+    [0.25 + 0.45 * Math.sin(9 * seconds), 1, 0.25],
+  ]),
+  4: rightAlone(() => [
+    [0.1, -0.12, 1],
+    [0, -0.02, 1],
+  ]),
+  5: rightAlone(() => [
+    [0.25, 1, 0.15],
+    [0.05, 1, 0.1],
+  ]),
+  6: (seconds) => [
+    [0.3, -0.8, 0.55],
+    [-0.42 + 0.14 * Math.sin(14 * seconds), 0.12, 0.9],
+  ],
+};
+
+const SEATED: Pose = () => [
+  [0.12, -0.12, 1],
+  [0.02, -1, 0.05],
+];
+/** A step's length, and how far a leg swings at a walk of 1.4 m/s. */
+const STEP_M = 0.68;
+const SWING = 0.42;
+
+/** Of the way to a new pose each second, as a rate: a limb is there in a third of a second. */
+const PACE = 9;
+
+class Limb {
+  private readonly upper: Turn;
+  private readonly lower: Turn;
+  private readonly rests: [Vector3, Vector3];
+  private readonly stands: [Quaternion, Quaternion] = [new Quaternion(), new Quaternion()];
+  private readonly wanted = new Quaternion();
+  private readonly direction = new Vector3();
+
+  constructor(
+    [upper, lower, end]: readonly [Object3D, Object3D, Object3D],
+    root: Object3D,
+    private readonly side: 1 | -1,
+  ) {
+    [this.upper, this.lower] = [new Turn(upper, root), new Turn(lower, root)];
+    const at = (node: Object3D): Vector3 => root.worldToLocal(node.getWorldPosition(new Vector3()));
+    this.rests = [at(lower).sub(at(upper)).normalize(), at(end).sub(at(lower)).normalize()];
+  }
+
+  /** Go a share of the way to these directions; back to how it was modelled without. */
+  move(directions: Directions | undefined, share: number): void {
+    const before = this.stands[0];
+    before.slerp(this.towards(0, directions), share);
+    // the lower part hangs on the upper one, and is turned with it
+    const lower = directions ? this.towards(1, directions, before) : this.wanted.identity();
+    this.stands[1].slerp(lower, share);
+    this.upper.set(before);
+    this.lower.set(this.stands[1]);
+  }
+
+  private towards(part: 0 | 1, directions: Directions | undefined, carried?: Quaternion): Quaternion {
+    if (!directions) return this.wanted.identity();
+    const [x, y, z] = directions[part];
+    this.direction.set(x * this.side, y, z).normalize();
+    if (carried) this.direction.applyQuaternion(carried.clone().invert());
+    return this.wanted.setFromUnitVectors(this.rests[part], this.direction);
+  }
+}
+
+export class Limbs {
+  private readonly arms: [Limb | undefined, Limb | undefined];
+  private readonly legs: [Limb | undefined, Limb | undefined];
+  private walked = 0;
+  private time = 0;
+
+  /** `root` faces +z, y up, at rest; bones are found by Mixamo's names, whatever stands before them. */
+  constructor(root: Object3D) {
+    root.updateMatrixWorld(true);
+    const bones = new Map<string, Object3D>();
+    root.traverse((node) => void bones.set(node.name.replace(/^mixamorig:?/, ""), node));
+    const limb = (names: readonly string[], prefix: string, side: 1 | -1): Limb | undefined => {
+      const [upper, lower, end] = names.map((name) => bones.get(prefix + name));
+      return upper && lower && end ? new Limb([upper, lower, end], root, side) : undefined;
+    };
+    const pair = (...names: string[]): [Limb | undefined, Limb | undefined] => [limb(names, "Left", 1), limb(names, "Right", -1)];
+    this.arms = pair("Arm", "ForeArm", "Hand");
+    this.legs = pair("UpLeg", "Leg", "Foot");
+  }
+
+  /** Move on by so many seconds; `pace` is how fast the body walks forward, in metres a second. */
+  update(animation: number, seated: boolean, pace: number, seconds: number): void {
+    this.time += seconds;
+    this.walked += pace * seconds;
+    const share = 1 - Math.exp(-PACE * seconds);
+    const phase = (Math.PI * this.walked) / STEP_M;
+    const swing = SWING * Math.min(1, Math.abs(pace));
+    for (const [index, side] of ([1, -1] as const).entries()) {
+      const pose = ARMS[animation] ?? HANGING;
+      const [upper, lower] = pose(this.time, side);
+      const arm = side * swing * -0.6 * Math.sin(phase);
+      this.arms[index]?.move(animation in ARMS ? [upper, lower] : [[upper[0], upper[1], upper[2] + arm], [lower[0], lower[1], lower[2] + arm]], share);
+      const leg = side * swing * Math.sin(phase);
+      const bent = -swing * Math.max(0, side * Math.cos(phase));
+      const walking: Directions = [
+        [0.03, -1, leg],
+        [0.03, -1, leg + bent],
+      ];
+      this.legs[index]?.move(seated ? SEATED(this.time, side) : swing > 0.01 ? walking : undefined, share);
+    }
+  }
+}
+
+/** How a gesture of the head adds to it: yaw and pitch in radians at a time in seconds. */
+export function headGesture(animation: number, time: number): { yaw: number; pitch: number } {
+  if (animation === 2) return { yaw: 0, pitch: -0.1 + 0.14 * Math.sin(9 * time) };
+  if (animation === 3) return { yaw: 0.22 * Math.sin(9 * time), pitch: 0 };
+  return { yaw: 0, pitch: 0 };
+}
