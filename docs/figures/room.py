@@ -76,10 +76,7 @@ async def main() -> None:
             staying.append(asyncio.create_task(_stay(guest, described)))
             if name != "Ben":
                 await guest.say(kind="voice", open=True)
-            await guest.say(
-                kind="chat",
-                text={"Ben": "Good to see you.", "Cleo": "Shall we begin?", "Dara": "A question"}[name],
-            )
+            guests.append(guest)
         async with browser.open(link) as tab:
             await tab.look(**SIZE)
             await tab.until("document.querySelector('#join select[name=avatar]')?.value")
@@ -88,9 +85,10 @@ async def main() -> None:
                 " if (form.elements.voice.checked) form.elements.voice.click(); form.requestSubmit(); })()"
             )
             await tab.until("globalThis.meeting?.own", 30)
-            await tab.ask(
-                f"void Object.assign(meeting.walk, {{ x: {EYE[0]}, z: {EYE[1]}, heading: Math.PI - 0.12, pitch: -0.06 }})"
-            )
+            looking = f"{{ x: {EYE[0]}, z: {EYE[1]}, heading: Math.PI - 0.2, pitch: -0.05 }}"
+            await tab.ask(f"void Object.assign(meeting.walk, {looking})")
+            for guest, line in zip(guests, LINES, strict=True):
+                await guest.say(kind="chat", text=line)
             await tab.until(
                 "[...meeting.known.values()].every(({ figure }) => figure.avatar.name !== 'plain')", 30
             )
