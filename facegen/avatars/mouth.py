@@ -15,19 +15,19 @@ from facegen.raster import triangles_of
 
 MATERIAL = Material(name="mouth", roughness=0.32)
 COLOURS = {
-    Part.TEETH: (0.80, 0.76, 0.66),
+    Part.TEETH: (0.90, 0.87, 0.78),
     Part.GUMS: (0.52, 0.20, 0.19),
     Part.TONGUE: (0.55, 0.20, 0.19),
     Part.MOUTH_CAVITY: (0.36, 0.10, 0.10),
     Part.EYE_CAVITY: (0.60, 0.30, 0.27),
 }
 """Linear."""
-DEEP_M = (4e-3, 42e-3)
+DEEP_M = (9e-3, 48e-3)
 """Behind the lips: here light begins to fail, and here none is left."""
 JAW_FOR_TONGUE = 0.6
 """jawOpen at which tongueOut is taken: put out of a shut mouth, a tongue would lie in the lips."""
-TOOTH_COLUMNS = (2, 3, 5, 7, 8, 12, 13, 15, 17, 18)
-"""Of a crown's round of vertices; the others lie nearly on lines between them."""
+TOOTH_COLUMNS = (0, 2, 4, 6, 8, 10, 13, 15, 17)
+"""Of a crown's round of vertices, more of them on the outer half."""
 TOOTH_RINGS = (1, 4, 6, 8, 10, 12)
 GUM_ROWS = (3, 6, 7, 8, 10, 13, 15, 19, 27)
 TEETH = 14
@@ -122,7 +122,7 @@ def _light(shapes: FaceShapes, positions: np.ndarray) -> np.ndarray:
     seam = shapes.landmarks()[[62, 66]].mean(axis=0)
     deep = np.clip((seam[2] - positions[:, 2] - DEEP_M[0]) / (DEEP_M[1] - DEEP_M[0]), 0.0, 1.0)
     aside = np.clip((np.abs(positions[:, 0]) - 18e-3) / 16e-3, 0.0, 1.0)
-    return (1.0 - 0.94 * deep**0.8) * (1.0 - 0.6 * aside)
+    return (1.0 - 0.9 * deep) * (1.0 - 0.45 * aside)
 
 
 def _thinned(meshes: tuple) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -130,3 +130,40 @@ def cut(surface: Surface, kept: np.ndarray) -> Surface:
         turned=of(surface.turned, 1),
         shares=of(surface.shares) if len(surface.shares) else surface.shares,
     )
+
+
+def trimmed(surface: Surface, inside: np.ndarray) -> Surface:
+    """The surface cut along the line where ``inside`` (V,) is 0; vertices beyond it are drawn along edges to it."""
+    outside = inside < 0.0
+    kept = surface.triangles[~outside[surface.triangles].all(axis=1)]
+    sides = np.concatenate([kept[:, [0, 1]], kept[:, [1, 2]], kept[:, [2, 0]]])
+    sides = np.concatenate([sides, sides[:, ::-1]])
+    crossing = sides[outside[sides[:, 0]] & ~outside[sides[:, 1]]]
+    # of its neighbours inside, a vertex goes towards the one nearest to it
+    length = np.linalg.norm(np.diff(surface.positions[crossing], axis=1)[:, 0], axis=1)
+    crossing = crossing[np.argsort(-length, kind="stable")]
+    towards = np.full(len(outside), -1)
+    towards[crossing[:, 0]] = crossing[:, 1]
+    moved = np.flatnonzero(towards >= 0)
+    share = np.zeros(len(outside))
+    gap = inside[moved] - inside[towards[moved]]
+    share[moved] = np.clip(inside[moved] / np.where(gap == 0.0, 1.0, gap), 0.0, 1.0)
+    other = np.where(towards >= 0, towards, np.arange(len(outside)))
+
+    def between(values: np.ndarray | None, axis: int = 0) -> np.ndarray | None:
+        if values is None or values.shape[axis] == 0:
+            return values
+        column = share.reshape(-1, 1)
+        return values + column * (np.take(values, other, axis=axis) - values)
+
+    drawn = replace(
+        surface,
+        positions=between(surface.positions),
+        normals=between(surface.normals),
+        uv=between(surface.uv),
+        colours=between(surface.colours),
+        moved=between(surface.moved, 1),
+        turned=between(surface.turned, 1),
+        shares=between(surface.shares),
+    )
+    return cut(drawn, ~outside[surface.triangles].all(axis=1))

@@ -9,6 +9,13 @@ import typer
 from facegen.console import say
 from facegen.conventions import Part
 
+HAIR = ("short", "cropped", "long", "bob", "bun", "cap")
+SEXES = ("female", "male")
+BUILD = ("average", "slim", "strong", "heavy")
+ANCESTRIES = ("caucasian", "african", "asian")
+CLOTHES = ("scrubs", "gown", "shirt", "dress")
+"""What options of ``export`` allow; the tests hold them against `facegen.avatars`, which is slow to import."""
+
 rig_app = typer.Typer(
     no_args_is_help=True,
     help="Build, inspect and draw rigs. Example: facegen rig build && facegen rig info anny",
@@ -138,20 +145,36 @@ def landmarks(
 def export(
     name: Annotated[str, typer.Argument(help="Name of a built rig")] = "anny",
     out: Annotated[Path, typer.Option(help="Avatar to write, .glb")] = Path("head.glb"),
-    seed: Annotated[int, typer.Option(min=0, max=2**31, help="Of teeth, hair and what is painted")] = 7,
+    body: Annotated[bool, typer.Option("--body", help="A whole person, dressed, on Mixamo's bones")] = False,
+    hair: Annotated[str, typer.Option(help=f"One of {', '.join(HAIR)}")] = "short",
+    seed: Annotated[int, typer.Option(min=0, max=2**31, help="Of what else differs between people")] = 7,
+    sex: Annotated[str, typer.Option(help=f"Of a body: {' or '.join(SEXES)}")] = "female",
+    age: Annotated[float, typer.Option(min=25, max=90, help="Of a body, years")] = 35.0,
+    build: Annotated[str, typer.Option(help=f"Of a body: {', '.join(BUILD)}")] = "average",
+    ancestry: Annotated[str, typer.Option(help=f"Of a body: {', '.join(ANCESTRIES)}")] = "caucasian",
+    clothes: Annotated[str, typer.Option(help=f"Of a body: {', '.join(CLOTHES)}")] = "scrubs",
 ) -> None:
-    """Write a rig as an avatar: skin, eyes, mouth and hair, 52 morph targets, bones of head and eyes.
+    """Write a rig as an avatar: skin, eyes, mouth and hair, 52 morph targets, a skeleton.
 
     Example: facegen rig export anny --out head.glb
     """
-    from facegen.avatars import head_bytes
+    from facegen.avatars import export_avatar
     from facegen.errors import InputError
     from facegen.files import write_whole
-    from facegen.rigs import load_rig
 
     if out.suffix.lower() != ".glb":
         raise InputError(
             f"--out is {out}; an avatar is written as binary glTF: name a file that ends with .glb"
         )
-    write_whole(out, head_bytes(load_rig(name), seed=seed))
+    for option, value, allowed in (
+        ("hair", hair, HAIR),
+        ("sex", sex, SEXES),
+        ("build", build, BUILD),
+        ("ancestry", ancestry, ANCESTRIES),
+        ("clothes", clothes, CLOTHES),
+    ):
+        if value not in allowed:
+            raise InputError(f"--{option} is {value!r}; allowed are {', '.join(allowed)}")
+    person = dict(sex=sex, age_years=age, build=build, ancestry=ancestry, clothes=clothes) if body else None
+    write_whole(out, export_avatar(name, hair=hair, seed=seed, person=person))
     typer.echo(str(out))

