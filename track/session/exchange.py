@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from enum import Enum
+from itertools import combinations
 
 import cv2
 import numpy as np
@@ -15,7 +16,8 @@ LEARNT = 0.02
 """Share of a new picture in what a camera showed lately: half a second at 120 frames a second."""
 
 MARGIN = 0.15
-"""Correlation by which another camera's look must be liker than the own: faces and light change both alike."""
+"""Mean correlation by which two pictures must be liker each other's camera than their own; while they are exchanged
+nothing more is asked for."""
 
 
 class CameraFault(Enum):
@@ -36,16 +38,17 @@ class ExchangeWatch(Stage):
     def __init__(self, typical: Mapping[str, np.ndarray]) -> None:
         self._looks = {name: _standard(picture) for name, picture in typical.items()}
         self._learnt: set[str] = set()
+        self._exchanged: set[str] = set()
 
     def step(self, sample: Sample) -> Sample:
         """The sample without exchanged pictures; ``faults`` names their cameras."""
         seen = {name: _standard(_small(picture)) for name, picture in (sample.pictures or {}).items()}
-        faults = {}
-        for name, look in seen.items():
-            own = self._likeness(look, name)
-            others = [self._likeness(look, other) for other in self._looks if other != name]
-            if others and max(others) > own + MARGIN:
-                faults[name] = CameraFault.EXCHANGED
+        before, self._exchanged = self._exchanged, set()
+        for pair in combinations(seen, 2):
+            margin = 0.0 if before.issuperset(pair) else MARGIN
+            if self._better_exchanged(*pair, seen) > margin:
+                self._exchanged |= set(pair)
+        faults = dict.fromkeys(sorted(self._exchanged), CameraFault.EXCHANGED)
         if not faults:
             for name, look in seen.items():
                 self._learn(name, look)
@@ -53,8 +56,13 @@ class ExchangeWatch(Stage):
         pictures = {name: picture for name, picture in sample.pictures.items() if name not in faults}
         return replace(sample, pictures=pictures, faults={**sample.faults, **faults})
 
-    def _likeness(self, look: np.ndarray, name: str) -> float:
-        return float(look @ self._looks[name]) if name in self._looks else -1.0
+    def _better_exchanged(self, one: str, other: str, seen: Mapping[str, np.ndarray]) -> float:
+        """By how much two pictures are liker each other's camera than their own, a picture; 0 where one is not known."""
+        if one not in self._looks or other not in self._looks:
+            return 0.0
+        looks = np.array([self._looks[one], self._looks[other]])
+        likeness = np.array([seen[one], seen[other]]) @ looks.T
+        return float(np.fliplr(likeness).trace() - likeness.trace()) / 2
 
     def _learn(self, name: str, look: np.ndarray) -> None:
         # training's look is of other people: the first own picture takes its place
