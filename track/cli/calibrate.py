@@ -13,6 +13,7 @@ from track.cli.options import (
     FilterOption,
     FpsOption,
     ModelOption,
+    PlacementOption,
     ProfileOption,
 )
 
@@ -28,6 +29,7 @@ def calibrate(
     detector_file: DetectorFileOption = None,
     profile: ProfileOption = None,
     filter_name: FilterOption = "groups",
+    placement: PlacementOption = None,
     fast: FastOption = False,
     fps: FpsOption = 30.0,
 ) -> None:
@@ -49,6 +51,7 @@ def calibrate(
         detector_file=detector_file,
         profile=profile,
         filter_name=filter_name,
+        placement=placement,
         fast=fast,
         fps=fps,
     )

@@ -11,6 +11,7 @@ from track.profile.places import person_of, profile_path
 from track.profile.profile import NeutralFace, Profile, read_profile
 
 if TYPE_CHECKING:
+    from regress.runtime.headset.placement import CameraPlacement
     from track.session.pipeline import Pipeline
     from track.sources import Capture
 
@@ -28,7 +29,7 @@ class Wishes:
     ----------
     cameras
         As they were written.
-    model, detector, detector_file, profile, filter_name, neutral
+    model, detector, detector_file, profile, filter_name, neutral, placement
         Options' values.
     fast, fps
         Pace of kept pictures.
@@ -41,6 +42,7 @@ class Wishes:
     profile: str | None = None
     filter_name: str = "groups"
     neutral: str | None = None
+    placement: Path | None = None
     fast: bool = False
     fps: float = 30.0
 
@@ -155,6 +157,8 @@ def open_profile(
         profile = fitted(read_profile(path), pipeline, path, say)
     elif wishes.profile is not None and wishes.profile.endswith(".toml"):
         say(f"{path} does not exist yet; calibrating makes it")
+    if wishes.placement is not None:
+        profile = profile.model_copy(update={"placement": _placement(wishes.placement, pipeline)})
     if wishes.neutral in ("auto", "none"):
         profile = profile.model_copy(update={"neutral": None, "ranges": {}})
     elif wishes.neutral is not None:
@@ -187,6 +191,14 @@ def fitted(profile: Profile, pipeline: "Pipeline", path: Path, say: Callable[[st
     if profile.ranges:
         say(f"{path}: its ranges were read by another model and are left out; calibrate again")
     return profile.model_copy(update={"ranges": {}, "model": None})
+
+
+def _placement(path: Path, pipeline: "Pipeline") -> "dict[str, CameraPlacement]":
+    from regress.runtime.headset.placement_file import read_placement
+
+    if pipeline.mark.kind != "headset":
+        raise InputError(f"--placement {path} is for a headset's cameras, and the model takes points")
+    return read_placement(path, dict.fromkeys(pipeline.cameras))
 
 
 def _neutral_file(name: str, pipeline: "Pipeline") -> NeutralFace:

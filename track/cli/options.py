@@ -64,6 +64,11 @@ NeutralOption = Annotated[
     ),
 ]
 
+PlacementOption = Annotated[
+    Path | None,
+    typer.Option("--placement", help="Of a headset: where its cameras see the face."),
+]
+
 FastOption = Annotated[
     bool,
     typer.Option(

@@ -16,6 +16,7 @@ from track.cli.options import (
     FpsOption,
     ModelOption,
     NeutralOption,
+    PlacementOption,
     ProfileOption,
 )
 
@@ -64,6 +65,7 @@ def run(
     port: Annotated[
         int, typer.Option("--port", min=0, max=65535, help="Of the page; 0 for any free one.")
     ] = PORT,
+    placement: PlacementOption = None,
     fast: FastOption = False,
     fps: FpsOption = 30.0,
     seconds: Annotated[
@@ -89,6 +91,7 @@ def run(
         profile=profile,
         filter_name=filter_name,
         neutral=neutral,
+        placement=placement,
         fast=fast,
         fps=fps,
     )

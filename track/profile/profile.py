@@ -43,6 +43,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_COUNT
 from facegen.documents import load_toml
 from facegen.files import write_whole
 from facegen.refusals import refusal
+from regress.runtime.headset.placement import CameraPlacement
 from track.errors import InputError
 
 MOST_BYTES = 2**20
@@ -191,6 +192,8 @@ class Profile(_Record):
         What the eyes read when they look straight ahead: yaw and pitch of the left eye, then of the right one.
     mirror
         Whether left and right are exchanged.
+    placement
+        What of a headset camera's pictures the network is to see, by camera.
     """
 
     format: Literal["track-profile"] = "track-profile"
@@ -205,6 +208,7 @@ class Profile(_Record):
         default_factory=dict
     )
     gains: dict[Shape, Annotated[FiniteFloat, Field(ge=0.0, le=LARGEST_GAIN)]] = Field(default_factory=dict)
+    placement: Annotated[dict[Name, CameraPlacement], Len(0, MOST_CAMERAS)] = Field(default_factory=dict)
 
     def factors(self) -> np.ndarray:
         """(52,) float64: by what each weight is multiplied, so that a full movement reads 1, times the own gain."""

@@ -27,17 +27,13 @@ class CameraFault(Enum):
 
 
 class ExchangeWatch(Stage):
-    """Takes pictures away that look like another camera's.
+    """Takes pictures away that look like another camera's; a camera is known from its first picture on.
 
-    Parameters
-    ----------
-    typical
-        (24, 24) uint8 by camera, of the model's training; a camera without one is known from its first picture on.
+    Cameras that are exchanged from the beginning are told by `regress headset check`, not here.
     """
 
-    def __init__(self, typical: Mapping[str, np.ndarray]) -> None:
-        self._looks = {name: _standard(picture) for name, picture in typical.items()}
-        self._learnt: set[str] = set()
+    def __init__(self) -> None:
+        self._looks: dict[str, np.ndarray] = {}
         self._exchanged: set[str] = set()
 
     def step(self, sample: Sample) -> Sample:
@@ -57,7 +53,7 @@ class ExchangeWatch(Stage):
         return replace(sample, pictures=pictures, faults={**sample.faults, **faults})
 
     def _better_exchanged(self, one: str, other: str, seen: Mapping[str, np.ndarray]) -> float:
-        """By how much two pictures are liker each other's camera than their own, a picture; 0 where one is not known."""
+        """By how much two pictures are liker each other's camera than their own; 0 where one is not known."""
         if one not in self._looks or other not in self._looks:
             return 0.0
         looks = np.array([self._looks[one], self._looks[other]])
@@ -65,10 +61,7 @@ class ExchangeWatch(Stage):
         return float(np.fliplr(likeness).trace() - likeness.trace()) / 2
 
     def _learn(self, name: str, look: np.ndarray) -> None:
-        # training's look is of other people: the first own picture takes its place
-        share = LEARNT if name in self._learnt else 1.0
-        self._learnt.add(name)
-        mixed = look if share == 1.0 else (1 - share) * self._looks[name] + share * look
+        mixed = (1 - LEARNT) * self._looks.get(name, look) + LEARNT * look
         self._looks[name] = mixed / max(float(np.linalg.norm(mixed)), 1e-9)
 
 

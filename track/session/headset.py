@@ -9,7 +9,9 @@ import cv2
 import numpy as np
 
 from regress.runtime.headset.faults import Fault
+from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
+from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.headset.soundness import PictureSoundness
 from regress.runtime.sample import Sample
@@ -42,13 +44,11 @@ class HeadsetPipeline(Pipeline):
     def __init__(self, folder: str | Path, *, fps: float, filter_name: str) -> None:
         self._predictor = load_headset_predictor(folder)
         self.mark = ModelMark(kind="headset", sha256=self._predictor.model.network_sha256)
-        self._networks = HeadsetNetworks(self._predictor, fps=fps)
-        self.stages = {
-            "grey": _Grey(),
-            "soundness": _Soundness(self._predictor.sizes),
-            "exchange": ExchangeWatch(self._predictor.typical),
-            "networks": self._networks,
-        }
+        self._fps = fps
+        self.stages = {"grey": _Grey()}
+        self.use_placement({})
+        # what training's pictures looked like says nothing of pictures that are not levelled yet
+        self.stages |= {"exchange": ExchangeWatch(), "networks": self._networks}
         smoothing = filter_of(filter_name)
         if smoothing is not None:
             self.stages["filter"] = smoothing
@@ -107,6 +107,14 @@ class HeadsetPipeline(Pipeline):
         if self._networks.reseated:
             found["seat"] = "the headset has moved since it was calibrated; calibrate again"
         return found
+
+    def use_placement(self, placement: Mapping[str, CameraPlacement]) -> None:
+        """See this of each camera's pictures, at these levels; all of it, at its own levels, of those left out."""
+        levels = Levels(self._predictor.model.looks, placement)
+        self._networks = HeadsetNetworks(self._predictor, fps=self._fps, levels=levels)
+        self.stages["soundness"] = _Soundness(self._predictor.sizes, placement)
+        if "networks" in self.stages:
+            self.stages["networks"] = self._networks
 
     def forget_neutral(self) -> None:
         """Take frames by themselves, and any seat for the right one."""

@@ -5,6 +5,7 @@ from enum import Enum
 
 import numpy as np
 
+from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.sample import Sample
 from regress.runtime.stages.filters import FILTERS
 from regress.runtime.stages.one_euro import OneEuro
@@ -56,6 +57,9 @@ class Pipeline:
             Where it is of another kind of model, other cameras or another detector.
         """
         raise NotImplementedError
+
+    def use_placement(self, placement: Mapping[str, CameraPlacement]) -> None:
+        """See this of each camera's pictures from now on; a landmark model's detector looks for the face itself."""
 
     def forget_neutral(self) -> None:
         """Take frames by themselves while a neutral face is recorded."""

@@ -126,6 +126,8 @@ class Session:
         self._new_recording, self._recording = new_recording, None
         self._pictures_wanted, self._timed, self._stopped = False, timed, False
         self._faces, self._first_s, self._last_s = 0, None, 0.0
+        if profile.placement:
+            pipeline.use_placement(profile.placement)
         if profile.neutral is not None:
             pipeline.use_neutral(profile.neutral)
 
