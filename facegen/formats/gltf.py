@@ -12,6 +12,7 @@ References
 import struct
 import warnings
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -78,21 +79,34 @@ def read_gltf(path: Path) -> tuple[GltfPart, ...]:
     """
     from pygltflib import GLTF2
 
-    try:
+    with damage_told(path):
         check_amount(json_of(read_gltf_bytes(path)), path)
+        gltf = GLTF2().load(str(path))
+        compressed = [name for name in _COMPRESSED if name in (gltf.extensionsRequired or [])]
+        if compressed:
+            raise FormatError(
+                f"{path} is compressed with {compressed[0]}, which facegen does not read; export it without "
+                "compression"
+            )
+        return tuple(_parts(GltfFile(gltf, read_buffers(gltf, path.parent))))
+
+
+@contextmanager
+def damage_told(path: Path) -> Iterator[None]:
+    """Make one sentence of whatever a damaged file makes pygltflib and NumPy raise.
+
+    Raises
+    ------
+    FormatError
+        In place of that, with the file's name.
+    """
+    try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("error", UserWarning)  # pygltflib warns of versions it does not know
-            gltf = GLTF2().load(str(path))
-            compressed = [name for name in _COMPRESSED if name in (gltf.extensionsRequired or [])]
-            if compressed:
-                raise FormatError(
-                    f"{path} is compressed with {compressed[0]}, which facegen does not read; export it without "
-                    "compression"
-                )
-            return tuple(_parts(_File(gltf, read_buffers(gltf, path.parent))))
+            yield
     except FormatError as error:
         raise error if str(path) in str(error) else FormatError(f"{path}: {error}") from error
-    # what pygltflib and NumPy raise on damage, by where it lies
+    # by where the damage lies
     except (
         *(OSError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError),
         *(UserWarning, struct.error),
@@ -101,7 +115,7 @@ def read_gltf(path: Path) -> tuple[GltfPart, ...]:
         raise FormatError(f"{path} cannot be read as a glTF 2.0 file ({reason})") from error
 
 
-class _File:
+class GltfFile:
     """A file's records and buffers, and how much of what it may hold has been taken."""
 
     def __init__(self, gltf: Any, buffers: list[bytes]) -> None:
@@ -122,7 +136,7 @@ class _File:
         return records[index]
 
 
-def _parts(file: _File) -> Iterator[GltfPart]:
+def _parts(file: GltfFile) -> Iterator[GltfPart]:
     placed = _world_from_node(file)
     for index, world in placed.items():
         node = file.item("nodes", index)
@@ -135,23 +149,23 @@ def _parts(file: _File) -> Iterator[GltfPart]:
 
 
 def _part(
-    file: _File, node: Any, mesh: Any, primitive: Any, world: np.ndarray, placed: dict[int, np.ndarray]
+    file: GltfFile, node: Any, mesh: Any, primitive: Any, world: np.ndarray, placed: dict[int, np.ndarray]
 ) -> GltfPart:
     attributes = vars(primitive.attributes)
     count = file.item("accessors", attributes["POSITION"]).count
     file.take("vertices", count, MOST_VERTICES)
-    positions = _accessor(file, attributes["POSITION"], "VEC3")
+    positions = accessor_values(file, attributes["POSITION"], "VEC3")
     deform = _skinning(file, node.skin, attributes, placed, count) if node.skin is not None else world[None]
     turn = deform[:, :3, :3]
     uv = attributes.get("TEXCOORD_0")
-    uv = np.zeros((count, 2)) if uv is None else _accessor(file, uv, "VEC2", count)
+    uv = np.zeros((count, 2)) if uv is None else accessor_values(file, uv, "VEC2", count)
     morphs = {}
     for name, target in zip(
         (mesh.extras or {}).get("targetNames", []), primitive.targets or [], strict=False
     ):
         moved = (target if isinstance(target, dict) else vars(target)).get("POSITION")
         if moved is not None:
-            morphs[str(name)] = _turned(turn, _accessor(file, moved, "VEC3", count))
+            morphs[str(name)] = _turned(turn, accessor_values(file, moved, "VEC3", count))
     material = None if primitive.material is None else file.item("materials", primitive.material)
     part = GltfPart(
         mesh=_name(mesh),
@@ -177,8 +191,8 @@ def _turned(turn: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     return np.einsum("...ij,...j->...i", turn, vectors)
 
 
-def _triangles(file: _File, index: int | None, vertices: int) -> np.ndarray:
-    order = np.arange(vertices) if index is None else _accessor(file, index, "SCALAR")[:, 0]
+def _triangles(file: GltfFile, index: int | None, vertices: int) -> np.ndarray:
+    order = np.arange(vertices) if index is None else accessor_values(file, index, "SCALAR")[:, 0]
     file.take("triangles", len(order) // 3, MOST_TRIANGLES)
     outside = order[~((order >= 0) & (order < vertices))]
     if len(outside):
@@ -186,7 +200,7 @@ def _triangles(file: _File, index: int | None, vertices: int) -> np.ndarray:
     return order.astype(int).reshape(-1, 3)
 
 
-def _world_from_node(file: _File) -> dict[int, np.ndarray]:
+def _world_from_node(file: GltfFile) -> dict[int, np.ndarray]:
     """Matrices (4, 4) of the scene's nodes, in the order in which the scene is walked."""
     gltf = file.gltf
     children = {child for node in gltf.nodes for child in node.children or []}
@@ -223,7 +237,7 @@ def _local(node: object) -> np.ndarray:
 
 
 def _skinning(
-    file: _File, index: int, attributes: dict, placed: dict[int, np.ndarray], vertices: int
+    file: GltfFile, index: int, attributes: dict, placed: dict[int, np.ndarray], vertices: int
 ) -> np.ndarray:
     """(V, 4, 4): each vertex's mean of its joints' matrices; the node's own place does not count [1]_."""
     skin = file.item("skins", index)
@@ -231,17 +245,17 @@ def _skinning(
         raise FormatError(f"skin {index} has {len(skin.joints)} joints; 1 to {_MOST_JOINTS:,} can be named")
     joints = np.stack([placed.get(joint, np.eye(4)) for joint in skin.joints])
     if skin.inverseBindMatrices is not None:
-        inverse = _accessor(file, skin.inverseBindMatrices, "MAT4")[: len(joints)]
+        inverse = accessor_values(file, skin.inverseBindMatrices, "MAT4")[: len(joints)]
         joints = joints @ inverse.reshape(-1, 4, 4).transpose(0, 2, 1)
-    chosen = _accessor(file, attributes["JOINTS_0"], "VEC4", vertices)
-    share = _accessor(file, attributes["WEIGHTS_0"], "VEC4", vertices)
+    chosen = accessor_values(file, attributes["JOINTS_0"], "VEC4", vertices)
+    share = accessor_values(file, attributes["WEIGHTS_0"], "VEC4", vertices)
     if not ((chosen >= 0) & (chosen < len(joints))).all():
         raise FormatError(f"a vertex names a joint that its skin, of {len(joints)} joints, does not have")
     share = share / np.maximum(share.sum(axis=1, keepdims=True), 1e-12)
     return np.einsum("vj,vjab->vab", share, joints[chosen.astype(int)])
 
 
-def _accessor(file: _File, index: int, kind: str, count: int | None = None) -> np.ndarray:
+def accessor_values(file: GltfFile, index: int, kind: str, count: int | None = None) -> np.ndarray:
     """Values (count, width) in float64, sparse ones filled in, normalised integers divided by their range."""
     accessor = file.item("accessors", index)
     if accessor.type != kind or (count is not None and accessor.count != count):
@@ -267,7 +281,9 @@ def _accessor(file: _File, index: int, kind: str, count: int | None = None) -> n
     return values.astype(np.float64)
 
 
-def _view(file: _File, index: int, offset: int | None, dtype: np.dtype, shape: tuple[int, int]) -> np.ndarray:
+def _view(
+    file: GltfFile, index: int, offset: int | None, dtype: np.dtype, shape: tuple[int, int]
+) -> np.ndarray:
     view = file.item("bufferViews", index)
     if not isinstance(view.buffer, int) or not 0 <= view.buffer < len(file.buffers):
         raise FormatError(

@@ -20,6 +20,7 @@ from facegen.errors import FormatError
 from facegen.formats.gltf_additions import Additions, records
 from facegen.formats.gltf_container import glb_bytes, open_glb
 from facegen.formats.gltf_expressions import read_expressions
+from facegen.formats.gltf_eyes import eye_bones
 from facegen.formats.gltf_head import head_bone, listed, record
 
 _MOST_WEIGHT = 1e30
@@ -53,6 +54,7 @@ def animate_avatar(
     *,
     title: str,
     head_rad: np.ndarray | None = None,
+    gaze_rad: np.ndarray | None = None,
 ) -> AnimatedAvatar:
     """Add one animation that moves every mesh with known morph targets, and the head, interpolated linearly.
 
@@ -74,6 +76,9 @@ def animate_avatar(
         What the animation is called.
     head_rad : (n, 3) float, optional
         Yaw, pitch and roll of the head, which turn its bone (`gltf_head`); 0 where a row has weights and no pose.
+    gaze_rad : (n, 4) float, optional
+        Yaw and pitch of the left eye, then of the right eye, in the head; they turn the eyes' bones, unless morph
+        targets do so (`gltf_eyes`); 0 where a row has weights and no gaze.
 
     Raises
     ------
@@ -113,14 +118,21 @@ def animate_avatar(
             {"input": clock, "output": file.accessor(values.astype("<f4")), "interpolation": "LINEAR"}
         )
     bone = None if head_rad is None else head_bone(document)
-    if bone is not None:
+    turns = [] if bone is None else [(bone, head_rad[known])]
+    if gaze_rad is not None:
+        straight = np.zeros((len(times), 1))
+        turns += [
+            (eye, np.concatenate([gaze_rad[known, 2 * side : 2 * side + 2], straight], axis=1))
+            for side, eye in enumerate(eye_bones(document, path))
+        ]
+    for turned, angles in turns:
         file.check_room(4 * len(times))
-        turns = bone.turned(np.nan_to_num(head_rad[known])).astype("<f4")
+        rotations = turned.turned(np.nan_to_num(angles)).astype("<f4")
         animation["channels"].append(
-            {"sampler": len(animation["samplers"]), "target": {"node": bone.node, "path": "rotation"}}
+            {"sampler": len(animation["samplers"]), "target": {"node": turned.node, "path": "rotation"}}
         )
         animation["samplers"].append(
-            {"input": clock, "output": file.accessor(turns, kind="VEC4"), "interpolation": "LINEAR"}
+            {"input": clock, "output": file.accessor(rotations, kind="VEC4"), "interpolation": "LINEAR"}
         )
     document["animations"] = [*records(document, "animations", path), animation]
     chunks = file.stored(chunks)

@@ -1,4 +1,4 @@
-"""Finds the bone of an avatar's head, and turns it as a head is turned.
+"""Finds the bones of an avatar's head and eyes, and turns them as a head or an eye is turned.
 
 References
 ----------
@@ -54,11 +54,19 @@ def head_bone(document: dict[str, Any]) -> HeadBone | None:
 
     None where there is none that an animation can turn: one with a matrix cannot be.
     """
+    return named_bone(document, "head")
+
+
+def named_bone(document: dict[str, Any], name: str) -> HeadBone | None:
+    """The bone that VRM calls ``head``, ``leftEye`` or ``rightEye``, or a node that is called so (`_NAMES`)."""
     nodes = document.get("nodes") or []
-    named, faces_away = _named_by_vrm(document)
+    named, faces_away = _named_by_vrm(document, name)
     if named is None:
-        names = [str(node.get("name", "")).rpartition(":")[2].lower() for node in nodes]
-        named = names.index("head") if "head" in names else None
+        called = [_letters(node.get("name", "")) for node in nodes]
+        fitting = [number for one in _NAMES[name] for number, letters in enumerate(called) if letters == one]
+        bones = [number for number in fitting if "mesh" not in nodes[number]]
+        # a mesh is turned where it is the head, but not about an eye's middle
+        named = next(iter(bones or (fitting if name == "head" else [])), None)
     if not isinstance(named, int) or not 0 <= named < len(nodes) or "matrix" in nodes[named]:
         return None
     parents = {
@@ -74,15 +82,27 @@ def head_bone(document: dict[str, Any]) -> HeadBone | None:
     return HeadBone(node=named, at_rest=_rotation_of(nodes[named]), above=above, faces_away=faces_away)
 
 
-def _named_by_vrm(document: dict[str, Any]) -> tuple[object, bool]:
-    """Number of the node that the VRM extension calls head, and whether the model faces -z."""
+_NAMES = {
+    "head": ("head",),
+    "leftEye": ("lefteye", "eyeleft", "eyel", "leye"),
+    "rightEye": ("righteye", "eyeright", "eyer", "reye"),
+}
+"""Letters of nodes' names behind a colon: ``mixamorig:LeftEye``, ``eye.L``."""
+
+
+def _letters(name: object) -> str:
+    return "".join(filter(str.isalnum, str(name).rpartition(":")[2].lower()))
+
+
+def _named_by_vrm(document: dict[str, Any], name: str) -> tuple[object, bool]:
+    """Number of the node that the VRM extension calls so, and whether the model faces -z."""
     extensions = record(document.get("extensions"))
     bones = record(record(extensions.get("VRMC_vrm")).get("humanoid")).get("humanBones")
     if bones is not None:
-        return record(record(bones).get("head")).get("node"), False
+        return record(record(bones).get(name)).get("node"), False
     bones = record(record(extensions.get("VRM")).get("humanoid")).get("humanBones")
     return next(
-        (record(bone).get("node") for bone in listed(bones) if record(bone).get("bone") == "head"), None
+        (record(bone).get("node") for bone in listed(bones) if record(bone).get("bone") == name), None
     ), ("VRM" in extensions)
 
 

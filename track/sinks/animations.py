@@ -146,7 +146,13 @@ def _moving(take: Take, *, avatar: Path, names: str | None) -> AnimatedAvatar:
         retargeting = read_retargeting(names)
         shapes, weights = retargeting.names, retargeting.apply(weights)
     return animate_avatar(
-        avatar, shapes, weights, take.time_s, title=take.title, head_rad=_held(take.head[:, 3:])
+        avatar,
+        shapes,
+        weights,
+        take.time_s,
+        title=take.title,
+        head_rad=_held(take.head[:, 3:]),
+        gaze_rad=_held(take.gaze),
     )
 
 

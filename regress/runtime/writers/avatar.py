@@ -1,4 +1,4 @@
-"""An avatar (.glb, .vrm) with the answers as an animation of its morph targets and its head."""
+"""An avatar (.glb, .vrm) with the answers as an animation of its morph targets, its head and its eyes."""
 
 from pathlib import Path
 
@@ -23,4 +23,5 @@ def animated_avatar(prediction: Prediction, avatar: Path) -> AnimatedAvatar:
         prediction.known_times_s,
         title=title,
         head_rad=None if head is None else head[:, 3:],
+        gaze_rad=prediction.gaze,
     )

@@ -1,0 +1,137 @@
+"""Eyes of avatars: their bones turn as the gaze does, unless morph targets turn the same eyeballs."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPES
+from facegen.formats.gltf_animation import animate_avatar
+from facegen.formats.gltf_container import glb_bytes, open_glb
+from facegen.formats.gltf_eyes import eye_bones
+from facegen.formats.gltf_writer import GltfWriter
+from facegen.geometry import rotation_from_angles
+from tests.facegen.formats.test_gltf_head import matrix
+
+OURS = Path(__file__).resolve().parents[3] / "track" / "page" / "static" / "head.glb"
+NAMES = ("eyeLookOutLeft", "eyeLookOutRight")
+LEFT, RIGHT, REST = 0, 1, 2
+"""What each of three vertices hangs on: the left eye's bone, the right one's, the head's."""
+
+
+def avatar(
+    path: Path,
+    *,
+    moved: tuple[int, int] = (REST, REST),
+    names: tuple[str, str] = NAMES,
+    skinned: bool = True,
+    bones: tuple[str, str] = ("LeftEye", "mixamorig:RightEye"),
+) -> Path:
+    """A triangle on a head and two eyes, and two targets that each move one of its vertices.
+
+    Without ``skinned`` the triangle hangs on the left eye as a whole.
+    """
+    writer = GltfWriter(copyright="", extras={})
+    place = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+    attributes = {"POSITION": writer.numbers(place, bounds=True)}
+    if skinned:
+        joints = np.zeros((3, 4), np.uint8)
+        joints[:, 0] = [LEFT, RIGHT, REST]
+        shares = np.zeros((3, 4), np.float32)
+        shares[:, 0] = 1
+        attributes |= {"JOINTS_0": writer.numbers(joints), "WEIGHTS_0": writer.numbers(shares)}
+        identity = np.tile(np.eye(4, dtype=np.float32).ravel(), (3, 1))
+        writer.add("skins", {"joints": [1, 2, 0], "inverseBindMatrices": writer.numbers(identity)})
+    targets = [{"POSITION": writer.sparse(np.array([row]), np.array([[0, 0, 0.1]]), 3)} for row in moved]
+    mesh = {
+        "primitives": [{"attributes": attributes, "targets": targets}],
+        "extras": {"targetNames": list(names)},
+    }
+    writer.add("meshes", mesh)
+    nodes = [
+        {"name": "Head", "children": [1, 2]},
+        {"name": bones[0]},
+        {"name": bones[1]},
+        {"name": "Face", "mesh": 0},
+    ]
+    if skinned:
+        nodes[3]["skin"] = 0
+    else:
+        nodes[1]["children"] = [3]
+    for node in nodes:
+        writer.add("nodes", node)
+    writer.scene([0, 3] if skinned else [0])
+    path.write_bytes(writer.content())
+    return path
+
+
+def _found(path: Path) -> list[int]:
+    return [bone.node for bone in eye_bones(open_glb(path)[0], path)]
+
+
+@pytest.mark.parametrize(
+    ("changes", "bones"),
+    [
+        ({}, [1, 2]),  # targets move what hangs on the head: lids
+        ({"moved": (LEFT, REST)}, []),
+        ({"moved": (REST, RIGHT)}, []),
+        ({"moved": (RIGHT, LEFT)}, [1, 2]),  # neither moves its own eye
+        ({"moved": (LEFT, RIGHT), "names": ("jawOpen", "jawLeft")}, [1, 2]),
+        ({"moved": (LEFT, REST), "names": ("eyeLookOut_L", "eyeLookOut_R")}, []),
+        ({"moved": (LEFT, REST), "names": ("Eye_Look_Out_Left", "x")}, []),
+        ({"skinned": False}, []),
+        ({"bones": ("eye.L", "Eye_R")}, [1, 2]),
+        ({"bones": ("LeftEye", "Ear")}, []),
+    ],
+)
+def test_bones_that_turn(changes: dict, bones: list[int], tmp_path: Path):
+    assert _found(avatar(tmp_path / "a.glb", **changes)) == bones
+
+
+def test_bones_that_vrm_names(tmp_path: Path):
+    path = avatar(tmp_path / "a.vrm", bones=("J_Adj_L_FaceEye", "J_Adj_R_FaceEye"))
+    assert _found(path) == []
+    document, chunks = open_glb(path)
+    document["extensions"] = {
+        "VRMC_vrm": {"humanoid": {"humanBones": {"leftEye": {"node": 1}, "rightEye": {"node": 2}}}}
+    }
+    path.write_bytes(glb_bytes(document, chunks, path))
+    assert _found(path) == [1, 2]
+
+
+@pytest.mark.parametrize(
+    "damage", [{"joints": [1]}, {"joints": "x"}, {"joints": [0] * 3, "inverseBindMatrices": 99}]
+)
+def test_what_cannot_be_read_is_left_to_the_targets(damage: dict, tmp_path: Path):
+    path = avatar(tmp_path / "a.glb")
+    document, chunks = open_glb(path)
+    document["skins"] = [damage] if "inverseBindMatrices" not in damage else []
+    path.write_bytes(glb_bytes(document, chunks, path))
+    assert _found(path) == []
+
+
+def test_an_animation_turns_head_and_eyes(tmp_path: Path):
+    gaze = np.array([[0.0, 0, 0, 0], [0.2, 0.1, 0.3, -0.1], [np.nan] * 4])
+    made = animate_avatar(
+        OURS,
+        BLENDSHAPES,
+        np.zeros((3, 52)),
+        np.arange(3) / 30,
+        title="take",
+        head_rad=gaze[:, :3],
+        gaze_rad=gaze,
+    )
+    path = tmp_path / "b.glb"
+    path.write_bytes(made.content)
+    document, chunks = open_glb(path)
+    names, turns = [], []
+    for channel in document["animations"][-1]["channels"]:
+        if channel["target"]["path"] == "rotation":
+            names.append(document["nodes"][channel["target"]["node"]]["name"])
+            output = document["animations"][-1]["samplers"][channel["sampler"]]["output"]
+            view = document["bufferViews"][document["accessors"][output]["bufferView"]]
+            turns.append(np.frombuffer(chunks[0][1], "<f4", 12, view["byteOffset"]).reshape(3, 4))
+    assert names == ["Head", "LeftEye", "RightEye"]
+    np.testing.assert_allclose(matrix(turns[1][1]), rotation_from_angles(0.2, 0.1, 0), atol=1e-6)
+    np.testing.assert_allclose(matrix(turns[2][1]), rotation_from_angles(0.3, -0.1, 0), atol=1e-6)
+    np.testing.assert_allclose(turns[2][2], [0, 0, 0, 1])
