@@ -17,6 +17,7 @@ from tests.track.virtual import Switches, VirtualCamera, noise, told
 from track.errors import CameraError, InputError
 from track.sources import CameraFault, Capture, Pace, open_capture
 from track.sources.camera import PAUSES_S, SILENT_S, RisingClock
+from track.sources.capture import WAIT_S
 from track.sources.webcams import WebcamSource
 
 PAUSES = (0.05, 0.1, 0.2)
@@ -207,28 +208,31 @@ def test_several_cameras_make_one_sample_a_moment():
 
 
 def test_a_camera_that_lags_is_left_out_and_told_once():
-    switches = {"left": Switches(), "mouth": Switches()}
+    switches = {"left": Switches(fps=100), "mouth": Switches()}
     with _capture(**switches) as capture:
         _until(capture, lambda sample: len(sample.pictures) == 2)
         switches["mouth"].fps = 4
         samples = _until(capture, lambda sample: sample.faults.get("mouth") is CameraFault.LATE)
         assert set(samples[-1].pictures) == {"left"}
         samples += _for(capture, 1.0)
+        assert len(samples) > 20, "the slow one gives four, and the other one is not held up by it"
         switches["mouth"].fps = 60
         samples += _until(capture, lambda sample: len(sample.pictures) == 2 and not sample.faults)
     assert told(samples) == ["mouth: LATE"]
 
 
 def test_one_unplugged_camera_does_not_hold_up_the_others():
-    switches = {"left": Switches(fps=50), "mouth": Switches(fps=50)}
+    switches = {"left": Switches(fps=20), "mouth": Switches(fps=20)}
     with _capture(**switches) as capture:
         _until(capture, lambda sample: len(sample.pictures) == 2)
         switches["mouth"].plugged = False
         _until(capture, lambda sample: sample.faults.get("mouth") is CameraFault.UNPLUGGED)
-        since_s = time.monotonic()
-        samples = [capture.read() for _ in range(20)]
-        assert all(set(sample.pictures) == {"left"} for sample in samples)
-        assert time.monotonic() - since_s < 2 * 20 / 50
+        ages = []
+        for _ in range(20):
+            sample = capture.read()
+            assert set(sample.pictures) == {"left"}
+            ages.append(capture.now_s() - sample.time_s)
+        assert np.median(ages) < 0.8 * WAIT_S, "nobody waits for the one that is away"
 
 
 def test_cameras_that_were_exchanged_are_found_by_their_names(
@@ -307,11 +311,10 @@ def test_a_film_has_its_own_pace(tmp_path: Path):
 
 
 def test_a_second_camera_that_cannot_be_opened_lets_the_first_one_go():
-    switches = Switches()
+    left = VirtualCamera(Switches())
     with pytest.raises(CameraError, match="not plugged in"):
-        Capture(
-            {"left": lambda: VirtualCamera(switches), "right": lambda: VirtualCamera(Switches(plugged=False))}
-        )
+        Capture({"left": lambda: left, "right": lambda: VirtualCamera(Switches(plugged=False))})
+    assert left.closed
 
 
 def test_what_is_wrong_with_lines_comes_out_of_the_thread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

