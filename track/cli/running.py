@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 RECORDINGS = {".csv": "csv", ".glb": "gltf", ".vrma": "vrma"}
 """Sinks by a recording's ending."""
 
+NAMED = ("csv:", "gltf:")
+"""Sinks that take any other avatar's names."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class RunOptions:
@@ -95,9 +98,7 @@ def open_sinks(
             raise InputError(f"--record {options.record}: a recording ends with {', '.join(RECORDINGS)}")
         written.append(f"{RECORDINGS[options.record.suffix]}:{options.record}")
     if options.retarget is not None:
-        written = [
-            f"{each},names={options.retarget}" if each.startswith("csv:") else each for each in written
-        ]
+        written = [f"{each},names={options.retarget}" if each.startswith(NAMED) else each for each in written]
     sinks = []
     for each in written:
         sinks.append(_open(each, say))
@@ -126,6 +127,10 @@ def _open_page(
     from track.page import Page
     from track.session.calibration import FACES
 
+    if options.avatar is not None:
+        from facegen.formats.gltf import read_gltf
+
+        read_gltf(options.avatar)  # a broken one is told here, and not in the browser alone
     page = Page(
         session.ask,
         options.host,
