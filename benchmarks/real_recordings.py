@@ -167,8 +167,9 @@ def tell(figures: dict) -> None:
     tell_movements({"rig": figures["rig"], **figures["movements"]})
     if "still" not in figures:
         return
-    print(f"\n## e. The other way: learned on {figures['rig']}, replayed on {figures['own rig']}\n")
-    tell_replay(figures["other way"])
+    if "other way" in figures:
+        print(f"\n## e. The other way: learned on {figures['rig']}, replayed on {figures['own rig']}\n")
+        tell_replay(figures["other way"])
     print(
         f"\n## c. Still faces of the ICT rig\n\nmedian r, visible: {median_r(visible(figures['still'])):.2f}"
     )
@@ -188,11 +189,11 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="write all figures here")
     arguments = parser.parse_args()
     model, dataset = load_model(arguments.model), read_dataset(arguments.dataset)
-    rig, own_rig = load_rig(arguments.rig), load_rig(dataset.description["rig"]["name"])
+    rig, own = load_rig(arguments.rig), dataset.description.get("rig", {}).get("name")
     played = play(arguments.real, rig, arguments.people, arguments.step)
     figures = {
         "rig": rig.name,
-        "own rig": own_rig.name,
+        "own rig": own,
         "replay": replay(model, ridges_beside(model, dataset), played),
         "clips": clips(model, arguments.real),
         "movements": small_movements(model, rig, people=arguments.people),
@@ -200,8 +201,9 @@ def main() -> None:
     if arguments.other_people:
         other = faces_of_rig(rig.name, arguments.dataset, arguments.other_people)
         figures["still"] = still(model, other)
+    if arguments.other_people and own is not None:  # of several rigs none is the other one
         back = train_calibrated(other, RECIPES[model.recipe], seed=0)
-        played = play(arguments.real, own_rig, arguments.people, arguments.step)
+        played = play(arguments.real, load_rig(own), arguments.people, arguments.step)
         figures["other way"] = replay(back, ridges_beside(back, other), played, biased=(True,))
     print(
         f"# {platform.machine()}, Python {platform.python_version()}, NumPy {version('numpy')}; model "
