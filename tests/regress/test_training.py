@@ -7,15 +7,24 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.errors import InputError, Interrupted
-from regress.learning.training import RECIPES, KeypointDataset, evaluate_model, read_dataset, score, train
+from regress.learning.training import (
+    RECIPES,
+    KeypointDataset,
+    evaluate_model,
+    read_dataset,
+    run,
+    score,
+    train,
+)
 from regress.learning.training.preparation import mirrored, prepare
 from regress.runtime.model import Model
 from regress.runtime.model.record import record_to_json
 from regress.targets import NETWORKS, OUTPUTS
-from tests.regress.conftest import QUICK, write_dataset
+from tests.regress.conftest import QUICK, QUICK_STABLE, write_dataset
 
 
 def test_a_dataset_reads_as_it_was_written(dataset: KeypointDataset, dataset_folder: Path):
@@ -196,3 +205,21 @@ def test_the_paper_recipe_is_the_papers():
     paper = RECIPES["paper"]
     assert (paper.alignment, paper.hidden, paper.start) == ("affine", 20, "nguyen_widrow")
     assert (paper.steps, paper.smooth_frames, paper.mirror) == (1000, 10, False)
+
+
+def test_networks_that_compare_do_not_hang_on_how_many_threads_there_are(
+    dataset: KeypointDataset, monkeypatch: pytest.MonkeyPatch
+):
+    """Large products have other last bits in two threads; frames alone keep the machine's, as they always did."""
+    threads: dict[bool, set[int]] = {False: set(), True: set()}
+    prepared = run.prepare
+
+    def watched(*words, calibrated: bool, **options):
+        libraries = [library for library in threadpool_info() if library["user_api"] == "blas"]
+        threads[calibrated].add(max(library["num_threads"] for library in libraries))
+        return prepared(*words, calibrated=calibrated, **options)
+
+    monkeypatch.setattr(run, "prepare", watched)
+    with threadpool_limits(limits=2, user_api="blas"):
+        run.train(dataset, dataclasses.replace(QUICK_STABLE, steps=2, alphas=(1.0,)))
+    assert threads == {False: {2}, True: {1}}

@@ -91,7 +91,7 @@ RECIPES: dict[str, Recipe] = {
         denoise=True,
         symmetric=True,
         noise=DetectorNoise(bias=0.5, jitter=0.002, jitter_most=0.03, clean=0.4, unbiased=0.25),
-        calibrated_noise=DetectorNoise(bias=1.0, jitter=0.02, clean=0.0, eyes=0.7),
+        calibrated_noise=DetectorNoise(bias=1.0, jitter=0.005, jitter_most=0.03, clean=0.0, eyes=0.7),
         calibrated_alignment="stable",
         calibrated_whitening=0.5,
         calibrated_gain=True,

@@ -4,6 +4,7 @@ import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from regress.errors import Interrupted
 from regress.learning.networks import fold
@@ -67,7 +68,8 @@ def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Prog
     compared = None
     beside = beside_neutral(features, recipe)
     if recipe.calibrated and dataset.has_neutral_frames:
-        compared = fit_set(dataset, beside, recipe, calibrated=True, seed=seed, progress=progress)
+        with _one_thread():
+            compared = fit_set(dataset, beside, recipe, calibrated=True, seed=seed, progress=progress)
     model = Model(
         recipe=recipe.name,
         table=NETWORKS,
@@ -83,11 +85,20 @@ def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Prog
     if recipe.symmetric:
         model = symmetrised(model)
     if recipe.calibrated_gain and model.calibrated is not None:
-        model = stretched(model, dataset)
+        with _one_thread():
+            model = stretched(model, dataset)
     fits = {"alone": alone.fit} if compared is None else {"alone": alone.fit, "calibrated": compared.fit}
     rows = len(alone.prepared.splits["train"].inputs)
     record = training_record(model, dataset, recipe, seed=seed, fits=fits, training_rows=rows)
     return dataclasses.replace(model, record=record)
+
+
+def _one_thread() -> threadpool_limits:
+    """Products of large matrices in one thread: with two they have other last bits, and the networks other weights.
+
+    Not for the networks of a frame alone: their weights stay those of earlier versions, with as many threads as then.
+    """
+    return threadpool_limits(limits=1, user_api="blas")
 
 
 def beside_neutral(features: Features, recipe: Recipe) -> Features:
