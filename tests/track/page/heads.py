@@ -56,6 +56,7 @@ def head(
     spell: Callable[[str], str] = str,
     shapes: Sequence[str] = BLENDSHAPES,
     colour: Sequence[float] = (0.75, 0.55, 0.45, 1.0),
+    leaning: bool = False,
     vrm: Callable[[dict[str, int], list[str]], dict] | None = None,
 ) -> bytes:
     """A .glb.
@@ -68,6 +69,8 @@ def head(
         Those that it has.
     colour
         Of its skin.
+    leaning
+        Whether its neck's bone lies on its back at rest, with head and eyes in its frame, as Blender's bones do.
     vrm
         Makes the extensions of a VRM from its nodes by name, and its shapes.
     """
@@ -84,6 +87,13 @@ def head(
     nodes[names.index("hips")].setdefault("children", []).extend(
         names.index(name) for name in (OTHERS if vrm else ())
     )
+    lying = np.eye(3)
+    if leaning:  # a quarter turn about x: y goes to z
+        lying = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+        nodes[names.index("neck")]["rotation"] = [float(np.sqrt(0.5)), 0.0, 0.0, float(np.sqrt(0.5))]
+        for name in ("head", *EYES):
+            node = nodes[names.index(name)]
+            node["translation"] = (lying.T @ node["translation"]).tolist()
     at = {"hips": np.array([0, 0.9, 0]), "neck": np.array([0, 1.4, 0]), "head": np.array([0, 1.5, 0])}
     at |= {name: at["head"] + place for name, place in EYES.items()}
 
@@ -126,7 +136,9 @@ def head(
             | ({"targets": targets} if targets else {})
         )
     inverse = np.tile(np.eye(4, dtype=np.float32), (len(joints), 1, 1))
-    inverse[:, :3, 3] = [-at[name] for name in (*BONES, *EYES)]
+    for joint, name in enumerate((*BONES, *EYES)):
+        upright = np.eye(3) if name == "hips" else lying.T
+        inverse[joint, :3, :3], inverse[joint, :3, 3] = upright, -upright @ at[name]
     spelled = [spell(name) for name in shapes]
     document = {
         "asset": {"version": "2.0", "generator": "tests of facegen"},
@@ -161,8 +173,12 @@ def head(
     )
 
 
-def _bind(index: int) -> dict:
-    return {"morphTargetBinds": [{"node": 0, "index": index, "weight": 1.0}]}
+def _bind(index: int, weight: float = 1.0) -> dict:
+    return {"morphTargetBinds": [{"node": 0, "index": index, "weight": weight}]}
+
+
+HALVED = "CheekPuff"
+"""An expression that moves its morph target half the way, as makers tune them."""
 
 
 def vrm1(nodes: dict[str, int], shapes: list[str], *, custom: bool = True) -> dict:
@@ -184,7 +200,11 @@ def vrm1(nodes: dict[str, int], shapes: list[str], *, custom: bool = True) -> di
             },
             "expressions": {
                 "preset": {name: _bind(spelled.index(shape)) for name, shape in presets.items()},
-                "custom": {name: _bind(index) for index, name in enumerate(shapes)} if custom else {},
+                "custom": {
+                    name: _bind(index, 0.5 if name == HALVED else 1.0) for index, name in enumerate(shapes)
+                }
+                if custom
+                else {},
             },
             "lookAt": {
                 "type": "bone",
@@ -222,7 +242,7 @@ def vrm0(nodes: dict[str, int], shapes: list[str]) -> dict:
                     {
                         "name": name,
                         "presetName": "unknown",
-                        "binds": [{"mesh": 0, "index": index, "weight": 100}],
+                        "binds": [{"mesh": 0, "index": index, "weight": 50 if name == HALVED else 100}],
                     }
                     for index, name in enumerate(shapes)
                 ]

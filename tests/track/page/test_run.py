@@ -9,6 +9,7 @@ import sys
 import time
 from pathlib import Path
 
+import psutil
 import pytest
 
 from tests.browser import chromium, needs_chromium
@@ -46,15 +47,24 @@ def test_a_headset_moves_the_avatar_on_the_page(headset, tmp_path):
             assert process.poll() is None, told.read_text()
             assert time.monotonic() < end, told.read_text()
             time.sleep(0.1)
-        asyncio.run(look(found[0], tmp_path / "page.png"))
+        asyncio.run(look(found[0], tmp_path / "page.png", psutil.Process(process.pid)))
         assert process.poll() is None, told.read_text()
     finally:
         process.terminate()
         process.wait(20)
 
 
-async def look(address: str, picture: Path) -> None:
-    """The avatar moves, three pictures come, and the page says that all is live."""
+def sockets(process: psutil.Process) -> set[tuple[str, int]]:
+    """Own ends of all that a process and its children have open, and the other ends."""
+    ends = set()
+    for each in (process, *process.children(recursive=True)):
+        for connection in each.net_connections(kind="inet"):
+            ends |= {tuple(end) for end in (connection.laddr, connection.raddr) if end}
+    return ends
+
+
+async def look(address: str, picture: Path, process: psutil.Process) -> None:
+    """The avatar moves, three pictures come, the page says that all is live, and nothing goes anywhere else."""
     async with chromium() as browser, browser.open(address) as tab:
         await tab.look(width=500, height=400)
         await tab.until("globalThis.track?.stage.avatar && connection.dataset.state === 'live'", 60)
@@ -62,6 +72,8 @@ async def look(address: str, picture: Path) -> None:
         seen = []
         for _ in range(6):
             seen.append(await tab.ask("Object.values(track.stage.avatar.influences())"))
+            hosts = {host for host, _ in sockets(process)}
+            assert hosts == {"127.0.0.1"}
             await asyncio.sleep(0.5)
         moved = [max(values) - min(values) for values in zip(*seen, strict=True)]
         assert max(moved) > 0.05
