@@ -3,6 +3,7 @@
 import queue
 import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -283,10 +284,11 @@ class Session:
             self._recording = None
 
     def close(self) -> None:
-        """Let sinks and stages go: recordings are written whole."""
-        for sink in self.sinks:
-            sink.close()
-        self.pipeline.close()
+        """Let sinks and stages go: recordings are written whole, each whether or not another one can be."""
+        with ExitStack() as closing:
+            closing.callback(self.pipeline.close)
+            for sink in self.sinks:
+                closing.callback(sink.close)
 
     def _obey(self) -> None:
         while True:

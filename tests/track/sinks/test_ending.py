@@ -1,0 +1,91 @@
+"""How a run ends: by Ctrl-C with whole recordings, and with those that can be written where one cannot."""
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facegen.errors import OutputError
+from facegen.formats.gltf_container import open_glb
+from regress.runtime.inputs import read_frames
+from tests.track.session.faces import frames, new_session
+from tests.track.sinks.receivers import receiver
+from track.sinks.targets import open_sink, parse_target
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends a signal")
+def test_ctrl_c_leaves_whole_recordings(tmp_path: Path):
+    points = read_frames(ROOT / "docs" / "samples" / "talking-face.csv").points[:60]
+    lines = [" ".join(f"{value:.3f}" for value in face.ravel()) + "\n" for face in np.round(points, 3)]
+    names = {"csv": "a.csv", "livelink-csv": "b.csv", "gltf": "c.glb", "vrma": "d.vrma"}
+    with receiver() as taken:
+        words = ["run", "--camera", "-", "--no-page", "--profile", tmp_path / "me.toml", "--to"]
+        words.append(f"vmc:127.0.0.1:{taken.getsockname()[1]}")
+        for name, file in names.items():
+            words += ["--to", f"{name}:{tmp_path / file}"]
+        run = subprocess.Popen(
+            [sys.executable, "-m", "track", *map(str, words)],
+            **{"stdin": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "cwd": ROOT},
+        )
+        taken.settimeout(0.01)
+        came = 0
+        started = time.monotonic()
+        while came < 20 and time.monotonic() - started < 60:  # frames until answers have come
+            run.stdin.write(lines[came % len(lines)])
+            run.stdin.flush()
+            try:
+                came += bool(taken.recv(2000))
+            except TimeoutError:
+                continue
+    assert sorted(path.name for path in tmp_path.iterdir() if path.is_file()) == []
+    run.send_signal(signal.SIGINT)
+    run.stdin.write(lines[0])
+    _, said = run.communicate(timeout=60)
+    assert run.returncode == 0, said
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names.values())
+    rows = (tmp_path / "a.csv").read_text().splitlines()
+    assert len(rows) == len((tmp_path / "b.csv").read_text().splitlines()) > 6
+    for file in ("c.glb", "d.vrma"):
+        document, _ = open_glb(tmp_path / file)
+        clock = document["animations"][-1]["samplers"][0]["input"]
+        assert document["accessors"][clock]["count"] <= len(rows) - 1
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_recording_that_cannot_be_written_takes_no_other_along(order: int, tmp_path: Path):
+    session, places = new_session(), ["a.csv", "b.csv"]
+    session.sinks[:] = [
+        open_sink(parse_target(f"csv:{tmp_path / name}"), pytest.fail) for name in places[::order]
+    ]
+    for sample in frames(0, 3):
+        session.answer(sample)
+    (tmp_path / "a.csv").mkdir()
+    (tmp_path / "a.csv" / "full").touch()  # somebody put a folder there meanwhile
+    with pytest.raises(OutputError):
+        session.close()
+    assert len((tmp_path / "b.csv").read_text().splitlines()) == 4
+
+
+def test_a_sink_that_cannot_be_opened_leaves_nothing_of_the_others(tmp_path: Path):
+    words = ["run", "--camera", "-", "--no-page", "--profile", tmp_path / "me.toml"]
+    words += [
+        "--to",
+        f"csv:{tmp_path / 'a.csv'}",
+        "--to",
+        f"vrma:{tmp_path / 'b.vrma'}",
+        "--to",
+        "vmc:nobody.invalid",
+    ]
+    run = subprocess.run(
+        [sys.executable, "-m", "track", *map(str, words)],
+        **{"stdin": subprocess.DEVNULL, "capture_output": True, "text": True, "cwd": ROOT, "check": False},
+    )
+    assert run.returncode == 2
+    assert "host 'nobody.invalid' is not known" in run.stderr
+    assert list(tmp_path.iterdir()) == []
