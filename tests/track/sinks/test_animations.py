@@ -121,8 +121,12 @@ def test_three_plays_expressions_head_and_gaze_of_a_vrm_animation(tmp_path: Path
         np.testing.assert_allclose(
             matrix(frame["lookAt"]["turn"]), rotation_from_angles(yaw, pitch, 0), atol=1e-5
         )
-    still = {name: frame["place"] for name, frame in frames[-1].items() if name.startswith("left")}
-    assert all(place[0] >= 0 for place in still.values())  # VRM faces +z, its left is +x
+    for name, side in (("left", 1), ("right", -1)):  # VRM faces +z, its left is +x
+        places = [frame["place"][0] for bone, frame in frames[-1].items() if bone.startswith(name)]
+        assert max(side * place for place in places) > 0.1
+        assert min(side * place for place in places) >= 0
+    look = open_glb(tmp_path / "b.vrma")[0]["extensions"][EXTENSION]["lookAt"]
+    assert set(look) == {"node", "offsetFromHeadBone"}
 
 
 THREE_VRM_ANIMATION = """

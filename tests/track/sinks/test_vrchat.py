@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPE_INDEX
@@ -43,6 +43,11 @@ def test_a_receiver_reads_all_of_it():
     assert values["JawX"] == pytest.approx(weight["jawRight"] - weight["jawLeft"], abs=1e-6)
     lid = 0.75 * (1 - weight["eyeBlinkRight"]) + 0.25 * weight["eyeWideRight"]
     assert values["EyeLidRight"] == pytest.approx(lid, abs=1e-6)
+    assert values["EyeLeftX"] == pytest.approx(
+        -sample.gaze[0] / (np.pi / 4), abs=1e-6
+    )  # to the right is positive
+    assert values["EyeRightY"] == pytest.approx(sample.gaze[3] / (np.pi / 4), abs=1e-6)
+    assert values["EyeX"] == pytest.approx((values["EyeLeftX"] + values["EyeRightX"]) / 2, abs=1e-6)
     (eyes,) = (each.params for each in got if each.address == "/tracking/eye/LeftRightPitchYaw")
     left_yaw, left_pitch, right_yaw, right_pitch = np.degrees(sample.gaze)
     np.testing.assert_allclose(eyes, [-left_pitch, -left_yaw, -right_pitch, -right_yaw], atol=1e-4)
@@ -92,6 +97,8 @@ def test_sums_are_those_of_the_unified_expressions_that_they_are_made_of():
     assert not set(base.names) & set(combined.names)
 
 
+@example(value=1.0, bits=4)
+@example(value=-1.0, bits=1)
 @given(value=st.floats(-1, 1), bits=st.integers(1, 8))
 def test_bits_are_the_number_that_vrcfacetracking_makes(value, bits):
     weights = np.zeros(52)
