@@ -2,6 +2,7 @@
 
 import typer
 
+from regress.cli.headset_check import check
 from regress.cli.headset_evaluate import evaluate
 from regress.cli.headset_export import export
 from regress.cli.headset_predict import predict
@@ -20,5 +21,6 @@ headset.command()(train)
 headset.command()(evaluate)
 headset.command()(temporal)
 headset.command()(predict)
+headset.command()(check)
 headset.command()(report)
 headset.command()(export)

@@ -132,6 +132,15 @@ class HeadsetGraph:
         points = self._run([points_output(name) for name in cameras], pictures, None, None, None)
         return dict(zip(cameras, points, strict=True))
 
+    def look(self, pictures: dict[str, np.ndarray]) -> tuple[Estimates, dict[str, np.ndarray]]:
+        """What `run` and `trace` say of uncalibrated pictures, for the time of one."""
+        names = [name for name in GRAPH_OUTPUTS if name in self._outputs]
+        cameras = [name for name in pictures if points_output(name) in self._outputs]
+        arrays = self._run([*names, *map(points_output, cameras)], pictures, None, None, None)
+        count = len(names)
+        estimates = Estimates(**dict(zip(names, arrays[:count], strict=True)))
+        return estimates, dict(zip(cameras, arrays[count:], strict=True))
+
     def _run(
         self,
         names: Sequence[str],

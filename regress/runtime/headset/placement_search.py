@@ -18,18 +18,23 @@ from regress.runtime.headset.looks import levels_of
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predictor import HeadsetPredictor
 
-_FRAMES = 40
+_FRAMES = 16
 """Of a take, evenly chosen, that are looked at."""
 
-_STEPS = 8
-"""In which a placement is refined from a start; the films of real eyes settle in five."""
+_STEPS = 6
+"""In which a placement is refined from a start; a film of a real eye settles in five."""
 
 _SIZES = (0.7, 1.0, 1.5)
-_SMALLEST, _LARGEST = 0.3, 2.5
-"""Of views over pictures."""
+_SMALLEST, _LARGEST, _EDGE = 0.3, 1.7, 0.1
+"""Sizes of views over pictures, and how near to a picture's edge the middle of a view may lie: beyond, the view shows
+repeated edges for the most part, in which networks see what they like."""
 
 _MOVES = ((0.0, 0.0, 1.0, 0.0), (-0.06, 0.03, 1.1, 6.0), (0.06, -0.03, 0.91, -6.0))
 """By how much the view is moved (of its width), scaled and turned to see whether points stay."""
+
+_CALM, _SETTLED = 0.014, 0.1
+"""Unrest and a further step below which frames are such as the network knows, and nothing else is looked for: frames of
+training have .008 to .013, real ones and mirrored ones .02 and more."""
 
 _UPSIDE_DOWN = 0.6
 """An upside-down view's score over the best upright one's, below which it is taken: cameras are seldom so, and a
@@ -109,7 +114,7 @@ class FoundPlacement:
     unrest
         How far points move with the view, as a share of the eye's width; 0.06 is about half of the moves themselves.
     unsettled
-        How far the last step still went: of the size, and of the view's width.
+        How far a further step would go: of the size, of the view's width, or of a radian.
     """
 
     placement: CameraPlacement
@@ -120,7 +125,16 @@ class FoundPlacement:
     @property
     def score(self) -> float:
         """The smaller, the better."""
-        return self.deviation * self.unrest
+        return self.deviation * self.unrest * (1 + 6 * self.unsettled)
+
+
+def traces_an_eye(predictor: HeadsetPredictor, camera: str) -> bool:
+    """Whether a camera's points are those of one eye: pupil, iris, both lids."""
+    names = predictor.model.points.get(camera, ())
+    parts = ("_pupil", "_iris_", "_upper_lid_", "_lower_lid_")
+    return sum("_pupil" in name for name in names) == 1 and all(
+        any(part in name for name in names) for part in parts
+    )
 
 
 def find_placement(predictor: HeadsetPredictor, camera: str, pictures: np.ndarray) -> FoundPlacement:
@@ -134,9 +148,13 @@ def find_placement(predictor: HeadsetPredictor, camera: str, pictures: np.ndarra
     points = EyePoints.of(predictor, camera)
     chosen = pictures[np.linspace(0, len(pictures) - 1, min(len(pictures), _FRAMES)).round().astype(int)]
     search = _Search(predictor, camera, points, chosen)
-    upright = [search.settled(start) for start in _starts(0.0)]
-    turned = [search.settled(start) for start in _starts(180.0)]
-    best, upside_down = (min(found, key=lambda one: one.score) for found in (upright, turned))
+    as_it_is = search.best(CameraPlacement())
+    if as_it_is.unrest < _CALM and as_it_is.unsettled < _SETTLED:
+        return as_it_is
+    others = [CameraPlacement(mirror=mirror, size=size) for mirror in (False, True) for size in _SIZES]
+    best = min([as_it_is, *map(search.best, others[:1] + others[2:])], key=lambda one: one.score)
+    turned = [CameraPlacement(mirror=mirror, roll_deg=180.0) for mirror in (False, True)]
+    upside_down = min(map(search.best, turned), key=lambda one: one.score)
     return upside_down if upside_down.score < _UPSIDE_DOWN * best.score else best
 
 
@@ -165,7 +183,7 @@ def placement_of_points(
         matrix[:, :2] @ (middle[lids].mean(axis=0) - turn @ points.usual[lids].mean(axis=0)) + matrix[:, 2]
     )
     at = linear @ ((np.array(view) - 1) / 2) + offset
-    x, y = np.clip((at + 0.5) / picture, 0, 1)
+    x, y = np.clip((at + 0.5) / picture, _EDGE, 1 - _EDGE)
     wide = np.sqrt(abs(np.linalg.det(linear))) * view[0] / picture[0]
     return replace(
         placement,
@@ -188,17 +206,19 @@ class _Search:
         names = predictor.model.weights
         self._part = [names.index(name) for name in predictor.model.parts[camera]]
 
-    def settled(self, placement: CameraPlacement) -> FoundPlacement:
-        """Where the steps from a start end, and how good it is there."""
+    def best(self, start: CameraPlacement) -> FoundPlacement:
+        """The best of the placements through which the steps from a start go."""
+        placement, found = start, []
         for _ in range(_STEPS):
-            seen = self._predictor.graph.trace({self._camera: self.views(placement)})[self._camera]
-            before = placement
-            placement = placement_of_points(
+            seen, quality = self._look(placement)
+            following = placement_of_points(
                 placement, seen, self._points, picture=self._picture, view=self._view
             )
-        moved = np.hypot(placement.x - before.x, placement.y - before.y) / placement.size
-        unsettled = max(abs(np.log(placement.size / before.size)), moved)
-        return FoundPlacement(placement=placement, unsettled=float(unsettled), **self._quality(placement))
+            found.append(
+                FoundPlacement(placement=placement, unsettled=_distance(placement, following), **quality)
+            )
+            placement = following
+        return min(found, key=lambda one: one.score)
 
     def views(self, placement: CameraPlacement) -> np.ndarray:
         """(n, height, width) uint8 that the network sees, levelled."""
@@ -206,26 +226,32 @@ class _Search:
         views = np.stack([placement.view(one, width=width, height=height) for one in self._pictures])
         return level_table(*levels_of(views), self._predictor.model.looks[self._camera])[views]
 
-    def _quality(self, placement: CameraPlacement) -> dict[str, float]:
+    def _look(self, placement: CameraPlacement) -> tuple[np.ndarray, dict[str, float]]:
+        """Points (n, P, 2) in the view, and how good it is."""
         seen, deviations = [], []
         for moved in _moved(placement):
-            views = self.views(moved)
-            traced = self._predictor.graph.trace({self._camera: views})[self._camera]
-            matrix = moved.picture_from_view(self._picture, self._view)
-            seen.append(traced @ matrix[:, :2].T + matrix[:, 2])
-            deviations.append(self._predictor.predict({self._camera: views}).deviation[:, self._part].mean())
+            estimates, traced = self._predictor.graph.look({self._camera: self.views(moved)})
+            seen.append(traced[self._camera])
+            deviations.append(estimates.deviation[:, self._part].mean())
+        matrices = [moved.picture_from_view(self._picture, self._view) for moved in _moved(placement)]
         lids_and_iris = self._points.upper + self._points.lower + self._points.iris
-        spread = np.array(seen)[:, :, lids_and_iris]
-        unrest = np.sqrt(((spread - spread.mean(axis=0)) ** 2).sum(axis=-1).mean(axis=(0, 2)))
+        at = np.array(
+            [
+                points[:, lids_and_iris] @ matrix[:, :2].T + matrix[:, 2]
+                for points, matrix in zip(seen, matrices, strict=True)
+            ]
+        )
+        unrest = np.sqrt(((at - at.mean(axis=0)) ** 2).sum(axis=-1).mean(axis=(0, 2)))
         corners = self._points.usual[[self._points.upper[0], self._points.upper[-1]]]
         eye = np.linalg.norm(np.diff(corners, axis=0)) / self._view[0] * placement.size * self._picture[0]
-        return {"deviation": float(np.mean(deviations)), "unrest": float(np.median(unrest) / eye)}
+        return seen[0], {"deviation": float(np.mean(deviations)), "unrest": float(np.median(unrest) / eye)}
 
 
-def _starts(roll_deg: float) -> Iterator[CameraPlacement]:
-    for mirror in (False, True):
-        for size in _SIZES:
-            yield CameraPlacement(size=size, mirror=mirror, roll_deg=roll_deg)
+def _distance(one: CameraPlacement, other: CameraPlacement) -> float:
+    """How far two placements are apart: of the size, of the view's width, or of a radian."""
+    moved = np.hypot(one.x - other.x, one.y - other.y) / one.size
+    turned = np.radians((one.roll_deg - other.roll_deg + 180) % 360 - 180)
+    return float(max(abs(np.log(one.size / other.size)), moved, abs(turned)))
 
 
 def _moved(placement: CameraPlacement) -> Iterator[CameraPlacement]:

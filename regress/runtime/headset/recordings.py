@@ -4,6 +4,7 @@ import os
 import re
 import stat
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
 from itertools import count
@@ -12,12 +13,19 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from facegen.documents import unreadable
+from facegen.documents import read_bytes, unreadable
+from facegen.formats import FormatError
 from facegen.formats.film import check_film_path
-from facegen.formats.picture_size import MOST_PIXELS
+from facegen.formats.picture_size import MOST_PIXELS, picture_size
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault
-from regress.runtime.headset.pictures import PICTURES, FittedPicture, fit_picture, read_picture
+from regress.runtime.headset.pictures import (
+    MOST_PICTURE_BYTES,
+    PICTURES,
+    FittedPicture,
+    fit_picture,
+    read_picture,
+)
 from regress.runtime.headset.placement import CameraPlacement
 
 FILMS = (".mp4", ".avi", ".mkv", ".mov", ".webm", ".m4v")
@@ -131,6 +139,34 @@ def read_recording(
     if not fitted:
         raise InputError(f"{path} cannot be read as a film: it has no frames, or a codec that OpenCV lacks")
     return _recording(camera, path, [], fitted, fps=fps if 0 < fps < 1000 else None, placement=placement)
+
+
+def recorded_size(path: Path) -> tuple[int, int]:
+    """Width and height of a folder's first readable picture, or of a film.
+
+    Raises
+    ------
+    InputError
+        Where there is none.
+    """
+    if path.is_dir():
+        for file in sorted(_pictures_in(path)):
+            with suppress(OSError, InputError, FormatError):
+                size = picture_size(read_bytes(file, most_bytes=MOST_PICTURE_BYTES))
+                if size is not None:
+                    return size[0], size[1]
+        raise InputError(f"{path} has no picture that can be read")
+    check_film_path(path)
+    film = cv2.VideoCapture(os.fspath(path))
+    try:
+        width, height = (
+            int(film.get(side)) for side in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT)
+        )
+    finally:
+        film.release()
+    if width < 1 or height < 1:
+        raise InputError(f"{path} cannot be read as a film")
+    return width, height
 
 
 def read_rendered(dataset: Path, camera: str, *, width: int, height: int) -> Recording:

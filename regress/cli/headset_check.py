@@ -1,0 +1,111 @@
+"""``regress headset check``: whether a headset's frames fit a model, and where in them to look."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regress.errors import InputError
+
+
+def check(
+    model: Annotated[
+        str, typer.Argument(metavar="[MODEL]", help="Model folder, or a ready-made model's name.")
+    ] = "",
+    camera: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--camera", metavar="NAME=PATH", help="A camera's folder of pictures, or film; for each camera."
+        ),
+    ] = None,
+    left_eye: Annotated[
+        Path | None, typer.Option("--left-eye", help="Short for --camera left_eye=PATH.")
+    ] = None,
+    right_eye: Annotated[
+        Path | None, typer.Option("--right-eye", help="Short for --camera right_eye=PATH.")
+    ] = None,
+    mouth: Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")] = None,
+    bits: Annotated[
+        int | None,
+        typer.Option(
+            "--bits", min=8, max=16, help="How many bits the cameras use, of pictures with 16 bits a pixel."
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Placement to write: TOML for `predict --placement`.")
+    ] = None,
+    sheet: Annotated[
+        Path | None,
+        typer.Option("--sheet", help="Picture (PNG) to write: frames, what the network sees and traces."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Findings and figures for programs.")] = False,
+) -> None:
+    """Say whether a headset's unlabelled frames are such as the model was trained on, and how to make them so.
+
+    Give 100 to 300 frames in which the person looks around and blinks. Levels, focus, flicker, a lens's rim, exchanged
+    and mirrored cameras are judged by the pictures; where the eye lies by the points that the network traces.
+
+    Example: regress headset check headset-tracking3 --left-eye take/left --right-eye take/right --out placement.toml
+    """
+    from facegen.console import say
+    from facegen.files import write_whole
+    from regress.cli.headset_input import camera_paths
+    from regress.runtime.headset.faults import fault_sentences
+    from regress.runtime.headset.fitness import judge
+    from regress.runtime.headset.fitness_sheet import fitness_sheet
+    from regress.runtime.headset.placement_file import Placement, write_placement
+    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.headset.recordings import read_recording, recorded_size
+    from regress.runtime.ready_made import HEADSET
+
+    chosen = model or HEADSET
+    predictor = load_headset_predictor(chosen)
+    short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
+    paths = camera_paths(
+        predictor, camera or [], {name: path for name, path in short.items() if path is not None}
+    )
+    if not paths:
+        raise InputError(f"give the cameras' paths ({', '.join(predictor.sizes)}), as --left-eye take/left")
+    footage = {}
+    for name, path in paths.items():
+        width, height = recorded_size(path)
+        recording = read_recording(path, name, width=width, height=height, bits=bits)
+        for note in fault_sentences(name, recording.numbers, recording.faults):
+            say(note)
+        sound = [fault is None for fault in recording.faults]
+        footage[name] = recording.pictures[sound]
+    judged = judge(predictor, footage)
+    for one in judged:
+        lines = [finding.sentence for finding in one.findings]
+        if not as_json:
+            for line in lines or [f"{one.camera}: its frames fit"]:
+                typer.echo(line)
+    if as_json:
+        typer.echo(
+            json.dumps(
+                {
+                    one.camera: {
+                        "fits": not one.findings,
+                        "findings": [
+                            {"misfit": finding.misfit.name.lower(), "sentence": finding.sentence}
+                            for finding in one.findings
+                        ],
+                        "looks": vars(one.looks),
+                        "placement": vars(one.placement),
+                    }
+                    for one in judged
+                },
+                indent=1,
+                allow_nan=False,
+            )
+        )
+    if out is not None:
+        cameras = {one.camera: one.placement for one in judged}
+        write_placement(out, Placement(cameras=cameras, model=chosen))
+        say(
+            f"placement in {out}; look at --sheet, then give it to `regress headset predict --placement {out}`"
+        )
+    if sheet is not None:
+        write_whole(sheet, fitness_sheet(predictor, footage, judged))
+        say(f"sheet in {sheet}")

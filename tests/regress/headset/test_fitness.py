@@ -1,0 +1,179 @@
+"""``regress headset check`` names what was done to rendered frames and places them for `predict`."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from regress.errors import InputError
+from regress.runtime.headset.fitness import Misfit, judge
+from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.placement_file import read_placement
+from regress.runtime.headset.placement_search import find_placement
+from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from tests.regress.headset.takes import write_take
+from tests.regress.headset.tiny import write_tiny_model
+
+TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
+EYES = ("left_eye", "right_eye")
+
+
+@pytest.fixture(scope="module")
+def take() -> dict[str, np.ndarray]:
+    """A rendered person's frames, of whom the model has learned nothing."""
+    return {
+        name: np.stack(
+            [cv2.imread(str(file), cv2.IMREAD_GRAYSCALE) for file in sorted((TAKE / name).glob("*.png"))]
+        )
+        for name in EYES
+    }
+
+
+@pytest.fixture(scope="module")
+def predictor() -> HeadsetPredictor:
+    return load_headset_predictor("headset-tracking3")
+
+
+def in_a_circle(pictures: np.ndarray) -> np.ndarray:
+    rows, columns = np.mgrid[: pictures.shape[1], : pictures.shape[2]]
+    far = (rows - pictures.shape[1] / 2) ** 2 + (columns - pictures.shape[2] / 2) ** 2 > (
+        0.36 * pictures.shape[2]
+    ) ** 2
+    return np.where(far, 12, pictures).astype(np.uint8)
+
+
+def brighter(pictures: np.ndarray, factor: float | np.ndarray) -> np.ndarray:
+    return np.clip(pictures * factor, 0, 255).astype(np.uint8)
+
+
+Take = Mapping[str, np.ndarray]
+FAULTS: dict[str, tuple[Callable[[Take], Take], Misfit]] = {
+    "too dark": (lambda eyes: {"left_eye": brighter(eyes["left_eye"], 0.4)}, Misfit.DARK),
+    "clipped": (lambda eyes: {"left_eye": brighter(eyes["left_eye"], 2.6)}, Misfit.CLIPPED),
+    "soft": (
+        lambda eyes: {"left_eye": np.stack([cv2.GaussianBlur(one, (0, 0), 2.5) for one in eyes["left_eye"]])},
+        Misfit.SOFT,
+    ),
+    "mirrored": (lambda eyes: {"left_eye": eyes["left_eye"][:, :, ::-1]}, Misfit.MIRRORED),
+    "upside down": (lambda eyes: {"left_eye": eyes["left_eye"][:, ::-1, ::-1]}, Misfit.UPSIDE_DOWN),
+    "exchanged": (
+        lambda eyes: {"left_eye": eyes["right_eye"], "right_eye": eyes["left_eye"]},
+        Misfit.EXCHANGED,
+    ),
+    "other eye": (lambda eyes: dict.fromkeys(EYES, eyes["right_eye"]), Misfit.OTHER),
+    "cropped brow": (lambda eyes: {"left_eye": eyes["left_eye"][:, 26:]}, Misfit.BROW),
+    "lens circle": (lambda eyes: {"left_eye": in_a_circle(eyes["left_eye"])}, Misfit.RIM),
+    "flicker": (
+        lambda eyes: {
+            "left_eye": brighter(
+                eyes["left_eye"], np.where(np.arange(len(eyes["left_eye"])) % 2, 1.0, 0.8)[:, None, None]
+            )
+        },
+        Misfit.FLICKER,
+    ),
+}
+"""What is done to a take that fits, and what has to be said of it."""
+
+BESIDE = {"cropped brow": {Misfit.PLACED}}
+"""What may be said as well: a view that is cut above has its middle elsewhere."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", FAULTS)
+def test_each_fault_is_named_and_nothing_else_is(predictor: HeadsetPredictor, take: Take, fault: str):
+    done, expected = FAULTS[fault]
+    footage = {name: np.ascontiguousarray(pictures) for name, pictures in done(take).items()}
+    for one in judge(predictor, footage):
+        found = {finding.misfit for finding in one.findings}
+        assert expected in found, [finding.sentence for finding in one.findings]
+        assert found <= {expected} | BESIDE.get(fault, set())
+        for finding in one.findings:
+            assert finding.sentence.startswith(one.camera) or expected in (Misfit.EXCHANGED, Misfit.OTHER)
+            assert finding.misfit is Misfit.PLACED or finding.misfit.value.split()[-1] in finding.sentence
+
+
+def test_a_take_that_fits_is_left_as_it_is(predictor: HeadsetPredictor, take: Take):
+    (one,) = judge(predictor, {"left_eye": take["left_eye"]})
+    assert one.findings == ()
+    assert one.placement == CameraPlacement()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("size", "x", "y", "roll_deg", "mirror"),
+    [(0.8, 0.55, 0.45, 0.0, False), (1.25, 0.5, 0.5, 8.0, False), (0.9, 0.45, 0.55, -8.0, True)],
+)
+def test_a_crop_is_placed_where_the_uncropped_frames_are(
+    predictor: HeadsetPredictor, take: Take, size: float, x: float, y: float, roll_deg: float, mirror: bool
+):
+    pictures = take["left_eye"]
+    plain = find_placement(predictor, "left_eye", pictures).placement
+    crop = replace(plain, x=x, y=y, size=size, roll_deg=roll_deg, mirror=mirror)
+    width, height = 144, 120
+    wide = crop.picture_from_view((96, 96), (width, height))
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    seen = np.stack(
+        [
+            cv2.warpAffine(one, wide, (width, height), flags=flags, borderMode=cv2.BORDER_REPLICATE)
+            for one in pictures
+        ]
+    )
+    found = find_placement(predictor, "left_eye", seen).placement
+    assert found.mirror == mirror
+    # both lead from the view to the uncropped frames, one through the crop
+    through = _square(wide) @ _square(found.picture_from_view((width, height), (96, 96)))
+    straight = _square(plain.picture_from_view((96, 96), (96, 96)))
+    assert abs(np.log(np.sqrt(np.linalg.det(through[:2, :2]) / np.linalg.det(straight[:2, :2])))) < 0.05
+    middle = np.array([47.5, 47.5, 1.0])
+    assert np.linalg.norm((through @ middle - straight @ middle)[:2]) < 0.03 * 96
+
+
+def _square(matrix: np.ndarray) -> np.ndarray:
+    return np.vstack([matrix, [0, 0, 1]])
+
+
+@pytest.mark.slow
+def test_the_program_says_it_and_predict_takes_what_it_writes(run, take: Take, tmp_path: Path):
+    pictures = take["left_eye"][:40]
+    placed = np.pad(pictures[:, :, ::-1], ((0, 0), (0, 24), (0, 40)), mode="edge")
+    options = write_take(tmp_path, {"left_eye": placed})
+    out, sheet = tmp_path / "placement.toml", tmp_path / "sheet.png"
+    code, said, _ = run("headset", "check", "headset-tracking3", *options, "--out", out, "--sheet", sheet)
+    assert code == 0
+    assert "left_eye is mirrored, or of the other eye" in said
+    assert read_placement(out, dict.fromkeys(EYES))["left_eye"].mirror
+    drawn = cv2.imread(str(sheet))
+    assert drawn is not None
+    assert drawn.std() > 20
+    code, said, _ = run("headset", "check", "headset-tracking3", *options, "--json")
+    assert json.loads(said)["left_eye"]["findings"][0]["misfit"] == "mirrored"
+    # with the placement the mirrored take gives nearly what the plain one gives, without it something else
+    answers = {}
+    plain = write_take(tmp_path / "plain", {"left_eye": pictures})
+    for name, words in (
+        ("plain", plain),
+        ("placed", [*options, "--placement", out]),
+    ):
+        table = tmp_path / f"{name}.csv"
+        code, _, said = run("headset", "predict", "headset-tracking3", *words, "--out", table)
+        assert code == 0, said
+        answers[name] = np.genfromtxt(table, delimiter=",", names=True)["eyeBlinkLeft"]
+    assert np.abs(answers["plain"] - answers["placed"]).mean() < 0.08
+    assert np.corrcoef(answers["plain"], answers["placed"])[0, 1] > 0.95
+
+
+def test_what_cannot_be_judged_is_refused(predictor: HeadsetPredictor, take: Take, tmp_path: Path, run):
+    with pytest.raises(InputError, match="left_eye has 5 usable frames; at least 20"):
+        judge(predictor, {"left_eye": take["left_eye"][:5]})
+    older = load_headset_predictor(write_tiny_model(tmp_path / "older"))
+    with pytest.raises(InputError, match="does not say how the pictures of left_eye looked in training"):
+        judge(older, {"left_eye": take["left_eye"]})
+    code, _, said = run("headset", "check", "headset-tracking3")
+    assert (code, "give the cameras' paths" in said) == (2, True)
+    (tmp_path / "empty").mkdir()
+    code, _, said = run("headset", "check", "headset-tracking3", "--left-eye", tmp_path / "empty")
+    assert (code, "no picture that can be read" in said) == (2, True)
