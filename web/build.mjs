@@ -23,7 +23,6 @@ const PAGES = {
 /** Files that are served as they are, and where they come from. */
 const COPIES = {
   "room/server/static/fvad.wasm": "web/node_modules/@echogarden/fvad-wasm/fvad.wasm",
-  "room/server/static/avatars/anny.glb": "track/page/static/head.glb",
 };
 
 /** Licences of the packages that a bundle holds, each whole, in the order of their names. */

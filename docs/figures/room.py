@@ -2,7 +2,8 @@
 
     python docs/figures/room.py
 
-The others are programs that send states: a smile, a word, raised brows, gestures. Needs Chromium; nothing is fetched.
+The others are programs that send states: a smile, a word, raised brows, gestures. Needs Chromium, and the avatars of
+`make room-avatars`.
 """
 
 import asyncio
@@ -32,9 +33,9 @@ WONDER = {
 }
 
 OTHERS = {
-    "Ben": {"at": (-1.05, -0.75), "shapes": SMILE, "flags": 2, "animation": 0},
-    "Cleo": {"at": (0.15, -1.35), "shapes": WORD, "flags": 3, "animation": 0},
-    "Dara": {"at": (1.0, -0.85), "shapes": WONDER, "flags": 2, "animation": 5},
+    "Bea": {"at": (-0.8, -0.85), "shapes": SMILE, "flags": 2, "animation": 0, "avatar": "nora"},
+    "Carl": {"at": (0.15, -1.35), "shapes": WORD, "flags": 3, "animation": 0, "avatar": "omar"},
+    "Dana": {"at": (1.0, -0.85), "shapes": WONDER, "flags": 2, "animation": 5, "avatar": "nora"},
 }
 """Where each stands in metres, what their face does, speaking (1) and tracked (2), and the gesture."""
 
@@ -65,16 +66,18 @@ async def _stay(guest: Guest, described: dict) -> None:
 
 async def main() -> None:
     """Let them meet, and draw."""
-    avatars = sorted(path.stem for path in (STATIC / "avatars").glob("*.glb"))
+    there = {path.stem for path in (STATIC / "avatars").glob("*.glb")}
     async with open_room() as place, chromium("--use-fake-ui-for-media-stream") as browser:
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
         staying, guests = [], []
-        for index, (name, described) in enumerate(OTHERS.items()):
+        for name, described in OTHERS.items():
             guest = await place.guest(
-                name=name, avatar=avatars[index % len(avatars)], moderator=name == "Cleo"
+                name=name,
+                avatar=described["avatar"] if described["avatar"] in there else "plain",
+                moderator=name == "Carl",
             )
             staying.append(asyncio.create_task(_stay(guest, described)))
-            if name != "Ben":
+            if name != "Bea":
                 await guest.say(kind="voice", open=True)
             guests.append(guest)
         async with browser.open(link) as tab:

@@ -26,8 +26,8 @@ CHATS_PER_S = 1
 MOST_QUEUED = 512
 """Texts that wait for a slow connection before it is closed: it has not read for the time of a whole meeting's talk."""
 
-MOST_TICKS_QUEUED = 8
-"""Ticks that wait for a slow connection; older ones are dropped, as newer ones say more."""
+MOST_TICKS_QUEUED = 32
+"""Ticks that wait for a slow connection, a second's; older ones are dropped, as newer ones say more."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,8 +9,8 @@ from room.protocol.texts import Person
 PROGRAM_LASTS_S = 1.0
 """A program that is silent for longer has lost the face: the page moves it again. Thirty messages came in this time."""
 
-MOST_AT_ONCE = 8
-"""Messages of one person in one tick: two come when clocks beat, eight after 270 ms of silence; the newest count."""
+MOST_AT_ONCE = 32
+"""Messages of one person in one tick: two come when clocks beat, 30 after a second's stall; then the newest count."""
 
 _FLAGS = 1
 _BODY = 78

@@ -14,9 +14,6 @@ from tests.browser import Tab, chromium, needs_chromium
 from tests.room.guests import Place, open_room
 from tests.room.speech import write_bursts
 
-ROOT = Path(__file__).resolve().parents[2]
-STATIC = ROOT / "room/server/static"
-
 pytestmark = [needs_chromium, pytest.mark.slow]
 
 AWAKE = (
@@ -128,7 +125,7 @@ SAY = """(() => {
 
 async def faces(ada: Tab, ben: Tab) -> tuple[int, float]:
     """How many shapes one has on the other's page, and how far they are at most from what was sent."""
-    await ben.until(f"{other('Ada')}.figure?.avatar.name === 'anny'")
+    await ben.until(f"{other('Ada')}.figure?.avatar.name === 'nora'")
     errors = []
     for step in (0, 20):
         weights = [((7 * index + step) % 53) / 52 for index in range(52)]
@@ -216,7 +213,3 @@ def test_chat_is_text(found):
 def test_pages_ask_nobody_else_and_complain_of_nothing(found):
     assert found["asked"] == {found["own"]}
     assert found["complaints"] == []
-
-
-def test_the_default_avatar_is_the_one_of_track():
-    assert (STATIC / "avatars/anny.glb").read_bytes() == (ROOT / "track/page/static/head.glb").read_bytes()

@@ -12,6 +12,8 @@ import type { Person } from "./texts.js";
 const NAME_M = 0.3;
 /** Taller than this from its lowest to its highest point, an avatar has a body of its own. */
 const WHOLE_M = 1.0;
+/** Taller than a head with hair and neck, it has shoulders, and hangs in the air as busts do. */
+const BUST_M = 0.36;
 
 /** Faster than a run is a jump to another place. */
 const MOST_PACE = 4;
@@ -38,12 +40,12 @@ export class Figure {
     height: number,
   ) {
     const whole = height > WHOLE_M;
-    const body = whole ? avatar.root : makeBody(number);
+    const body = whole ? avatar.root : height > BUST_M ? new Group() : makeBody(number);
     this.limbs = new Limbs(body);
     this.standing = whole ? 0 : EYES_M;
     this.upper.add(avatar.root, body);
     avatar.root.traverse((node) => void (node.castShadow = true));
-    const top = (whole ? EYES_M : 0) + NAME_M;
+    const top = whole ? height + NAME_M / 2 : NAME_M;
     this.label.position.y = top;
     this.sign = new Mesh(new RingGeometry(0.022, 0.034, 32), new MeshBasicMaterial({ color: 0x2fbf6b, transparent: true }));
     this.sign.position.y = top + 0.09;
