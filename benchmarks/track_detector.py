@@ -21,14 +21,13 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from regress import load_model
-from regress.runtime.heads.camera import FaceCamera
 from regress.runtime.heads.eyes import MEAN_EYES, gaze_angles, own_eyes
 from regress.runtime.heads.fit import HeadPoses
 from regress.runtime.model import Model
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
 from track.detectors import MediapipeDetector
-from track.detectors.head import VERTICAL_FOV_DEG, rotation_of
+from track.detectors.head import rotation_of, typical_camera
 from track.sources import Pace, open_source
 
 MOVES = 0.04
@@ -91,9 +90,7 @@ class Watched:
 
     def gaze_weights(self) -> np.ndarray:
         """The eight eyeLook weights (n, 8) from the irises, with the eyes of the calm frames."""
-        width, height = self.size
-        focal_px = height / 2 / np.tan(np.radians(VERTICAL_FOV_DEG) / 2)
-        camera = FaceCamera(focal_px=focal_px, centre_px=((width - 1) / 2, (height - 1) / 2))
+        camera = typical_camera(*self.size)
         heads = np.array([sample.head for sample in self.samples])
         poses = HeadPoses(
             rotation=np.array([rotation_of(head) for head in heads]),

@@ -19,7 +19,7 @@ from facegen.conventions import LANDMARK_GROUPS  # noqa: E402
 from regress.runtime.sample import Sample  # noqa: E402
 from tests.track.faces import MIDDLE, photograph  # noqa: E402
 from track.detectors import FaceFault, MediapipeDetector  # noqa: E402
-from track.detectors.head import VERTICAL_FOV_DEG, rotation_of  # noqa: E402
+from track.detectors.head import rotation_of, typical_camera  # noqa: E402
 
 OUT = ROOT / "docs" / "pictures" / "cameras.jpg"
 WIDTH, HEIGHT = 640, 480
@@ -47,9 +47,9 @@ def drawn(picture: np.ndarray, sample: Sample) -> np.ndarray:
         cv2.circle(picture, (round(x), round(y)), 2, POINT, -1, cv2.LINE_AA)
     for x, y in sample.irises:
         cv2.circle(picture, (round(x), round(y)), 8, IRIS, 2, cv2.LINE_AA)
-    focal_px = HEIGHT / 2 / np.tan(np.radians(VERTICAL_FOV_DEG) / 2)
+    camera = typical_camera(WIDTH, HEIGHT)
     ends = sample.head[:3] + np.vstack([np.zeros(3), AXIS_M * rotation_of(sample.head).T])
-    ends = ends[:, :2] / ends[:, 2:] * focal_px + [(WIDTH - 1) / 2, (HEIGHT - 1) / 2]
+    ends = ends[:, :2] / ends[:, 2:] * camera.focal_px + camera.centre_px
     start, *tips = [tuple(round(value) for value in end) for end in ends]
     for tip, colour in zip(tips, ((60, 60, 230), (80, 200, 80), (230, 120, 60)), strict=True):
         cv2.arrowedLine(picture, start, tip, colour, 3, cv2.LINE_AA, tipLength=0.15)

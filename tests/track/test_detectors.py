@@ -22,11 +22,11 @@ from regress.runtime.stages.head import HeadPose, HeadSettings, angles_of
 from tests.track.faces import HEIGHT, WIDTH, moving, seen, two_faces
 from track.detectors import DETECTORS, FaceFault, MediapipeDetector, PointsDetector, open_detector
 from track.detectors.following import FORGOTTEN_S, Following
-from track.detectors.head import VERTICAL_FOV_DEG, rotation_of
-from track.detectors.mediapipe_points import EYES_CM, VERTICES, head_of, irises_of, landmarks_of
+from track.detectors.head import rotation_of, typical_camera
+from track.detectors.mediapipe_points import EYES_CM, LEVEL, VERTICES, head_of, irises_of, landmarks_of
 from track.detectors.model_file import NAME, VARIABLE, WHEEL, model_file
 
-FOCAL_PX = HEIGHT / 2 / np.tan(np.radians(VERTICAL_FOV_DEG) / 2)
+FOCAL_PX = typical_camera(WIDTH, HEIGHT).focal_px
 
 
 def _sample(pixels: np.ndarray, time_s: float = 0.0) -> Sample:
@@ -121,9 +121,9 @@ def test_the_head_turns_with_the_world(vector: tuple[float, float, float], detec
         heads += [detector.step(_sample(pixels, number / 30)).head for number in range(3)][-1:]
         detector.close()
     before, after = heads
-    assert after[:3] == pytest.approx(turn @ before[:3], abs=0.005)
+    assert after[:3] == pytest.approx(turn @ before[:3], abs=0.02)
     apart = cv2.Rodrigues(rotation_of(after) @ (turn @ rotation_of(before)).T)[0]
-    assert np.degrees(np.linalg.norm(apart)) < 2.5, "MediaPipe's own matrix is off by 5 to 8"
+    assert np.degrees(np.linalg.norm(apart)) < 4, "MediaPipe's own matrix is off by 7"
 
 
 def test_the_head_agrees_with_a_fit_of_the_same_points(detector: MediapipeDetector):
@@ -134,8 +134,8 @@ def test_the_head_agrees_with_a_fit_of_the_same_points(detector: MediapipeDetect
     assert np.abs(found[:, :2] - fitted[:, :2]).max() < 0.02
     assert found[:, 2] == pytest.approx(fitted[:, 2], rel=0.05)
     off_deg = np.degrees(found[:, 3:] - fitted[:, 3:])
-    assert np.abs(off_deg.mean(axis=0)).max() < 3, "one has the mean head, the other one of its own"
-    assert off_deg.std(axis=0).max() < 0.5
+    assert np.abs(off_deg.mean(axis=0)).max() < 2
+    assert off_deg.std(axis=0).max() < 1.2, "3 without the turn of a head aside"
 
 
 @given(st.lists(st.floats(-1.2, 1.2), min_size=3, max_size=3), st.floats(0.5, 2.0))
@@ -144,8 +144,8 @@ def test_a_pose_comes_back_from_its_matrix(vector: list[float], scale: float):
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = scale * turn, [3.0, -2.0, -60.0]
     head = head_of(matrix)
-    assert rotation_of(head) == pytest.approx(FACING @ turn, abs=1e-9)
-    assert head[3:] == pytest.approx(angles_of((FACING @ turn)[None])[0])
+    assert rotation_of(head) == pytest.approx(FACING @ turn @ LEVEL, abs=1e-9)
+    assert head[3:] == pytest.approx(angles_of((FACING @ turn @ LEVEL)[None])[0])
     assert head[2] > 0, "before the camera"
 
 

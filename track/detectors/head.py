@@ -1,8 +1,10 @@
-"""Fits a head to a face's points from where a detector has it, with the perspective that a face aside is seen in.
+"""Makes of MediaPipe's head one before a usual camera, turned as a head beside the camera's axis is.
 
-MediaPipe's matrix turns a head that only moves aside: by .6 of the angle by which it is beside the camera's axis, so
-that a face 11.5 degrees aside is 7.5 degrees off. What is fitted here from the same points is off by .5, at .16 ms of
-CPU (tests/track/test_detectors.py, on a picture whose turns are exact).
+MediaPipe's geometry module takes every camera to see 63 degrees from top to bottom, which is 79 across a 4:3 picture
+and 95 across a 16:9 one; webcams see 55 to 75. And it lays a face out before it knows its depth: points are spread
+along their rays by the network's own depths, which shears the face by the angle between its ray and the camera's axis.
+A shear is half a turn, so the other half is missing: of 11.5 degrees by which a camera is turned, its matrix misses 6
+to 7; what is made of it here misses 2 to 3 (tests/track/test_detectors.py, where pictures are turned exactly).
 """
 
 import math
@@ -10,38 +12,49 @@ import math
 import cv2
 import numpy as np
 
+from regress.runtime.heads.camera import TYPICAL_FOV_DEG, FaceCamera
 from regress.runtime.heads.fit import FACING
-from regress.runtime.heads.shape import load_head_shape
 from regress.runtime.stages.head import angles_of
 
-VERTICAL_FOV_DEG = 63.0
-"""From the top of a picture to its bottom: the camera that MediaPipe's geometry module takes, so matrices agree."""
+_ASSUMED_FOV_DEG = 63.0
+"""From the top of a picture to its bottom (MediaPipe's geometry module)."""
 
 
-def fitted_head(points: np.ndarray, start: np.ndarray, *, width: int, height: int) -> np.ndarray:
-    """Position and angles (6,) of the mean head that lies best on a face, as `Sample.head` has them.
+def typical_camera(width: int, height: int) -> FaceCamera:
+    """The camera that pictures of this size are taken to come from, where nothing is known of it."""
+    focal_px = width / 2 / math.tan(math.radians(TYPICAL_FOV_DEG) / 2)
+    return FaceCamera(focal_px=focal_px, centre_px=((width - 1) / 2, (height - 1) / 2))
+
+
+def seen_head(head: np.ndarray, *, width: int, height: int) -> np.ndarray:
+    """Position and angles (6,) before the typical camera, of a head (6,) as MediaPipe's matrix has it.
 
     Parameters
     ----------
-    points : (68, 2) float64
-        Pixels of a picture of this size.
-    start : (6,) float64
-        A head near it, which is given back where none can be fitted.
+    width, height
+        Of the picture.
     """
-    shape = load_head_shape()
-    focal_px = height / 2 / math.tan(math.radians(VERTICAL_FOV_DEG) / 2)
-    camera = np.array([[focal_px, 0, (width - 1) / 2], [0, focal_px, (height - 1) / 2], [0, 0, 1]])
-    vector, position = cv2.Rodrigues(rotation_of(start))[0], start[:3, None].copy()
-    there, vector, position = cv2.solvePnP(
-        shape.points, points[shape.landmarks], camera, None, vector, position, True, cv2.SOLVEPNP_ITERATIVE
-    )
-    head = np.concatenate([position[:, 0], angles_of(cv2.Rodrigues(vector)[0][None])[0]])
-    return head if there and np.isfinite(head).all() and head[2] > 0 else start
+    assumed_px = height / 2 / math.tan(math.radians(_ASSUMED_FOV_DEG) / 2)
+    farther = typical_camera(width, height).focal_px / assumed_px
+    position_m = head[:3] * [1.0, 1.0, farther]
+    borne = _turn_aside(head[:3], share=0.5)
+    rotation = _turn_aside(position_m) @ borne.T @ rotation_of(head)
+    return np.concatenate([position_m, angles_of(rotation[None])[0]])
 
 
 def rotation_of(head: np.ndarray) -> np.ndarray:
-    """Camera from head (3, 3): the inverse of `regress.runtime.stages.head.angles_of`."""
+    """Camera from head (3, 3) of a head (6,): the inverse of `regress.runtime.stages.head.angles_of`."""
     yaw, pitch, roll = head[3:]
     turns = ([0.0, yaw, 0.0], [-pitch, 0.0, 0.0], [0.0, 0.0, -roll])
     about_y, about_x, about_z = (cv2.Rodrigues(np.array(turn))[0] for turn in turns)
     return FACING @ about_y @ about_x @ about_z
+
+
+def _turn_aside(position_m: np.ndarray, *, share: float = 1.0) -> np.ndarray:
+    """Rotation (3, 3) that leads from the camera's axis towards a position, or a share of the way."""
+    x, y, z = position_m
+    beside = math.hypot(x, y)
+    if beside == 0:
+        return np.eye(3)
+    angle = share * math.atan2(beside, z)
+    return cv2.Rodrigues(np.array([-y, x, 0.0]) / beside * angle)[0]

@@ -13,7 +13,7 @@ from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 from track.detectors.faults import FaceFault
 from track.detectors.following import Following
-from track.detectors.head import fitted_head
+from track.detectors.head import seen_head
 from track.detectors.mediapipe_points import NO_HEAD, NO_IRISES, NO_POINTS, head_of, irises_of, landmarks_of
 from track.detectors.model_file import model_file
 from track.errors import InputError
@@ -88,7 +88,7 @@ class MediapipeDetector(Stage):
             nothing,
             points=faces[chosen],
             irises=irises_of(meshes[chosen]),
-            head=fitted_head(faces[chosen], head_of(matrix), width=width, height=height),
+            head=seen_head(head_of(matrix), width=width, height=height),
         )
 
     def _found(self, pixels: np.ndarray, time_s: float | None) -> Any:

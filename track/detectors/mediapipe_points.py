@@ -3,6 +3,7 @@
 from functools import cache
 from pathlib import Path
 
+import cv2
 import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT, LANDMARK_GROUPS
@@ -18,6 +19,13 @@ EYES_CM = np.array([0.0, 2.95, 2.28])
 
 The corners of its eyes (vertices 33, 133, 362, 263 in the model file's geometry) are midway at (0, 2.625, 3.466); the
 mean face has them 3.3 mm below and 11.9 mm before the middle between the eyeballs (`regress.runtime.heads.eyes`).
+"""
+
+LEVEL = cv2.Rodrigues(np.array([-np.radians(8.0), 0.0, 0.0]))[0]
+"""From our head frame to the canonical face's axes: a head that looks ahead is pitched down there.
+
+Of four faces in films a fit of ours (`regress.runtime.heads.fit`) has pitches that are 6.2 to 9.6 degrees higher; one
+is an avatar that is known to look ahead.
 """
 
 _TABLE = Path(__file__).parent / "data" / "mediapipe_points.json"
@@ -58,7 +66,7 @@ def head_of(camera_from_face: np.ndarray) -> np.ndarray:
     turn = camera_from_face[:3, :3]
     rotation = turn / np.cbrt(np.linalg.det(turn))
     position_m = FACING @ (turn @ EYES_CM + camera_from_face[:3, 3]) / 100
-    return np.concatenate([position_m, angles_of((FACING @ rotation)[None])[0]])
+    return np.concatenate([position_m, angles_of((FACING @ rotation @ LEVEL)[None])[0]])
 
 
 NO_POINTS = np.full((LANDMARK_COUNT, 2), np.nan)

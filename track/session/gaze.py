@@ -1,20 +1,15 @@
 """Gaze from the irises and the head that the detector gives, without fitting a head of our own."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
 
-from regress.runtime.heads.camera import FaceCamera
 from regress.runtime.heads.eyes import MEAN_EYES, gaze_angles, own_eyes
 from regress.runtime.heads.fit import FACING, HeadPoses
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
+from track.detectors.head import typical_camera
 from track.profile.profile import NeutralFace
-
-VERTICAL_FOV_DEG = 63.0
-"""Angle of view, from top to bottom, of the camera that MediaPipe's head poses are made for (its face geometry module's
-default). Another camera's error turns both the neutral gaze and this one, and leaves with the first."""
 
 
 class IrisGaze(Stage):
@@ -33,7 +28,7 @@ class IrisGaze(Stage):
         points, irises, heads = (neutral.frames(name) for name in ("points", "irises", "heads"))
         if irises is not None and heads is not None:
             poses = poses_of(heads)
-            self._eyes = own_eyes(points, irises, poses, _camera(*neutral.picture))
+            self._eyes = own_eyes(points, irises, poses, typical_camera(*neutral.picture))
 
     def step(self, sample: Sample) -> Sample:
         """The sample with gaze (4,); NaN where irises or head are not known, and as it was where there are none."""
@@ -46,7 +41,7 @@ class IrisGaze(Stage):
             sample.points[None],
             sample.irises[None],
             poses_of(sample.head[None]),
-            _camera(width, height),
+            typical_camera(width, height),
             self._eyes,
         )
         return replace(sample, gaze=found.reshape(4))
@@ -70,8 +65,3 @@ def poses_of(heads: np.ndarray) -> HeadPoses:
         translation=heads[:, :3],
         coefficients=np.zeros((len(heads), 0)),
     )
-
-
-def _camera(width: int, height: int) -> FaceCamera:
-    focal_px = height / 2 / math.tan(math.radians(VERTICAL_FOV_DEG) / 2)
-    return FaceCamera(focal_px=focal_px, centre_px=((width - 1) / 2, (height - 1) / 2))
