@@ -52,6 +52,10 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
         "cameras": cameras,
         "shapes": list(model.weights),
         "points": {name: list(points) for name, points in model.points.items()},
+        "levels": {
+            name: {"low": [looks.low[0], looks.low[-1]], "high": [looks.high[0], looks.high[-1]]}
+            for name, looks in model.looks.items()
+        },
         "temporal": _temporal(model),
         "inputs": inputs,
         "outputs": _outputs(model),
