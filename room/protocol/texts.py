@@ -36,6 +36,8 @@ Secret = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22,64}$")]
 Key = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22}$")]
 Number = Annotated[int, Field(ge=0, le=65535)]
 Avatar = Annotated[str, StringConstraints(pattern=r"^[a-z0-9_-]{1,32}$")]
+Visit = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{0,22}$")]
+"""Made anew whenever a page is loaded: the same one after a break means that voices go on."""
 RoomName = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9-]{0,39}$")]
 
 
@@ -52,6 +54,7 @@ class Join(_Text):
     secret: Secret
     name: Name
     avatar: Avatar = "plain"
+    visit: Visit = ""
     role: Literal["page", "face"] = "page"
 
 
@@ -116,6 +119,7 @@ class Person(_Text):
     id: str
     name: str
     avatar: str
+    visit: str
     moderator: bool
     present: bool
     voice: bool

@@ -12,6 +12,7 @@ from aiohttp import WSMessage, WSMsgType, web
 from room.errors import FormatError, NotAllowed
 from room.protocol.texts import MOST_TEXT_BYTES, Chat, Notice, read_join, read_said
 from room.server.connection import Connection
+from room.server.files import Files
 from room.server.hall import HERTZ, Hall, Part
 from room.server.headers import protect, same_origin
 from room.server.keys import Keys
@@ -64,6 +65,7 @@ class Rooms:
         self._halls: dict[str, Hall] = {}
         self._sockets: set[web.WebSocketResponse] = set()
         self._strangers = 0
+        self._files = Files(STATIC)
         self.metrics = Metrics()
 
     def application(self) -> web.Application:
@@ -75,8 +77,7 @@ class Rooms:
         application.router.add_get("/metrics", self._count)
         application.router.add_get("/room/{name}", self._page)
         application.router.add_get("/room/{name}/socket", self._socket)
-        if STATIC.is_dir():
-            application.router.add_static("/static/", STATIC)
+        application.router.add_get("/static/{path:.+}", self._file)
         application.on_response_prepare.append(protect)
         application.on_shutdown.append(self._close)
         application.cleanup_ctx.append(self._ticking)
@@ -86,7 +87,10 @@ class Rooms:
         return web.Response(text="a room has a link of its own; ask whoever holds the meeting\n")
 
     async def _avatars(self, request: web.Request) -> web.Response:
-        return web.json_response(sorted(path.stem for path in (STATIC / "avatars").glob("*.glb")))
+        return web.json_response(self._files.names("avatars", ".glb"))
+
+    async def _file(self, request: web.Request) -> web.Response:
+        return await self._files.answer(request, request.match_info["path"])
 
     async def _health(self, request: web.Request) -> web.Response:
         return web.Response(text="well\n")
@@ -97,13 +101,10 @@ class Rooms:
         self.metrics.connections = len(self._sockets)
         return web.Response(text=self.metrics.text())
 
-    async def _page(self, request: web.Request) -> web.StreamResponse:
+    async def _page(self, request: web.Request) -> web.Response:
         if not ROOM_NAME.fullmatch(request.match_info["name"]):
             raise web.HTTPNotFound(text="no room has such a name\n")
-        page = STATIC / "room.html"
-        if not page.is_file():
-            raise web.HTTPServiceUnavailable(text="the page has not been built; run `make web`\n")
-        return web.FileResponse(page, headers={"Cache-Control": "no-cache"})
+        return await self._files.answer(request, "room.html")
 
     async def _socket(self, request: web.Request) -> web.StreamResponse:
         name = request.match_info["name"]

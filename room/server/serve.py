@@ -73,7 +73,9 @@ async def _serve(
         try:
             await site.start()
         except OSError as error:
-            reason = os.strerror(error.errno) if error.errno and error.errno > 0 else str(error)
+            reason = (
+                os.strerror(error.errno) if error.errno and error.errno > 0 else error.strerror or str(error)
+            )
             raise InputError(
                 f"{address.host}:{address.port}: cannot be listened at ({reason}); name another --host or --port"
             ) from None

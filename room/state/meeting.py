@@ -84,9 +84,16 @@ class Meeting:
                 raise NotAllowed(f"the room is full; it has {self.most_people} places", again=True)
             taken = {other.number for other in self._seats.values()}
             number = next(number for number in itertools.count() if number not in taken)
-            seat = Seat(number=number, id=id, name=join.name, avatar=join.avatar, moderator=moderator)
+            seat = Seat(
+                number=number,
+                id=id,
+                name=join.name,
+                avatar=join.avatar,
+                visit=join.visit,
+                moderator=moderator,
+            )
             self._seats[id] = seat
-        seat.name, seat.avatar, seat.moderator = join.name, join.avatar, moderator
+        seat.name, seat.avatar, seat.visit, seat.moderator = join.name, join.avatar, join.visit, moderator
         seat.gone_at, seat.voice = None, False
         return seat
 

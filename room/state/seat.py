@@ -35,6 +35,7 @@ class Seat:
     id: str
     name: str
     avatar: str
+    visit: str
     moderator: bool
     gone_at: float | None = None
     voice: bool = False
@@ -57,6 +58,7 @@ class Seat:
             id=self.id,
             name=self.name,
             avatar=self.avatar,
+            visit=self.visit,
             moderator=self.moderator,
             present=self.gone_at is None,
             voice=self.voice,

@@ -117,14 +117,19 @@ class Place:
 
 @asynccontextmanager
 async def open_room(
-    *, limits: Limits | None = None, relays: Relays | None = None, origins: frozenset[str] = frozenset()
+    *,
+    limits: Limits | None = None,
+    relays: Relays | None = None,
+    origins: frozenset[str] = frozenset(),
+    keys: Keys | None = None,
+    port: int = 0,
 ) -> AsyncIterator[Place]:
-    """A server in this process, on a free port."""
-    keys = new_keys()
+    """A server in this process, on a free port unless one is named."""
+    keys = keys or new_keys()
     rooms = Rooms(keys, limits=limits or Limits(), relays=relays or Relays(), origins=origins)
     runner = web.AppRunner(rooms.application(), access_log=None, shutdown_timeout=0.1)
     await runner.setup()
-    await web.TCPSite(runner, "127.0.0.1", 0).start()
+    await web.TCPSite(runner, "127.0.0.1", port).start()
     place = Place(f"http://127.0.0.1:{runner.addresses[0][1]}", keys)
     try:
         yield place

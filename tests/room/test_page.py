@@ -3,13 +3,15 @@
 import asyncio
 import json
 import statistics
+import time
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 
 import pytest
 
 from facegen.conventions import BLENDSHAPES
+from room.server import new_keys
 from tests.browser import Tab, chromium, needs_chromium
 from tests.room.guests import Place, open_room
 from tests.room.speech import write_bursts
@@ -155,11 +157,11 @@ async def signs(ada: Tab, ben: Tab) -> dict[str, list[float]]:
     """Milliseconds from a sound's begin, and from its end, to the sign on the other's page."""
     await ada.ask(HEARD)
     await ben.ask(SHOWN % other("Ada"))
-    await asyncio.sleep(13.0)
+    await asyncio.sleep(14.0)
     heard, shown = await ada.ask("heard"), await ben.ask("shown")
     late = {}
     for word, state in (("on", True), ("off", False)):
-        begins = [at for loud, at in heard if loud is state][:-1]
+        begins = [at for loud, at in heard if loud is state][1:-1]
         late[word] = [min(at - begun for on, at in shown if on is state and at >= begun) for begun in begins]
     return late
 
@@ -184,6 +186,52 @@ async def observe(folder: Path) -> dict[str, object]:
         return found
 
 
+async def restarted(folder: Path) -> dict[str, object]:
+    """A server that goes away for a second under two people who are talking."""
+    write_bursts(folder / "speech.wav")
+    keys = new_keys()
+    camera = f"--use-file-for-fake-audio-capture={folder / 'speech.wav'}"
+    async with chromium(*AWAKE, camera) as browser, AsyncExitStack() as stack:
+        tabs = []
+        async with open_room(keys=keys) as place:
+            port = int(place.address.rsplit(":", 1)[1])
+            for name in ("Ada", "Ben"):
+                link = f"{place.address}/room/meeting#{keys.key('meeting', 'guest')}"
+                tabs.append(await stack.enter_async_context(browser.open(link)))
+                await come_in(tabs[-1], name)
+            ada, ben = tabs
+            await ada.ask("void Object.assign(meeting.walk, { x: 2.5, z: -1.5, heading: 1 })")
+            for tab in tabs:
+                await tab.until(CONNECTED, 30)
+                await tab.ask("void (globalThis.before = [meeting.own, ...meeting.voice.peers.values()])")
+            await ben.until(f"{other('Ada')}.newest?.floor_m[0] === 2.5")
+        for tab in tabs:
+            await tab.until("document.querySelector('#state').textContent.includes('broke')")
+        await asyncio.sleep(1.0)
+        async with open_room(keys=keys, port=port):
+            start = time.monotonic()
+            for tab in tabs:
+                await tab.until("meeting.own !== before[0] && meeting.known.size === 2")
+            await ben.until(f"{other('Ada')}.newest?.floor_m[1] === -1.5")
+            return {
+                "seconds": time.monotonic() - start,
+                "place": await ben.ask(f"{other('Ada')}.newest.floor_m"),
+                "same voices": [
+                    await tab.ask("before[1] === [...meeting.voice.peers.values()][0]") for tab in tabs
+                ],
+                "connected": [await tab.ask(CONNECTED) for tab in tabs],
+            }
+
+
+def test_a_server_that_starts_again_has_its_people_back_and_voices_never_stop(tmp_path):
+    found = asyncio.run(restarted(tmp_path))
+    print(found)
+    assert found["seconds"] < 3
+    assert found["place"] == [2.5, -1.5]
+    assert found["same voices"] == [True, True]
+    assert found["connected"] == [True, True]
+
+
 @pytest.fixture(scope="module")
 def found(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
     return asyncio.run(observe(tmp_path_factory.mktemp("meeting")))
@@ -200,7 +248,7 @@ def test_a_voice_comes_from_its_side(found):
 
 
 def test_the_speaking_sign_comes_and_goes_in_time(found):
-    assert len(found["on"]) >= 3
+    assert len(found["on"]) >= 2
     assert statistics.median(found["on"]) <= 200, found["on"]
     assert statistics.median(found["off"]) <= 700, found["off"]
 

@@ -8,9 +8,11 @@ from functools import wraps
 
 import aiohttp
 import pytest
+from yarl import URL
 
 from room.protocol.texts import Changed, Door, Left, Line, Notice, Refused, Signal, Welcome
 from room.server import Limits, Relays, new_keys
+from room.server.application import STATIC
 from room.server.connection import CLOSED_BY_RULE
 from room.server.limits import BURST_S, CHATS_PER_S, STATES_PER_S, Bucket
 from room.state import identity
@@ -354,3 +356,32 @@ def test_a_bucket_allows_a_rate_and_a_burst():
     assert [bucket.take(now=0) for _ in range(5)] == [True] * 4 + [False]
     assert [bucket.take(now=1) for _ in range(3)] == [True, True, False]
     assert [bucket.take(now=100) for _ in range(5)] == [True] * 4 + [False]
+
+
+@meeting
+async def test_files_are_served_whole_compressed_and_no_others(place):
+    script = place.address + "/static/room.js"
+    async with place.session.get(script, headers={"Accept-Encoding": "identity"}) as answer:
+        plain = await answer.read()
+        assert answer.headers["Content-Type"].startswith("text/javascript")
+        tag = answer.headers["ETag"]
+    assert plain == (STATIC / "room.js").read_bytes()
+    async with place.session.get(script, headers={"Accept-Encoding": "gzip"}) as answer:
+        assert int(answer.headers["Content-Length"]) < len(plain) / 3
+        assert await answer.read() == plain
+    async with place.session.get(script, headers={"If-None-Match": tag}) as answer:
+        assert (answer.status, await answer.read()) == (304, b"")
+    for path in (
+        "../keys.py",
+        "..%2fkeys.py",
+        "%2e%2e/keys.py",
+        "/etc/passwd",
+        "nothing.js",
+        "avatars",
+        ".",
+        "",
+    ):
+        async with place.session.get(URL(f"{place.address}/static/{path}", encoded=True)) as answer:
+            assert answer.status == 404, path
+    async with place.session.get(place.address + "/avatars.json") as answer:
+        assert await answer.json() == sorted(path.stem for path in (STATIC / "avatars").glob("*.glb"))

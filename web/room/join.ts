@@ -24,12 +24,18 @@ export function readLink(): Link | undefined {
   return room && key ? { room, key } : undefined;
 }
 
+/** So many random bytes as base64url; a multiple of three. */
+export function randomText(bytes: number): string {
+  const text = btoa(String.fromCharCode(...crypto.getRandomValues(new Uint8Array(bytes))));
+  return text.replaceAll("+", "-").replaceAll("/", "_");
+}
+
 /** This person's secret in this room: one for each tab, so that two tabs are two people, and the same after a reload. */
 export function secretOf({ room }: Link): string {
   const place = `secret of ${room}`;
   let secret = sessionStorage.getItem(place);
   if (!secret) {
-    secret = btoa(String.fromCharCode(...crypto.getRandomValues(new Uint8Array(18)))).replaceAll("+", "-").replaceAll("/", "_");
+    secret = randomText(18);
     sessionStorage.setItem(place, secret);
   }
   return secret;

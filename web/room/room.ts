@@ -7,7 +7,7 @@ import { Wardrobe } from "./avatars.js";
 import { EYES_M, SEATED_M } from "./body.js";
 import { FaceCamera } from "./face.js";
 import { Figure } from "./figure.js";
-import { ask, readLink, secretOf, sentence } from "./join.js";
+import { ask, randomText, readLink, secretOf, sentence } from "./join.js";
 import { Line } from "./line.js";
 import { Idle, type OwnFace } from "./own.js";
 import { firstPlace } from "./place.js";
@@ -119,6 +119,7 @@ class Meeting {
         this.meet(answer.person);
         break;
       case "left":
+        this.voice.part(this.known.get(answer.number)?.person.id ?? "");
         this.known.get(answer.number)?.figure?.dispose();
         this.known.delete(answer.number);
         break;
@@ -339,10 +340,11 @@ async function main(): Promise<void> {
   }
   const choice = await ask(await Wardrobe.names());
   const secret = secretOf(link);
+  const visit = randomText(9);
   const { protocol, host, origin } = location;
   const meeting = new Meeting(
     `${protocol === "https:" ? "wss" : "ws"}://${host}/room/${link.room}/socket`,
-    { kind: "join", version: 1, key: link.key, secret, name: choice.name, avatar: choice.avatar, role: "page" },
+    { kind: "join", version: 1, key: link.key, secret, name: choice.name, avatar: choice.avatar, visit, role: "page" },
     choice.microphone,
     `${origin}/room/${link.room}#${link.key}.${secret}`,
   );

@@ -5,6 +5,8 @@ export interface Person {
   id: string;
   name: string;
   avatar: string;
+  /** Made anew whenever their page is loaded. */
+  visit: string;
   moderator: boolean;
   present: boolean;
   voice: boolean;
@@ -30,7 +32,7 @@ export interface Candidate {
 export type Act = "mute" | "unmute" | "remove" | "lock" | "unlock";
 
 export type Said =
-  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; role: "page" }
+  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page" }
   | { kind: "chat"; text: string }
   | { kind: "voice"; open: boolean }
   | Description

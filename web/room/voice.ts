@@ -20,6 +20,7 @@ interface Peer {
   /** Chrome gives a remote voice to WebAudio only while a (muted) element plays it. */
   readonly element: HTMLAudioElement;
   readonly meter: AnalyserNode;
+  readonly visit: string;
   offering: boolean;
   ignoring: boolean;
   number: number;
@@ -58,16 +59,37 @@ export class Voice {
     }
   }
 
-  /** Keep one connection to each of the others who are here. `own` is this person's id. */
+  /**
+   * Keep one connection to each of the others who are here. `own` is this person's id.
+   *
+   * Who is not on the list is let alone while their voice arrives: after a restart of the server people come back one by one.
+   */
   meet(people: Iterable<Person>, own: string): void {
-    const here = new Map([...people].filter(({ present, id }) => present && id !== own).map((person) => [person.id, person]));
-    for (const id of [...this.peers.keys()]) if (!here.has(id)) this.part(id);
-    for (const [id, person] of here) {
+    const listed = new Map([...people].map((person) => [person.id, person]));
+    for (const [id, { connection, visit }] of [...this.peers]) {
+      const person = listed.get(id);
+      const gone = person ? !person.present || person.visit !== visit : connection.connectionState !== "connected";
+      if (gone) this.part(id);
+    }
+    for (const [id, person] of listed) {
+      if (id === own || !person.present) continue;
       const peer = this.peers.get(id);
       if (peer) peer.number = person.number;
-      else this.call(id, person.number, own < id);
+      else this.call(person, own < id);
       this.setMuted(id, person.muted);
     }
+  }
+
+  /** Somebody has left for good. */
+  part(id: string): void {
+    const peer = this.peers.get(id);
+    if (!peer) return;
+    this.peers.delete(id);
+    peer.connection.onnegotiationneeded = peer.connection.onicecandidate = null;
+    peer.connection.close();
+    peer.panner.disconnect();
+    peer.gain.disconnect();
+    peer.element.srcObject = null;
   }
 
   async hear(id: string, signal: Description | Candidate): Promise<void> {
@@ -151,7 +173,7 @@ export class Voice {
     void this.context.close();
   }
 
-  private call(id: string, number: number, polite: boolean): void {
+  private call({ id, number, visit }: Pick<Person, "id" | "number" | "visit">, polite: boolean): void {
     const connection = new RTCPeerConnection({ iceServers: this.ice });
     const panner = new PannerNode(this.context, {
       panningModel: "HRTF",
@@ -164,7 +186,7 @@ export class Voice {
     const element = new Audio();
     element.muted = true;
     panner.connect(gain).connect(this.context.destination);
-    const peer: Peer = { connection, polite, panner, gain, element, meter, offering: false, ignoring: false, number };
+    const peer: Peer = { connection, polite, panner, gain, element, meter, visit, offering: false, ignoring: false, number };
     this.peers.set(id, peer);
 
     connection.ontrack = ({ track }) => {
@@ -215,16 +237,5 @@ export class Voice {
   private describe({ connection, number }: Peer): void {
     const { type, sdp } = connection.localDescription!;
     if (type !== "pranswer") this.send({ kind: "description", to: number, type, sdp });
-  }
-
-  private part(id: string): void {
-    const peer = this.peers.get(id);
-    if (!peer) return;
-    this.peers.delete(id);
-    peer.connection.onnegotiationneeded = peer.connection.onicecandidate = null;
-    peer.connection.close();
-    peer.panner.disconnect();
-    peer.gain.disconnect();
-    peer.element.srcObject = null;
   }
 }

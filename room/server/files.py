@@ -1,0 +1,79 @@
+"""Serves the page's files from memory, compressed once: those that are there at the start, and no other path."""
+
+import asyncio
+import gzip
+import hashlib
+import mimetypes
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from aiohttp import web
+
+_TYPES = {".js": "text/javascript", ".wasm": "application/wasm", ".glb": "model/gltf-binary"}
+"""What browsers insist on, and systems know differently."""
+
+WORTH_BYTES = 1024
+"""Smaller files fit into one packet as they are."""
+
+
+@dataclass
+class _Held:
+    content: bytes
+    kind: str
+    tag: str
+    packed: asyncio.Future[bytes] | None = field(default=None, repr=False)
+
+
+class Files:
+    """The files below a folder, by the path of their address.
+
+    Parameters
+    ----------
+    folder
+        Read once; a file that comes later is not served, and one that changes stays as it was.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._held = {
+            path.relative_to(folder).as_posix(): _read(path)
+            for path in sorted(folder.rglob("*"))
+            if path.is_file() and not path.name.startswith(".")
+        }
+
+    def names(self, folder: str, suffix: str) -> list[str]:
+        """Stems of the files in a folder, sorted."""
+        return [
+            path.removeprefix(f"{folder}/").removesuffix(suffix)
+            for path in self._held
+            if path.startswith(f"{folder}/") and path.endswith(suffix)
+        ]
+
+    async def answer(self, request: web.Request, path: str) -> web.Response:
+        """The file, or nothing where the browser has it already.
+
+        Raises
+        ------
+        aiohttp.web.HTTPNotFound
+            If there is none.
+        """
+        held = self._held.get(path)
+        if held is None:
+            raise web.HTTPNotFound(text="no such file\n")
+        headers = {"ETag": held.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
+        if request.headers.get("If-None-Match") == held.tag:
+            return web.Response(status=304, headers=headers)
+        body = held.content
+        if len(body) > WORTH_BYTES and "gzip" in request.headers.get("Accept-Encoding", ""):
+            if (
+                held.packed is None
+            ):  # in a thread: WebAssembly takes a second, and nobody who meets waits for it
+                held.packed = asyncio.ensure_future(asyncio.to_thread(gzip.compress, body, 6))
+            body = await asyncio.shield(held.packed)
+            headers["Content-Encoding"] = "gzip"
+        return web.Response(body=body, content_type=held.kind, headers=headers)
+
+
+def _read(path: Path) -> _Held:
+    content = path.read_bytes()
+    kind = _TYPES.get(path.suffix) or mimetypes.guess_type(path.name)[0] or "application/octet-stream"
+    return _Held(content=content, kind=kind, tag=f'"{hashlib.sha256(content).hexdigest()[:32]}"')

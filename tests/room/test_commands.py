@@ -1,0 +1,129 @@
+"""`room serve` and `room token` as people run them: links, certificates, and refusals in one sentence."""
+
+import asyncio
+import os
+import re
+import shutil
+import socket
+import ssl
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import aiohttp
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def room(*arguments: object, seconds: float = 30.0) -> subprocess.CompletedProcess[str]:
+    command = (sys.executable, "-m", "room", *map(str, arguments))
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=seconds)
+
+
+def test_token_prints_the_same_links_whenever_it_is_asked(tmp_path):
+    keys = tmp_path / "room.keys"
+    first = room("token", "--keys", keys, "--room", "lab", "--address", "https://rooms.example/")
+    again = room("token", "--keys", keys, "--room", "lab", "--address", "https://rooms.example/")
+    assert (first.returncode, first.stdout) == (0, again.stdout)
+    guest, moderator = (line.split("\t") for line in first.stdout.splitlines())
+    assert guest[:2] == ["lab", "guest"]
+    assert re.fullmatch(r"https://rooms\.example/room/lab#[A-Za-z0-9_-]{22}", guest[2])
+    assert moderator[2] != guest[2]
+    if os.name == "posix":
+        assert stat.S_IMODE(keys.stat().st_mode) == 0o600, "whoever reads it can come in everywhere"
+    other = room("token", "--keys", tmp_path / "other.keys", "--room", "lab")
+    assert guest[2].split("#")[1] not in other.stdout
+
+
+REFUSED = {
+    "a name with a space": ("token", "--keys", "{folder}/k", "--room", "my room"),
+    "keys that are none": ("token", "--keys", "{folder}/bad"),
+    "keys in a folder that is not there": ("token", "--keys", "{folder}/nowhere/k"),
+    "half a certificate": ("serve", "--port", "0", "--cert", "{folder}/bad"),
+    "no certificate": ("serve", "--port", "0", "--cert", "{folder}/bad", "--key", "{folder}/bad"),
+    "a certificate that is not there": (
+        "serve",
+        "--port",
+        "0",
+        "--cert",
+        "{folder}/c",
+        "--key",
+        "{folder}/c",
+    ),
+    "a relay without a secret": ("serve", "--port", "0", "--turn", "turn:a:1"),
+    "a secret that is empty": (
+        "serve",
+        "--port",
+        "0",
+        "--turn",
+        "turn:a:1",
+        "--turn-secret",
+        "{folder}/empty",
+    ),
+    "a host that is no one": ("serve", "--port", "0", "--host", "256.0.0.1"),
+    "a port that is taken": ("serve", "--port", "{taken}"),
+    "no place at all": ("serve", "--port", "0", "--people", "0"),
+}
+
+
+@pytest.mark.parametrize("arguments", REFUSED.values(), ids=REFUSED.keys())
+def test_what_cannot_be_used_is_refused_in_a_sentence(arguments, tmp_path):
+    (tmp_path / "bad").write_text("no such thing")
+    (tmp_path / "empty").write_text("\n")
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        words = {"folder": tmp_path, "taken": taken.getsockname()[1]}
+        done = room(*(argument.format(**words) for argument in arguments))
+    assert done.returncode in (2, 74), done.stderr
+    assert "Traceback" not in done.stderr
+    assert "#" not in done.stdout, "no link of a room that is not open"
+    if "--people" not in arguments:
+        assert (
+            len([line for line in done.stderr.splitlines() if "127.0.0.1" not in line or "listened" in line])
+            == 1
+        )
+
+
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="makes the certificate")
+def test_https_serves_the_page_and_the_room(tmp_path):
+    certificate, key = tmp_path / "cert.pem", tmp_path / "key.pem"
+    made = (
+        *("openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2"),
+        "-subj",
+        "/CN=localhost",
+    )
+    subprocess.run(
+        [*made, "-addext", "subjectAltName=DNS:localhost", "-out", certificate, "-keyout", key],
+        check=True,
+        capture_output=True,
+    )
+    command = (sys.executable, "-m", "room", "serve", "--port", "0", "--cert", certificate, "--key", key)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+    ) as run:
+        try:
+            link = run.stdout.readline().split("\t")[2].strip().replace("127.0.0.1", "localhost")
+            assert link.startswith("https://")
+            asyncio.run(_visit(link, certificate))
+        finally:
+            run.terminate()
+            assert run.wait(10) == 75
+            run.communicate()
+
+
+async def _visit(link: str, certificate: Path) -> None:
+    trusted = ssl.create_default_context(cafile=str(certificate))
+    address, key = link.split("#")
+    join = {"kind": "join", "key": key, "secret": "s" * 22, "name": "Ada"}
+    async with aiohttp.ClientSession() as session:
+        async with session.get(address, ssl=trusted) as page:
+            assert page.status == 200
+            assert "<title>Room</title>" in await page.text()
+        async with session.ws_connect(f"{address}/socket", ssl=trusted) as line:
+            await line.send_json(join)
+            assert (await line.receive_json())["kind"] == "welcome"
