@@ -45,17 +45,14 @@ def serve(
     limits = Limits(people=people, rooms=rooms)
     opened = Rooms(held, limits=limits, relays=relays, origins=frozenset(origin or ()))
     address = Address(host=host, port=port, certificate=cert, private_key=key)
-    if not cert and host not in ("127.0.0.1", "::1", "localhost"):
-        say(
-            "room: browsers give no camera and no microphone to http pages of another machine; use --cert and --key"
-        )
 
     def started(where: str) -> None:
         print_links(held, names, where)
-        say(
-            "room: open; Ctrl-C stops it"
-            + ("" if keys else ", and its links end with it (--keys FILE keeps them)")
-        )
+        if not cert and host not in ("127.0.0.1", "::1", "localhost"):
+            say(
+                "room: browsers give no camera and no microphone to http pages of other machines: --cert and --key"
+            )
+        say("room: open; Ctrl-C stops it" + ("" if keys else ", and its links end with it (see --keys)"))
 
     run(opened, address, started=started)
 

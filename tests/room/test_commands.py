@@ -81,11 +81,8 @@ def test_what_cannot_be_used_is_refused_in_a_sentence(arguments, tmp_path):
     assert done.returncode in (2, 74), done.stderr
     assert "Traceback" not in done.stderr
     assert "#" not in done.stdout, "no link of a room that is not open"
-    if "--people" not in arguments:
-        assert (
-            len([line for line in done.stderr.splitlines() if "127.0.0.1" not in line or "listened" in line])
-            == 1
-        )
+    if "--people" not in arguments:  # that one is Typer's, with the usage above it
+        assert done.stderr.count("\n") == 1, done.stderr
 
 
 @pytest.mark.skipif(shutil.which("openssl") is None, reason="makes the certificate")
