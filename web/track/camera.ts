@@ -80,11 +80,15 @@ function drawPoints(context: CanvasRenderingContext2D, { size, points }: View, c
     const [x, y] = points[index]!;
     return [(((x ?? NaN) + 0.5) * width) / size[0], (((y ?? NaN) + 0.5) * height) / size[1]];
   };
+  const joined = points.length === 68 && points.every(([x]) => x !== null);
+  // as large as a face of that size bears, on the screen
+  const shown = width / (context.canvas.clientWidth || width);
+  const face = joined ? Math.hypot(at(16)[0] - at(0)[0], at(16)[1] - at(0)[1]) : width / 2;
+  const radius = Math.max(0.8 * shown, face / 75);
   context.strokeStyle = context.fillStyle = colour;
-  context.lineWidth = Math.max(1, width / 210);
+  context.lineWidth = 0.9 * radius;
   context.lineJoin = "round";
   context.globalAlpha = 0.65;
-  const joined = points.length === 68 && points.every(([x]) => x !== null);
   for (const [first, last, closes] of joined ? RUNS : []) {
     context.beginPath();
     for (let index = first; index <= last; index++) context.lineTo(...at(index));
@@ -92,7 +96,6 @@ function drawPoints(context: CanvasRenderingContext2D, { size, points }: View, c
     context.stroke();
   }
   context.globalAlpha = 1;
-  const radius = Math.max(1.2, width / 170);
   for (let index = 0; index < points.length; index++) {
     context.beginPath();
     context.arc(...at(index), radius, 0, 2 * Math.PI);

@@ -338,7 +338,7 @@ def test_what_is_clicked_is_asked_for_and_what_holds_is_shown(loop, stand):
         })()"""  # green of the points, on grey
         width, height, green = await stand.tab.ask(drawn)
         assert (width, height) == (160, 120)
-        assert green > 200
+        assert green > 60
         await stand.tab.ask("points.click()")
         await stand.publish_until(f"{drawn}[2] === 0")
         await stand.tab.ask(
