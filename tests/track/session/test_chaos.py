@@ -15,6 +15,7 @@ import cv2
 import numpy as np
 import pytest
 
+from facegen.conventions import BLENDSHAPES
 from regress.runtime.sample import Sample
 from tests.track.session.faces import SAMPLES, Kept, calibrated_profile, frames, new_session
 from track.detectors import FaceFault
@@ -26,8 +27,11 @@ from track.sources import CameraFault
 
 FPS = 30
 MOST_STEP = 0.3
-BEGIN, END = 150, 210
-"""Frames between which something is wrong: two seconds."""
+BEGIN, END = 165, 225
+"""Frames between which something is wrong: two seconds, from the middle of a word on."""
+
+GAINS = {name: 3.0 for name in BLENDSHAPES if not name.startswith("eyeLook")}
+"""The sample talks quietly; nothing could move it by much."""
 
 BACK_WITHIN_S = 1.0
 
@@ -94,6 +98,11 @@ POINTS: dict[str, tuple[Disturbance, str]] = {
 }
 
 
+def loud(profile: Profile) -> Profile:
+    """With `GAINS`."""
+    return profile.model_copy(update={"gains": GAINS})
+
+
 def run(session: Session, samples: list[Sample]) -> np.ndarray:
     """Answers (n, 52), one a frame."""
     for sample in samples:
@@ -114,20 +123,20 @@ def check(truth: np.ndarray, answers: np.ndarray) -> None:
         )
     np.testing.assert_array_equal(answers[:BEGIN], truth[:BEGIN])
     back = END + int(BACK_WITHIN_S * FPS)
-    # levels of headset pictures and filters remember what was
-    assert np.abs(answers[back:] - truth[back:]).max() < 0.05
+    # levels of headset pictures and filters remember what was: .04, times `GAINS`
+    assert np.abs(answers[back:] - truth[back:]).max() < 0.15
 
 
 @cache
 def points_truth() -> np.ndarray:
-    return run(new_session(profile=calibrated_profile()), frames(0, 300))
+    return run(new_session(profile=loud(calibrated_profile())), frames(0, 300))
 
 
 @pytest.mark.parametrize("name", POINTS)
 def test_points(name):
     disturb, sentence = POINTS[name]
     said: list[str] = []
-    session = new_session(profile=calibrated_profile(), said=said)
+    session = new_session(profile=loud(calibrated_profile()), said=said)
     check(points_truth(), run(session, disturb(frames(0, 300))))
     assert [each for each in said if each.startswith(sentence)] == said
     assert len(said) == 1
@@ -171,7 +180,7 @@ def headset_session(said: list[str] | None = None) -> Session:
     for name in ("grey", "soundness", "exchange", "networks"):
         kept = [pipeline.stages[name].step(sample) for sample in kept]
     pipeline = HeadsetPipeline("headset-tracking3", fps=FPS, filter_name="groups")
-    profile = Profile(person="anna", camera="three", neutral=pipeline.neutral_of(kept))
+    profile = loud(Profile(person="anna", camera="three", neutral=pipeline.neutral_of(kept)))
     return Session(
         pipeline=pipeline, sinks=[Kept()], profile=profile, say=(said if said is not None else []).append
     )
@@ -250,7 +259,7 @@ def test_headset(name):
 @pytest.mark.slow
 def test_memory_does_not_grow():
     """Twice a minute's frames behind a first one: what is kept of frames is bounded."""
-    session = new_session(profile=calibrated_profile())
+    session = new_session(profile=loud(calibrated_profile()))
     (kept,) = session.sinks
     disturb, _ = POINTS["face away"]
     samples = disturb(frames(0, 300))[BEGIN - 30 : END + 30]

@@ -1,13 +1,16 @@
 """A session over a talking face: answers, commands, calibration, profiles."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.model import load_model
 from regress.runtime.ready_made import model_folder
+from regress.runtime.stages.gaze import LOOKS, look_weights
 from regress.runtime.stages.stage import Chain
-from tests.track.session.faces import Kept, calibrated_profile, frames, new_session, talking_face
+from tests.track.session.faces import Given, Kept, calibrated_profile, frames, new_session, talking_face
 from track.messages import Command
 from track.profile.profile import Profile
 
@@ -89,6 +92,22 @@ def test_who_moves_is_asked_once_more_and_nothing_is_kept():
     assert stored == []
 
 
+def test_one_look_is_straight_ahead_from_then_on():
+    """Eyes that read 0.2 while they look into the camera read 0 there, and the looks follow."""
+    stored: list[Profile] = []
+    session = new_session(filter_name="none", keep=stored.append)
+    session.pipeline.stages = {"given": Given()}
+    looking = replace(frames(0, 1)[0], weights=np.zeros(52), gaze=np.array([0.2, -0.1, 0.2, -0.1]))
+    session.ask(Command(verb="recentre"))
+    for row in range(60):
+        answer = session.answer(replace(looking, time_s=row / 30))[0]
+    np.testing.assert_allclose(stored[-1].gaze, [0.2, -0.1, 0.2, -0.1])
+    np.testing.assert_allclose(answer.gaze, 0, atol=1e-12)
+    aside = replace(looking, time_s=3.0, gaze=looking.gaze + np.array([0.3, 0, 0.3, 0]))
+    answer = session.answer(aside)[0]
+    np.testing.assert_allclose(answer.weights[LOOKS], look_weights(np.array([0.3, 0, 0.3, 0])), atol=1e-9)
+
+
 def test_the_page_s_recording_is_opened_and_closed():
     made: list[Kept] = []
 
@@ -147,6 +166,4 @@ def test_the_stages_are_those_of_a_chain():
 
 def frames_at(sample, time_s):
     """The same frame at another time."""
-    from dataclasses import replace
-
     return replace(sample, time_s=time_s)

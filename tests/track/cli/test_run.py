@@ -1,0 +1,78 @@
+"""`track run` from the words on the command line to the recording, on the sample of a headset."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from tests.track.session.faces import SAMPLES
+from track.cli import main
+
+CAMERAS = [
+    word
+    for name in ("left_eye", "right_eye", "mouth")
+    for word in ("--camera", f"{name}={SAMPLES / 'headset' / name}")
+]
+
+
+def rows(path) -> list[dict[str, str]]:
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.fixture
+def home(tmp_path, monkeypatch):
+    for name in ("XDG_CONFIG_HOME", "HOME", "APPDATA", "LOCALAPPDATA"):
+        monkeypatch.setenv(name, str(tmp_path / "home"))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_a_film_moves_a_face_into_a_table(home, capsys, monkeypatch):
+    """No command is `run`; the answers are those of every frame, and the summary says how it went."""
+    words = [*CAMERAS, "--fast", "--no-page", "--record", "take.csv", "--json", "--filter", "none"]
+    monkeypatch.setattr(sys, "argv", ["track", *words])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    told = capsys.readouterr()
+    assert ended.value.code == 0
+    summary = json.loads(told.out)
+    assert summary["frames"] == summary["faces"] == 100
+    assert summary["faults"] == {}
+    assert "calibrate" in told.err
+    table = rows("take.csv")
+    assert len(table) == 100
+    assert max(float(row["jawOpen"]) for row in table) > 0.2
+
+
+def test_a_retargeted_table_has_the_other_names(home, capsys, monkeypatch):
+    words = [*CAMERAS, "--fast", "--no-page", "--record", "take.csv", "--retarget", "vrm1"]
+    monkeypatch.setattr(sys, "argv", ["track", "run", *words])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 0
+    assert "aa" in rows("take.csv")[0]
+    assert "jawOpen" not in rows("take.csv")[0]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows sends no SIGINT to one process")
+def test_ctrl_c_ends_it_and_the_recording_is_whole(home):
+    words = [*CAMERAS, "--fps", "5", "--no-page", "--record", "take.csv"]
+    running = subprocess.Popen([sys.executable, "-m", "track", *words], stderr=subprocess.PIPE, text=True)
+    until_s = time.monotonic() + 60
+    while not list(home.glob(".part-*")) and time.monotonic() < until_s:
+        time.sleep(0.1)
+    time.sleep(3)
+    running.send_signal(signal.SIGINT)
+    _, told = running.communicate(timeout=30)
+    assert running.returncode == 0, told
+    assert "Traceback" not in told
+    table = rows(home / "take.csv")
+    assert 1 <= len(table) < 100
+    assert all(len(row) == len(table[0]) for row in table)
+    assert list(home.glob(".part-*")) == []
