@@ -1,6 +1,6 @@
 """What `track` takes: processor time of each stage, and the time from a picture to the datagram that it moves.
 
-    python benchmarks/track_latency.py --film face.mp4 --seconds 60   # MediaPipe, landmark networks, 30 pictures a second
+    python benchmarks/track_latency.py --film face.mp4 --seconds 60   # MediaPipe, landmark networks, 30 a second
     python benchmarks/track_latency.py --headset --seconds 600        # three cameras of 96 pixels, 120 a second
 
 Cameras are virtual: pictures are in memory and come at their times, as a driver would give them. Answers go by VMC, and
