@@ -90,7 +90,7 @@ Splits share no person, unless the spec splits by session. From Python:
 
 facegen made it from the spec with the hash `{dataset["spec_hash"]}` and the seed {dataset["seed"]}.
 The same spec and versions give the same labels again. Label version {dataset["label_version"]}; {versions}.
-The heads come from the rig {dataset["rig"]["name"]!r}, {dataset["rig"]["version"]}: {dataset["rig"]["source"]}.
+{_heads(dataset)}
 
 ## Licence
 
@@ -167,9 +167,25 @@ def _croissant_type(kind: pa.DataType) -> str:
 def _title(about: Mapping) -> str:
     kind = "rendered headset pictures" if about["format"] == "parquet" else "face keypoints"
     dataset = about["dataset"]
-    return (
-        f"Synthetic {kind} ({dataset['headset'] if about['format'] == 'parquet' else dataset['rig']['name']})"
+    rigs = ", ".join(rig["name"] for rig in _rigs(dataset))
+    return f"Synthetic {kind} ({dataset['headset'] if about['format'] == 'parquet' else rigs})"
+
+
+def _rigs(dataset: Mapping) -> list[Mapping]:
+    """What ``dataset.json`` says of its rig, or of each of several."""
+    return dataset["rigs"] if "rigs" in dataset else [dataset["rig"]]
+
+
+def _heads(dataset: Mapping) -> str:
+    """A sentence for each rig."""
+    return "\n".join(
+        f"The heads {_of_whom(rig)}come from the rig {rig['name']!r}, {rig['version']}: {rig['source']}."
+        for rig in _rigs(dataset)
     )
+
+
+def _of_whom(rig: Mapping) -> str:
+    return f"of {rig['share']:.0%} of the people " if "share" in rig else ""
 
 
 def _described(field: pa.Field) -> str:
@@ -200,10 +216,13 @@ def _size(samples: int) -> str:
 
 
 def _licence_tag(dataset: Mapping) -> str:
-    licence = dataset["rig"]["licence"]
-    return "cc0-1.0" if licence.startswith("CC0") else "mit" if licence.startswith("MIT") else "other"
+    tags = {
+        "cc0-1.0" if licence.startswith("CC0") else "mit" if licence.startswith("MIT") else "other"
+        for licence in (rig["licence"] for rig in _rigs(dataset))
+    }
+    return tags.pop() if len(tags) == 1 else "other"
 
 
 def _licence_url(dataset: Mapping) -> str:
     tag = _licence_tag(dataset)
-    return {"cc0-1.0": _CC0, "mit": _MIT}.get(tag, dataset["rig"]["licence"])
+    return {"cc0-1.0": _CC0, "mit": _MIT}.get(tag, "; ".join(rig["licence"] for rig in _rigs(dataset)))

@@ -17,6 +17,8 @@ from facegen.labels import VIEW_LABEL_KEYS, further_columns
 from facegen.packing.plan import Options, PackFile, PackFormat, split_shards
 from facegen.packing.rendered import RenderedFiles, chosen_views, read_rendered
 from facegen.store import Dataset
+from facegen.store.blocks import widest
+from facegen.store.columns import RIG
 from facegen.store.sample import ADVICE
 
 SHARD_SAMPLES = 1000
@@ -37,6 +39,7 @@ def row_schema(dataset: Dataset, views: tuple[str, ...]) -> pa.Schema:
     """Columns of a pack with these views; labels are typed and described as in the keypoint shards."""
     keypoints = dataset.keypoint_schema
     fields = [keypoints.field(name) for name in (*_LABELS, "weights", "identity", *_keypoints(dataset))]
+    fields += [RIG] * (len(dataset.rigs) > 1)
     for view in views:
         picture = {"description": f"PNG of camera {view}, 8-bit grey"}
         fields.append(pa.field(view, _PICTURE, metadata=picture))
@@ -67,7 +70,11 @@ def write_rows(dataset: Dataset, part: PackFile, options: Options, path: Path) -
 def _table(dataset: Dataset, sample: RenderedFiles, views: tuple[str, ...], schema: pa.Schema) -> pa.Table:
     """Table of one sample; labels that its columns cannot hold are its damage."""
     try:
-        return pa.Table.from_pylist([_row(sample, views, _keypoints(dataset))], schema=schema)
+        row = _row(sample, views, _keypoints(dataset))
+        if len(dataset.rigs) > 1:  # sample.json has as many numbers as the person's own rig
+            row["identity"] += [0.0] * (widest(dataset.rigs) - len(row["identity"]))
+            row["rig"] = sample.record["rig"]
+        return pa.Table.from_pylist([row], schema=schema)
     except (KeyError, TypeError, ValueError, OverflowError, pa.ArrowException) as error:
         path = dataset.folder.render(sample.number) / "sample.json"
         raise InvalidData(f"{path}: has labels that no column can hold ({error!r}); {ADVICE}") from None

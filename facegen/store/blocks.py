@@ -1,5 +1,6 @@
 """Draws and labels the blocks of a dataset, each person on the own rig."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -7,10 +8,16 @@ import pyarrow as pa
 
 from facegen.conventions import BLOCK
 from facegen.labels import label_keypoints
+from facegen.rigs import Rig
 from facegen.sampling import Samples, draw_samples, rig_of
 from facegen.store.columns import RIG
 from facegen.store.dataset import Dataset
 from facegen.store.keypoint_table import keypoint_table
+
+
+def widest(rigs: Sequence[Rig]) -> int:
+    """Numbers in the column ``identity``: those of the rig with the most, the others are padded with zeros."""
+    return max(rig.components for rig in rigs)
 
 
 def draw_block(dataset: Dataset, block: int) -> dict[str, Samples]:
@@ -31,7 +38,7 @@ def label_block(dataset: Dataset, block: int, drawn: dict[str, Samples]) -> pa.T
         samples = drawn[rig.name].rows(slice(0, real))
         return keypoint_table(spec, samples, label_keypoints(spec, rig, samples))
     whose = rig_of(spec, drawn[dataset.rigs[0].name].person[:real])
-    width = max(rig.components for rig in dataset.rigs)
+    width = widest(dataset.rigs)
     tables, order = [], []
     for index, rig in enumerate(dataset.rigs):
         rows = np.flatnonzero(whose == index)

@@ -5,14 +5,17 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from facegen.errors import InputError
+from facegen.packing import Options, plan_pack, write_pack
+from facegen.packing.arrays import array_parts
 from facegen.rigs import Rig, load_rig
 from facegen.rigs.building import add_rig
 from facegen.sampling import plan_dataset, rig_of
 from facegen.spec import parse_spec, shares_of, spec_hash, spec_table
-from facegen.store import Dataset, column_array, draw_block, label_block, resolve, write_shard
+from facegen.store import Dataset, begin, column_array, draw_block, label_block, resolve, write_shard
 from facegen.validation.keypoints import check_shard
 from tests.facegen.rigs.glb_head import write_head
 
@@ -78,6 +81,28 @@ def test_validation_knows_whose_rig_is_whose(datasets: dict[str, Dataset], tmp_p
     names = pa.array(["anny"] * len(made))
     write_shard(made.set_column(place, made.schema.field(place), names), path)
     assert [finding.what[:4] for finding in check_shard(both, 0)] == ["rig "]
+
+
+def test_a_pack_names_the_rigs_and_their_licences(datasets: dict[str, Dataset], tmp_path: Path) -> None:
+    both = replace(datasets["both"], folder=type(datasets["both"].folder)(tmp_path / "both"))
+    begin(both)
+    both.folder.shard(0).parent.mkdir(parents=True)
+    write_shard(label_block(both, 0, draw_block(both, 0)), both.folder.shard(0))
+    write_pack(plan_pack(both, "keypoints"), tmp_path / "pack")
+    tables = [pq.read_table(path) for path in sorted((tmp_path / "pack").glob("*.parquet"))]
+    packed = pa.concat_tables(tables).sort_by("sample")
+    assert packed["rig"].to_pylist() == [both.rig_of(sample).name for sample in range(300)]
+    card = (tmp_path / "pack" / "README.md").read_text(encoding="utf-8")
+    for sentence in (
+        "# Synthetic face keypoints (anny, head)",
+        "The heads of 60% of the people come from the rig 'anny'",
+        "The heads of 40% of the people come from the rig 'head'",
+        "license: cc0-1.0",  # of both
+        "the rig 'anny': CC0-1.0 and the rig 'head': CC0-1.0",
+    ):
+        assert sentence in card
+    with pytest.raises(InputError, match="takes a dataset of one"):
+        array_parts(both, range(2), Options())
 
 
 def test_what_takes_one_rig_says_so(datasets: dict[str, Dataset]) -> None:
