@@ -207,31 +207,3 @@ def test_a_guest_who_claims_another_is_told_by_the_secret_alone(tmp_path):
             await place.session.close()
 
     asyncio.run(run())
-
-
-def test_who_reads_nothing_is_left_behind_and_costs_the_others_nothing(tmp_path):
-    """A page that stopped reading, with its connection open: its ticks are dropped, theirs go on."""
-
-    async def run() -> None:
-        port = _free_port()
-        with server(tmp_path, port) as process:
-            place = _place(tmp_path, port)
-            ada, ben = await place.guest(), await place.guest(name="Ben")
-            sleeper = await place.guest(name="Cy")
-            sleeper.socket._conn.transport.pause_reading()
-            before = psutil.Process(process.pid).memory_info().rss
-            worst = 0.0
-            for step in range(300):
-                start = time.monotonic()
-                await asyncio.gather(*(ada.move(sequence=step) for _ in range(2)))
-                if step % 10 == 0:
-                    await ben.until(
-                        lambda step=step: ada.number in ben.states and ben.states[ada.number].sequence >= step
-                    )
-                    worst = max(worst, time.monotonic() - start)
-                await asyncio.sleep(1 / 60)
-            assert worst < 1.0
-            assert psutil.Process(process.pid).memory_info().rss - before < 20 * 1024**2
-            await place.session.close()
-
-    asyncio.run(run())

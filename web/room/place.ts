@@ -25,6 +25,8 @@ const TABLE_HEIGHT = 0.74;
 const BODY = 0.35;
 /** Where newcomers stand. */
 const CIRCLE = 1.75;
+/** Beyond them the walls are near, and people stand closer. */
+const RINGS = 3;
 /** First across the table from each other, then between those who are there. */
 const ORDER = [0, 4, 2, 6, 1, 5, 3, 7];
 
@@ -89,11 +91,17 @@ export function makePlace(): Group {
 
 export const BACKGROUND = new Color(0xd9d4c9);
 
-/** Where somebody with this number stands first: around the table, looking at its middle. */
-export function firstPlace(number: number): { x: number; z: number; heading: number } {
-  const turn = (ORDER[number % ORDER.length]! / ORDER.length) * 2 * Math.PI + Math.floor(number / ORDER.length) * 0.35;
-  const [x, z] = [CIRCLE * Math.sin(turn), CIRCLE * Math.cos(turn)];
-  return { x, z, heading: Math.atan2(-x, -z) };
+/** Where a newcomer stands: the first place around the table, then around those, that is free; looking at its middle. */
+export function freePlace(taken: readonly (readonly [number, number])[]): { x: number; z: number; heading: number } {
+  for (let ring = 0; ; ring++) {
+    for (const order of ORDER) {
+      const turn = ((order + ring / 2) / ORDER.length) * 2 * Math.PI;
+      const radius = CIRCLE + ring * 2 * BODY;
+      const [x, z] = allowed(radius * Math.sin(turn), radius * Math.cos(turn));
+      const free = taken.every(([otherX, otherZ]) => Math.hypot(x - otherX, z - otherZ) >= 2 * BODY);
+      if (free || ring === RINGS) return { x, z, heading: Math.atan2(-x, -z) };
+    }
+  }
 }
 
 /** The nearest place where a body may stand. */

@@ -10,7 +10,7 @@ import { Figure } from "./figure.js";
 import { ask, randomText, readLink, secretOf, sentence } from "./join.js";
 import { Line } from "./line.js";
 import { Idle, type OwnFace } from "./own.js";
-import { firstPlace } from "./place.js";
+import { freePlace } from "./place.js";
 import { Playback } from "./playback.js";
 import { ANIMATIONS, FLAG, type Message } from "./protocol.js";
 import { Sidebar } from "./sidebar.js";
@@ -20,6 +20,8 @@ import { Voice } from "./voice.js";
 import { Walk } from "./walk.js";
 
 const HERTZ = 30;
+/** The last states of all come right behind the welcome; a newcomer waits so long to see who stands where. */
+const FIRST_TICK_MS = 150;
 /** A gesture lasts so long; a raised hand and pointing stay until they are ended. */
 const GESTURE_S = 2.2;
 const STAYS = new Set(["point", "raise hand"]);
@@ -51,6 +53,7 @@ class Meeting {
   private readonly line: Line;
   private camera: FaceCamera | undefined;
   private placed = false;
+  private placedBy = Infinity;
   private seated = false;
   private animation = 0;
   private animationEnds = Infinity;
@@ -99,14 +102,11 @@ class Meeting {
 
   private welcome(welcome: Welcome): void {
     this.own = welcome;
+    this.placedBy = performance.now() + FIRST_TICK_MS;
     this.voice.configure(welcome.ice);
     for (const known of this.known.values()) known.figure?.dispose();
     this.known.clear();
     for (const person of welcome.people) this.meet(person);
-    if (!this.placed) {
-      Object.assign(this.walk, firstPlace(welcome.number));
-      this.placed = true;
-    }
     this.locked = welcome.locked;
     this.tell("");
     this.line.say({ kind: "voice", open: this.microphone?.isOpen ?? false });
@@ -179,9 +179,10 @@ class Meeting {
     if (!known) return;
     known.newest = message;
     known.playback.push(message, performance.now());
-    if (number === this.own?.number && !this.sent) {
+    if (number === this.own?.number && !this.placed) {
       // the page was loaded anew: one stands where one stood
       [this.walk.x, this.walk.z, this.walk.heading] = [message.floor_m[0]!, message.floor_m[1]!, message.heading];
+      this.placed = true;
     }
     const speaking = (message.flags & FLAG.speaking) !== 0;
     known.figure?.speak(speaking);
@@ -190,8 +191,8 @@ class Meeting {
 
   /** Thirty times a second: say how one looks and where one stands. */
   private move(): void {
-    if (!this.own) return;
     const now = performance.now();
+    if (!this.own || !this.stand(now)) return;
     const seconds = Math.min(0.2, (now - this.moved) / 1000);
     this.moved = now;
     this.walk.update(this.seated ? 0 : seconds);
@@ -204,6 +205,16 @@ class Meeting {
     this.place(now);
     if (this.camera?.word) this.tell(this.camera.word);
     else if (this.camera) this.tell("");
+  }
+
+  /** Find a place that is free, once it is known where the others are; says whether one stands. */
+  private stand(now: number): boolean {
+    if (!this.placed && now > this.placedBy) {
+      const places = [...this.known.values()].flatMap(({ newest }) => (newest ? [newest.floor_m] : []));
+      Object.assign(this.walk, freePlace(places.map((place) => [place[0]!, place[1]!])));
+      this.placed = true;
+    }
+    return this.placed;
   }
 
   /** Put voices and ears where heads are; with the timer, as voices of a hidden tab go on. */

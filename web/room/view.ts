@@ -33,7 +33,7 @@ export class View {
     const place = makePlace();
     place.traverse((node) => node.layers.enable(SELF));
     this.scene.add(place);
-    this.mirror.layers.enable(SELF);
+    this.mirror.layers.set(SELF); // nobody else stands between a face and its mirror
     [glass.width, glass.height] = [300, 340];
     this.small = glass.getContext("2d")!;
   }
