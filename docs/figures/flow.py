@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
 OUT = Path(__file__).resolve().parents[1] / "pictures" / "flow.png"
-FACEGEN, REGRESS, FILES = "#dceaf7", "#e3f3df", "#f5f1e3"
+FACEGEN, REGRESS, LIVE, FILES = "#dceaf7", "#e3f3df", "#f6e0ea", "#f5f1e3"
 # name: (x, y, width, title, text, colour)
 BOXES = {
     "spec": (0.0, 2.2, 1.5, "spec.toml", "people, expressions,\ngaze, camera, seed", FILES),
@@ -23,7 +23,10 @@ BOXES = {
     "points": (6.7, 0.9, 1.8, "your landmarks", ".pts, OpenFace, py-feat,\n.npy", FILES),
     "model": (11.6, 2.9, 1.6, "model folder", "model.json,\nweights.npz, report", FILES),
     "predict": (9.1, 0.9, 1.9, "regress predict", "CSV of 52 weights\na frame", REGRESS),
-    "export": (11.6, 0.9, 1.6, "regress export", "ONNX, C99, JSON,\nNPZ", REGRESS),
+    "export": (13.8, 2.9, 1.7, "regress export", "ONNX, C99, JavaScript,\nJSON, NPZ", REGRESS),
+    "cameras": (9.1, -0.6, 1.9, "your cameras", "webcam, film, headset,\nnetwork address", FILES),
+    "track": (11.6, 0.9, 1.6, "track", "page, VMC, Live Link,\nVRChat, recordings", LIVE),
+    "room": (13.8, 0.9, 1.7, "room", "avatars, voices,\nin the browser", LIVE),
 }
 ARROWS = [
     ("spec", "sampling"),
@@ -38,13 +41,16 @@ ARROWS = [
     ("model", "predict"),
     ("model", "export"),
     ("points", "predict"),
+    ("model", "track"),
+    ("cameras", "track"),
+    ("track", "room"),
 ]
 HEIGHT = 0.95
 
 
 def main() -> None:
     """Draw the figure."""
-    figure = Figure(figsize=(13.4, 4.2), dpi=110)
+    figure = Figure(figsize=(15.7, 5.8), dpi=110)
     FigureCanvasAgg(figure)
     axis = figure.add_axes((0.005, 0.01, 0.99, 0.98))
     for x, y, width, title, text, color in BOXES.values():
@@ -57,15 +63,16 @@ def main() -> None:
         axis.text(x + width / 2, y + 0.31, text, ha="center", va="center", fontsize=9)
     for start, end in ARROWS:
         axis.annotate("", *_ends(start, end), arrowprops={"arrowstyle": "-|>", "color": "#333333", "lw": 1.4})
-    for x, label, color in ((0.0, "facegen", FACEGEN), (1.5, "regress", REGRESS), (3.0, "files", FILES)):
+    colors = (("facegen", FACEGEN), ("regress", REGRESS), ("track, room", LIVE), ("files", FILES))
+    for x, (label, color) in zip((0.0, 1.5, 3.0, 4.8), colors, strict=True):
         axis.add_patch(
             FancyBboxPatch(
-                (x, 0.95), 0.3, 0.2, boxstyle="round,pad=0.02", facecolor=color, edgecolor="#555555"
+                (x, -0.6), 0.3, 0.2, boxstyle="round,pad=0.02", facecolor=color, edgecolor="#555555"
             )
         )
-        axis.text(x + 0.42, 1.05, label, fontsize=10, va="center")
-    axis.set_xlim(-0.1, 13.4)
-    axis.set_ylim(0.75, 4.75)
+        axis.text(x + 0.42, -0.5, label, fontsize=10, va="center")
+    axis.set_xlim(-0.1, 15.6)
+    axis.set_ylim(-0.75, 4.75)
     axis.axis("off")
     figure.savefig(OUT)
 
