@@ -10,6 +10,9 @@ from facegen.console import say
 from regress.errors import InputError
 from regress.runtime.ready_made import HEADSET, ready_made_models
 
+_FARTHEST_DEG = 60.0
+"""To which side a target may lie: eyes turn less."""
+
 if TYPE_CHECKING:
     from regress.runtime.headset.footage import Footage
     from regress.runtime.headset.neutral import Neutral
@@ -72,6 +75,34 @@ def camera_paths(
                 f"--camera {name}=…: the model has no camera {name!r}; it has {', '.join(predictor.sizes)}"
             )
     return paths
+
+
+def targets_of(named: Sequence[str]) -> dict[int, tuple[float, float]]:
+    """Targets of ``FRAME:YAW:PITCH``, by frames.
+
+    Raises
+    ------
+    InputError
+        Where one is none, or nobody can look there.
+    """
+    targets = {}
+    for text in named:
+        frame, *angles = text.split(":")
+        try:
+            yaw, pitch = map(float, angles)
+        except ValueError:
+            yaw, pitch = float("nan"), float("nan")
+        if not (
+            frame.isdecimal()
+            and len(frame) < 20
+            and abs(yaw) <= _FARTHEST_DEG
+            and abs(pitch) <= _FARTHEST_DEG
+        ):
+            raise InputError(
+                f"--looked-at {text!r} is not FRAME:YAW:PITCH with angles up to {_FARTHEST_DEG:g} degrees, as 120:-10:5"
+            )
+        targets[int(frame)] = (yaw, pitch)
+    return targets
 
 
 def check_stills(**asked: bool) -> None:

@@ -124,6 +124,21 @@ def predict(
             "--points", help="CSV to write: the points that each camera traces, in pixels of its pictures."
         ),
     ] = None,
+    eyes: Annotated[
+        Path | None,
+        typer.Option(
+            "--eyes", help="CSV to write: how far lids are open, and the gaze, by the traced points."
+        ),
+    ] = None,
+    looked_at: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--looked-at",
+            metavar="FRAME:YAW:PITCH",
+            help="What was looked at in a frame, in degrees to the person's left and upwards, which sets the gaze of "
+            "--eyes right. One such frame re-centres it, five or nine decide its scale.",
+        ),
+    ] = None,
     video: Annotated[
         Path | None, typer.Option("--video", help="Film to write: the cameras' pictures and the avatar.")
     ] = None,
@@ -147,6 +162,7 @@ def predict(
         model_and_dataset,
         read_footage,
         read_neutrals,
+        targets_of,
     )
     from regress.cli.headset_notes import check_model, level_notes, rate_note, seat_notes, tell_of
     from regress.cli.output import output_of
@@ -159,6 +175,7 @@ def predict(
     from regress.runtime.headset.points import points_csv
     from regress.runtime.headset.predict import predict_footage
     from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.headset.traced_eyes import eyes_csv, traced_eyes
     from regress.runtime.writers.csv_table import confidence_csv, weights_csv
 
     cameras = bool(camera or left_eye or right_eye or mouth)
@@ -176,6 +193,8 @@ def predict(
         retarget=retarget,
     )
     check_targets(table_format, out=out, gltf=gltf, retargeted=retarget is not None)
+    if looked_at and eyes is None:
+        raise InputError("--looked-at is for the gaze of --eyes; give --eyes too")
     if video is not None and retarget is not None:
         raise InputError("--video takes ARKit's shapes: leave out --retarget")
     if dataset is not None:
@@ -222,6 +241,9 @@ def predict(
         say(note)
     if points is not None:
         write_whole(points, points_csv(predictor, footage))
+    if eyes is not None:
+        found = traced_eyes(predictor, footage, targets_of(looked_at or []))
+        write_whole(eyes, eyes_csv(found, footage.numbers))
     if trust is not None:
         write_whole(trust, confidence_csv(prediction))
     write_prediction(prediction, table_format, out=out, gltf=gltf)

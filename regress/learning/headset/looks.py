@@ -5,6 +5,11 @@ import numpy as np
 from facegen.conventions import VIEW_POINTS
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.runtime.headset.looks import CameraLooks, looks_of
+from regress.runtime.headset.placement_search import EyePoints
+from regress.runtime.headset.traced_eyes import eye_features
+
+_FEWEST = 50
+"""Frames that show all of an eye, of which a map to its gaze is made."""
 
 _PEOPLE = 200
 """Evenly chosen, of whom looks are measured: a hundredth of them are two."""
@@ -43,4 +48,24 @@ def camera_looks(
         sharpness=over_people("sharpness"),
         rim=over_people("rim"),
         points=tuple((round(float(x), 2), round(float(y), 2)) for x, y in usual),
+        gaze=_gaze_map(shown, arrays.gaze[rows], points, usual),
     )
+
+
+def _gaze_map(
+    shown: np.ndarray, gaze: np.ndarray, points: tuple[str, ...], usual: np.ndarray
+) -> tuple[tuple[float, ...], ...] | None:
+    """Least squares from an eye's points (n, P, 2) to its gaze, of frames that show them all; None of no single eye."""
+    if sum("_pupil" in name for name in points) != 1:
+        return None
+    eye = EyePoints.among(points, usual)
+    if eye is None:
+        return None
+    there = np.isfinite(shown[:, eye.iris + eye.upper + eye.lower + [eye.pupil]]).all(axis=(1, 2))
+    if there.sum() < _FEWEST:
+        return None
+    left = points[eye.pupil].startswith("left")
+    angles = np.degrees(gaze[there][:, :2] if left else gaze[there][:, 2:])
+    pupil, _ = eye_features(shown[there].astype(np.float64), eye)
+    found = np.linalg.lstsq(np.column_stack([pupil, np.ones(len(pupil))]), angles, rcond=None)[0]
+    return tuple(tuple(round(float(value), 3) for value in column) for column in found.T)

@@ -41,6 +41,9 @@ class CameraLooks:
         `rim_of` a person's pictures.
     points
         Mean pixels of what the camera traces, in the order of ``HeadsetModel.points``.
+    gaze
+        Of an eye's camera: yaw and pitch in degrees from where the pupil lies between the eye's corners, in irises, and
+        from 1 (``regress.runtime.headset.traced_eyes``); None for others, and in older models.
     """
 
     __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
@@ -51,6 +54,7 @@ class CameraLooks:
     sharpness: Annotated[tuple[Sharpness, ...], Len(3, 3)]
     rim: Annotated[tuple[Share, ...], Len(3, 3)]
     points: tuple[Pixel, ...] = ()
+    gaze: Annotated[tuple[Annotated[tuple[float, ...], Len(3, 3)], ...], Len(2, 2)] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -71,7 +71,19 @@ class EyePoints:
         InputError
             Where the model does not trace an eye there, or does not know how its pictures looked.
         """
+        looks = predictor.model.looks.get(camera)
         names = predictor.model.points.get(camera, ())
+        eye = None if looks is None else cls.among(names, np.array(looks.points))
+        if eye is None:
+            raise InputError(
+                f"{camera}: the model says too little of its points or its looks to place pictures by them; train it "
+                f"with this version"
+            )
+        return eye
+
+    @classmethod
+    def among(cls, names: tuple[str, ...], usual: np.ndarray) -> "EyePoints | None":
+        """Those among names of points, whose mean pixels are usual (P, 2); None where they are not one eye's."""
         columns = {
             part: [column for column, name in enumerate(names) if mark in name]
             for part, mark in (
@@ -81,11 +93,8 @@ class EyePoints:
                 ("lower", "_lower_lid_"),
             )
         }
-        if camera not in predictor.model.looks or not all(columns.values()):
-            raise InputError(
-                f"{camera}: the model says too little of its points or its looks to place pictures by them; train it "
-                f"with this version"
-            )
+        if not all(columns.values()) or not len(usual):
+            return None
         lids = {"landmark_42", "landmark_43", "landmark_44", "landmark_45", "landmark_46", "landmark_47"}
         lids |= {f"landmark_{number}" for number in range(36, 42)}
         brow = [
@@ -97,7 +106,7 @@ class EyePoints:
             upper=columns["upper"],
             lower=columns["lower"],
             brow=brow,
-            usual=np.array(predictor.model.looks[camera].points),
+            usual=usual,
         )
 
 

@@ -1,0 +1,70 @@
+"""Measures the gaze that an eye's traced points give, beside the network's direct answer, on clips of unseen people.
+
+    python benchmarks/traced_gaze.py headset-tracking3 --data datasets/out/headset-clips-arrays
+
+Each person's clip counts by itself. Targets are frames of it, evenly spread over the order of their yaw, with their
+true gaze; errors are of all its frames with an eye less than half shut. The last row is what `predict --eyes` gives.
+Prints Markdown, which stands in docs/headset-network-figures.md.
+"""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX
+from regress.learning.headset.arrays import read_arrays
+from regress.runtime.headset.placement_search import EyePoints
+from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.traced_eyes import corrected, eye_features, fused
+
+TARGETS = (0, 1, 5, 9)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("model")
+    parser.add_argument("--data", required=True, type=Path)
+    arguments = parser.parse_args()
+    predictor, arrays = load_headset_predictor(arguments.model), read_arrays(arguments.data)
+    errors: dict[tuple[str, int], list[float]] = {}
+    for person in np.unique(arrays.person):
+        rows = np.flatnonzero(arrays.person == person)
+        estimates, traced = predictor.graph.look(
+            {name: arrays.pictures[name][rows] for name in predictor.sizes}
+        )
+        for side, (camera, blink) in enumerate(
+            (("left_eye", "eyeBlinkLeft"), ("right_eye", "eyeBlinkRight"))
+        ):
+            eye, looks = EyePoints.of(predictor, camera), predictor.model.looks[camera]
+            pupil, _ = eye_features(traced[camera].astype(np.float64), eye)
+            says = {
+                "traced points": np.column_stack([pupil, np.ones(len(pupil))]) @ np.array(looks.gaze).T,
+                "direct answer": np.degrees(estimates.gaze[:, side]).astype(np.float64),
+            }
+            true = np.degrees(arrays.gaze[rows, 2 * side : 2 * side + 2]).astype(np.float64)
+            open_ = arrays.weights[rows, BLENDSHAPE_INDEX[blink]] < 0.5
+            if open_.sum() < max(TARGETS):
+                continue
+            order = np.flatnonzero(open_)[np.argsort(true[open_, 0])]
+            for what, gaze in says.items():
+                for count in TARGETS:
+                    seen = order[np.linspace(0, len(order) - 1, count + 2).round().astype(int)[1:-1]]
+                    better = corrected(gaze, gaze[seen], true[seen]) if count else gaze
+                    off = np.linalg.norm(better - true, axis=1)[open_]
+                    errors.setdefault((what, count), []).append(float(off.mean()))
+            for count in TARGETS:
+                seen = order[np.linspace(0, len(order) - 1, count + 2).round().astype(int)[1:-1]]
+                off = np.linalg.norm(fused(list(says.values()), seen.tolist(), true[seen]) - true, axis=1)[
+                    open_
+                ]
+                errors.setdefault(("both, fused", count), []).append(float(off.mean()))
+    print("| gaze from | " + " | ".join(f"{count} targets" for count in TARGETS) + " |")
+    print("|---|" + "---|" * len(TARGETS))
+    for what in ("traced points", "direct answer", "both, fused"):
+        print(f"| {what} | " + " | ".join(f"{np.mean(errors[what, count]):.2f}°" for count in TARGETS) + " |")
+    print(f"\n{len(errors['traced points', 0])} eyes of {len(np.unique(arrays.person))} people.")
+
+
+if __name__ == "__main__":
+    main()

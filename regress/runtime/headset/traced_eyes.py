@@ -1,0 +1,182 @@
+"""Reads from an eye's traced points how far its lids are open and where it looks, set right by what was looked at.
+
+The unit of length is the iris, nearly the same in all people: 11.7 mm across ([1]_). Where the eye looks follows from
+where the pupil lies between the eye's corners, by a linear map that training's labels have given for each camera (its
+pose and the eyeball's size are in it). That map is of the training's rig and of the mean person; targets that a person
+has looked at correct it for the person, camera and seat. The network's direct answer is corrected alike, and both are
+fused by how far each is off at the targets: of a camera unlike the training's the direct one says little.
+
+References
+----------
+.. [1] F. Rüfer et al., "White-to-white corneal diameter", Cornea 24(3), 2005.
+"""
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from regress.errors import InputError
+from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.placement_search import EyePoints, traces_an_eye
+from regress.runtime.headset.predictor import HeadsetPredictor
+
+IRIS_MM = 11.7
+"""Diameter of an iris."""
+
+OWN_OPENNESS = 90.0
+"""Percentile of a take's openness that counts as the person's own: wide eyes are above."""
+
+FEWEST_TARGETS = 3
+"""That say how far an answer is off: one or two are met by any map."""
+
+_LEAST_DEG = 0.5
+"""Error that any answer has: people look no nearer to a target."""
+
+_STEADY_DEG = 10.0
+"""Root of the trust in the mean person's map against a target that was looked at to a degree: five targets decide, one
+moves the map and leaves its slopes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TracedEye:
+    """What one camera's points say of an eye in n frames; NaN where the camera has no picture that counts.
+
+    Parameters
+    ----------
+    openness_mm : (n,) float64
+        Mean distance of the lids' margins.
+    openness : (n,) float64
+        As a share of the person's own (`OWN_OPENNESS`): 0 is shut.
+    gaze_deg : (n, 2) float64
+        Yaw to the subject's left and pitch upwards.
+    """
+
+    openness_mm: np.ndarray
+    openness: np.ndarray
+    gaze_deg: np.ndarray
+
+
+def eye_features(points: np.ndarray, eye: EyePoints) -> tuple[np.ndarray, np.ndarray]:
+    """Where the pupil lies between the eye's corners (n, 2), and the lids' distance (n,), both in irises.
+
+    Parameters
+    ----------
+    points : (n, P, 2)
+        Pixels of what the camera traces.
+    """
+    iris = points[:, eye.iris]
+    diameter = 2 * np.linalg.norm(iris - iris.mean(axis=1, keepdims=True), axis=2).mean(axis=1)
+    # an iris whose half is hidden is traced too small; a take's own hardly changes
+    diameter = np.nanmedian(diameter) if np.isfinite(diameter).any() else np.nan
+    corners = points[:, [eye.upper[0], eye.upper[-1]]].mean(axis=1)
+    apart = np.linalg.norm(points[:, eye.upper] - points[:, eye.lower], axis=2).mean(axis=1)
+    return (points[:, eye.pupil] - corners) / diameter, apart / diameter
+
+
+def corrected(gaze_deg: np.ndarray, looked: np.ndarray, targets_deg: np.ndarray) -> np.ndarray:
+    """Gaze (n, 2) in degrees, corrected by targets (k, 2) at which it was said to be ``looked`` (k, 2).
+
+    The slopes and turns of the map stay near those of the mean person as far as the targets say nothing of them: one
+    target moves the map, five or nine over the field decide it.
+    """
+    middle_looked, middle_target = looked.mean(axis=0), targets_deg.mean(axis=0)
+    beside, wanted = looked - middle_looked, targets_deg - middle_target
+    gram = beside.T @ beside + _STEADY_DEG**2 * np.eye(2)
+    slopes = np.linalg.solve(gram, beside.T @ wanted + _STEADY_DEG**2 * np.eye(2))
+    return (gaze_deg - middle_looked) @ slopes + middle_target
+
+
+def fused(gazes_deg: Sequence[np.ndarray], looked: Sequence[int], targets_deg: np.ndarray) -> np.ndarray:
+    """Several answers (n, 2) in degrees as one, each corrected by targets (k, 2) at ``looked`` rows.
+
+    An answer counts by the inverse of its squared error at the targets. Fewer than `FEWEST_TARGETS` show no errors;
+    the first answer then stands alone.
+    """
+    rows = list(looked)
+    better = [corrected(gaze, gaze[rows], targets_deg) if rows else gaze for gaze in gazes_deg]
+    if len(rows) < FEWEST_TARGETS:
+        return better[0]
+    errors = np.array([((gaze[rows] - targets_deg) ** 2).sum(axis=1).mean() for gaze in better])
+    shares = 1 / (errors + _LEAST_DEG**2)
+    return np.tensordot(shares / shares.sum(), np.array(better), axes=1)
+
+
+def traced_eyes(
+    predictor: HeadsetPredictor,
+    footage: Footage,
+    targets: Mapping[int, tuple[float, float]] | None = None,
+) -> dict[str, TracedEye]:
+    """What each eye's camera of a take says, by camera.
+
+    Parameters
+    ----------
+    targets
+        Yaw and pitch in degrees of what was looked at, by the numbers of frames.
+
+    Raises
+    ------
+    InputError
+        Where no camera with pictures traces an eye, the model has no map from points to the gaze, or a target's frame
+        is not in the take.
+    """
+    cameras = [name for name in footage.cameras if traces_an_eye(predictor, name)]
+    cameras = [name for name in cameras if footage.present[:, footage.cameras.index(name)].any()]
+    if not cameras:
+        raise InputError("no camera that traces an eye has pictures, so nothing is said of eyes")
+    for name in cameras:
+        looks = predictor.model.looks.get(name)
+        if looks is None or looks.gaze is None:
+            raise InputError(
+                f"{name}: the model has no map from points to the gaze; train it with this version"
+            )
+    rows = _rows(footage, targets or {})
+    estimates, traced = predictor.graph.look({name: footage.pictures[name] for name in cameras})
+    direct = np.degrees(estimates.gaze.astype(np.float64))
+    eyes = {}
+    for name in cameras:
+        points = traced[name].astype(np.float64)
+        points[~footage.present[:, footage.cameras.index(name)]] = np.nan
+        pupil, apart = eye_features(points, EyePoints.of(predictor, name))
+        gaze = np.column_stack([pupil, np.ones(len(pupil))]) @ np.array(predictor.model.looks[name].gaze).T
+        seen = [row for row in rows if np.isfinite(gaze[row]).all()]
+        wanted = np.array([rows[row] for row in seen]).reshape(-1, 2)
+        gaze = fused([gaze, direct[:, int(_is_right(predictor, name))]], seen, wanted)
+        eyes[name] = TracedEye(
+            openness_mm=IRIS_MM * apart, openness=apart / np.nanpercentile(apart, OWN_OPENNESS), gaze_deg=gaze
+        )
+    return eyes
+
+
+def eyes_csv(eyes: Mapping[str, TracedEye], numbers: Sequence[int]) -> str:
+    """A row a frame; cells of absent cameras are empty."""
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    columns = ("openness_mm", "openness", "yaw_deg", "pitch_deg")
+    table.writerow(["frame", *(f"{name}.{column}" for name in eyes for column in columns)])
+    for row, number in enumerate(numbers):
+        values = [
+            value
+            for eye in eyes.values()
+            for value in (eye.openness_mm[row], eye.openness[row], *eye.gaze_deg[row])
+        ]
+        table.writerow([int(number), *("" if np.isnan(value) else f"{value:.3f}" for value in values)])
+    return text.getvalue()
+
+
+def _is_right(predictor: HeadsetPredictor, camera: str) -> bool:
+    """Whether a camera traces the subject's right eye: the second of the network's gaze."""
+    return any(name.startswith("right_pupil") for name in predictor.model.points[camera])
+
+
+def _rows(footage: Footage, targets: Mapping[int, tuple[float, float]]) -> dict[int, tuple[float, float]]:
+    known = {int(number): row for row, number in enumerate(footage.numbers)}
+    for number in targets:
+        if number not in known:
+            first, last = footage.numbers[[0, -1]]
+            raise InputError(
+                f"--looked-at {number}: no frame of {footage.source} has this number ({first}-{last})"
+            )
+    return {known[number]: target for number, target in targets.items()}

@@ -1,0 +1,143 @@
+"""Lids and gaze from traced points, on eyes whose truth is known, and as `predict --eyes` writes them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from regress.runtime.headset.placement_search import EyePoints
+from regress.runtime.headset.traced_eyes import IRIS_MM, corrected, eye_features, fused
+
+TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
+LIDS, IRIS = 12, 8
+EYE = EyePoints(
+    pupil=0,
+    iris=list(range(1, 1 + IRIS)),
+    upper=list(range(9, 9 + LIDS)),
+    lower=list(range(9 + LIDS, 9 + 2 * LIDS)),
+    brow=[],
+    usual=np.zeros((9 + 2 * LIDS, 2)),
+)
+BALL_MM, CORNERS_MM = 10.4, 15.0
+"""From an eyeball's middle to the middle of its iris; from there to a corner of the eye."""
+
+
+def seen_points(
+    gaze_deg: np.ndarray, open_mm: np.ndarray, *, pixels_a_mm: float, turn_deg: float
+) -> np.ndarray:
+    """Points (n, P, 2) of an eye that a distant camera sees head-on, with the picture turned.
+
+    Yaw is to the picture's right, pitch upwards; lids are parabolas between the corners.
+    """
+    yaw, pitch = np.radians(gaze_deg).T
+    middle = BALL_MM * np.column_stack([np.sin(yaw) * np.cos(pitch), -np.sin(pitch)])
+    around = 2 * np.pi * np.arange(IRIS) / IRIS
+    iris = middle[:, None] + IRIS_MM / 2 * np.column_stack([np.cos(around), np.sin(around)])
+    across = np.linspace(-1, 1, LIDS)
+    lid = np.stack(
+        [np.tile(CORNERS_MM * across, (len(yaw), 1)), open_mm[:, None] / 2 * (1 - across**2)], axis=2
+    )
+    points = np.concatenate([middle[:, None], iris, lid * [1, -1], lid], axis=1)
+    angle = np.radians(turn_deg)
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    return pixels_a_mm * points @ turn.T + 48
+
+
+@given(st.floats(1, 8), st.floats(-20, 20), st.floats(0, 14))
+def test_lengths_are_in_irises_whatever_the_camera(pixels_a_mm: float, turn_deg: float, open_mm: float):
+    gaze = np.array([[0.0, 0.0], [10.0, -5.0]])
+    points = seen_points(gaze, np.array([open_mm, open_mm / 2]), pixels_a_mm=pixels_a_mm, turn_deg=turn_deg)
+    pupil, apart = eye_features(points, EYE)
+    mean_of_parabola = (1 - np.linspace(-1, 1, LIDS) ** 2).mean()
+    np.testing.assert_allclose(IRIS_MM * apart, np.array([1, 0.5]) * open_mm * mean_of_parabola, atol=1e-9)
+    np.testing.assert_allclose(pupil[0], [0, 0], atol=1e-9)
+    np.testing.assert_allclose(
+        np.linalg.norm(IRIS_MM * pupil[1]) / BALL_MM, np.sin(np.radians(11.17)), rtol=1e-3
+    )
+
+
+@pytest.mark.parametrize(("count", "within_deg"), [(1, 6.0), (5, 1.6), (9, 1.3)])
+def test_targets_find_the_gaze_of_another_eye_and_camera(count: int, within_deg: float):
+    random = np.random.default_rng(count)
+    field = np.array([[0, 0], [-15, 0], [15, 0], [0, 12], [0, -12], [-12, 9], [12, 9], [-12, -9], [12, -9]])
+    true = np.concatenate([field[:count], random.uniform([-18, -14], [18, 14], (200, 2))]).astype(float)
+    points = seen_points(true, np.full(len(true), 9.0), pixels_a_mm=2.5, turn_deg=12.0)
+    pupil, _ = eye_features(points + 0.2 * random.standard_normal(points.shape), EYE)
+    # the map of a larger eyeball: its angles are short by a quarter, turned by the camera's roll, and displaced
+    said = np.array([4.0, -3.0]) + np.degrees(pupil * [1, -1] * IRIS_MM / (1.33 * BALL_MM))
+    rows = list(range(count))
+    better = corrected(said, said[rows], true[rows])
+    error = np.linalg.norm(better - true, axis=1)[count:].mean()
+    assert error < within_deg
+    assert error < 0.8 * np.linalg.norm(said - true, axis=1)[count:].mean()
+
+
+def test_fusing_leans_on_the_answer_that_meets_the_targets():
+    random = np.random.default_rng(0)
+    true = random.uniform(-15, 15, (300, 2))
+    good, poor = (true + sd * random.standard_normal(true.shape) for sd in (1.0, 6.0))
+    rows = list(range(9))
+    both = fused([poor, good], rows, true[rows])
+
+    def error(gaze: np.ndarray) -> float:
+        return float(np.linalg.norm(gaze - true, axis=1)[9:].mean())
+
+    assert error(both) < 1.15 * error(corrected(good, good[rows], true[rows]))
+    assert error(both) < 0.5 * error(corrected(poor, poor[rows], true[rows]))
+    np.testing.assert_array_equal(fused([poor, good], [], np.zeros((0, 2))), poor)
+    one = fused([poor, good], [4], true[[4]])
+    np.testing.assert_allclose(one[4], true[4])
+
+
+def predicted(run, tmp_path: Path, *options: object) -> np.ndarray:
+    table = tmp_path / "eyes.csv"
+    words = [
+        "headset",
+        "predict",
+        "headset-tracking3",
+        "--left-eye",
+        TAKE / "left_eye",
+        "--out",
+        tmp_path / "w.csv",
+    ]
+    code, _, said = run(*words, "--eyes", table, *options)
+    assert code == 0, said
+    return np.genfromtxt(table, delimiter=",", names=True, deletechars="")
+
+
+def test_predict_writes_eyes_and_takes_what_was_looked_at(run, tmp_path: Path):
+    eyes = predicted(run, tmp_path)
+    weights = np.genfromtxt(tmp_path / "w.csv", delimiter=",", names=True)
+    assert len(eyes) == len(weights) == 100
+    assert np.corrcoef(eyes["left_eye.openness"], weights["eyeBlinkLeft"])[0, 1] < -0.8
+    assert 3 < np.median(eyes["left_eye.openness_mm"]) < 12
+    assert np.corrcoef(eyes["left_eye.yaw_deg"], weights["left_eye_yaw_deg"])[0, 1] > 0.8
+    moved = predicted(run, tmp_path, "--looked-at", "3:-7:5")
+    assert (moved["left_eye.yaw_deg"][3], moved["left_eye.pitch_deg"][3]) == (-7, 5)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--looked-at", "3:0"], "--looked-at '3:0' is not FRAME:YAW:PITCH"),
+        (["--looked-at", "3:nan:0"], "is not FRAME:YAW:PITCH"),
+        (["--looked-at", "3:61:0"], "angles up to 60 degrees"),
+        (["--looked-at", "900:0:0"], "no frame of"),
+    ],
+)
+def test_targets_that_are_none_are_refused(run, tmp_path: Path, options: list[str], said: str):
+    words = [
+        "headset",
+        "predict",
+        "headset-tracking3",
+        "--left-eye",
+        TAKE / "left_eye",
+        "--out",
+        tmp_path / "w.csv",
+    ]
+    code, _, told = run(*words, "--eyes", tmp_path / "eyes.csv", *options)
+    assert (code, said in told) == (2, True), told
+    code, _, told = run(*words, "--looked-at", "3:0:0")
+    assert (code, "give --eyes too" in told) == (2, True)
