@@ -108,7 +108,7 @@ def test_licences_of_all_that_is_bundled_lie_beside_it():
 def test_versions_are_exact_and_name_no_registry():
     package = json.loads((WEB / "package.json").read_text())
     versions = [*package["dependencies"].values(), *package["devDependencies"].values()]
-    assert [each for each in versions if not re.fullmatch(r"\d+\.\d+\.\d+", each)] == []
+    assert [each for each in versions if not re.fullmatch(r"\d+\.\d+\.\d+(-[\w.]+)?", each)] == []
     assert "resolved" not in (WEB / "package-lock.json").read_text()
 
 
