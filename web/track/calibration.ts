@@ -1,6 +1,6 @@
 /** Shows what calibration asks for: the face to make, how long, and how it went. */
 
-import { words, type Step } from "./messages.js";
+import { words, type Settings, type Step } from "./messages.js";
 
 /** A result stays as long where no further step comes. */
 const TOLD_MS = 4000;
@@ -24,6 +24,7 @@ export class CalibrationView {
   private readonly text = byId("asking-text");
   private readonly progress = byId<HTMLProgressElement>("asking-progress");
   private readonly cancel = byId<HTMLButtonElement>("asking-cancel");
+  private readonly person = byId("person");
   private phase = "";
   private most = 1;
   private told = 0;
@@ -48,6 +49,12 @@ export class CalibrationView {
     const options = steps.map((step) => new Option(words(step), step));
     if (steps.length > 1) options.unshift(new Option("All faces", "all"));
     byId<HTMLSelectElement>("step").replaceChildren(...options);
+  }
+
+  /** Whose face is known. */
+  tell({ calibrated, profile }: Settings): void {
+    if (calibrated === undefined) return;
+    this.write(this.person, calibrated ? `as ${profile ?? "somebody"}` : "not calibrated yet");
   }
 
   show(step: Step | null): void {

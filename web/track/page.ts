@@ -140,6 +140,7 @@ const connection: Connection = new Connection({
     showMeasures(news);
     const { settings } = news;
     recorder.follow(settings.recording);
+    calibration.tell(settings);
     if (settings.mirror !== undefined) {
       mirror.set(settings.mirror);
       cameras.mirror(settings.mirror);

@@ -366,6 +366,11 @@ def test_what_is_clicked_is_asked_for_and_what_holds_is_shown(loop, stand):
             "&& document.querySelector('[data-shape=tongueOut] .factor').textContent === '×2'",
             settings={"mirror": False, "gains": {"tongueOut": 2.0}},
         )
+        await stand.publish_until(
+            "person.textContent === 'not calibrated yet'", settings={"calibrated": False}
+        )
+        known = {"calibrated": True, "profile": "<i>Ada</i>"}
+        await stand.publish_until("person.textContent === 'as <i>Ada</i>'", settings=known)
         await stand.tab.ask("record.click()")
         assert await stand.asks(1) == [Command(verb="record", value=True)]
 

@@ -159,7 +159,7 @@ def test_a_message_too_long_ends_its_tab_alone(page, asked):
         st.text(), st.recursive(st.none() | st.booleans() | st.floats() | st.text(), st.lists).map(json.dumps)
     )
 )
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_whatever_a_browser_says_is_a_command_or_one_sentence(text):
     sentence = ""
     try:
