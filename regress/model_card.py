@@ -132,11 +132,11 @@ def _keypoint_texts(record: TrainingRecord) -> dict[str, str]:
         "dataset": dataset.name,
         "data_sha256": dataset.keypoints_sha256,
         "data_licence": str(dataset.licence),
-        "heads": _heads(dataset.rig),
+        "heads": heads_in_words(dataset.rig),
     }
 
 
-def _heads(rigs: Any) -> str:
+def heads_in_words(rigs: Any) -> str:
     """What a dataset says of the rigs of its people, in words; older ones, and foreign ones, say what they like."""
     if isinstance(rigs, dict) and isinstance(rigs.get("name"), str):
         return f"one rig (`{rigs['name']}`)"

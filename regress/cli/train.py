@@ -32,6 +32,7 @@ def train(
     """
     from regress.learning.training import RECIPES, for_detector, read_dataset
     from regress.learning.training import train as train_model
+    from regress.model_card import heads_in_words
     from regress.runtime.model import KEYPOINTS, check_place, save_model
 
     if recipe not in RECIPES:
@@ -44,6 +45,7 @@ def train(
         model = train_model(keypoints, chosen, seed=seed, progress=draw)
     save_model(model, out)
     say(f"trained on {model.record.training_rows} rows in {time.monotonic() - began:.0f} s; model in {out}")
+    say(f"the heads came from {heads_in_words(model.record.dataset.rig)}")
     for name, figures in model.record.summary.items():
         r2, visible = figures.mean_r2_networks, figures.mean_r2_visible
         say(f"{name.replace('_', ' '):>26}: test R2 {_figure(r2)}, visible shapes {_figure(visible)}")
