@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from facegen.documents import read_bytes
 from regress.runtime.features import align_similarity
 from regress.runtime.features.alignment import STABLE
 from regress.runtime.inputs import Fault
-from regress.runtime.model import load_model
+from regress.runtime.model import FastPredictor, Model, load_model
 from regress.runtime.ready_made import model_folder
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import Looks
@@ -70,7 +71,7 @@ class LandmarkPipeline(Pipeline):
         self.mark = ModelMark(kind="landmarks", sha256=_hash_of(model_folder(folder)))
         self._detector, self._detector_name = detector, detector_name
         self._mean_shape = self._model.features.mean_shape
-        networks = LandmarkNetworks(self._model)
+        networks = _QuickNetworks(self._model)
         self.stages = {"detector": detector, "soundness": Soundness(needs_times=False)}
         if auto:
             self.stages["auto"] = AutomaticCalibration(networks, say)
@@ -119,7 +120,7 @@ class LandmarkPipeline(Pipeline):
         self.stages.pop("auto", None)
         self.stages["head"] = _Head(neutral)
         if self._model.calibrated is not None:
-            self.stages["networks"] = LandmarkNetworks(self._model.calibrate(points))
+            self.stages["networks"] = _QuickNetworks(self._model.calibrate(points))
 
     def points(self, sample: Sample) -> Mapping[str, np.ndarray]:
         """The landmarks, on the one picture."""
@@ -142,6 +143,19 @@ class LandmarkPipeline(Pipeline):
         close = getattr(self._detector, "close", None)
         if close is not None:
             close()
+
+
+class _QuickNetworks(LandmarkNetworks):
+    """The networks in float32, which differ by less than 1e-5 and take a third of the time (`FastPredictor`)."""
+
+    def __init__(self, model: Model) -> None:
+        super().__init__(model)
+        self._quick, self._made_of = FastPredictor(model), model
+
+    def step(self, sample: Sample) -> Sample:
+        if self.model is not self._made_of:  # a neutral face was found
+            self._quick, self._made_of = FastPredictor(self.model), self.model
+        return replace(sample, weights=self._quick.predict_frame(sample.points).astype(np.float64))
 
 
 class _Head(Stage):
