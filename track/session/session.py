@@ -190,7 +190,7 @@ class Session:
         return Moment(
             sample=sample,
             pictures=dict(sample.pictures or {}) if self._pictures_wanted else {},
-            points=self.pipeline.points(sample),
+            points=self.pipeline.points(sample) if self._pictures_wanted else {},
             fps=self.measures.fps,
             latency_ms=self.measures.latency_ms(),
             faults=self._telling.now,
