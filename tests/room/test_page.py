@@ -6,15 +6,19 @@ import statistics
 import time
 from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
+from regress.runtime.sample import Sample
 from room.server import new_keys
 from tests.browser import Tab, chromium, needs_chromium
 from tests.room.guests import Place, open_room
 from tests.room.speech import write_bursts
+from track.sinks.targets import open_sink, parse_target
 
 pytestmark = [needs_chromium, pytest.mark.slow]
 
@@ -230,6 +234,34 @@ def test_a_server_that_starts_again_has_its_people_back_and_voices_never_stop(tm
     assert found["place"] == [2.5, -1.5]
     assert found["same voices"] == [True, True]
     assert found["connected"] == [True, True]
+
+
+async def moved_by_track(folder: Path) -> tuple[dict[str, float], np.ndarray, list[str]]:
+    """What a page's own picture stands at while `track` moves its person's face, the weights, and complaints."""
+    weights = np.array([((7 * index) % 53) / 52 for index in range(52)])
+    sample = Sample(time_s=1.0, weights=weights, gaze=np.zeros(4), head=np.array([0, 0, 0.5, 0.1, 0.0, 0.0]))
+    async with meet(folder, "Ada") as (place, (ada,)):
+        await ada.until(f"{other('Ada')}.figure?.avatar.name === 'nora'")
+        secret = await ada.ask("sessionStorage.getItem('secret of meeting')")
+        link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}.{secret}"
+        told: list[str] = []
+        sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
+        end = time.monotonic() + 3
+        while time.monotonic() < end:
+            sink.send(replace(sample, time_s=time.monotonic()))
+            await asyncio.sleep(1 / 30)
+        stands = await ada.ask(f"{other('Ada')}.figure.avatar.influences()")
+        assert "face by a program" in await ada.ask("document.querySelector('#people').textContent")
+        await asyncio.to_thread(sink.close)
+        await ada.until("!document.querySelector('#people').textContent.includes('program')")
+        return stands, weights, told + ada.complaints
+
+
+def test_track_moves_the_face_of_a_page(tmp_path):
+    stands, weights, complaints = asyncio.run(moved_by_track(tmp_path))
+    assert len(stands) >= 51
+    assert max(abs(stands[name] - weights[BLENDSHAPES.index(name)]) for name in stands) <= 0.02
+    assert complaints == []
 
 
 @pytest.fixture(scope="module")

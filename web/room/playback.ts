@@ -18,6 +18,8 @@ export const STALE_MS = 700;
 const FADE_MS = 600;
 /** Two messages that are further apart are not blended: somebody came back. */
 const GAP_MS = 1500;
+/** A message that is so much earlier or later than the others was made by another clock. */
+const OTHER_CLOCK_MS = 1500;
 /** States that are kept: a second and a half. */
 const MOST_KEPT = 48;
 
@@ -44,11 +46,11 @@ export class Playback {
   /** Take a message that arrived now, in ms of the page's clock. */
   push(message: Message, now: number): void {
     const at = this.unwrapped(message.time_ms);
-    const newest = this.kept.at(-1);
-    if (newest && (Math.abs(at - newest.at) > 5000 || now - this.heard > 5000)) this.restart();
+    const transit = now - at;
+    // another clock, of a program or of a page that was loaded anew; or a line that stood still for as long
+    if (Math.abs(transit - this.offset) > OTHER_CLOCK_MS) this.restart();
     if (this.kept.some((other) => other.at === at)) return; // the same again
     this.heard = now;
-    const transit = now - at;
     // clocks drift by some 50 ppm: the least transit is forgotten slowly, or a slow clock would count as lateness
     this.offset = Math.min(transit, this.offset + 0.05);
     const needed = transit - this.offset + LEAST_DELAY_MS;
@@ -94,8 +96,8 @@ export class Playback {
     return this.epoch + time;
   }
 
-  /** Another clock has taken over: another program, or the page was loaded anew. */
-  private restart(): void {
+  /** Forget the old clock: another one has taken over. */
+  restart(): void {
     this.kept.length = 0;
     this.offset = Infinity;
     this.delay = LEAST_DELAY_MS;

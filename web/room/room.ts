@@ -153,6 +153,7 @@ class Meeting {
       wears: "",
       newest: undefined,
     };
+    if (known.person.face !== person.face) known.playback.restart(); // their clocks differ
     known.person = person;
     this.known.set(person.number, known);
     if (known.wears === person.avatar) return;
@@ -256,8 +257,9 @@ class Meeting {
       if (!figure || !shown) continue;
       figure.root.visible = true;
       const self = number === this.own?.number;
-      // one's own picture shows what was sent: a mirror that lags is worse than none
-      figure.show(self && this.sent ? this.sent : shown, seconds, this.view.eye);
+      // one's own picture shows what is sent, as a mirror that lags is worse than none; but a program's face only comes back
+      const mine = self && person.face === "page" ? this.sent : undefined;
+      figure.show(mine ?? shown, seconds, this.view.eye);
       if (self) continue;
       figure.call(person, (shown.flags & FLAG.tracked) !== 0);
     }

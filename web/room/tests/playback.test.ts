@@ -101,9 +101,24 @@ test("when nothing comes any more, the face goes to rest where it stands", () =>
   assert.ok(Math.abs(after.floor_m[0]! - before.floor_m[0]!) < 0.05);
 });
 
-test("another clock takes over without a jump back in time", () => {
+for (const ahead of [4_000_000, 3000, -3000]) {
+  test(`another clock takes over, ${ahead} ms ahead`, () => {
+    const playback = new Playback();
+    for (let step = 0; step < 30; step++) playback.push(sent(10_000 + step * 33), step * 33);
+    for (let step = 0; step < 30; step++) {
+      playback.push({ ...sent(11_000 + ahead + step * 33), floor_m: [99, step] }, 1000 + step * 33);
+    }
+    const shown = playback.at(2000)!;
+    assert.equal(shown.floor_m[0], 99);
+    assert.ok(shown.floor_m[1]! > 25);
+  });
+}
+
+test("after a standstill of two seconds the newest is shown", () => {
   const playback = new Playback();
-  for (let step = 0; step < 30; step++) playback.push(sent(step * 33), step * 33);
-  for (let step = 0; step < 30; step++) playback.push(sent(4e6 + step * 33), 1000 + step * 33);
-  assert.ok(playback.at(2000)!.floor_m[0]! > 320);
+  for (let step = 0; step < 120; step++) {
+    const time = step * 33;
+    playback.push(sent(time), time > 1000 && time < 3000 ? 3000 + step / 1000 : time + 20);
+  }
+  assert.ok(playback.at(120 * 33 + 20)!.floor_m[0]! > 3.6);
 });
