@@ -25,6 +25,9 @@ from track.detectors.following import FORGOTTEN_S, Following
 from track.detectors.head import rotation_of, typical_camera
 from track.detectors.mediapipe_points import EYES_CM, LEVEL, VERTICES, head_of, irises_of, landmarks_of
 from track.detectors.model_file import NAME, VARIABLE, WHEEL, model_file
+from track.sources import Pace, open_source
+
+SAMPLES = Path(__file__).resolve().parents[2] / "docs" / "samples"
 
 FOCAL_PX = typical_camera(WIDTH, HEIGHT).focal_px
 
@@ -136,6 +139,25 @@ def test_the_head_agrees_with_a_fit_of_the_same_points(detector: MediapipeDetect
     off_deg = np.degrees(found[:, 3:] - fitted[:, 3:])
     assert np.abs(off_deg.mean(axis=0)).max() < 2
     assert off_deg.std(axis=0).max() < 1.2, "3 without the turn of a head aside"
+
+
+def test_the_head_of_an_avatar_is_as_it_was_turned(detector: MediapipeDetector):
+    table = np.genfromtxt(SAMPLES / "acting-avatar.csv", delimiter=",", names=True)
+    film = open_source(str(SAMPLES / "acting-avatar.webm"), Pace(fast=True))
+    heads, rows = [], range(0, len(table), 6)
+    for row in range(len(table)):
+        picture = film.read()
+        if row in rows:
+            heads.append(detector.step(_sample(picture.pixels, picture.time_s)).head)
+    film.close()
+    found_deg = np.degrees(heads)[:, 3:]
+    assert np.isfinite(found_deg).all(), "a face in every picture"
+    for angle, found in zip(("yaw", "pitch", "roll"), found_deg.T, strict=True):
+        true = table[f"head_{angle}_deg"][list(rows)]
+        slope, at_rest = np.polyfit(true, found, 1)
+        assert np.corrcoef(true, found)[0, 1] > 0.94
+        assert 0.75 < slope < 1.1
+        assert abs(at_rest) < 2.5
 
 
 @given(st.lists(st.floats(-1.2, 1.2), min_size=3, max_size=3), st.floats(0.5, 2.0))
