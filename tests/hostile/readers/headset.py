@@ -28,6 +28,13 @@ def _neutral(folder: Path, workshop: Workshop) -> None:
         write_pictures(folder / "neutral", pictures([90.0]), name=f"{name}.png")
 
 
+def _placement(folder: Path, workshop: Workshop) -> None:
+    _take(folder, workshop)
+    lines = ["version = 1", 'model = "tiny"', "[cameras.left_eye]", "x = 0.45", "y = 0.5", "size = 1.2"]
+    lines += ["roll_deg = -4.0", "mirror = true", "low = 30.0", "high = 200.0"]
+    (folder / "placement.toml").write_text("\n".join(lines) + "\n")
+
+
 def _film(folder: Path, workshop: Workshop) -> None:
     import cv2
 
@@ -98,6 +105,13 @@ READERS = (
         make=_neutral,
         target="neutral/*.png",
         kind="png",
+    ),
+    Reader(
+        name="placement",
+        command=f"regress headset predict {{headset_model}} {_TAKE} --placement in/placement.toml --out out/w.csv",
+        make=_placement,
+        target="placement.toml",
+        kind="toml",
     ),
     Reader(
         name="film",
