@@ -99,11 +99,9 @@ def body_bytes(
     surfaces += dressed(body, outfit, np.random.Generator(np.random.PCG64([person.seed, 11])))
     feet = body.triangles("body")
     feet = feet[(vertices[feet, 1] < measures.ankle[1] + 0.04).all(axis=1)]
-    used, numbers = np.unique(feet, return_inverse=True)
+    used = np.unique(feet)
     colour = SHOE_COLOURS.get(clothes, SHOE_COLOUR)
-    surfaces.append(
-        shoes(vertices[used], numbers.reshape(-1, 3), body.shares[used], body.names, measures, colour=colour)
-    )
+    surfaces.append(shoes(vertices[used], body.shares[used], body.names, measures, colour=colour))
     return _on_the_floor(surfaces, body, rig, shapes.rig, person, clothes, hair)
 
 
@@ -121,7 +119,7 @@ def person_body(wheel: zipfile.ZipFile, rig: Rig, person: Person, *, own: float 
 def dressed(body: PersonBody, outfit: tuple[Garment, ...], rng: np.random.Generator) -> list[Surface]:
     """The garments on a body."""
     surfaces, measures = [], body.measures()
-    for garment in outfit:
+    for number, garment in enumerate(outfit):
         used, numbers = np.unique(body.triangles(garment.source), return_inverse=True)
         at = body.source.mesh.vertices[used]
         surfaces.append(
@@ -133,6 +131,7 @@ def dressed(body: PersonBody, outfit: tuple[Garment, ...], rng: np.random.Genera
                 body.names,
                 measures,
                 folds=noise(at * [1.0, 0.45, 1.0], 0.09, rng),
+                over=outfit[number + 1 :],
             )
         )
     return surfaces
@@ -152,7 +151,7 @@ def _limbs(
     triangles = body.triangles("body")
     triangles = triangles[beyond[triangles].any(axis=1)]
     at = body.source.mesh.vertices
-    hidden = covered(outfit, at, measures) | (at[:, 1] < measures.ankle[1] - 0.03)
+    hidden = covered(outfit, at, measures) | (at[:, 1] < measures.ankle[1] - 0.045)
     triangles = triangles[~hidden[triangles].all(axis=1)]
     used, numbers = np.unique(triangles, return_inverse=True)
     rng = np.random.Generator(np.random.PCG64([seed, 12]))
@@ -163,7 +162,7 @@ def _limbs(
     colours = np.concatenate([np.clip(tone, 0, 1) ** 2.2, np.ones((len(used), 1))], axis=1)
     return Surface(
         mesh="Body",
-        material=Material(name="body", roughness=0.55),
+        material=Material(name="body", roughness=0.6),
         positions=vertices[used],
         normals=normals[used],
         triangles=numbers.reshape(-1, 3),

@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from scipy import ndimage
 
-from facegen.avatars.hair import HairStyle, in_hair
+from facegen.avatars.hair import STYLES, HairStyle, in_hair
 from facegen.avatars.pictures import noise
 from facegen.avatars.shapes import FaceShapes
 from facegen.avatars.skin import OUTSIDE, chart
@@ -88,7 +88,7 @@ def _tones(
         return np.exp(-0.5 * (((point - middle) * flat / reach_m) ** 2).sum(axis=1))
 
     eyes = {"left": marks[LANDMARK_GROUPS["left_eye"]], "right": marks[LANDMARK_GROUPS["right_eye"]]}
-    red, dark, yellow, cool = (np.zeros(len(point)) for _ in range(4))
+    red, yellow, cool = (np.zeros(len(point)) for _ in range(3))
     for eye, corner, wing in ((eyes["left"], 54, 35), (eyes["right"], 48, 31)):
         middle = eye.mean(axis=0)
         cheek = 0.42 * marks[corner] + 0.58 * middle + (marks[corner] - marks[57]) * [0.35, 0, 0]
@@ -114,7 +114,6 @@ def _tones(
         red[:, None] * [0.015, -0.075, -0.07]
         + yellow[:, None] * [0.0, 0.0, -0.03]
         + cool[:, None] * [-0.045, -0.05, -0.02]
-        + dark[:, None] * [-0.1, -0.1, -0.1]
     )
     if look.beard > 0.0:
         colour *= 1.0 - look.beard * _beard(point, marks, pores)[:, None] * [0.20, 0.17, 0.12]
@@ -123,12 +122,11 @@ def _tones(
     colour *= 1.0 - rim[:, None] * [0.55, 0.62, 0.62]
     # folds: light that comes back from skin is red
     colour *= 1.0 - (1.0 - light[:, None]) * [0.42, 0.55, 0.58]
-    inside = in_hair(style, point) + 0.02 * noise(point, 5e-3, rng)
+    # a cap hides cropped hair, of which its sides show some
+    inside = in_hair(STYLES["short"] if style.cloth else style, point) + 0.02 * noise(point, 5e-3, rng)
     scalp = np.clip(inside / np.radians(8.0) + 0.3, 0.0, 1.0)
     # ears and what lies beside the face at their height have no roots
     scalp *= 1.0 - np.clip((np.abs(point[:, 0]) - 0.078) / 0.004, 0, 1) * (point[:, 1] < 0.045)
-    if style.cloth:
-        scalp = 0.0 * scalp
     roots = (scalp * scalp * (3.0 - 2.0 * scalp))[:, None] * 0.86
     return colour * (1.0 - roots) + roots * np.array(look.hair) * 0.8
 

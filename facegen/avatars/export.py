@@ -37,6 +37,38 @@ IRISES = {
 }
 
 
+READY: dict[str, dict[str, Any]] = {
+    "surgeon": dict(
+        sex="female", age_years=46.0, build="average", ancestry="asian", clothes="scrubs", hair="cap", seed=3
+    ),
+    "doctor": dict(
+        sex="male", age_years=58.0, build="heavy", ancestry="caucasian", clothes="gown", hair="short", seed=5
+    ),
+    "nurse": dict(
+        sex="male",
+        age_years=29.0,
+        build="strong",
+        ancestry="african",
+        clothes="scrubs",
+        hair="cropped",
+        seed=8,
+    ),
+    "student": dict(
+        sex="female",
+        age_years=25.0,
+        build="slim",
+        ancestry="caucasian",
+        clothes="shirt",
+        hair="long",
+        seed=12,
+    ),
+    "guest": dict(
+        sex="female", age_years=62.0, build="heavy", ancestry="african", clothes="dress", hair="bob", seed=21
+    ),
+}
+"""People for the room, by name."""
+
+
 def export_avatar(name: str, *, hair: str, seed: int, person: dict[str, Any] | None) -> bytes:
     """Bytes of a .glb file: the head of rig ``name``, or a whole person.
 

@@ -3,12 +3,17 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import sparse
+from scipy import ndimage, sparse
+from scipy.spatial import cKDTree
 
 from facegen.avatars.surface import Material, Surface, trimmed, vertex_normals
 
 HIDDEN_M = 18e-3
-"""Skin this far inside a garment's hem is left out; nearer to it, one could look in."""
+"""Skin and inner garments this far inside a garment's ends are left out; nearer to them, one could look in."""
+
+SHOE_STATIONS, SHOE_AROUND = 15, 16
+SHOE_TOP_M, SOLE_M = 0.02, 8e-3
+"""Shoes end this far below the ankle's joint; soles are this thick."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,8 +113,12 @@ def garment_surface(
     body: Measures,
     *,
     folds: np.ndarray,
+    over: tuple[Garment, ...] = (),
 ) -> Surface:
-    """A garment cut out of the helper mesh ``positions`` (V, 3); ``folds`` (V,) about -1 to 1 unsettle the cloth."""
+    """A garment cut out of the helper mesh ``positions`` (V, 3); ``folds`` (V,) about -1 to 1 unsettle the cloth.
+
+    What those worn ``over`` it hide is left out.
+    """
     at_rest = inside(garment, positions, body)
     even = _evened(positions, triangles, garment.smooth)
     normals = vertex_normals(even, triangles)
@@ -133,6 +142,8 @@ def garment_surface(
         bones=bones,
         shares=shares,
     )
+    hidden = covered(over, positions, body)
+    surface = replace(surface, triangles=triangles[~hidden[triangles].all(axis=1)])
     return trimmed(surface, at_rest)
 
 
@@ -146,32 +157,72 @@ def covered(garments: tuple[Garment, ...], points: np.ndarray, body: Measures) -
 
 def shoes(
     positions: np.ndarray,
-    triangles: np.ndarray,
     shares: np.ndarray,
     bones: tuple[str, ...],
     body: Measures,
     *,
     colour: tuple[float, float, float],
 ) -> Surface:
-    """Plain shoes, from the skin of the feet (V, 3) evened out until the toes are one."""
-    low = positions[:, 1].min()
-    even = _evened(positions, triangles, 50)
-    normals = vertex_normals(even, triangles)
-    moved = even + 10e-3 * normals
-    moved[:, 1] = np.maximum(moved[:, 1], low)  # soles are flat
+    """Plain closed shoes round the feet, whose skin is ``positions`` (V, 3)."""
     linear = np.array(colour) ** 2.2
-    surface = Surface(
+    lasts = [
+        _shoe(positions[side * positions[:, 0] > 0.0], body.ankle[1] - SHOE_TOP_M) for side in (1.0, -1.0)
+    ]
+    rings = SHOE_STATIONS * SHOE_AROUND
+    triangles = [_shoe_triangles() + foot * (rings + 2) for foot in range(2)]
+    made, faces = np.concatenate(lasts), np.concatenate(triangles)
+    near = cKDTree(positions).query(made)[1]
+    return Surface(
         mesh="Clothes",
-        material=Material(
-            name="shoes", colour=(*(float(x) for x in linear), 1.0), roughness=0.6, both_sides=True
-        ),
-        positions=moved,
-        normals=vertex_normals(moved, triangles),
-        triangles=triangles,
+        material=Material(name="shoes", colour=(*(float(x) for x in linear), 1.0), roughness=0.6),
+        positions=made,
+        normals=vertex_normals(made, faces),
+        triangles=faces,
         bones=bones,
-        shares=shares,
+        shares=shares[near],
     )
-    return trimmed(surface, body.ankle[1] - 0.005 - positions[:, 1])
+
+
+def _shoe(foot: np.ndarray, top: float) -> np.ndarray:
+    """Vertices of one shoe: rings from the heel to the toes, and a middle at either end."""
+    flat = foot[:, [0, 2]]
+    middle = flat.mean(axis=0)
+    along = np.linalg.svd(flat - middle, full_matrices=False)[2][0]
+    along *= np.sign(along[1])
+    across = np.array([along[1], -along[0]])
+    t, s = (flat - middle) @ along, (flat - middle) @ across
+    low = foot[:, 1].min() - SOLE_M
+    stations = np.linspace(t.min() - 3e-3, t.max() + 7e-3, SHOE_STATIONS)
+    window = np.abs(t - np.clip(stations, t.min(), t.max())[:, None]) < 0.022
+    left, right = (np.array([one(s[row]) for row in window]) for one in (np.min, np.max))
+    height = np.minimum([foot[row, 1].max() for row in window], top)
+    left, right, height = (ndimage.gaussian_filter1d(x, 1.0, mode="nearest") for x in (left, right, height))
+    # both ends are round, seen from above and from the side
+    end = np.clip(np.minimum(stations - stations[0], stations[-1] - stations) / 0.035, 0.0, 1.0)
+    round_off = np.sqrt(1.0 - (1.0 - end) ** 2) * 0.72 + 0.28
+    half = (0.5 * (right - left) + 4e-3) * round_off
+    tall = (np.maximum(height, low + 0.035) + 5e-3 - low) * (0.55 + 0.45 * round_off)
+    turn = np.arange(SHOE_AROUND) * (2.0 * np.pi / SHOE_AROUND)
+    wide = np.sign(np.cos(turn)) * np.abs(np.cos(turn)) ** 0.7
+    up = np.clip(0.5 + 0.55 * np.sign(np.sin(turn)) * np.abs(np.sin(turn)) ** 0.75, 0.0, 1.0)
+    place = 0.5 * (left + right)[:, None] + half[:, None] * wide
+    ground = middle + stations[:, None, None] * along + place[..., None] * across
+    rings = np.stack([ground[..., 0], low + tall[:, None] * up, ground[..., 1]], axis=-1)
+    ends = [ring.mean(axis=0) for ring in (rings[0], rings[-1])]
+    return np.concatenate([rings.reshape(-1, 3), ends])
+
+
+def _shoe_triangles() -> np.ndarray:
+    i, j = np.meshgrid(np.arange(SHOE_STATIONS - 1), np.arange(SHOE_AROUND), indexing="ij")
+    k = (j + 1) % SHOE_AROUND
+    a, b = (i * SHOE_AROUND + j).ravel(), (i * SHOE_AROUND + k).ravel()
+    c, d = a + SHOE_AROUND, b + SHOE_AROUND
+    one = np.arange(SHOE_AROUND)
+    other = np.roll(one, -1)
+    last, rings = (SHOE_STATIONS - 1) * SHOE_AROUND, SHOE_STATIONS * SHOE_AROUND
+    heel = np.stack([np.full_like(one, rings), other, one], axis=-1)
+    toe = np.stack([np.full_like(one, rings + 1), last + one, last + other], axis=-1)
+    return np.concatenate([np.stack([a, b, d], axis=-1), np.stack([a, d, c], axis=-1), heel, toe])
 
 
 def _evened(positions: np.ndarray, triangles: np.ndarray, times: int) -> np.ndarray:
@@ -196,11 +247,6 @@ def _evened(positions: np.ndarray, triangles: np.ndarray, times: int) -> np.ndar
     return positions
 
 
-def recoloured(garment: Garment, colour: tuple[float, float, float]) -> Garment:
-    """The same garment in another colour."""
-    return replace(garment, colour=colour)
-
-
 TEAL, NAVY, GREY, WHITE, WINE = (
     (0.16, 0.42, 0.44),
     (0.13, 0.17, 0.30),
@@ -218,7 +264,7 @@ OUTFITS: dict[str, tuple[Garment, ...]] = {
     "shirt": (
         Garment(name="trousers", colour=NAVY, leg=2.03, waist=0.12, loose_m=7e-3, smooth=6),
         Garment(
-            name="shirt", colour=GREY, sleeve=1.9, leg=0.1, hem=-0.22, collar=0.10, loose_m=9e-3, smooth=6
+            name="shirt", colour=GREY, sleeve=1.9, leg=0.1, hem=-0.22, collar=0.10, loose_m=15e-3, smooth=8
         ),
     ),
     "dress": (

@@ -58,7 +58,7 @@ SHORT_LINE = (
     *((87.0, -5.0), (92.0, 6.0), (102.0, 4.0), (112.0, -8.0), (121.0, -22.0), (135.0, -33.0), (180.0, -41.0)),
 )
 LONG_LINE = (
-    *((0.0, 33.0), (20.0, 33.0), (38.0, 30.0), (52.0, 24.0), (62.0, 14.0), (70.0, 3.0), (76.0, 0.0)),
+    *((0.0, 35.0), (20.0, 34.0), (34.0, 29.0), (46.0, 19.0), (56.0, 9.0), (66.0, 3.0), (76.0, 0.0)),
     *((90.0, 0.0), (180.0, 0.0)),
 )
 CAP_LINE = (
@@ -71,10 +71,24 @@ STYLES: dict[str, HairStyle] = {
         line_deg=SHORT_LINE, top_m=5e-3, side_m=2.5e-3, nape_m=2e-3, edge_m=2e-3, ragged=0.05
     ),
     "long": HairStyle(
-        line_deg=LONG_LINE, top_m=15e-3, side_m=15e-3, nape_m=14e-3, edge_m=5e-3, ragged=0.06, fall_m=0.13
+        line_deg=LONG_LINE,
+        top_m=16e-3,
+        side_m=19e-3,
+        nape_m=15e-3,
+        edge_m=6e-3,
+        ragged=0.06,
+        fall_m=0.15,
+        sweep_rad=0.2,
     ),
     "bob": HairStyle(
-        line_deg=LONG_LINE, top_m=16e-3, side_m=16e-3, nape_m=12e-3, edge_m=6e-3, ragged=0.04, fall_m=0.07
+        line_deg=LONG_LINE,
+        top_m=17e-3,
+        side_m=20e-3,
+        nape_m=15e-3,
+        edge_m=7e-3,
+        ragged=0.04,
+        fall_m=0.08,
+        sweep_rad=0.3,
     ),
     "bun": HairStyle(
         line_deg=SHORT_LINE, top_m=9e-3, side_m=6e-3, nape_m=6e-3, edge_m=4e-3, ragged=0.03, bun_m=30e-3
@@ -144,7 +158,7 @@ def hair_surfaces(
     uv = np.concatenate([piece[1] for piece in pieces])
     if style.bun_m:
         place = SKULL_M + _between(CROWN, np.array([[0.0, -0.2, -0.98]]), np.array([0.25]))[0, 0] * (
-            float(_at(skull, CROWN)) + 0.4 * style.bun_m
+            float(_at(skull, CROWN[None])[0]) + 0.4 * style.bun_m
         )
         ball = _ball(place, style.bun_m)
         positions, shade = np.concatenate([positions, ball[0]]), np.append(shade, np.full(len(ball[0]), 0.9))
@@ -199,7 +213,7 @@ def _shell(
 
 def _hanging(points: np.ndarray, azimuth: np.ndarray, fall_m: float) -> np.ndarray:
     """A grid with rows more, which hang down beside and behind the face and end on one height."""
-    share = np.clip((np.abs(np.degrees(azimuth)) - 58.0) / 24.0, 0.0, 1.0)
+    share = np.clip((np.abs(np.degrees(azimuth)) - 50.0) / 22.0, 0.0, 1.0)
     share = share * share * (3.0 - 2.0 * share)
     last = points[-1]
     rows = []

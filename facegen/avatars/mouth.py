@@ -10,8 +10,10 @@ from facegen.avatars.surface import Material, Surface, cut, vertex_normals
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.mouth.crowns import AROUND, CAP, LEVELS
 from facegen.mouth.interior import has_own_teeth, mouth_meshes
+from facegen.mouth.tongue import AROUND as AROUND_TONGUE
 from facegen.mouth.traits import MouthTraits
 from facegen.raster import triangles_of
+from facegen.scene import Mesh
 
 MATERIAL = Material(name="mouth", roughness=0.32)
 COLOURS = {
@@ -65,7 +67,7 @@ def _own(shapes: FaceShapes, part: Part) -> Surface:
 
 def _made(shapes: FaceShapes, traits: MouthTraits) -> list[Surface]:
     """Teeth, gums and tongue of `facegen.mouth`, thinned out, as the rig's shapes move them."""
-    rig, still = shapes.rig, np.zeros(rig_components(shapes))
+    rig, still = shapes.rig, np.zeros(shapes.rig.components)
 
     def at(weights: np.ndarray, vertices: np.ndarray) -> list[np.ndarray]:
         meshes = mouth_meshes(rig, traits, identity=still, weights=weights, vertices=vertices)
@@ -107,11 +109,6 @@ def _made(shapes: FaceShapes, traits: MouthTraits) -> list[Surface]:
     return surfaces
 
 
-def rig_components(shapes: FaceShapes) -> int:
-    """Number of identity components of the shapes' rig."""
-    return shapes.rig.components
-
-
 def _turned(surface: Surface) -> np.ndarray:
     at_rest = vertex_normals(surface.positions, surface.triangles)
     return vertex_normals(surface.positions + surface.moved, surface.triangles) - at_rest
@@ -125,12 +122,12 @@ def _light(shapes: FaceShapes, positions: np.ndarray) -> np.ndarray:
     return (1.0 - 0.9 * deep) * (1.0 - 0.45 * aside)
 
 
-def _thinned(meshes: tuple) -> list[tuple[np.ndarray, np.ndarray]]:
+def _thinned(meshes: tuple[Mesh, ...]) -> list[tuple[np.ndarray, np.ndarray]]:
     """Vertices (k,) that are kept of teeth, gums and tongue, and triangles (t, 3) over them."""
     return [_thin_teeth(meshes[0]), _thin_gums(meshes[1]), _thin_tongue(meshes[2])]
 
 
-def _thin_teeth(mesh) -> tuple[np.ndarray, np.ndarray]:
+def _thin_teeth(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     rings = len(LEVELS) + len(CAP)
     crown = rings * AROUND + 1
     grid = np.array(TOOTH_RINGS)[:, None] * AROUND + np.array(TOOTH_COLUMNS)
@@ -148,7 +145,7 @@ def _thin_teeth(mesh) -> tuple[np.ndarray, np.ndarray]:
     return kept, _facing(mesh, kept, triangles, len(one))
 
 
-def _thin_gums(mesh) -> tuple[np.ndarray, np.ndarray]:
+def _thin_gums(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     arch = len(mesh.vertices) // 2
     rows = GUM_ROWS[-1] + 1
     columns = arch // rows
@@ -159,8 +156,8 @@ def _thin_gums(mesh) -> tuple[np.ndarray, np.ndarray]:
     return kept, _facing(mesh, kept, np.concatenate([faces, faces + len(one)]), len(one))
 
 
-def _thin_tongue(mesh) -> tuple[np.ndarray, np.ndarray]:
-    around = 32
+def _thin_tongue(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    around = AROUND_TONGUE
     rings = (len(mesh.vertices) - 1) // around
     some = np.unique(np.append(np.arange(0, rings, 2), [rings - 2, rings - 1]))
     one = (some[:, None] * around + np.arange(0, around, 2)).ravel()
@@ -181,7 +178,7 @@ def _grid(rows: int, columns: int, *, closed: bool) -> np.ndarray:
     return np.concatenate([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)])
 
 
-def _facing(mesh, kept: np.ndarray, triangles: np.ndarray, piece: int) -> np.ndarray:
+def _facing(mesh: Mesh, kept: np.ndarray, triangles: np.ndarray, piece: int) -> np.ndarray:
     """The triangles turned, piece by piece, so that they face where the mesh does."""
     normals = vertex_normals(mesh.vertices, triangles_of(mesh.faces))[kept]
     corners = mesh.vertices[kept][triangles]

@@ -35,7 +35,7 @@ def face_parts(shapes: FaceShapes, look: Complexion, *, hair: str, seed: int) ->
 
     rig, style = shapes.rig, STYLES[hair]
     picture = jpeg(paint_skin(shapes, look, style, rng=rng(0)))
-    material = Material(name="skin", roughness=0.55, picture=picture)
+    material = Material(name="skin", roughness=0.6, picture=picture)
     skin, rows = part_of_face(shapes, OUTSIDE, mesh="Head", material=material)
     outer = triangles_of(rig.faces[np.isin(rig.part, OUTSIDE)])
     return FaceParts(

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy import sparse
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,28 +134,25 @@ def cut(surface: Surface, kept: np.ndarray) -> Surface:
 
 
 def trimmed(surface: Surface, inside: np.ndarray) -> Surface:
-    """The surface cut along the line where ``inside`` (V,) is 0; vertices beyond it are drawn along edges to it."""
+    """The surface cut along the line where ``inside`` (V,) is 0.
+
+    Vertices beyond it, of triangles that cross it, are drawn to the mean of the places where their edges do.
+    """
     outside = inside < 0.0
-    kept = surface.triangles[~outside[surface.triangles].all(axis=1)]
-    sides = np.concatenate([kept[:, [0, 1]], kept[:, [1, 2]], kept[:, [2, 0]]])
-    sides = np.concatenate([sides, sides[:, ::-1]])
-    crossing = sides[outside[sides[:, 0]] & ~outside[sides[:, 1]]]
-    # of its neighbours inside, a vertex goes towards the one nearest to it
-    length = np.linalg.norm(np.diff(surface.positions[crossing], axis=1)[:, 0], axis=1)
-    crossing = crossing[np.argsort(-length, kind="stable")]
-    towards = np.full(len(outside), -1)
-    towards[crossing[:, 0]] = crossing[:, 1]
-    moved = np.flatnonzero(towards >= 0)
-    share = np.zeros(len(outside))
-    gap = inside[moved] - inside[towards[moved]]
-    share[moved] = np.clip(inside[moved] / np.where(gap == 0.0, 1.0, gap), 0.0, 1.0)
-    other = np.where(towards >= 0, towards, np.arange(len(outside)))
+    kept = ~outside[surface.triangles].all(axis=1)
+    sides = surface.triangles[kept][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    sides = np.unique(np.concatenate([sides, sides[:, ::-1]]), axis=0)
+    start, end = sides[outside[sides[:, 0]] & ~outside[sides[:, 1]]].T
+    count = len(outside)
+    share = inside[start] / (inside[start] - inside[end]) / np.bincount(start, minlength=count)[start]
+    own = 1.0 - np.bincount(start, share, count)
+    blend = sparse.diags(own) + sparse.csr_matrix((share, (start, end)), shape=(count, count))
 
     def between(values: np.ndarray | None, axis: int = 0) -> np.ndarray | None:
         if values is None or values.shape[axis] == 0:
             return values
-        column = share.reshape(-1, 1)
-        return values + column * (np.take(values, other, axis=axis) - values)
+        first = np.moveaxis(values, axis, 0)
+        return np.moveaxis((blend @ first.reshape(count, -1)).reshape(first.shape), 0, axis)
 
     drawn = replace(
         surface,
@@ -166,4 +164,4 @@ def trimmed(surface: Surface, inside: np.ndarray) -> Surface:
         turned=between(surface.turned, 1),
         shares=between(surface.shares),
     )
-    return cut(drawn, ~outside[surface.triangles].all(axis=1))
+    return cut(drawn, kept)

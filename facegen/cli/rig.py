@@ -1,4 +1,4 @@
-"""Defines ``facegen rig build | add | info | preview | landmarks | export``."""
+"""Defines ``facegen rig build | add | info | preview | landmarks | export | people``."""
 
 import json
 from pathlib import Path
@@ -178,3 +178,22 @@ def export(
     person = dict(sex=sex, age_years=age, build=build, ancestry=ancestry, clothes=clothes) if body else None
     write_whole(out, export_avatar(name, hair=hair, seed=seed, person=person))
     typer.echo(str(out))
+
+
+@rig_app.command()
+def people(
+    out: Annotated[Path, typer.Option(help="Folder to write to")] = Path("people"),
+) -> None:
+    """Write the ready-made people of the room, each as NAME.glb.
+
+    Example: facegen rig people --out room/server/static/avatars
+    """
+    from facegen.avatars.export import READY, export_avatar
+    from facegen.files import output_errors, write_whole
+
+    with output_errors(out):
+        out.mkdir(parents=True, exist_ok=True)
+    for name, traits in READY.items():
+        person = {key: value for key, value in traits.items() if key not in ("hair", "seed")}
+        content = export_avatar("anny", hair=traits["hair"], seed=traits["seed"], person=person)
+        typer.echo(str(write_whole(out / f"{name}.glb", content)))
