@@ -15,7 +15,7 @@ from facegen.mouth.traits import MouthTraits
 from facegen.raster import triangles_of
 from facegen.scene import Mesh
 
-MATERIAL = Material(name="mouth", roughness=0.32)
+MATERIAL = Material(name="mouth", roughness=0.6)  # shinier teeth glare white from the side
 COLOURS = {
     Part.TEETH: (0.90, 0.87, 0.78),
     Part.GUMS: (0.52, 0.20, 0.19),
