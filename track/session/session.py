@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from regress.runtime.sample import Sample
 from regress.runtime.stages.output import Mirror
@@ -157,6 +158,12 @@ class Session:
         self, pictures: Pictures, screen: Screen | None = None, *, seconds: float | None = None
     ) -> Summary:
         """Answer frames until there are no more, or it is stopped, or so many seconds have passed."""
+        # one face's products are too small to share: BLAS' other threads only wait, and burn 29 ms of CPU a frame
+        with threadpool_limits(limits=1, user_api="blas"):
+            self._run(pictures, screen, seconds)
+        return self.summary()
+
+    def _run(self, pictures: Pictures, screen: Screen | None, seconds: float | None) -> None:
         until_s = None if seconds is None else time.monotonic() + seconds
         while not self._stopped and (until_s is None or time.monotonic() < until_s):
             sample = pictures.read(TICK_S if self._fading.under_way else None)
@@ -165,7 +172,6 @@ class Session:
             for answer in self.answer(sample, pictures.now_s if self._timed else None):
                 if screen is not None:
                     screen.publish(self.moment(answer))
-        return self.summary()
 
     def answer(self, sample: Sample, now_s: Callable[[], float] | None = None) -> list[Sample]:
         """What goes to the sinks for a frame: one sample, or as many as a filter that looks ahead gives."""
