@@ -3,7 +3,7 @@
     python benchmarks/bench_output.py MODEL DATASET
 
 MODEL is a trained model folder, DATASET the folder it was trained on; test people are judged, by networks that know
-their neutral frame unless a table says otherwise. The tables are in docs/using-a-model.md.
+their neutral frame unless a table says otherwise. The tables are in docs/measurements/using-a-model.md.
 
 Smoothing: clips of 3 s at 30 frames a second that lead from a person's neutral face to an expression: held still, moved
 to in 0.2 s, or come and gone in 0.3 s as a blink is, with normal noise on every coordinate. "Lag" is to 80 % of a

@@ -6,7 +6,7 @@
 Models that differ by nothing but their seed are one row, named by what differs from the first model: mean, and
 standard deviation over seeds. A modular model's rivals are the holistic ones with the same other settings and seed. The
 first data are the main ones. `--drawn` frames are drawn from the front with predicted and with true weights, and
-compared as pictures. Prints Markdown; the results stand in docs/headset-network-figures.md.
+compared as pictures. Prints Markdown; the results stand in docs/measurements/headset-networks.md.
 """
 
 import argparse

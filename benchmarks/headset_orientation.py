@@ -3,7 +3,7 @@
     python benchmarks/headset_orientation.py models/headset --data test=datasets/out/headset-test-arrays --data rig=...
 
 One camera of a person is changed at a time; cells are percentages of takes of which it is said. Where nothing is done
-it should not be. Prints Markdown, which stands in docs/headset-network-figures.md.
+it should not be. Prints Markdown, which stands in docs/measurements/headset-networks.md.
 """
 
 import argparse

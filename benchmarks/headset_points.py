@@ -4,7 +4,7 @@
 
 Of unseen people, ordinary frames without a neutral picture; a camera and the one that mirrors it count together.
 Several models give mean and standard deviation over them. Prints Markdown, which stands in
-docs/headset-network-figures.md.
+docs/measurements/headset-networks.md.
 """
 
 import argparse

@@ -4,7 +4,7 @@
 
 Each person's clip counts by itself. Targets are frames of it, evenly spread over the order of their yaw, with their
 true gaze; errors are of all its frames with an eye less than half shut. The last row is what `predict --eyes` gives.
-Prints Markdown, which stands in docs/headset-network-figures.md.
+Prints Markdown, which stands in docs/measurements/headset-networks.md.
 """
 
 import argparse

@@ -6,7 +6,7 @@
 
 A network is some three processor minutes at these defaults; those that lie under `--out` are not trained again, and one
 that was stopped goes on. Errors of unseen people, and on combinations that training seldom shows. Prints Markdown,
-which stands in docs/headset-network-figures.md.
+which stands in docs/measurements/headset-networks.md.
 """
 
 import argparse

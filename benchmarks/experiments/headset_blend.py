@@ -4,7 +4,7 @@
 
 The second paper's equation 6 weighs each camera by its inverse variance, and multiplies what lies outside its part by a
 factor. Training knows one factor; this evaluates others, and equal variances, without training again. Prints Markdown;
-the result stands in docs/headset-network-figures.md.
+the result stands in docs/measurements/headset-networks.md.
 """
 
 import sys

@@ -4,7 +4,7 @@
 
 Faces of unseen people are replaced by the nearest of K cluster centres of each camera's part, or of 3 K centres of the
 whole face, over three seeds; once with all training frames, once with those alone in which one region moves. Prints
-Markdown; the results stand in docs/headset-network-figures.md.
+Markdown; the results stand in docs/measurements/headset-networks.md.
 """
 
 import argparse

@@ -12,8 +12,8 @@ ALONE, BESIDE_NEUTRAL = (0.75, 1.9), (0.7, 1.6)
 a frame alone, and of those beside a neutral frame.
 
 Measured on 2,700 test faces with detectors' bias and jitter of 0 to 3 times the usual: the share of the variance
-that the networks explain falls nearly on these lines (docs/using-a-model.md). A neutral frame takes the bias off; what
-is left is noise, less of which makes the networks err. Training faces have 1 in the mean square.
+that the networks explain falls nearly on these lines (docs/measurements/using-a-model.md). A neutral frame takes the
+bias off; what is left is noise, less of which makes the networks err. Training faces have 1 in the mean square.
 """
 
 

@@ -1,4 +1,4 @@
-"""The examples of docs/examples, and what docs/using-a-model.md says, run on what `regress export` writes."""
+"""The examples of docs/examples, and what docs/exports.md says, run on what `regress export` writes."""
 
 import json
 import re
@@ -16,7 +16,7 @@ from tests.regress.drawn import drawn_faces
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples"
 NEUTRAL, *_ = drawn_faces(np.random.default_rng(13), 1).astype(np.float32).astype(np.float64)
-PAGE = (EXAMPLES.parent / "using-a-model.md").read_text(encoding="utf-8")
+PAGE = (EXAMPLES.parent / "exports.md").read_text(encoding="utf-8")
 FACES = drawn_faces(np.random.default_rng(12), 3).astype(np.float32).astype(np.float64)
 
 

@@ -154,7 +154,7 @@ def test_an_export_runs_by_what_its_description_says(run, model: Path, tmp_path:
     for name, one in description["outputs"].items():
         assert list(found[name].shape) == [5 if n == "n" else n for n in one["shape"]]
         assert str(found[name].dtype) == one["type"]
-    documented = (EXAMPLE.parents[1] / "headset-networks.md").read_text()
+    documented = (EXAMPLE.parents[1] / "exports.md").read_text()
     assert [name for name in GRAPH_OUTPUTS if f"| `{name}` |" not in documented] == []
     assert description["shapes"] == list(BLENDSHAPES)
     assert [camera["name"] for camera in description["cameras"]] == list(NAMES)

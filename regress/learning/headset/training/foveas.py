@@ -1,7 +1,7 @@
 """A second look at an iris: the picture's own pixels about where the first look found it.
 
 The first look takes whole pictures, reduced; it finds a pupil within a pixel of the camera's, which is two degrees of
-gaze. The second one halves that (docs/headset-network-figures.md).
+gaze. The second one halves that (docs/measurements/headset-networks.md).
 """
 
 from collections.abc import Sequence

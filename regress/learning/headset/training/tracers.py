@@ -2,7 +2,7 @@
 
 Weights hang on where things are. Networks that learn weights alone remember the people they have seen instead: tracing
 took blinks of unseen people from an R2 of .80 to .89 and gaze from 4.4 to 3.6 degrees
-(docs/headset-network-figures.md).
+(docs/measurements/headset-networks.md).
 """
 
 from collections.abc import Sequence
