@@ -58,14 +58,14 @@ def serve(
 
 
 def _secret(turn: list[str] | None, file: Path | None) -> str:
-    from facegen.documents import read_bytes
+    from facegen.documents import read_text
     from room.errors import InputError
 
     if bool(turn) != bool(file):
         raise InputError("a relay needs both --turn and --turn-secret")
     if file is None:
         return ""
-    secret = read_bytes(file, most_bytes=4096).decode("utf-8", "strict").strip()
+    secret = read_text(file, most_bytes=4096).strip()
     if not secret:
         raise InputError(f"{file}: is empty; it must hold coturn's static-auth-secret")
     return secret

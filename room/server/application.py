@@ -11,7 +11,7 @@ from aiohttp import WSMessage, WSMsgType, web
 
 from room.errors import FormatError, NotAllowed
 from room.protocol.texts import MOST_TEXT_BYTES, Chat, Notice, read_join, read_said
-from room.server.connection import Connection
+from room.server.connection import PARTING_S, Connection
 from room.server.files import Files
 from room.server.hall import HERTZ, Hall, Part
 from room.server.headers import protect, same_origin
@@ -38,9 +38,6 @@ JOIN_S = 5.0
 
 HEARTBEAT_S = 8.0
 """A connection that answers no ping for half as long again has broken: its person is shown as away."""
-
-PARTING_S = 3.0
-"""Time to read the last word; then the connection is cut."""
 
 
 class Rooms:
@@ -119,7 +116,10 @@ class Rooms:
             max_msg_size=MOST_TEXT_BYTES, heartbeat=HEARTBEAT_S, compress=False, timeout=1.0
         )
         await socket.prepare(request)
-        connection = Connection(socket, self.metrics)
+        transport = request.transport
+        if transport is None:  # gone while it was answered
+            return socket
+        connection = Connection(socket, self.metrics, cut=transport.abort)
         self._sockets.add(socket)
         try:
             await self._meet(name, socket, connection)

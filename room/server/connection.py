@@ -2,6 +2,7 @@
 
 import asyncio
 from collections import deque
+from collections.abc import Callable
 
 from aiohttp import web
 
@@ -11,6 +12,9 @@ from room.server.metrics import Metrics
 
 CLOSED_BY_RULE = 4001
 """WebSocket's close code of whoever was refused; the text before it says why."""
+
+PARTING_S = 3.0
+"""Time to read the last word; then the connection is cut."""
 
 
 class Connection:
@@ -22,10 +26,15 @@ class Connection:
         Open.
     metrics
         Counts what is sent, and what was dropped.
+    cut
+        Ends the connection whatever waits on it: who reads nothing would never see a close.
     """
 
-    def __init__(self, socket: web.WebSocketResponse, metrics: Metrics) -> None:
-        self._socket, self._metrics = socket, metrics
+    def __init__(
+        self, socket: web.WebSocketResponse, metrics: Metrics, *, cut: Callable[[], None] = lambda: None
+    ) -> None:
+        self._socket, self._metrics, self._cut = socket, metrics, cut
+        self._cutting: asyncio.TimerHandle | None = None
         self._texts: deque[str] = deque()
         self._ticks: deque[bytes] = deque(maxlen=MOST_TICKS_QUEUED)
         self._wake = asyncio.Event()
@@ -52,9 +61,12 @@ class Connection:
         if self._last is None:
             self._last = Refused(text=text, again=again)
             self._wake.set()
+            self._cutting = asyncio.get_running_loop().call_later(PARTING_S, self._cut)
 
     async def close(self) -> None:
         """Stop sending, without a word."""
+        if self._cutting is not None:
+            self._cutting.cancel()
         self._writer.cancel()
         await asyncio.gather(self._writer, return_exceptions=True)
 

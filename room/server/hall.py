@@ -23,8 +23,9 @@ from room.protocol.texts import (
     Welcome,
 )
 from room.server.connection import Connection
+from room.server.limits import BURST_S, NEWCOMERS_PER_S, RETURNS_PER_S, Bucket
 from room.server.turn import Relays
-from room.state import Meeting, Seat
+from room.state import Meeting, Seat, identity
 
 HERTZ = 30
 """Ticks a second: as many as a camera has frames."""
@@ -51,6 +52,8 @@ class Hall:
         self._relays = relays
         self._pages: dict[str, Connection] = {}
         self._programs: dict[str, Connection] = {}
+        self._newcomers = Bucket(NEWCOMERS_PER_S, burst=2 * most_people)
+        self._returns: dict[str, Bucket] = {}
 
     def enter(self, join: Join, connection: Connection, *, moderator: bool) -> Seat:
         """Bring somebody in, and tell the others; an older connection of the same person is closed.
@@ -58,8 +61,9 @@ class Hall:
         Raises
         ------
         NotAllowed
-            As `room.state.Meeting.enter`.
+            As `room.state.Meeting.enter`, or if people come in so often that others hear of nothing else.
         """
+        self._count(join, moderator=moderator)
         seat = self.meeting.enter(join, moderator=moderator)
         connections = self._connections(join.role)
         if older := connections.pop(seat.id, None):
@@ -83,6 +87,18 @@ class Hall:
             connection.tick(self.meeting.whole(now=time.monotonic()))
             self._tell(Changed(person=seat.person), but=seat)
         return seat
+
+    def _count(self, join: Join, *, moderator: bool) -> None:
+        """Refuse who comes in too often: one who is known by their own count, so that strangers keep out nobody."""
+        id = identity(join.secret)
+        known = self.meeting.seat(id) is not None
+        if moderator or (not known and join.role == "face"):
+            return
+        bucket = self._newcomers
+        if known:
+            bucket = self._returns.setdefault(id, Bucket(RETURNS_PER_S, burst=RETURNS_PER_S * BURST_S))
+        if not bucket.take(now=time.monotonic()):
+            raise NotAllowed("too many come in at once; wait a moment", again=True)
 
     def go(self, seat: Seat, connection: Connection, role: Part) -> None:
         """A connection has ended; the place is kept for a while."""
@@ -166,6 +182,7 @@ class Hall:
 
     def _free(self, seat: Seat, *, word: str = "you have left") -> None:
         self.meeting.leave(seat)
+        self._returns.pop(seat.id, None)
         for connections in (self._pages, self._programs):
             if connection := connections.pop(seat.id, None):
                 connection.refuse(word, again=False)

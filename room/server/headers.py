@@ -45,4 +45,7 @@ def same_origin(request: web.Request, allowed: frozenset[str]) -> bool:
     origin = request.headers.get("Origin")
     if origin is None or origin in allowed:
         return True
-    return urlsplit(origin).netloc == request.host
+    try:
+        return urlsplit(origin).netloc == request.host
+    except ValueError:  # half an IPv6 address
+        return False

@@ -23,6 +23,12 @@ BURST_S = 10
 CHATS_PER_S = 1
 """Lines of chat of one connection, with a burst of ten."""
 
+NEWCOMERS_PER_S = 10
+"""New people of one room, with a burst of twice its places: each is told to all. Moderators are not counted."""
+
+RETURNS_PER_S = 1
+"""Times that one person comes in again, with a burst of ten: a network that comes and goes, a page loaded anew."""
+
 MOST_QUEUED = 512
 """Texts that wait for a slow connection before it is closed: it has not read for the time of a whole meeting's talk."""
 

@@ -72,10 +72,9 @@ async def _serve(
         site = web.TCPSite(runner, address.host, address.port, ssl_context=tls)
         try:
             await site.start()
-        except OSError as error:
-            reason = (
-                os.strerror(error.errno) if error.errno and error.errno > 0 else error.strerror or str(error)
-            )
+        except (OSError, UnicodeError) as error:  # UnicodeError: a name with an empty or too long part
+            number = getattr(error, "errno", None) or 0
+            reason = os.strerror(number) if number > 0 else getattr(error, "strerror", None) or str(error)
             raise InputError(
                 f"{address.host}:{address.port}: cannot be listened at ({reason}); name another --host or --port"
             ) from None

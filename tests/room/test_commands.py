@@ -63,6 +63,16 @@ REFUSED = {
         "--turn-secret",
         "{folder}/empty",
     ),
+    "a secret that is no text": (
+        "serve",
+        "--port",
+        "0",
+        "--turn",
+        "turn:a:1",
+        "--turn-secret",
+        "{folder}/binary",
+    ),
+    "a host with an empty part": ("serve", "--port", "0", "--host", "a..b"),
     "a host that is no one": ("serve", "--port", "0", "--host", "256.0.0.1"),
     "a port that is taken": ("serve", "--port", "{taken}"),
     "no place at all": ("serve", "--port", "0", "--people", "0"),
@@ -73,6 +83,7 @@ REFUSED = {
 def test_what_cannot_be_used_is_refused_in_a_sentence(arguments, tmp_path):
     (tmp_path / "bad").write_text("no such thing")
     (tmp_path / "empty").write_text("\n")
+    (tmp_path / "binary").write_bytes(b"\xff\xfe")
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()

@@ -4,16 +4,18 @@ import asyncio
 import json
 import time
 from collections.abc import Callable, Coroutine
+from contextlib import suppress
 from functools import wraps
 
 import aiohttp
 import pytest
+from aiohttp import web
 from yarl import URL
 
 from room.protocol.texts import Changed, Door, Left, Line, Notice, Refused, Signal, Welcome
 from room.server import Limits, Relays, new_keys
 from room.server.application import STATIC
-from room.server.connection import CLOSED_BY_RULE
+from room.server.connection import CLOSED_BY_RULE, PARTING_S
 from room.server.limits import BURST_S, CHATS_PER_S, STATES_PER_S, Bucket
 from room.state import identity
 from tests.room.guests import Guest, Place, open_room
@@ -252,6 +254,59 @@ async def test_a_flood_ends_its_sender_with_a_word(place):
     await ben.until(lambda: ben.number in ben.states)
 
 
+def test_who_is_refused_and_reads_nothing_is_cut(monkeypatch):
+    """Whoever goes on to send and never reads would keep their connection for ever, and could have any number."""
+    send_str = web.WebSocketResponse.send_str
+
+    async def send_to_who_reads(self, text):
+        if "removed you" in text:  # as where all buffers up to the other end are full
+            await asyncio.Event().wait()
+        await send_str(self, text)
+
+    monkeypatch.setattr(web.WebSocketResponse, "send_str", send_to_who_reads)
+
+    async def run() -> None:
+        async with open_room() as place:
+            ada, deaf = await place.guest(moderator=True), await place.guest(name="Deaf")
+            await ada.say(kind="moderate", action="remove", number=deaf.number)
+            await ada.told(Left)
+            async with asyncio.timeout(PARTING_S + 5):
+                while not deaf.reading.done():
+                    with suppress(ConnectionError):
+                        await deaf.move()
+                    await asyncio.sleep(0.05)
+            assert deaf.all(Refused) == []
+
+    asyncio.run(run())
+
+
+@pytest.mark.parametrize("who", ["one person again and again", "ever new ones"])
+def test_people_who_come_and_go_without_end_drive_nobody_out(who):
+    """Each is told to all: a guest who did nothing else would fill the queues of those with slow networks."""
+
+    async def run() -> None:
+        async with open_room(limits=Limits(people=8)) as place:
+            ada = await place.guest()
+            refused = []
+            for number in range(50):
+                secret = "s" * 22 if who.startswith("one") else f"{number:022}"
+                storm = await place.come(name="Storm", secret=secret)
+                await storm.until(lambda storm=storm: storm.answers)
+                refused += storm.all(Refused)
+                if not storm.all(Refused) and not who.startswith("one"):
+                    await storm.say(kind="leave")
+                    await storm.end()
+                await storm.go()
+            assert len(refused) > 10
+            assert {(word.text, word.again) for word in refused} == {
+                ("too many come in at once; wait a moment", True)
+            }
+            await place.guest(name="Chair", moderator=True)
+            await ada.told(Changed, lambda changed: changed.person.name == "Chair")
+
+    asyncio.run(run())
+
+
 @meeting
 async def test_chat_that_is_too_fast_is_not_sent(place):
     ada, ben = await place.guest(), await place.guest(name="Ben")
@@ -293,6 +348,7 @@ def test_rooms_and_places_are_bounded():
         ("https://evil.example", 403),
         ("null", 403),
         ("http://rooms.example", 403),
+        ("http://[", 403),
     ],
 )
 def test_pages_of_other_sites_may_not_come_in(origin, status):

@@ -85,7 +85,7 @@ class Guard:
         if not self._own(request.host):
             return "this page answers to its own address only, not to the name that was used"
         origin = request.headers.get("Origin")
-        if origin is not None and urlsplit(origin).netloc.lower() != request.host.lower():
+        if origin is not None and _place(origin) != request.host.lower():
             return "this page answers to itself only, not to pages of others"
         if request.path in _OPEN or not self.token:
             return None
@@ -102,6 +102,14 @@ class Guard:
         if is_loopback(name) or name == self.host.lower():
             return True
         return not is_loopback(self.host) and _address(name) is not None
+
+
+def _place(origin: str) -> str:
+    """Host and port of an origin; nothing of what is none."""
+    try:
+        return urlsplit(origin).netloc.lower()
+    except ValueError:  # half an IPv6 address
+        return ""
 
 
 def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:

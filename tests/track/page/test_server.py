@@ -280,6 +280,7 @@ async def ask(page: Page, path: str, **headers: str) -> tuple[int, str, object]:
         ({"Host": "[::1"}, 403),
         ({"Origin": "http://evil.example"}, 403),
         ({"Origin": "null"}, 403),
+        ({"Origin": "http://["}, 403),
         ({"Host": "localhost:1", "Origin": "http://localhost:2"}, 403),
         ({"Host": "localhost:1", "Origin": "http://localhost:1"}, 200),
     ],
