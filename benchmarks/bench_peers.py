@@ -10,7 +10,8 @@ torch-levenberg-marquardt, which the project itself does without:
 All peers see the same rows, float32 or float64 as they do by themselves, one thread, the same L2 strength
 (chosen for each network on validation rows by this project's solver), and start from their own start and from
 ours (ridge knots). Where a peer stands after every iteration is judged on the validation rows, outside its
-time; its best place counts. Details of each peer stand at its function. docs/training.md has a run's table.
+time; its best place counts. Details of each peer stand at its function. docs/measurements/landmark-networks.md has a
+run's table.
 """
 
 import argparse

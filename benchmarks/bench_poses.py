@@ -3,8 +3,8 @@
     python benchmarks/bench_poses.py DATASET MODEL [MODEL ...] [--json]
 
 DATASET is what all MODELs were trained on. A thousand faces of people of the test split, exact points, are turned to a
-grid of poses 10 degrees apart (probes.poses); with a neutral frame, that frame is frontal. docs/training.md has
-a run's table.
+grid of poses 10 degrees apart (probes.poses); with a neutral frame, that frame is frontal.
+docs/measurements/landmark-networks.md has a run's table.
 """
 
 import argparse

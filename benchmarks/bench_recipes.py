@@ -9,8 +9,8 @@ of the same size. `below ridge` counts shapes whose R2 is more than 0.01 below t
 features and the same training rows, strength chosen per shape. --bound prints what one large network reaches that
 learns one level of noise alone, from aligned coordinates of the frame and of the neutral frame: it need not be small,
 know other noise, or be shipped. --features prints what ridge regression reaches from distances, from aligned
-coordinates and from both, with a neutral frame, on exact rows and on the default recipe's. docs/training.md has a run's
-tables.
+coordinates and from both, with a neutral frame, on exact rows and on the default recipe's.
+docs/measurements/landmark-networks.md has a run's tables.
 """
 
 import argparse

@@ -4,7 +4,8 @@
 
 Each row changes one thing of the default recipe; only networks that compare are trained. Two takes of an iPhone's 52
 weights are played by people of another rig (`facegen rig build ict --path CLONE`), with a detector's bias and jitter of
-1 px at 100 px between the outer eye corners, and given a neutral face. In-rig figures mislead here (docs/training.md).
+1 px at 100 px between the outer eye corners, and given a neutral face. In-rig figures mislead here
+(docs/measurements/landmark-networks.md).
 """
 
 import argparse

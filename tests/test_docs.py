@@ -16,8 +16,9 @@ PAGES = [
     ROOT / "CHANGELOG.md",
     ROOT / "CONTRIBUTING.md",
     ROOT / "SECURITY.md",
-    *sorted((ROOT / "docs").glob("*.md")),
+    *sorted((ROOT / "docs").glob("**/*.md")),
 ]
+NAMES = [page.relative_to(ROOT).as_posix() for page in PAGES]
 PROGRAMS = ("facegen", "regress", "track", "room")
 
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
@@ -35,7 +36,7 @@ def _anchors(page: Path) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
 def test_links_lead_somewhere(page: Path):
     for link in LINK.findall(FENCE.sub("", _text(page))):
         if "://" in link or link.startswith("mailto:"):
@@ -91,7 +92,7 @@ def _refused(call: list[str]) -> str | None:
     return f"there is no option {unknown[0]!r}" if unknown else None
 
 
-@pytest.mark.parametrize("page", [*PAGES[:1], *PAGES[2:]], ids=lambda page: page.name)
+@pytest.mark.parametrize("page", [*PAGES[:1], *PAGES[2:]], ids=[*NAMES[:1], *NAMES[2:]])
 def test_commands_and_options_are_there(page: Path):
     refused = {" ".join(call): _refused(call) for call in _calls(page)}
     assert {call: why for call, why in refused.items() if why} == {}

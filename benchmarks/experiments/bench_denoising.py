@@ -8,7 +8,7 @@ and on features from which the noise of each face is taken (`Denoising`). Printe
 points with noise on every coordinate, per cent of the outer-eye distance, and with a detector's bias, beside ridge
 regression on the same rows; of the blink also what is said of a wink: shut eye, open eye, and either where both are
 shut.
-docs/training.md has a run's table.
+docs/measurements/landmark-networks.md has a run's table.
 """
 
 import argparse

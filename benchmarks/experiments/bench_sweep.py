@@ -8,7 +8,7 @@ much noise as the face. Columns: mean R2 of the visible shapes frontal, and what
 (probes.poses); what is said of the shut and of the open eye in a wink, and of both where both are shut
 (probes.winks); mean R2 over all shapes at five levels of noise, with how many lie more than 0.01 below ridge
 regression on the same rows; with --real, the error on recorded expressions of another rig at 0.5 px
-(benchmarks/real_recordings.py) and r of mouthClose there. docs/training.md has a run's table.
+(benchmarks/real_recordings.py) and r of mouthClose there. docs/measurements/landmark-networks.md has a run's table.
 """
 
 import argparse

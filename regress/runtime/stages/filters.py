@@ -65,4 +65,4 @@ FILTERS: dict[str, Filter] = {
 """By the name that ``--filter`` takes."""
 
 DEFAULT_FILTER = "kalman-33"
-"""The best of those that lag by 33 ms or less, at 30 and 60 frames a second (docs/real-recordings.md)."""
+"""The best of those that lag by 33 ms or less, at 30 and 60 frames a second (docs/measurements/real-recordings.md)."""

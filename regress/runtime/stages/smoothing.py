@@ -73,7 +73,7 @@ LANDMARK_BETA = 10.0
 """Hz more for each face width a second that a landmark moves.
 
 Of 5, 10 and 20 at 1 Hz and 30 frames a second the one nearest to the undisturbed weights of quick and of still
-faces (docs/real-recordings.md): 5 cuts blinks to 0.83 of their height, 20 leaves a fifth more jitter.
+faces (docs/measurements/real-recordings.md): 5 cuts blinks to 0.83 of their height, 20 leaves a fifth more jitter.
 """
 
 
