@@ -75,7 +75,7 @@ def calibrate(
     with contextlib.ExitStack() as closing:
         session, capture = open_session(wishes, texts, [], say, closing, options=RunOptions())
         session.ask(Command(verb="calibrate", value=faces))
-        with ended_by_signals(session):
+        with ended_by_signals(session, capture):
             session.run(capture, Prompt())
         if session.calibrating:
             raise InputError("the pictures ended before calibration did; everything found before it is kept")

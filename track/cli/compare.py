@@ -108,7 +108,7 @@ def compare(
         say(
             f"port {phone.port} waits for the phone; act for {seconds:g} s: talk, smile, blink, raise your brows"
         )
-        with ended_by_signals(session):
+        with ended_by_signals(session, capture):
             session.run(capture, seconds=seconds)
         neutral_points = None if session.profile.neutral is None else session.profile.neutral.frames("points")
     times_s, truth_weights = phone.frames()

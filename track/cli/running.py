@@ -10,12 +10,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from track.cli.opening import Wishes, camera_texts, is_headset, open_cameras, open_pipeline, open_profile
-from track.errors import InputError
-from track.profile.profile import write_profile
+from track.errors import InputError, OutputError
+from track.profile.profile import Profile, write_profile
 
 if TYPE_CHECKING:
     from track.session.session import Screen, Session, Summary
     from track.sinks.sink import Sink
+    from track.sources import Capture
 
 RECORDINGS = {".csv": "csv", ".glb": "gltf", ".vrma": "vrma"}
 """Sinks by a recording's ending."""
@@ -45,9 +46,9 @@ def run_session(wishes: Wishes, options: RunOptions, say: Callable[[str], None])
     texts = camera_texts(wishes.cameras, headset=is_headset(wishes))
     with contextlib.ExitStack() as closing:
         sinks = open_sinks(options, say, closing)
-        session, capture = open_session(wishes, texts, sinks, say, closing, options=options)
+        session, capture = open_session(wishes, texts, sinks, say, closing, options=options, must_keep=False)
         screen = _open_page(options, session, texts, say, closing) if options.page else None
-        with ended_by_signals(session):
+        with ended_by_signals(session, capture):
             return session.run(capture, screen, seconds=options.seconds)
 
 
@@ -59,8 +60,12 @@ def open_session(
     closing: contextlib.ExitStack,
     *,
     options: RunOptions,
-) -> "tuple[Session, object]":
-    """A session and its cameras, which ``closing`` lets go."""
+    must_keep: bool = True,
+) -> "tuple[Session, Capture]":
+    """A session and its cameras, which ``closing`` lets go.
+
+    ``must_keep`` says whether a profile that cannot be written ends the session; else it is told once.
+    """
     from track.session.session import Session
 
     pipeline = open_pipeline(wishes, texts, say)
@@ -73,13 +78,31 @@ def open_session(
         sinks=sinks,
         profile=profile,
         say=say,
-        keep=lambda changed: write_profile(path, changed),
+        keep=_keeper(path, None if must_keep else say),
         new_recording=lambda: _open(f"csv:{_free_name()}", say),
         mirror=options.mirror,
         timed=not wishes.fast,
     )
     closing.callback(session.close)
     return session, capture
+
+
+def _keeper(path: Path, say: Callable[[str], None] | None) -> Callable[[Profile], None]:
+    """What stores a profile; where it cannot, ``say`` is told once, if there is one."""
+    told = False
+
+    def keep(profile: Profile) -> None:
+        nonlocal told
+        try:
+            write_profile(path, profile)
+        except OutputError as error:
+            if say is None:
+                raise
+            if not told:
+                say(f"{error}; what is changed now is forgotten at the end")
+            told = True
+
+    return keep
 
 
 def open_sinks(
@@ -147,7 +170,7 @@ def _open_page(
 
 
 @contextlib.contextmanager
-def ended_by_signals(session: "Session") -> Iterator[None]:
+def ended_by_signals(session: "Session", capture: "Capture") -> Iterator[None]:
     """Let the first Ctrl-C or SIGTERM end the session after its frame; the next one stops at once, as ever."""
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -156,6 +179,7 @@ def ended_by_signals(session: "Session") -> Iterator[None]:
 
     def end(_number: int, _frame: object) -> None:
         session.stop()
+        capture.stop()
         for number, handler in before.items():
             signal.signal(number, handler)
 

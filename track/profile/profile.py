@@ -41,7 +41,7 @@ from pydantic import (
 
 from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_COUNT
 from facegen.documents import load_toml
-from facegen.files import write_whole
+from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
 from regress.runtime.headset.placement import CameraPlacement
 from track.errors import InputError
@@ -246,7 +246,7 @@ def write_profile(path: str | os.PathLike[str], profile: Profile) -> Path:
     import tomli_w
 
     path = Path(path)
-    if not path.parent.exists():
+    with output_errors(path.parent):
         path.parent.mkdir(parents=True, exist_ok=True)
     return write_whole(path, tomli_w.dumps(profile.model_dump(mode="json", exclude_none=True)))
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from facegen.formats.picture_size import picture_size
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
@@ -92,10 +93,16 @@ class HeadsetPipeline(Pipeline):
         width, height = self._predictor.sizes[name]
         if name not in neutral.pictures:
             raise InputError(f"the profile has no neutral picture of {name}; calibrate again")
-        content = np.frombuffer(base64.b64decode(neutral.pictures[name]), dtype=np.uint8)
-        picture = cv2.imdecode(content, cv2.IMREAD_GRAYSCALE) if len(content) else None
+        try:
+            content = base64.b64decode(neutral.pictures[name])
+        except ValueError:  # no base64
+            content = b""
+        # by its head, before a decoder allocates what that claims
+        claimed, picture = picture_size(content), None
+        if claimed == (width, height):
+            picture = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), cv2.IMREAD_GRAYSCALE)
         if picture is None or picture.shape != (height, width):
-            size = "none" if picture is None else f"{picture.shape[1]} x {picture.shape[0]}"
+            size = "none" if claimed in (None, (width, height)) else f"{claimed[0]} x {claimed[1]}"
             raise InputError(
                 f"the profile's neutral picture of {name} is {size}, and the model takes {width} x {height}; calibrate "
                 f"again"

@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from regress.runtime.sample import Sample
 from regress.runtime.stages.output import Mirror
-from track.errors import InputError
+from track.errors import InputError, OutputError
 from track.messages import Command, Moment, Step
 from track.profile.profile import LARGEST_GAIN, SMALLEST_RANGE, Profile
 from track.session.calibration import Calibration, Outcome, faces_of
@@ -279,15 +279,19 @@ class Session:
             self._say("the eyes are centred on where they looked")
 
     def _record(self, wanted: bool) -> None:
-        if wanted and self._recording is None and self._new_recording is not None:
-            self._recording = self._new_recording()
-            self.sinks.append(self._recording)
-            self._say(f"recording {self._recording.title}")
-        elif not wanted and self._recording is not None:
-            self.sinks.remove(self._recording)
-            self._recording.close()
-            self._say(f"recorded {self._recording.title}")
-            self._recording = None
+        """Begin or end the page's recording; one that cannot be written takes nothing else along."""
+        try:
+            if wanted and self._recording is None and self._new_recording is not None:
+                self._recording = self._new_recording()
+                self.sinks.append(self._recording)
+                self._say(f"recording {self._recording.title}")
+            elif not wanted and self._recording is not None:
+                recording, self._recording = self._recording, None
+                self.sinks.remove(recording)
+                recording.close()
+                self._say(f"recorded {recording.title}")
+        except OutputError as error:
+            self._say(str(error))
 
     def close(self) -> None:
         """Let sinks and stages go: recordings are written whole, each whether or not another one can be."""

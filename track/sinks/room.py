@@ -135,7 +135,7 @@ class RoomSink(Sink):
             async with session.ws_connect(self._address, heartbeat=20) as socket:
                 await socket.send_str(json.dumps(self._join))
                 async for message in socket:
-                    answer = json.loads(message.data) if message.type is WSMsgType.TEXT else {}
+                    answer = _answer(message.data) if message.type is WSMsgType.TEXT else {}
                     if answer.get("kind") == "refused":
                         self._say(str(answer.get("text")))
                         return sending is not None, bool(answer.get("again"))
@@ -161,6 +161,21 @@ class RoomSink(Sink):
         if not self._told:
             self._told = True
             self._tell(f"{self.title}: {what}")
+
+
+def _answer(text: str) -> dict[str, object]:
+    """What a room says, as far as it is an object.
+
+    Raises
+    ------
+    ValueError
+        Where it is no JSON that can be taken in.
+    """
+    try:
+        answer = json.loads(text)
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
+    return answer if isinstance(answer, dict) else {}
 
 
 def open_sink(target: Target, tell: Tell) -> Sink:

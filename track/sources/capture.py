@@ -22,6 +22,9 @@ WAIT_S = 0.02
 LATE_S = 0.1
 """Older pictures do not go with the newest one: eyes and mouth would be of two faces."""
 
+_LOOK_EVERY_S = 0.25
+"""By which a wait for kept pictures sees that it was stopped; Windows gives a signal no other chance."""
+
 _LEAST_S = 1e-6
 
 
@@ -65,6 +68,7 @@ class Capture:
         self._start_s = time.monotonic() if any(each.endless for each in self._cameras.values()) else 0.0
         self._latest: dict[str, Picture] = {}
         self._last_s, self._count = -np.inf, 0
+        self._stopped = False
         for camera in self._cameras.values():
             camera.start()
 
@@ -79,7 +83,7 @@ class Capture:
             yield sample
 
     def read(self, within_s: float | None = None) -> Sample | None:
-        """The next moment, as soon as there is one; None where all films are over.
+        """The next moment, as soon as there is one; None where all films are over, or `stop` was called.
 
         Parameters
         ----------
@@ -101,16 +105,22 @@ class Capture:
         with self._news:
             while True:
                 self._raise_errors()
-                if all(camera.ended and camera.newest is None for camera in self._cameras.values()):
+                if self._stopped or all(
+                    camera.ended and camera.newest is None for camera in self._cameras.values()
+                ):
                     return None
                 wait_s = self._wait_s(until_s) if self.live else self._wait_for_all_s()
                 if wait_s is not None and wait_s <= 0:
                     return self._sample()
-                self._news.wait(wait_s)
+                self._news.wait(_LOOK_EVERY_S if wait_s is None else wait_s)
 
     def now_s(self) -> float:
         """What the clock of the samples' times shows now: less a sample's time, how old it is."""
         return max(camera.now_s() for camera in self._cameras.values()) - self._start_s
+
+    def stop(self) -> None:
+        """Let `read` give nothing more; from any thread or signal, which may not wait for a lock."""
+        self._stopped = True
 
     def close(self) -> None:
         """Let all cameras go."""

@@ -10,8 +10,10 @@ import time
 
 import pytest
 
-from tests.track.session.faces import SAMPLES
+from tests.track.session.faces import SAMPLES, frames
 from track.cli import main
+from track.messages import Command
+from track.session.session import Session
 
 CAMERAS = [
     word
@@ -76,3 +78,55 @@ def test_ctrl_c_ends_it_and_the_recording_is_whole(home):
     assert 1 <= len(table) < 100
     assert all(len(row) == len(table[0]) for row in table)
     assert list(home.glob(".part-*")) == []
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows sends no SIGINT to one process")
+def test_ctrl_c_ends_a_wait_for_the_next_line(home):
+    words = ["--camera", "-", "--fast", "--no-page", "--record", "take.csv", "--filter", "none"]
+    running = subprocess.Popen(
+        [sys.executable, "-m", "track", *words], stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    running.stdin.writelines(
+        " ".join(f"{value:.2f}" for value in sample.points.ravel()) + "\n" for sample in frames(0, 40)
+    )
+    running.stdin.flush()
+    until_s = time.monotonic() + 60
+    while not list(home.glob(".part-*")) and time.monotonic() < until_s:
+        time.sleep(0.1)
+    time.sleep(4)
+    running.send_signal(signal.SIGINT)
+    try:
+        running.wait(timeout=10)
+    finally:
+        running.kill()
+        told = running.stderr.read()
+        running.stdin.close()
+        running.stderr.close()
+    assert running.returncode == 0, told
+    assert "Traceback" not in told
+    assert len(rows(home / "take.csv")) == 40
+
+
+def test_a_profile_that_cannot_be_kept_ends_no_session_but_calibration(home, capsys, monkeypatch):
+    (home / "file").write_text("no folder")
+    for name in ("XDG_CONFIG_HOME", "HOME", "APPDATA", "LOCALAPPDATA"):
+        monkeypatch.setenv(name, str(home / "file"))
+    ask = Session.run
+
+    def run(session, *arguments, **options):
+        session.ask(Command(verb="mirror", value=True))
+        return ask(session, *arguments, **options)
+
+    monkeypatch.setattr(Session, "run", run)
+    ended = {}
+    for command in ("run", "calibrate"):
+        options = ["--no-page", "--record", "take.csv"] if command == "run" else []
+        monkeypatch.setattr(sys, "argv", ["track", command, *CAMERAS, "--fast", *options])
+        with pytest.raises(SystemExit) as end:
+            main()
+        ended[command] = end.value.code
+        told = capsys.readouterr().err
+        assert "internal error" not in told
+        assert told.count("cannot be written") == 1, told
+    assert ended == {"run": 0, "calibrate": 74}
+    assert len(rows("take.csv")) == 100

@@ -1,5 +1,9 @@
 """A headset's session: neutral pictures through the profile, and what the network traces, for the page."""
 
+import base64
+import struct
+import zlib
+
 import numpy as np
 import pytest
 
@@ -7,6 +11,19 @@ from tests.track.session.test_chaos import HEADSET, headset_frames, headset_sess
 from track.errors import InputError
 from track.messages import Command
 from track.profile.profile import NeutralFace, read_profile, write_profile
+
+
+def _chunk(name: bytes, content: bytes) -> bytes:
+    return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
+
+
+HUGE = base64.b64encode(
+    b"\x89PNG\r\n\x1a\n"
+    + _chunk(b"IHDR", struct.pack(">IIBBBBB", 20_000, 20_000, 8, 0, 0, 0, 0))
+    + _chunk(b"IDAT", zlib.compress(bytes(20_001 * 100)))
+    + _chunk(b"IEND", b"")
+).decode()
+"""A picture of some kB that wants 0.4 GB."""
 
 
 def test_a_neutral_face_is_the_same_after_a_profile_s_file(tmp_path):
@@ -41,6 +58,9 @@ def test_points_are_traced_where_somebody_looks():
     [
         (NeutralFace(detector="mediapipe"), "takes a headset's pictures"),
         (NeutralFace(pictures={"mouth": "AAAA"}), "no neutral picture of left_eye"),
+        (NeutralFace(pictures=dict.fromkeys(HEADSET, "AAAAA")), "left_eye is none, and the model"),
+        (NeutralFace(pictures=dict.fromkeys(HEADSET, "é")), "left_eye is none, and the model"),
+        (NeutralFace(pictures=dict.fromkeys(HEADSET, HUGE)), "left_eye is 20000 x 20000, and the model"),
         (
             NeutralFace(pictures=dict.fromkeys(HEADSET, "AAAA")),
             "left_eye is none, and the model takes 96 x 96",

@@ -13,6 +13,7 @@ from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
 from regress.runtime.stages.stage import Chain, Stage
 from tests.track.session.faces import Given, Kept, calibrated_profile, frames, new_session, talking_face
+from track.errors import OutputError
 from track.messages import Command
 from track.profile.profile import Profile
 
@@ -127,6 +128,28 @@ def test_the_page_s_recording_is_opened_and_closed():
     session.answer(frames(5, 6)[0])
     assert [len(each.samples) for each in made] == [4]
     assert made[0].closed
+    assert len(session.sinks) == 1
+
+
+def full() -> Kept:
+    raise OutputError("track-001.csv: no space left")
+
+
+class Full(Kept):
+    def close(self) -> None:
+        full()
+
+
+@pytest.mark.parametrize("new_recording", [full, Full])
+def test_a_recording_of_the_page_that_cannot_be_written_stops_nothing(new_recording):
+    said = []
+    session = new_session(new_recording=new_recording, said=said)
+    for value, sample in zip((True, False), frames(0, 2), strict=True):
+        session.ask(Command(verb="record", value=value))
+        (answer,) = session.answer(sample)
+        recording = session.moment(answer).settings["recording"]
+    assert [sentence for sentence in said if "no space left" in sentence] == ["track-001.csv: no space left"]
+    assert not recording
     assert len(session.sinks) == 1
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from aiohttp import web
 
 from room.protocol import Message, decode
 from room.protocol.texts import Changed
@@ -122,6 +123,42 @@ def test_a_room_that_is_away_is_told_once_and_costs_nothing():
     sink.close()
     assert len(told) == 1
     assert "nobody answers" in told[0]
+
+
+@pytest.mark.parametrize(
+    "word",
+    ["[1]", '"no"', "null", "[" * 100_000, "1" * 5000, '{"kind": "refused", "text": ["a"], "again": true}'],
+    ids=lambda word: word[:12],
+)
+def test_what_is_no_word_of_a_room_ends_no_thread(word, monkeypatch):
+    """pytest makes an error of an exception that nobody takes in a thread."""
+    monkeypatch.setattr("track.sinks.room.PAUSES_S", (0.02,))
+    told, calls = [], []
+
+    async def strange(request: web.Request) -> web.WebSocketResponse:
+        calls.append(1)
+        socket = web.WebSocketResponse()
+        await socket.prepare(request)
+        await socket.send_str(word)
+        await socket.close()
+        return socket
+
+    async def meet() -> None:
+        app = web.Application()
+        app.router.add_get("/room/a/socket", strange)
+        runner = web.AppRunner(app, access_log=None)
+        await runner.setup()
+        await web.TCPSite(runner, "127.0.0.1", 0).start()
+        link = f"http://127.0.0.1:{runner.addresses[0][1]}/room/a#{'k' * 22}.{'x' * 22}"
+        sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
+        while len(calls) < 3:
+            sink.send(acted())
+            await asyncio.sleep(0.02)
+        await asyncio.to_thread(sink.close)
+        await runner.cleanup()
+
+    asyncio.run(asyncio.wait_for(meet(), 10))
+    assert len(told) <= 1
 
 
 @pytest.mark.parametrize(
