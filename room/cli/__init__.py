@@ -1,8 +1,10 @@
 """The ``room`` command. Only this package prints: results to stdout, talk to stderr."""
 
-from facegen.extras import ROOM
+from facegen.extras import LEARN, ROOM
 from facegen.program import program, run
 from room import __version__
+from room.cli.export import export
+from room.cli.replay import replay
 from room.cli.serve import serve
 from room.cli.token import token
 from room.cli.vectors import vectors
@@ -15,9 +17,11 @@ app = program(
 )
 app.command()(serve)
 app.command()(token)
+app.command()(replay)
+app.command()(export)
 app.command()(vectors)
 
 
 def main() -> None:
     """Entry point of the console script."""
-    run(app, extras=(ROOM,))
+    run(app, extras=(ROOM, LEARN))

@@ -1,12 +1,15 @@
 """Defines ``room serve``."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from facegen.console import say
 from room.cli.links import RoomNames, print_links
+
+if TYPE_CHECKING:
+    from room.recording import Recorder
 
 
 def serve(
@@ -31,6 +34,12 @@ def serve(
     ] = None,
     turn_secret: Annotated[Path | None, typer.Option(help="File of coturn's static-auth-secret.")] = None,
     origin: Annotated[list[str] | None, typer.Option(help="https://HOST of a proxy in front.")] = None,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            help="New file for the states of those who agree: no voice, no pictures. For the one room of --room."
+        ),
+    ] = None,
 ) -> None:
     """Open rooms, print their links, and serve them until Ctrl-C.
 
@@ -39,11 +48,12 @@ def serve(
     from room.server import Address, Limits, Relays, Rooms, load_keys, new_keys
     from room.server import serve as run
 
+    recorder = _recorder(record, names)
     held = load_keys(keys) if keys else new_keys()
     secret = _secret(turn, turn_secret)
     relays = Relays(stun=tuple(stun or ()), turn=tuple(turn or ()), secret=secret)
     limits = Limits(people=people, rooms=rooms)
-    opened = Rooms(held, limits=limits, relays=relays, origins=frozenset(origin or ()))
+    opened = Rooms(held, limits=limits, relays=relays, origins=frozenset(origin or ()), recorder=recorder)
     address = Address(host=host, port=port, certificate=cert, private_key=key)
 
     def started(where: str) -> None:
@@ -54,7 +64,23 @@ def serve(
             )
         say("room: open; Ctrl-C stops it" + ("" if keys else ", and its links end with it (see --keys)"))
 
-    run(opened, address, started=started)
+    try:
+        run(opened, address, started=started)
+    finally:
+        if recorder:
+            recorder.close()
+
+
+def _recorder(record: Path | None, names: list[str]) -> "Recorder | None":
+    from room.errors import InputError
+    from room.recording import Recorder
+    from room.server.hall import HERTZ
+
+    if record is None:
+        return None
+    if len(names) != 1:
+        raise InputError(f"--record takes one room, and --room names {len(names)}; start a server for each")
+    return Recorder(record, room=names[0], hertz=HERTZ, ended=lambda text: say(f"room: {text}"))
 
 
 def _secret(turn: list[str] | None, file: Path | None) -> str:

@@ -46,7 +46,7 @@ class _Text(BaseModel):
 
 
 class Join(_Text):
-    """The first text of a connection."""
+    """The first text of a connection; ``recorded`` says that this person agrees to be recorded, if the room is."""
 
     kind: Literal["join"] = "join"
     version: Literal[1] = 1
@@ -56,6 +56,7 @@ class Join(_Text):
     avatar: Avatar = "plain"
     visit: Visit = ""
     role: Literal["page", "face"] = "page"
+    recorded: bool = False
 
 
 class Chat(_Text):
@@ -99,20 +100,28 @@ class Moderate(_Text):
     number: Number | None = None
 
 
+class Consent(_Text):
+    """Agrees to be recorded from now on, or no longer."""
+
+    kind: Literal["consent"] = "consent"
+    recorded: bool
+
+
 class Leave(_Text):
     """Goes for good: the place is not kept."""
 
     kind: Literal["leave"] = "leave"
 
 
-Said = Chat | Voice | Description | Candidate | Moderate | Leave
+Said = Chat | Voice | Description | Candidate | Moderate | Consent | Leave
 """What a person may say once they are in."""
 
 
 class Person(_Text):
     """One line of the roster.
 
-    ``number`` stands before each state of a tick; ``id`` is the same person's whenever they come back.
+    ``number`` stands before each state of a tick; ``id`` is the same person's whenever they come back. ``recorded`` are
+    those whose states go to the room's file, ``replayed`` those who come out of one.
     """
 
     number: Number
@@ -125,6 +134,8 @@ class Person(_Text):
     voice: bool
     muted: bool
     face: Literal["page", "program"]
+    recorded: bool
+    replayed: bool
 
 
 class IceServer(_Text):
@@ -147,8 +158,17 @@ class Welcome(_Text):
     locked: bool
     hertz: int
     shapes: tuple[str, ...]
+    recording: bool
+    replay: bool
     people: tuple[Person, ...]
     ice: tuple[IceServer, ...]
+
+
+class About(_Text):
+    """What a page may know before it comes in: whether the room is recorded, and whether it plays a recording."""
+
+    recording: bool
+    replay: bool
 
 
 class Changed(_Text):

@@ -10,7 +10,8 @@ from pathlib import Path
 from aiohttp import WSMessage, WSMsgType, web
 
 from room.errors import FormatError, NotAllowed
-from room.protocol.texts import MOST_TEXT_BYTES, Chat, Notice, read_join, read_said
+from room.protocol.texts import MOST_TEXT_BYTES, About, Chat, Notice, read_join, read_said
+from room.recording import Recorder
 from room.server.connection import PARTING_S, Connection
 from room.server.files import Files
 from room.server.hall import HERTZ, Hall, Part
@@ -26,6 +27,7 @@ from room.server.limits import (
     Limits,
 )
 from room.server.metrics import Metrics
+from room.server.replay import Replay
 from room.server.turn import Relays
 from room.state import Seat
 
@@ -53,11 +55,23 @@ class Rooms:
         What browsers are told for their voices.
     origins
         Of proxies in front of this server.
+    recorder
+        Records its one room; None where nothing is recorded.
+    replayed
+        Recording that every room of this server plays; None where people meet each other alone.
     """
 
     def __init__(
-        self, keys: Keys, *, limits: Limits, relays: Relays, origins: frozenset[str] = frozenset()
+        self,
+        keys: Keys,
+        *,
+        limits: Limits,
+        relays: Relays,
+        origins: frozenset[str] = frozenset(),
+        recorder: Recorder | None = None,
+        replayed: Path | None = None,
     ) -> None:
+        self._recorder, self._replayed = recorder, replayed
         self._keys, self._limits, self._relays, self._origins = keys, limits, relays, origins
         self._halls: dict[str, Hall] = {}
         self._sockets: set[web.WebSocketResponse] = set()
@@ -73,6 +87,7 @@ class Rooms:
         application.router.add_get("/health", self._health)
         application.router.add_get("/metrics", self._count)
         application.router.add_get("/room/{name}", self._page)
+        application.router.add_get("/room/{name}/about.json", self._about)
         application.router.add_get("/room/{name}/socket", self._socket)
         application.router.add_get("/static/{path:.+}", self._file)
         application.on_response_prepare.append(protect)
@@ -102,6 +117,18 @@ class Rooms:
         if not ROOM_NAME.fullmatch(request.match_info["name"]):
             raise web.HTTPNotFound(text="no room has such a name\n")
         return await self._files.answer(request, "room.html")
+
+    async def _about(self, request: web.Request) -> web.Response:
+        """What the page asks its person about before it comes in; needs no key, and says nothing of people."""
+        about = About(
+            recording=self._recorder_of(request.match_info["name"]) is not None,
+            replay=self._replayed is not None,
+        )
+        return web.Response(text=about.model_dump_json(), content_type="application/json")
+
+    def _recorder_of(self, name: str) -> Recorder | None:
+        recorder = self._recorder
+        return recorder if recorder and recorder.room == name and recorder.open else None
 
     async def _socket(self, request: web.Request) -> web.StreamResponse:
         name = request.match_info["name"]
@@ -170,7 +197,13 @@ class Rooms:
         if hall is None:
             if len(self._halls) >= self._limits.rooms:
                 raise NotAllowed(f"all {self._limits.rooms} rooms of this server are in use", again=True)
-            hall = self._halls[name] = Hall(name, most_people=self._limits.people, relays=self._relays)
+            hall = self._halls[name] = Hall(
+                name,
+                most_people=self._limits.people,
+                relays=self._relays,
+                recorder=self._recorder_of(name),
+                replay=Replay(self._replayed) if self._replayed else None,
+            )
         return hall
 
     async def _listen(
@@ -219,6 +252,7 @@ class Rooms:
             for name, hall in list(self._halls.items()):
                 hall.tick(now=now)
                 if hall.meeting.empty:
+                    hall.close()
                     del self._halls[name]
 
     async def _close(self, application: web.Application) -> None:

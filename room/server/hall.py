@@ -10,6 +10,7 @@ from room.protocol.texts import (
     Candidate,
     Changed,
     Chat,
+    Consent,
     Description,
     Door,
     Join,
@@ -17,13 +18,16 @@ from room.protocol.texts import (
     Left,
     Line,
     Moderate,
+    Notice,
     Said,
     Signal,
     Voice,
     Welcome,
 )
+from room.recording import Recorder
 from room.server.connection import Connection
 from room.server.limits import BURST_S, NEWCOMERS_PER_S, RETURNS_PER_S, Bucket
+from room.server.replay import Replay
 from room.server.turn import Relays
 from room.state import Meeting, Seat, identity
 
@@ -44,10 +48,23 @@ class Hall:
         Places.
     relays
         What browsers are told for their voices.
+    recorder
+        Takes the states of those who agreed; None where nobody is recorded.
+    replay
+        Brings people of a recording in; None for a room of the living alone.
     """
 
-    def __init__(self, name: str, *, most_people: int, relays: Relays) -> None:
+    def __init__(
+        self,
+        name: str,
+        *,
+        most_people: int,
+        relays: Relays,
+        recorder: Recorder | None = None,
+        replay: Replay | None = None,
+    ) -> None:
         self.name = name
+        self._recorder, self._replay = recorder, replay
         self.meeting = Meeting(most_people=most_people)
         self._relays = relays
         self._pages: dict[str, Connection] = {}
@@ -70,6 +87,9 @@ class Hall:
             older.refuse("you came in from another window", again=False)
         connections[seat.id] = connection
         page = join.role == "page"
+        if page:  # a program that moves a face has no say in this
+            seat.recorded = join.recorded and self._recorder is not None
+            self._record_roster()
         connection.say(
             Welcome(
                 room=self.name,
@@ -78,6 +98,8 @@ class Hall:
                 moderator=seat.moderator,
                 locked=self.meeting.locked,
                 hertz=HERTZ,
+                recording=self._recorder is not None,
+                replay=self._replay is not None,
                 shapes=BLENDSHAPES,
                 people=self.meeting.people,
                 ice=self._relays.servers(seat.id, now_s=time.time()) if page else (),
@@ -144,6 +166,12 @@ class Hall:
                 self._pass_on(seat, said)
             case Moderate():
                 self._moderate(seat, said)
+            case Consent():
+                if self._recorder is None:
+                    raise NotAllowed("this room is not recorded")
+                seat.recorded = said.recorded
+                self._record_roster()
+                self._tell(Changed(person=seat.person))
             case Leave():
                 self._free(seat)
 
@@ -151,10 +179,34 @@ class Hall:
         """Send what moved, and free places that nobody came back to."""
         for seat in self.meeting.expire(now=now):
             self._free(seat)
+        if self._replay:
+            for answer in self._replay.step(self.meeting, now=now):
+                self._tell(answer)
         content = self.meeting.tick(now=now)
         if content:
+            if self._recorder:
+                self._recorder.tick(content)
             for connection in self._pages.values():
                 connection.tick(content)
+        if self._recorder and not self._recorder.open:
+            self._end_recording()
+
+    def close(self) -> None:
+        """Let go of what is replayed."""
+        if self._replay:
+            self._replay.close()
+
+    def _record_roster(self) -> None:
+        if self._recorder:
+            self._recorder.roster(self.meeting.people)
+
+    def _end_recording(self) -> None:
+        self._recorder = None
+        self._tell(Notice(text="the recording has ended, and nobody is recorded any more"))
+        for person in self.meeting.people:
+            if person.recorded and (seat := self.meeting.seat(person.id)):
+                seat.recorded = False
+                self._tell(Changed(person=seat.person))
 
     def _connections(self, role: Part) -> dict[str, Connection]:
         return self._pages if role == "page" else self._programs
@@ -183,6 +235,7 @@ class Hall:
     def _free(self, seat: Seat, *, word: str = "you have left") -> None:
         self.meeting.leave(seat)
         self._returns.pop(seat.id, None)
+        self._record_roster()
         for connections in (self._pages, self._programs):
             if connection := connections.pop(seat.id, None):
                 connection.refuse(word, again=False)

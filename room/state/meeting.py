@@ -51,8 +51,8 @@ class Meeting:
 
     @property
     def empty(self) -> bool:
-        """Whether nobody has a place any more."""
-        return not self._seats
+        """Whether nobody has a place any more, but those of a recording."""
+        return all(seat.replayed for seat in self._seats.values())
 
     def seat(self, id: str) -> Seat | None:
         """The place of a person; None where they have none."""
@@ -80,12 +80,10 @@ class Meeting:
         if seat is None:
             if self.locked and not moderator:
                 raise NotAllowed("the room is locked; ask a moderator to open it", again=True)
-            if len(self._seats) >= self.most_people:
+            if sum(not other.replayed for other in self._seats.values()) >= self.most_people:
                 raise NotAllowed(f"the room is full; it has {self.most_people} places", again=True)
-            taken = {other.number for other in self._seats.values()}
-            number = next(number for number in itertools.count() if number not in taken)
             seat = Seat(
-                number=number,
+                number=self._free_number(),
                 id=id,
                 name=join.name,
                 avatar=join.avatar,
@@ -96,6 +94,24 @@ class Meeting:
         seat.name, seat.avatar, seat.visit, seat.moderator = join.name, join.avatar, join.visit, moderator
         seat.gone_at, seat.voice = None, False
         return seat
+
+    def replay(self, *, id: str, name: str, avatar: str) -> Seat:
+        """Give a place to somebody out of a recording, however full the room is."""
+        seat = Seat(
+            number=self._free_number(),
+            id=f"replay-{id}",  # no `identity` has such a name: nobody can come and be them
+            name=name,
+            avatar=avatar,
+            visit="",
+            moderator=False,
+            replayed=True,
+        )
+        self._seats[seat.id] = seat
+        return seat
+
+    def _free_number(self) -> int:
+        taken = {seat.number for seat in self._seats.values()}
+        return next(number for number in itertools.count() if number not in taken)
 
     def take(self, seat: Seat, message: bytes, *, program: bool, now: float) -> bool:
         """Keep somebody's state for the next tick; says whether another moves their face from now on.

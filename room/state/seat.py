@@ -29,6 +29,10 @@ class Seat:
         The same whenever they come back.
     gone_at
         When the page's connection ended, in the room's seconds; None while it is there.
+    recorded
+        Whether they agreed to be, in a room that is.
+    replayed
+        Whether they come out of a recording: nobody's page or voice is behind them.
     """
 
     number: int
@@ -40,6 +44,8 @@ class Seat:
     gone_at: float | None = None
     voice: bool = False
     muted: bool = False
+    recorded: bool = False
+    replayed: bool = False
     _waiting: list[bytes] = field(default_factory=list)
     _page: bytes | None = None
     _program: bytes | None = None
@@ -64,6 +70,8 @@ class Seat:
             voice=self.voice,
             muted=self.muted,
             face=self.face,
+            recorded=self.recorded,
+            replayed=self.replayed,
         )
 
     def take(self, message: bytes, *, program: bool, now: float) -> bool:

@@ -4,12 +4,14 @@ import asyncio
 import secrets
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
+from pathlib import Path
 
 from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, web
 
 from room.protocol import Message, decode, encode
 from room.protocol.texts import Answer, Join, Left, Refused, Welcome, read_answer
 from room.protocol.tick import unpack
+from room.recording import Recorder
 from room.server import Keys, Limits, Relays, Rooms, new_keys
 
 SOON_S = 5.0
@@ -123,10 +125,19 @@ async def open_room(
     origins: frozenset[str] = frozenset(),
     keys: Keys | None = None,
     port: int = 0,
+    recorder: Recorder | None = None,
+    replayed: Path | None = None,
 ) -> AsyncIterator[Place]:
     """A server in this process, on a free port unless one is named."""
     keys = keys or new_keys()
-    rooms = Rooms(keys, limits=limits or Limits(), relays=relays or Relays(), origins=origins)
+    rooms = Rooms(
+        keys,
+        limits=limits or Limits(),
+        relays=relays or Relays(),
+        origins=origins,
+        recorder=recorder,
+        replayed=replayed,
+    )
     runner = web.AppRunner(rooms.application(), access_log=None, shutdown_timeout=0.1)
     await runner.setup()
     await web.TCPSite(runner, "127.0.0.1", port).start()
@@ -136,3 +147,5 @@ async def open_room(
     finally:
         await place.session.close()
         await runner.cleanup()
+        if recorder:
+            recorder.close()

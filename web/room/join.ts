@@ -1,6 +1,7 @@
 /** The page before the room: name, avatar, microphone with its level, camera; and the link that it all comes from. */
 
 import { Microphone } from "./microphone.js";
+import type { About } from "./texts.js";
 
 /** What is behind a link: the room's name, and the key that the server never sees in an address. */
 export interface Link {
@@ -13,6 +14,7 @@ export interface Choice {
   readonly avatar: string;
   readonly microphone: Microphone | undefined;
   readonly camera: boolean;
+  readonly recorded: boolean;
 }
 
 /** -60 dB is silence on the meter, 0 dB its end. */
@@ -41,12 +43,22 @@ export function secretOf({ room }: Link): string {
   return secret;
 }
 
+/** What the room says to whoever is still outside; a server that says nothing is tried for by the line itself. */
+export async function about({ room }: Link): Promise<About> {
+  const answer = await fetch(`/room/${room}/about.json`, { cache: "no-store" }).catch(() => undefined);
+  return answer?.ok ? ((await answer.json()) as About) : { recording: false, replay: false };
+}
+
 /** Ask until the person presses "Come in". */
-export async function ask(avatars: string[]): Promise<Choice> {
+export async function ask(avatars: string[], { recording, replay }: About): Promise<Choice> {
   const form = document.querySelector<HTMLFormElement>("#join")!;
   const field = <T extends HTMLElement>(name: string): T => form.elements.namedItem(name) as T;
   const [name, avatar, voice] = [field<HTMLInputElement>("name"), field<HTMLSelectElement>("avatar"), field<HTMLInputElement>("voice")];
   const [devices, camera] = [field<HTMLSelectElement>("microphone"), field<HTMLInputElement>("camera")];
+  const consent = field<RadioNodeList & HTMLElement>("consent");
+  document.querySelector<HTMLElement>("#recording")!.hidden = !recording;
+  document.querySelector<HTMLElement>("#replayed")!.hidden = !replay;
+  for (const choice of document.querySelectorAll<HTMLInputElement>("#recording input")) choice.required = recording;
   const word = document.querySelector<HTMLElement>("#word")!;
   const level = document.querySelector<HTMLMeterElement>("#level")!;
   avatar.replaceChildren(...avatars.map((each) => new Option(each)));
@@ -88,7 +100,7 @@ export async function ask(avatars: string[]): Promise<Choice> {
   localStorage.setItem("name", name.value.trim());
   form.hidden = true;
   await microphone?.resume();
-  return { name: name.value.trim(), avatar: avatar.value, microphone, camera: camera.checked };
+  return { name: name.value.trim(), avatar: avatar.value, microphone, camera: camera.checked, recorded: recording && consent.value === "yes" };
 }
 
 /** What a browser's refusal of a device means. */

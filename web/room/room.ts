@@ -7,7 +7,7 @@ import { Wardrobe } from "./avatars.js";
 import { EYES_M, SEATED_M } from "./body.js";
 import { FaceCamera } from "./face.js";
 import { Figure } from "./figure.js";
-import { ask, randomText, readLink, secretOf, sentence } from "./join.js";
+import { about, ask, randomText, readLink, secretOf, sentence } from "./join.js";
 import { Line } from "./line.js";
 import { Idle, type OwnFace } from "./own.js";
 import { freePlace } from "./place.js";
@@ -64,7 +64,7 @@ class Meeting {
 
   constructor(
     address: string,
-    join: ConstructorParameters<typeof Line>[1],
+    private readonly join: ConstructorParameters<typeof Line>[1],
     private readonly microphone: Awaited<ReturnType<typeof ask>>["microphone"],
     private readonly faceLink: string,
   ) {
@@ -273,6 +273,13 @@ class Meeting {
     this.voice.meet(people, this.own.id);
     const lock = find<HTMLButtonElement>("lock");
     lock.hidden = !this.own.moderator;
+    const own = this.known.get(this.own.number)?.person;
+    const consent = find<HTMLButtonElement>("consent");
+    consent.hidden = !this.own.recording;
+    consent.textContent = own?.recorded ? "Record me no longer" : "Agree to be recorded";
+    const mark = find("mark");
+    mark.hidden = !this.own.replay && !own?.recorded;
+    mark.textContent = this.own.replay ? "Replay" : "You are recorded";
     lock.textContent = this.locked ? "Unlock the room" : "Lock the room";
   }
 
@@ -316,6 +323,11 @@ class Meeting {
       prompt("Copied. Run this on the machine with the camera or headset; whoever has this link moves your face:", command);
     });
     find("lock").addEventListener("click", () => this.line.say({ kind: "moderate", action: this.locked ? "unlock" : "lock" }));
+    find("consent").addEventListener("click", () => {
+      const recorded = !this.known.get(this.own?.number ?? -1)?.person.recorded;
+      this.join.recorded = recorded; // also after a break
+      this.line.say({ kind: "consent", recorded });
+    });
     find("leave").addEventListener("click", () => {
       this.line.leave();
       this.end("You have left. Load the page again to come back.");
@@ -351,13 +363,13 @@ async function main(): Promise<void> {
     find("join").querySelector("button")!.disabled = true;
     return;
   }
-  const choice = await ask(await Wardrobe.names());
+  const choice = await ask(await Wardrobe.names(), await about(link));
   const secret = secretOf(link);
   const visit = randomText(9);
   const { protocol, host, origin } = location;
   const meeting = new Meeting(
     `${protocol === "https:" ? "wss" : "ws"}://${host}/room/${link.room}/socket`,
-    { kind: "join", version: 1, key: link.key, secret, name: choice.name, avatar: choice.avatar, visit, role: "page" },
+    { kind: "join", version: 1, key: link.key, secret, name: choice.name, avatar: choice.avatar, visit, role: "page", recorded: choice.recorded },
     choice.microphone,
     `${origin}/room/${link.room}#${link.key}.${secret}`,
   );

@@ -56,12 +56,13 @@ export class Sidebar {
     const name = document.createElement("span");
     name.textContent = person.name + (self ? " (you)" : "");
     item.append(dot, name);
-    if (!self) item.append(this.volume(person));
+    if (!self && !person.replayed) item.append(this.volume(person));
     const words = [
       person.moderator ? "moderator" : "",
       person.present ? "" : "away",
-      person.muted ? "muted by a moderator" : person.voice ? "" : "microphone off",
+      person.replayed ? "replay" : person.muted ? "muted by a moderator" : person.voice ? "" : "microphone off",
       person.face === "program" ? "face by a program" : "",
+      person.recorded ? "recorded" : "",
     ].filter(Boolean);
     const small = document.createElement("small");
     small.textContent = words.join(" · ");

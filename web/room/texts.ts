@@ -12,6 +12,10 @@ export interface Person {
   voice: boolean;
   muted: boolean;
   face: "page" | "program";
+  /** Whether their states go to the room's file. */
+  recorded: boolean;
+  /** Whether they come out of one: no page and no voice is behind them. */
+  replayed: boolean;
 }
 
 export interface Description {
@@ -32,13 +36,20 @@ export interface Candidate {
 export type Act = "mute" | "unmute" | "remove" | "lock" | "unlock";
 
 export type Said =
-  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page" }
+  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page"; recorded: boolean }
   | { kind: "chat"; text: string }
   | { kind: "voice"; open: boolean }
   | Description
   | Candidate
   | { kind: "moderate"; action: Act; number?: number }
+  | { kind: "consent"; recorded: boolean }
   | { kind: "leave" };
+
+/** What a page asks before it comes in. */
+export interface About {
+  recording: boolean;
+  replay: boolean;
+}
 
 export interface Welcome {
   kind: "welcome";
@@ -49,6 +60,8 @@ export interface Welcome {
   locked: boolean;
   hertz: number;
   shapes: string[];
+  recording: boolean;
+  replay: boolean;
   people: Person[];
   ice: RTCIceServer[];
 }

@@ -72,7 +72,7 @@ export class Voice {
       if (gone) this.part(id);
     }
     for (const [id, person] of listed) {
-      if (id === own || !person.present) continue;
+      if (id === own || !person.present || person.replayed) continue;
       const peer = this.peers.get(id);
       if (peer) peer.number = person.number;
       else this.call(person, own < id);

@@ -1,0 +1,102 @@
+"""Reads a recording line by line; a last line that a killed server did not finish is left out."""
+
+import itertools
+from collections.abc import Generator
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import BaseModel, Field, TypeAdapter, ValidationError
+
+from facegen.conventions import BLENDSHAPES
+from facegen.refusals import refusal
+from room.errors import FormatError, InputError
+from room.protocol import check
+from room.recording.lines import MOST_LINE_BYTES, MOST_RECORDING_BYTES, Came, Event, Gone, Heading, Tick
+
+_HEADING = TypeAdapter(Heading)
+_EVENT: TypeAdapter[Event] = TypeAdapter(Annotated[Event, Field(discriminator="kind")])
+
+
+def read_recording(path: Path) -> Generator[Heading | Event, None, None]:
+    """Give the heading, then what happened, in its order.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it cannot be read.
+    FormatError
+        If it is too large, or a line is none: also one that goes back in time, or a state of nobody.
+    """
+    try:
+        if not path.is_file():
+            raise InputError(f"{path}: is no file; name a recording of `room serve --record`")
+        if path.stat().st_size > MOST_RECORDING_BYTES:
+            raise FormatError(
+                f"{path}: has {path.stat().st_size:,} bytes, and at most {MOST_RECORDING_BYTES:,}"
+            )
+        with path.open("rb") as file:
+            people: set[int] = set()
+            before = 0
+            for number in itertools.count(1):
+                content = file.readline(MOST_LINE_BYTES + 1)
+                if len(content) > MOST_LINE_BYTES:
+                    raise FormatError(f"{path}, line {number}: is longer than {MOST_LINE_BYTES:,} bytes")
+                if not content.endswith(b"\n"):  # the end, or what a killed server left of a line
+                    if number == 1:
+                        raise FormatError(f"{path}: is empty; a recording begins with a line that says so")
+                    return
+                try:
+                    line = (_HEADING if number == 1 else _EVENT).validate_json(content)
+                except ValidationError as error:
+                    known = Heading if number == 1 else BaseModel
+                    raise FormatError(f"{path}, line {number}: {refusal(error, known)}") from None
+                if isinstance(line, Heading):
+                    if line.shapes != BLENDSHAPES:
+                        raise FormatError(f"{path}, line 1: its shapes are not the 52 of this version")
+                else:
+                    if line.time_ms < before:
+                        raise FormatError(f"{path}, line {number}: is earlier than the line before it")
+                    before = line.time_ms
+                    _follow(people, line, f"{path}, line {number}")
+                yield line
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror or error})") from None
+
+
+def check_recording(path: Path) -> Heading:
+    """Read a recording whole, and give its heading.
+
+    Raises
+    ------
+    InputError, FormatError
+        As `read_recording`; also if nobody is in it.
+    """
+    lines = read_recording(path)
+    heading = next(lines)
+    assert isinstance(heading, Heading)
+    if not sum(isinstance(line, Tick) for line in lines):
+        raise FormatError(f"{path}: nobody moves in it; nobody agreed to be recorded")
+    return heading
+
+
+def _follow(people: set[int], event: Event, where: str) -> None:
+    """Hold a line against who is there.
+
+    Raises
+    ------
+    FormatError
+        If it is of nobody, or a state is none.
+    """
+    match event:
+        case Came():
+            people.add(event.number)
+        case Gone():
+            people.discard(event.number)
+        case Tick():
+            for number, state in event.states:
+                if number not in people:
+                    raise FormatError(f"{where}: has a state of number {number}, who is not there")
+                try:
+                    check(state)
+                except FormatError as error:
+                    raise FormatError(f"{where}: {error}") from None

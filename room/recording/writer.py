@@ -1,0 +1,130 @@
+"""Writes the states of those who agreed to be recorded, a line at a time, each whole on disk before the next."""
+
+import os
+import time
+from collections.abc import Callable, Iterable
+from io import FileIO
+from pathlib import Path
+
+from facegen.conventions import BLENDSHAPES
+from facegen.errors import OutputError
+from facegen.files import output_errors
+from room.errors import InputError
+from room.protocol.texts import Person
+from room.protocol.tick import unpack
+from room.recording.lines import MOST_RECORDING_BYTES, Came, Event, Gone, Heading, Tick
+
+
+class Recorder:
+    """One room's recording. Keeps nothing of anybody who did not agree, not even that they were there.
+
+    Parameters
+    ----------
+    path
+        Must not be there yet: what people agreed to is never written over.
+    room
+        Name of the only room that is recorded.
+    hertz
+        Ticks a second.
+    ended
+        Called with a sentence where the recording ends before the meeting: no space is left, or it is full.
+    most_bytes
+        Of the file.
+
+    Raises
+    ------
+    InputError
+        If the file is there already.
+    OutputError
+        If it cannot be made.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        *,
+        room: str,
+        hertz: int,
+        ended: Callable[[str], None],
+        most_bytes: int = MOST_RECORDING_BYTES,
+    ) -> None:
+        self.path, self.room = path, room
+        self._ended, self._most_bytes, self._bytes = ended, most_bytes, 0
+        self._known: dict[int, Came] = {}
+        self._began = time.monotonic()
+        try:
+            with output_errors(path):
+                # for its owner alone: faces of people, if as numbers
+                handle = os.open(
+                    path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o600
+                )
+        except OutputError as error:
+            if isinstance(error.__cause__, FileExistsError):
+                raise InputError(f"{path}: is there already; name another file for this recording") from None
+            raise
+        self._file: FileIO | None = FileIO(handle, "wb")
+        heading = Heading(room=room, began_s=time.time(), hertz=hertz, shapes=BLENDSHAPES)
+        self._put(self._file, heading.model_dump_json().encode())
+
+    @property
+    def open(self) -> bool:
+        """Whether lines are still written."""
+        return self._file is not None
+
+    def roster(self, people: Iterable[Person]) -> None:
+        """Note who is recorded from now on, and who no longer."""
+        now = self._now()
+        recorded = {
+            person.number: Came(
+                time_ms=now, number=person.number, id=person.id, name=person.name, avatar=person.avatar
+            )
+            for person in people
+            if person.recorded
+        }
+        for number in self._known.keys() - recorded.keys():
+            del self._known[number]
+            self._line(Gone(time_ms=now, number=number))
+        for number, came in recorded.items():
+            before = self._known.get(number)
+            if before is None or before.model_copy(update={"time_ms": now}) != came:
+                self._known[number] = came
+                self._line(came)
+
+    def tick(self, content: bytes) -> None:
+        """Keep what the room sends to all, of those who are recorded."""
+        _, states = unpack(content)
+        kept = tuple((number, state) for number, state in states if number in self._known)
+        if kept:
+            # they were checked when they came in
+            self._line(Tick.model_construct(time_ms=self._now(), states=kept))
+
+    def close(self) -> None:
+        """End the file."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+    def _now(self) -> int:
+        return int((time.monotonic() - self._began) * 1000)
+
+    def _line(self, event: Event) -> None:
+        if self._file is None:
+            return
+        line = event.model_dump_json().encode()
+        if self._bytes + len(line) >= self._most_bytes:
+            self.close()
+            self._ended(f"{self.path}: is full, with {self._most_bytes:,} bytes; the recording has ended")
+            return
+        try:
+            self._put(self._file, line)
+        except OutputError as error:
+            self.close()
+            self._ended(f"{error}; the recording has ended, and the meeting goes on")
+
+    def _put(self, file: FileIO, line: bytes) -> None:
+        """Hand a line to the system, which keeps it whatever becomes of this process."""
+        left = memoryview(line + b"\n")
+        self._bytes += len(left)
+        with output_errors(self.path):
+            while left:
+                left = left[file.write(left) :]
