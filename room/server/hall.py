@@ -158,7 +158,8 @@ class Hall:
             case Chat():
                 if seat.muted:
                     raise NotAllowed("a moderator has muted you", again=True)
-                self._tell(Line(number=seat.number, name=seat.name, text=said.text, time_s=time.time()))
+                if said.text:
+                    self._tell(Line(number=seat.number, name=seat.name, text=said.text, time_s=time.time()))
             case Voice():
                 seat.voice = said.open
                 self._tell(Changed(person=seat.person))

@@ -32,6 +32,12 @@ def test_a_join_is_read():
         {"name": "a" * 41},
         {"name": "two\nlines"},
         {"name": "right\u202eleft"},
+        {"name": "right\u061cleft"},
+        {"name": "two\u2028lines"},
+        {"name": "two\x85lines"},
+        {"name": "Ada\u200b"},
+        {"name": "\ufeffAda"},
+        {"name": "\u2060"},
         {"name": 7},
         {"avatar": "../../etc/passwd"},
         {"avatar": "https://elsewhere.example/a.glb"},
@@ -87,5 +93,21 @@ def test_any_text_is_a_line_of_chat_or_refused(text):
     except FormatError:
         return
     assert isinstance(said, Chat)
-    assert said.text == text.strip()
+    assert said.text == said.text.strip()
+    assert set(said.text) <= set(text) | {" "}
     assert not any(ord(character) < 32 for character in said.text)
+
+
+@pytest.mark.parametrize(
+    ("pasted", "line"),
+    [
+        ("C:\\\u200emeeting", "C:\\meeting"),  # Windows' own window of a file's properties puts that there
+        ("two\nlines\u2028and a third", "two lines and a third"),
+        ("a\u200bb\ufeff", "ab"),
+        ("\u202eback", "back"),
+        ("family \U0001f469\u200d\U0001f467", "family \U0001f469\u200d\U0001f467"),
+        ("\u200b", ""),
+    ],
+)
+def test_what_people_paste_into_a_line_ends_no_connection(pasted, line):
+    assert read_said(json.dumps({"kind": "chat", "text": pasted})).text == line

@@ -65,6 +65,14 @@ def test_a_person_reads_a_line_each(webcams: Path):
     assert lines == [" 0  HD Webcam  320 x 240", f" 4  Mouth Tracker  {NO_PICTURE}"]
 
 
+def test_a_camera_s_name_is_text_alone(webcams: Path):
+    """Whatever is plugged in says its name itself."""
+    (webcams / "video0" / "name").write_text("HD \x1b]0;yours\x07Webcam", encoding="utf-8")
+    done = CliRunner().invoke(app, ["devices"])
+    assert "Webcam" in done.stdout
+    assert not {"\x1b", "\x07"} & set(done.stdout)
+
+
 def test_no_camera_is_said_in_one_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ):

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.console import say
+from facegen.console import one_line, say
 
 
 def devices(
@@ -30,5 +30,12 @@ def devices(
     for each in seen:
         size = f"{each.width} x {each.height}" if each.fault is None else each.fault
         print(
-            "  ".join([f"{each.number:2}", each.name, size, *([str(each.picture)] if each.picture else [])])
+            "  ".join(
+                [
+                    f"{each.number:2}",
+                    one_line(each.name),
+                    size,
+                    *([str(each.picture)] if each.picture else []),
+                ]
+            )
         )

@@ -15,6 +15,7 @@ def list_profiles() -> None:
 
     Example: track profiles list
     """
+    from facegen.console import one_line
     from track.profile.places import profile_folder, stored_profiles
 
     found = stored_profiles()
@@ -22,7 +23,7 @@ def list_profiles() -> None:
         known = ["neutral face"] if profile.neutral is not None else []
         known += [f"{len(profile.ranges)} ranges"] if profile.ranges else []
         known += [f"{len(profile.gains)} gains"] if profile.gains else []
-        typer.echo(f"{name}  {profile.camera}  {', '.join(known) or 'empty'}")
+        typer.echo(f"{name}  {one_line(profile.camera)}  {', '.join(known) or 'empty'}")
     if not found:
         typer.echo(f"no profile in {profile_folder()}; track calibrate makes one", err=True)
 
@@ -33,12 +34,14 @@ def show(name: NameArgument) -> None:
 
     Example: track profiles show me
     """
+    from facegen.console import one_line
     from track.profile.places import stored_path
     from track.profile.profile import read_profile
 
     path = stored_path(name)
     profile = read_profile(path)
-    typer.echo(f"{path}: {profile.person}, {profile.camera}{', mirrored' if profile.mirror else ''}")
+    who = one_line(f"{profile.person}, {profile.camera}")
+    typer.echo(f"{path}: {who}{', mirrored' if profile.mirror else ''}")
     if profile.model is not None:
         typer.echo(f"model: {profile.model.kind} {profile.model.sha256[:12]}")
     if profile.neutral is not None:
@@ -46,7 +49,7 @@ def show(name: NameArgument) -> None:
         what = (
             f"{frames} frames of {profile.neutral.detector}" if frames else f"pictures of {pictures} cameras"
         )
-        typer.echo(f"neutral face: {what}")
+        typer.echo(one_line(f"neutral face: {what}"))
     for shape, reading in profile.ranges.items():
         typer.echo(f"range  {shape:<20} {reading:.2f}")
     for shape, gain in profile.gains.items():

@@ -117,10 +117,11 @@ class LandmarkPipeline(Pipeline):
                 f"the profile's neutral face is of the detector {neutral.detector}, which puts points elsewhere than "
                 f"{self._detector_name}; calibrate again, or name another profile"
             )
-        self.stages.pop("auto", None)
-        self.stages["head"] = _Head(neutral)
+        # first, as it refuses points that are no face
         if self._model.calibrated is not None:
             self.stages["networks"] = _QuickNetworks(self._model.calibrate(points))
+        self.stages["head"] = _Head(neutral)
+        self.stages.pop("auto", None)
 
     def points(self, sample: Sample) -> Mapping[str, np.ndarray]:
         """The landmarks, on the one picture."""

@@ -206,8 +206,10 @@ def _linearised(
     apart = np.where(before[..., None], weight[..., None] * (seen - np.stack([u, v], axis=2)), _BEHIND)
     prior = np.zeros((count, modes, 6 + modes))
     prior[:, range(modes), range(6, 6 + modes)] = 1.0
-    residual = np.concatenate([apart.reshape(count, -1), -poses.coefficients], axis=1)
-    return residual, np.concatenate([jacobian.reshape(count, -1, 6 + modes), prior], axis=1)
+    residual = np.concatenate([apart.reshape(count, 2 * len(shape.points)), -poses.coefficients], axis=1)
+    return residual, np.concatenate(
+        [jacobian.reshape(count, 2 * len(shape.points), 6 + modes), prior], axis=1
+    )
 
 
 def _moved(poses: HeadPoses, move: np.ndarray) -> HeadPoses:

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from track.cli import app
 from track.errors import InputError
 from track.profile import places
 from track.profile.places import person_of, profile_path, stored_path, stored_profiles
@@ -115,6 +117,16 @@ def test_each_person_and_camera_has_a_file(folder):
     assert person_of(folder / "anna.camera-0.toml") == "anna"
     with pytest.raises(InputError, match="neither a file"):
         profile_path("../anna", "camera 0")
+
+
+@pytest.mark.parametrize("command", [["list"], ["show", "eve"]])
+def test_a_profile_writes_nothing_to_the_terminal_but_text(folder, command):
+    """A title of the window, or what else a terminal would act on."""
+    write_profile(folder / "eve.x.toml", Profile(person="eve", camera="\x1b]0;yours\x07camera \x9b31m"))
+    done = CliRunner().invoke(app, ["profiles", *command])
+    assert done.exit_code == 0
+    assert "camera" in done.stdout
+    assert not {"\x1b", "\x07", "\x9b"} & set(done.stdout)
 
 
 def test_stored_profiles_are_found_by_their_person(folder):

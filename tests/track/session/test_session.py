@@ -1,5 +1,6 @@
 """A session over a talking face: answers, commands, calibration, profiles."""
 
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -13,9 +14,11 @@ from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
 from regress.runtime.stages.stage import Chain, Stage
 from tests.track.session.faces import Given, Kept, calibrated_profile, frames, new_session, talking_face
-from track.errors import OutputError
+from track.errors import InputError, OutputError
 from track.messages import Command
-from track.profile.profile import Profile
+from track.profile.profile import NeutralFace, Profile, lines_of
+
+NOISE = np.random.default_rng(0).normal(size=(68, 2))
 
 
 def test_answers_without_a_filter_are_those_of_predict():
@@ -167,6 +170,22 @@ def test_commands_that_mean_nothing_stop_nothing(command):
     session = new_session()
     session.ask(command)
     assert len(session.answer(frames(0, 1)[0])) == 1
+
+
+@pytest.mark.parametrize(
+    "points",
+    [np.zeros((68, 2)), np.full((68, 2), 5.0), np.stack([np.arange(68.0)] * 2, axis=1), NOISE * 1e7],
+    ids=["nothing", "one point", "a line", "noise"],
+)
+def test_a_neutral_face_that_is_none_is_refused_or_costs_nothing_else(points):
+    """A profile is a file that may come from anywhere."""
+    neutral = NeutralFace(detector="points", points=lines_of(points[None], places=2))
+    session = new_session()
+    with suppress(InputError):
+        session.pipeline.use_neutral(neutral)
+    for sample in frames(0, 3):
+        irises = sample.points[[37, 44]]
+        assert len(session.answer(replace(sample, head=None, irises=irises))) == 1
 
 
 def test_what_is_measured_has_each_stage():
