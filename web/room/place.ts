@@ -91,9 +91,13 @@ export function makePlace(): Group {
 
 export const BACKGROUND = new Color(0xd9d4c9);
 
-/** Where a newcomer stands: the first place around the table, then around those, that is free; looking at its middle. */
-export function freePlace(taken: readonly (readonly [number, number])[]): { x: number; z: number; heading: number } {
-  for (let ring = 0; ; ring++) {
+/**
+ * Where a newcomer stands: the first place around the table, then around those, that is free; looking at its middle.
+ *
+ * Who looks at a replay begins with the second `ring`: people of a recording come to the first whoever stands there.
+ */
+export function freePlace(taken: readonly (readonly [number, number])[], ring = 0): { x: number; z: number; heading: number } {
+  for (; ; ring++) {
     for (const order of ORDER) {
       const turn = ((order + ring / 2) / ORDER.length) * 2 * Math.PI;
       const radius = CIRCLE + ring * 2 * BODY;

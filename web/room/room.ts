@@ -212,7 +212,7 @@ class Meeting {
   private stand(now: number): boolean {
     if (!this.placed && now > this.placedBy) {
       const places = [...this.known.values()].flatMap(({ newest }) => (newest ? [newest.floor_m] : []));
-      Object.assign(this.walk, freePlace(places.map((place) => [place[0]!, place[1]!])));
+      Object.assign(this.walk, freePlace(places.map((place) => [place[0]!, place[1]!]), this.own?.replay ? 1 : 0));
       this.placed = true;
     }
     return this.placed;

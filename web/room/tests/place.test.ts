@@ -17,6 +17,16 @@ test("twenty people who come one by one all have room", () => {
   }
 });
 
+test("who looks at a replay stands behind the first eight, whoever comes later", () => {
+  const table: [number, number][] = [];
+  for (let person = 0; person < 8; person++) {
+    const { x, z } = freePlace(table);
+    table.push([x, z]);
+  }
+  const { x, z } = freePlace([], 1);
+  for (const [otherX, otherZ] of table) assert.ok(Math.hypot(x - otherX, z - otherZ) >= 0.69);
+});
+
 test("a hundred people are placed as well", () => {
   const taken: [number, number][] = [];
   for (let person = 0; person < 100; person++) {
