@@ -40,6 +40,7 @@ export class Voice {
   readonly context = new AudioContext();
   private readonly peers = new Map<string, Peer>();
   private readonly volumes = new Map<string, number>();
+  private readonly muted = new Set<string>();
   private microphone: MediaStream | undefined;
   private ice: RTCIceServer[] = [];
 
@@ -139,8 +140,7 @@ export class Voice {
   /** How loud somebody is here; 1 is as they are. */
   setVolume(id: string, volume: number): void {
     this.volumes.set(id, volume);
-    const gain = this.peers.get(id)?.gain;
-    if (gain) gain.gain.value = volume;
+    this.setMuted(id, this.muted.has(id));
   }
 
   volume(id: string): number {
@@ -149,6 +149,7 @@ export class Voice {
 
   /** What a moderator's mute does: nobody's page plays them. */
   private setMuted(id: string, muted: boolean): void {
+    this.muted[muted ? "add" : "delete"](id);
     const gain = this.peers.get(id)?.gain;
     if (gain) gain.gain.value = muted ? 0 : this.volume(id);
   }
