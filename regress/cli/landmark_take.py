@@ -95,7 +95,9 @@ def predict_file(
 def is_film(time_s: np.ndarray | None) -> bool:
     """Whether frames at these times (n,) follow one another as a camera's do."""
     slowest, quickest = FILM_FPS
-    return slowest <= frames_a_second(time_s) <= quickest and np.mean(np.diff(time_s) > 0) >= IN_ORDER
+    if not slowest <= frames_a_second(time_s) <= quickest:
+        return False
+    return bool(np.mean(np.diff(time_s) > 0) >= IN_ORDER)
 
 
 def frames_a_second(time_s: np.ndarray | None) -> float:

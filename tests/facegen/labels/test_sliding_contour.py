@@ -105,7 +105,7 @@ def test_is_written_checked_and_packed_where_the_spec_asks(anny: Rig, tmp_path: 
     assert generate(dataset, workers=1).left == 0
     assert list(check_shard(dataset, 0)) == []
     write_pack(plan_pack(dataset, "keypoints", Options(columns=("contour_2d",))), tmp_path / "pack")
-    packed = pq.read_table(tmp_path / "pack" / "shard-000000.parquet")
+    packed = pq.read_table(sorted((tmp_path / "pack").glob("*.parquet"))).sort_by("sample")
     np.testing.assert_array_equal(
         column_array(packed, "contour_2d"), labels.further["contour_2d"].astype(np.float32)
     )
