@@ -16,6 +16,9 @@ MOST_RECORDING_BYTES = 1024**3
 MOST_LINE_BYTES = 8 * 1024**2
 """Of one line: 1,000 people after a second's stall, 32 states each, are half of it."""
 
+MOST_AT_ONCE = 1000
+"""People in it at one time: as many as `room serve --people` takes. A replay gives each a place."""
+
 Time = Annotated[int, Field(ge=0, le=2**40)]
 """Milliseconds since the recording began, at most 34 years."""
 

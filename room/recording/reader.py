@@ -11,7 +11,16 @@ from facegen.conventions import BLENDSHAPES
 from facegen.refusals import refusal
 from room.errors import FormatError, InputError
 from room.protocol import check
-from room.recording.lines import MOST_LINE_BYTES, MOST_RECORDING_BYTES, Came, Event, Gone, Heading, Tick
+from room.recording.lines import (
+    MOST_AT_ONCE,
+    MOST_LINE_BYTES,
+    MOST_RECORDING_BYTES,
+    Came,
+    Event,
+    Gone,
+    Heading,
+    Tick,
+)
 
 _HEADING = TypeAdapter(Heading)
 _EVENT: TypeAdapter[Event] = TypeAdapter(Annotated[Event, Field(discriminator="kind")])
@@ -85,11 +94,13 @@ def _follow(people: set[int], event: Event, where: str) -> None:
     Raises
     ------
     FormatError
-        If it is of nobody, or a state is none.
+        If it is of nobody, or of one more than a room has, or a state is none.
     """
     match event:
         case Came():
             people.add(event.number)
+            if len(people) > MOST_AT_ONCE:
+                raise FormatError(f"{where}: has more than {MOST_AT_ONCE:,} people at one time")
         case Gone():
             people.discard(event.number)
         case Tick():

@@ -1,6 +1,7 @@
 """A recorded room over real WebSockets: who is in the file, what a killed server leaves, and its replay."""
 
 import asyncio
+import base64
 import json
 import os
 import subprocess
@@ -269,6 +270,9 @@ BAD = {
     "back in time": GOOD + CAME + '{"kind":"gone","time_ms":4,"number":0}\n',
     "a name that turns the line": GOOD + CAME.replace("Ada", "\\u202eAda"),
     "nobody moves": GOOD + CAME,
+    "more people than a room has": GOOD
+    + "".join(CAME.replace('"number":0', f'"number":{number}') for number in range(1001))
+    + f'{{"kind":"tick","time_ms":5,"states":[[0,"{base64.b64encode(encode(Message())).decode()}"]]}}\n',
 }
 
 
