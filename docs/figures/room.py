@@ -1,5 +1,7 @@
 """Draws docs/pictures/room.png: a meeting as one of the people in it sees it, in a real browser without a camera.
 
+And docs/pictures/room-studies.png: what the page asks before a recorded meeting, beside the replay of that meeting.
+
     python docs/figures/room.py
 
 The others are programs that send states: a smile, a word, raised brows, gestures. Needs Chromium, and the avatars of
@@ -9,17 +11,23 @@ The others are programs that send states: a smile, a word, raised brows, gesture
 import asyncio
 import math
 import sys
+import tempfile
 from pathlib import Path
+
+import cv2
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES  # noqa: E402
+from room.recording import Recorder  # noqa: E402
 from room.server.application import STATIC  # noqa: E402
+from room.server.hall import HERTZ  # noqa: E402
 from tests.browser import chromium  # noqa: E402
-from tests.room.guests import Guest, open_room  # noqa: E402
+from tests.room.guests import Guest, Place, open_room  # noqa: E402
 
 OUT = ROOT / "docs/pictures/room.png"
+STUDIES = ROOT / "docs/pictures/room-studies.png"
 SIZE = {"width": 1280, "height": 800}
 
 SMILE = {"mouthSmileLeft": 0.8, "mouthSmileRight": 0.8, "cheekSquintLeft": 0.5, "cheekSquintRight": 0.5}
@@ -102,5 +110,50 @@ async def main() -> None:
             task.cancel()
 
 
+def _link(place: Place) -> str:
+    return f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+
+
+async def replayed() -> None:
+    """Record them for half a minute, and draw the question and the replay."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "meeting.jsonl"
+        asked, shown = (str(Path(folder) / name) for name in ("asked.png", "shown.png"))
+        recorder = Recorder(path, room="meeting", hertz=HERTZ, ended=sys.exit)
+        async with chromium(
+            "--use-fake-ui-for-media-stream", "--use-fake-device-for-media-stream"
+        ) as browser:
+            async with open_room(recorder=recorder) as place, browser.open(_link(place)) as tab:
+                staying = [
+                    asyncio.create_task(
+                        _stay(await place.guest(name=name, recorded=True, avatar=each["avatar"]), each)
+                    )
+                    for name, each in OTHERS.items()
+                ]
+                await tab.look(width=520, height=880)
+                await tab.until("document.querySelector('#recording').checkVisibility()")
+                await tab.ask("document.querySelector('#join').elements.name.value = 'Ada'")
+                await asyncio.sleep(25)
+                await tab.picture(Path(asked))
+                for task in staying:
+                    task.cancel()
+            async with open_room(replayed=path) as place, browser.open(_link(place)) as tab:
+                await tab.look(width=1080, height=880)
+                await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+                await tab.ask(
+                    "(() => { const form = document.querySelector('#join'); form.elements.name.value = 'Viewer';"
+                    " if (form.elements.voice.checked) form.elements.voice.click(); form.requestSubmit(); })()"
+                )
+                await tab.until(f"meeting.known?.size === {len(OTHERS) + 1}", 30)
+                looking = f"{{ x: {EYE[0]}, z: {EYE[1] + 0.7}, heading: Math.PI - 0.2, pitch: -0.05 }}"
+                await tab.until("meeting.placed")
+                await tab.ask(f"void Object.assign(meeting.walk, {looking})")
+                await asyncio.sleep(8)
+                await tab.picture(Path(shown))
+        cv2.imwrite(str(STUDIES), cv2.hconcat([cv2.imread(asked), cv2.imread(shown)]))
+        print(STUDIES.relative_to(ROOT))
+
+
 if __name__ == "__main__":
     asyncio.run(main())
+    asyncio.run(replayed())

@@ -11,7 +11,7 @@ from pydantic import Base64Bytes, BaseModel, ConfigDict, Field
 from room.protocol.texts import Avatar, Name, Number, RoomName
 
 MOST_RECORDING_BYTES = 1024**3
-"""Of one file: eight people fill it in nine hours. Then the recording ends, and the meeting goes on."""
+"""Of one file: eight people fill it in nine and a half hours. Then the recording ends, and the meeting goes on."""
 
 MOST_LINE_BYTES = 8 * 1024**2
 """Of one line: 1,000 people after a second's stall, 32 states each, are half of it."""
