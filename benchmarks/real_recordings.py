@@ -9,9 +9,9 @@ d. small movements: winks, a turned head, a still face, slight movements (`small
 e. the other way: networks that compare, of the same recipe, trained on faces of the ICT rig (fewer: `--other-people`);
    the takes are played by people of the rig that the model learned on.
 
-Every prediction compares with a neutral frame. Always saying zero, and two ridge regressions on the same features, told
-the same neutral frame, are the floors: one is trained on the dataset's rows, the other on the very rows that the
-networks saw, displaced as detectors displace points. The ICT rig is built by `facegen rig build ict --path CLONE`.
+Predictions compare with a neutral frame but where the table says without. Always saying zero, and two ridge
+regressions on the same features, told the same neutral frame, are the floors: one is trained on the dataset's rows, the
+other on the very rows that the networks saw, displaced as detectors displace points. The ICT rig is built by `facegen rig build ict --path CLONE`.
 """
 
 import argparse
@@ -125,9 +125,9 @@ def tell_replay(rows: list[dict]) -> None:
     print("Ridge: on the dataset's rows / on the networks' rows.\n")
     print(
         "| take | noise, px | bias | MAE model / ridge / ridge / zero | over all shapes | median r "
-        "| median r, visible | lowest r, visible |"
+        "| median r, visible | lowest r, visible | without a neutral face: MAE, median r |"
     )
-    print("|---|---|---|---|---|---|---|---|")
+    print("|---|---|---|---|---|---|---|---|---|")
     for row in rows:
         found = visible(row["model"])
         lowest = min(found, key=lambda name: found[name]["r"])
@@ -136,7 +136,7 @@ def tell_replay(rows: list[dict]) -> None:
             f"| {row['take']} | {row['noise_px']:g} | {'yes' if row['bias'] else 'no'} | "
             f"{' / '.join(f'{mean_mae(row[who]):.3f}' for who in EVERYONE)} | "
             f"{overall} | {_beside_ridges(row, lambda figures: figures)} | {_beside_ridges(row, visible)} | "
-            f"{lowest} {found[lowest]['r']:.2f} |"
+            f"{lowest} {found[lowest]['r']:.2f} | {mean_mae(row['alone']):.3f}, {median_r(row['alone']):.2f} |"
         )
 
 

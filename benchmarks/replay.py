@@ -90,15 +90,19 @@ def replay(
     noises: Sequence[float] = NOISE_PX,
     biased: Sequence[bool] = (False, True),
 ) -> list[dict]:
-    """A row for every take, bias and noise; ``all`` holds mean absolute errors over all shapes, moving or not."""
+    """A row for every take, bias and noise; ``all`` holds mean absolute errors over all shapes, moving or not.
+
+    ``model`` knows the neutral frames, as the ridges do; ``alone`` is the same model without them.
+    """
     rows = []
     for take in played:
         true = np.broadcast_to(take.weights, (len(take.exact), *take.weights.shape))
         for bias in biased:
             for noise_px in noises:
-                answers = {name: [] for name in ("model", *ridges)}
+                answers = {name: [] for name in ("model", "alone", *ridges)}
                 for neutral, frames in take.seen(noise_px, biased=bias):
                     answers["model"].append(model.calibrate(neutral).predict(frames))
+                    answers["alone"].append(model.predict(frames))
                     for name, ridge in ridges.items():
                         answers[name].append(predict_ridge(ridge, model, frames, neutral))
                 stacked = {name: np.stack(each) for name, each in answers.items()} | {
