@@ -11,7 +11,8 @@ e. the other way: networks that compare, of the same recipe, trained on faces of
 
 Predictions compare with a neutral frame but where the table says without. Always saying zero, and two ridge
 regressions on the same features, told the same neutral frame, are the floors: one is trained on the dataset's rows, the
-other on the very rows that the networks saw, displaced as detectors displace points. The ICT rig is built by `facegen rig build ict --path CLONE`.
+other on the very rows that the networks saw, displaced as detectors displace points. The ICT rig is built by
+`facegen rig build ict --path CLONE`.
 """
 
 import argparse
