@@ -2,9 +2,9 @@
 
 import importlib
 
-__version__ = "0.1.0"
+from facegen.version import __version__
 
-__all__ = ["load_rig", "open_dataset"]
+__all__ = ["__version__", "load_rig", "open_dataset"]
 
 _HOMES = {"load_rig": "facegen.rigs", "open_dataset": "facegen.store"}
 

@@ -17,6 +17,7 @@ from facegen.children import answer_stops
 from facegen.console import hang_up, say
 from facegen.errors import ExitCode, FacegenError, InputError
 from facegen.extras import Extra, missing_extra
+from facegen.version import __version__
 
 if TYPE_CHECKING:
     import typer
@@ -33,12 +34,12 @@ _IMPORTS = "<frozen importlib._bootstrap>"
 _STOPPED = "stopped; run the same command again"
 
 
-def program(name: str, *, version: str, about: str, libraries: tuple[str, ...]) -> "typer.Typer":
+def program(name: str, *, about: str, libraries: tuple[str, ...]) -> "typer.Typer":
     """Make a program without commands; it has ``--version``, and shows its help where nothing is asked of it.
 
     Parameters
     ----------
-    name, version
+    name
         Of the program.
     about
         Sentence at the top of its help.
@@ -58,7 +59,7 @@ def program(name: str, *, version: str, about: str, libraries: tuple[str, ...]) 
 
     def print_version(asked: bool) -> None:
         if asked:
-            typer.echo(f"{name} {version} ({_versions(libraries)})")
+            typer.echo(f"{name} {__version__} ({_versions(libraries)})")
             raise typer.Exit
 
     flag = typer.Option(

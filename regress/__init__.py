@@ -3,11 +3,11 @@
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from facegen.version import __version__
+
 if TYPE_CHECKING:
     from regress.learning.training.estimator import LevenbergMarquardtRegressor
     from regress.runtime.model import Model, load_model
-
-__version__ = "0.1.0"
 
 __all__ = ["LevenbergMarquardtRegressor", "Model", "__version__", "load_model"]
 

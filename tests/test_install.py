@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -137,6 +138,13 @@ def test_the_wheel_holds_programs_and_models_and_no_tests(wheel: Path):
         assert {f"regress/models/{name}/{file}" for file in ("model.json", "CARD.md")} < set(names)
     assert f"regress/models/{LANDMARKS}/weights.npz" in names
     assert not [name for name in names if name.endswith((".pyc", ".parquet"))]
+
+
+def test_a_release_has_one_number(wheel: Path):
+    number = wheel.name.split("-")[1]
+    assert f"\nversion: {number}\n" in (ROOT / "CITATION.cff").read_text()
+    releases = re.findall(r"^## (\d\S*)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
+    assert releases[0] == number
 
 
 def test_the_wheel_alone_predicts_as_recorded(installed, tmp_path: Path):

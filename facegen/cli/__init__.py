@@ -3,7 +3,6 @@
 A command imports what it needs when it is called, so that ``--help`` is quick and needs none of the extras.
 """
 
-from facegen import __version__
 from facegen.cli.blend import blend
 from facegen.cli.develop import develop
 from facegen.cli.farm import farm_app
@@ -20,7 +19,6 @@ from facegen.program import program, run
 
 app = program(
     "facegen",
-    version=__version__,
     about="Synthetic people with exact labels: face keypoints by the million, and what cameras in a VR headset see.",
     libraries=("bpy", "numpy", "pyarrow"),
 )

@@ -5,7 +5,6 @@ A command imports what it needs when it is called, so that ``--help`` is quick a
 
 from facegen.extras import HEADSET, LEARN
 from facegen.program import program, run
-from regress import __version__
 from regress.cli.bench import bench
 from regress.cli.edges import edges
 from regress.cli.evaluate import evaluate
@@ -18,7 +17,6 @@ from regress.cli.train import train
 
 app = program(
     "regress",
-    version=__version__,
     about="68 facial landmarks or a headset's pictures in, 52 blendshape weights out, learnt from synthetic people.",
     libraries=("numpy", "onnxruntime", "scipy"),
 )

@@ -2,7 +2,6 @@
 
 from facegen.extras import LEARN, ROOM
 from facegen.program import program, run
-from room import __version__
 from room.cli.export import export
 from room.cli.replay import replay
 from room.cli.serve import serve
@@ -11,7 +10,6 @@ from room.cli.vectors import vectors
 
 app = program(
     "room",
-    version=__version__,
     about="People meet as avatars in the browser, with faces, gaze, voice and gestures.",
     libraries=("aiohttp",),
 )

@@ -8,7 +8,6 @@ import sys
 from facegen.extras import LEARN, LIVE
 from facegen.program import program
 from facegen.program import run as run_program
-from track import __version__
 from track.cli.calibrate import calibrate
 from track.cli.compare import compare
 from track.cli.devices import devices
@@ -17,7 +16,6 @@ from track.cli.run import run
 
 app = program(
     "track",
-    version=__version__,
     about="A camera in, an avatar's face out: live, on this machine alone. Without a command it is `track run`.",
     libraries=("numpy", "onnxruntime", "mediapipe"),
 )
