@@ -37,6 +37,7 @@ LEARN = Extra(name="learn", modules=frozenset(("jinja2", "onnx", "pyarrow", "sci
 HEADSET = Extra(name="headset", modules=frozenset(("torch",)))
 LIVE = Extra(name="live", modules=frozenset(("aiohttp", "mediapipe", "platformdirs", "pythonosc", "tomli_w")))
 ROOM = Extra(name="room", modules=frozenset(("aiohttp",)))
+REDIS = Extra(name="redis", modules=frozenset(("redis",)))
 
 
 def missing_extra(error: ModuleNotFoundError, command: str, extras: tuple[Extra, ...]) -> str | None:

@@ -1,6 +1,6 @@
 """The ``room`` command. Only this package prints: results to stdout, talk to stderr."""
 
-from facegen.extras import LEARN, ROOM
+from facegen.extras import LEARN, REDIS, ROOM
 from facegen.program import program, run
 from room.cli.export import export
 from room.cli.replay import replay
@@ -22,4 +22,4 @@ app.command()(vectors)
 
 def main() -> None:
     """Entry point of the console script."""
-    run(app, extras=(ROOM, LEARN))
+    run(app, extras=(ROOM, REDIS, LEARN))

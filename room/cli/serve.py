@@ -10,6 +10,8 @@ from room.cli.links import RoomNames, print_links
 
 if TYPE_CHECKING:
     from room.recording import Recorder
+    from room.server import Keys
+    from room.server.telegraph import Telegraph
 
 
 def serve(
@@ -34,6 +36,12 @@ def serve(
     ] = None,
     turn_secret: Annotated[Path | None, typer.Option(help="File of coturn's static-auth-secret.")] = None,
     origin: Annotated[list[str] | None, typer.Option(help="https://HOST of a proxy in front.")] = None,
+    redis: Annotated[
+        str | None,
+        typer.Option(
+            help="redis://HOST:PORT/0 of a Redis by which several servers carry one room, all with the same --keys."
+        ),
+    ] = None,
     record: Annotated[
         Path | None,
         typer.Option(
@@ -48,12 +56,20 @@ def serve(
     from room.server import Address, Limits, Relays, Rooms, load_keys, new_keys
     from room.server import serve as run
 
-    recorder = _recorder(record, names)
     held = load_keys(keys) if keys else new_keys()
     secret = _secret(turn, turn_secret)
+    telegraph = _telegraph(redis, held, shared=keys is not None, recorded=record is not None)
+    recorder = _recorder(record, names)
     relays = Relays(stun=tuple(stun or ()), turn=tuple(turn or ()), secret=secret)
     limits = Limits(people=people, rooms=rooms)
-    opened = Rooms(held, limits=limits, relays=relays, origins=frozenset(origin or ()), recorder=recorder)
+    opened = Rooms(
+        held,
+        limits=limits,
+        relays=relays,
+        origins=frozenset(origin or ()),
+        recorder=recorder,
+        telegraph=telegraph,
+    )
     address = Address(host=host, port=port, certificate=cert, private_key=key)
 
     def started(where: str) -> None:
@@ -81,6 +97,22 @@ def _recorder(record: Path | None, names: list[str]) -> "Recorder | None":
     if len(names) != 1:
         raise InputError(f"--record takes one room, and --room names {len(names)}; start a server for each")
     return Recorder(record, room=names[0], hertz=HERTZ, ended=lambda text: say(f"room: {text}"))
+
+
+def _telegraph(url: str | None, keys: "Keys", *, shared: bool, recorded: bool) -> "Telegraph | None":
+    from room.errors import InputError
+
+    if url is None:
+        return None
+    if not shared:
+        raise InputError("--redis needs --keys: all servers of a room have the file of one secret")
+    if recorded:
+        raise InputError(
+            "--redis and --record: a recording asks the people of one server; leave one of them out"
+        )
+    from room.server.telegraph import Telegraph
+
+    return Telegraph(url, secret=keys.secret, said=lambda text: say(f"room: {text}"))
 
 
 def _secret(turn: list[str] | None, file: Path | None) -> str:

@@ -1,4 +1,4 @@
-"""The server of rooms: one process that brings people together, with the page that they open."""
+"""The server of rooms: what brings people together, with the page that they open."""
 
 from room.server.application import Rooms
 from room.server.keys import Keys, load_keys, new_keys

@@ -6,15 +6,17 @@ import time
 from collections.abc import AsyncIterator
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from aiohttp import WSMessage, WSMsgType, web
 
 from room.errors import FormatError, NotAllowed
+from room.protocol.accounts import Part
 from room.protocol.texts import MOST_TEXT_BYTES, About, Chat, Notice, read_join, read_said
 from room.recording import Recorder
 from room.server.connection import PARTING_S, Connection
 from room.server.files import Files
-from room.server.hall import HERTZ, Hall, Part
+from room.server.hall import HERTZ, Hall
 from room.server.headers import protect, same_origin
 from room.server.keys import Keys
 from room.server.limits import (
@@ -30,6 +32,9 @@ from room.server.metrics import Metrics
 from room.server.replay import Replay
 from room.server.turn import Relays
 from room.state import Seat
+
+if TYPE_CHECKING:  # needs an extra of its own
+    from room.server.telegraph import Telegraph
 
 STATIC = Path(__file__).with_name("static")
 """What ``make web`` builds: the page, its script and the parts that it loads."""
@@ -57,6 +62,8 @@ class Rooms:
         Of proxies in front of this server.
     recorder
         Records its one room; None where nothing is recorded.
+    telegraph
+        Reaches the other processes that carry the same rooms; None where this is the only one.
     replayed
         Recording that every room of this server plays; None where people meet each other alone.
     """
@@ -70,10 +77,13 @@ class Rooms:
         origins: frozenset[str] = frozenset(),
         recorder: Recorder | None = None,
         replayed: Path | None = None,
+        telegraph: "Telegraph | None" = None,
     ) -> None:
+        self._telegraph = telegraph
         self._recorder, self._replayed = recorder, replayed
         self._keys, self._limits, self._relays, self._origins = keys, limits, relays, origins
         self._halls: dict[str, Hall] = {}
+        self._opening: dict[str, asyncio.Task[None]] = {}
         self._sockets: set[web.WebSocketResponse] = set()
         self._strangers = 0
         self._files = Files(STATIC)
@@ -92,6 +102,7 @@ class Rooms:
         application.router.add_get("/static/{path:.+}", self._file)
         application.on_response_prepare.append(protect)
         application.on_shutdown.append(self._close)
+        application.cleanup_ctx.append(self._reaching)
         application.cleanup_ctx.append(self._ticking)
         return application
 
@@ -111,6 +122,7 @@ class Rooms:
         self.metrics.rooms = len(self._halls)
         self.metrics.people = sum(len(hall.meeting.people) for hall in self._halls.values())
         self.metrics.connections = len(self._sockets)
+        self.metrics.redis = int(self._telegraph is not None and self._telegraph.connected)
         return web.Response(text=self.metrics.text())
 
     async def _page(self, request: web.Request) -> web.Response:
@@ -185,26 +197,35 @@ class Rooms:
         role = self._keys.role(name, join.key)
         if role is None:
             raise NotAllowed("this link is not, or no longer, one of this room; ask for a new one")
-        hall = self._hall(name)
+        hall = await self._hall(name)
         seat = hall.enter(join, connection, moderator=role == "moderator")
         try:
             await self._listen(hall, seat, join.role, socket, connection)
         finally:
             hall.go(seat, connection, join.role)
 
-    def _hall(self, name: str) -> Hall:
-        hall = self._halls.get(name)
-        if hall is None:
-            if len(self._halls) >= self._limits.rooms:
-                raise NotAllowed(f"all {self._limits.rooms} rooms of this server are in use", again=True)
-            hall = self._halls[name] = Hall(
-                name,
-                most_people=self._limits.people,
-                relays=self._relays,
-                recorder=self._recorder_of(name),
-                replay=Replay(self._replayed) if self._replayed else None,
-            )
+    async def _hall(self, name: str) -> Hall:
+        """The room, which is opened for the first who comes; others who come meanwhile wait for the same."""
+        while (hall := self._halls.get(name)) is None:  # a tick may close it before the first is in
+            if name not in self._opening:
+                if len(self._halls) + len(self._opening) >= self._limits.rooms:
+                    raise NotAllowed(f"all {self._limits.rooms} rooms of this server are in use", again=True)
+                opening = self._opening[name] = asyncio.create_task(self._open(name))
+                opening.add_done_callback(lambda _: self._opening.pop(name))
+            await asyncio.shield(self._opening[name])
         return hall
+
+    async def _open(self, name: str) -> None:
+        hall = Hall(
+            name,
+            most_people=self._limits.people,
+            relays=self._relays,
+            recorder=self._recorder_of(name),
+            replay=Replay(self._replayed) if self._replayed else None,
+            telegraph=self._telegraph,
+        )
+        await hall.open()
+        self._halls[name] = hall
 
     async def _listen(
         self, hall: Hall, seat: Seat, part: Part, socket: web.WebSocketResponse, connection: Connection
@@ -235,6 +256,13 @@ class Rooms:
                 except NotAllowed as error:
                     connection.say(Notice(text=str(error)))
 
+    async def _reaching(self, application: web.Application) -> AsyncIterator[None]:
+        if self._telegraph is None:
+            yield
+        else:
+            async with self._telegraph.running():
+                yield
+
     async def _ticking(self, application: web.Application) -> AsyncIterator[None]:
         task = asyncio.create_task(self._tick())
         yield
@@ -251,7 +279,7 @@ class Rooms:
             due = max(due, now - 1 / HERTZ)  # what was missed by more than a tick is not made up for
             for name, hall in list(self._halls.items()):
                 hall.tick(now=now)
-                if hall.meeting.empty:
+                if hall.empty:
                     hall.close()
                     del self._halls[name]
 

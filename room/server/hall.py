@@ -1,10 +1,11 @@
 """Joins a room's state with the connections of those who are in it: who hears of what."""
 
 import time
-from typing import Literal
+from typing import TYPE_CHECKING
 
 from facegen.conventions import BLENDSHAPES
 from room.errors import NotAllowed
+from room.protocol.accounts import Part
 from room.protocol.texts import (
     Answer,
     Candidate,
@@ -27,14 +28,17 @@ from room.protocol.texts import (
 from room.recording import Recorder
 from room.server.connection import Connection
 from room.server.limits import BURST_S, NEWCOMERS_PER_S, RETURNS_PER_S, Bucket
+from room.server.neighbours import Neighbours
 from room.server.replay import Replay
 from room.server.turn import Relays
 from room.state import Meeting, Seat, identity
+from room.state.accounts import Ousted
+
+if TYPE_CHECKING:  # needs an extra of its own
+    from room.server.telegraph import Telegraph
 
 HERTZ = 30
 """Ticks a second: as many as a camera has frames."""
-
-Part = Literal["page", "face"]
 
 
 class Hall:
@@ -52,6 +56,8 @@ class Hall:
         Takes the states of those who agreed; None where nobody is recorded.
     replay
         Brings people of a recording in; None for a room of the living alone.
+    telegraph
+        Reaches the other processes that carry this room; None where there is one alone.
     """
 
     def __init__(
@@ -62,15 +68,38 @@ class Hall:
         relays: Relays,
         recorder: Recorder | None = None,
         replay: Replay | None = None,
+        telegraph: "Telegraph | None" = None,
     ) -> None:
         self.name = name
         self._recorder, self._replay = recorder, replay
-        self.meeting = Meeting(most_people=most_people)
+        process = telegraph.process if telegraph else ""
+        self.meeting = Meeting(
+            most_people=most_people, process=process, first_number=int(process[:4] or "0", 16)
+        )
+        self._neighbours = telegraph and Neighbours(
+            self.meeting, telegraph, name, tell=self._tell_here, call=self._call, oust=self._oust
+        )
         self._relays = relays
         self._pages: dict[str, Connection] = {}
         self._programs: dict[str, Connection] = {}
         self._newcomers = Bucket(NEWCOMERS_PER_S, burst=2 * most_people)
         self._returns: dict[str, Bucket] = {}
+
+    @property
+    def empty(self) -> bool:
+        """Whether nobody of this process has a place or a connection."""
+        return self.meeting.empty and not self._pages and not self._programs
+
+    async def open(self) -> None:
+        """Learn who is in the room by other processes.
+
+        Raises
+        ------
+        NotAllowed
+            If they cannot be reached.
+        """
+        if self._neighbours:
+            await self._neighbours.open()
 
     def enter(self, join: Join, connection: Connection, *, moderator: bool) -> Seat:
         """Bring somebody in, and tell the others; an older connection of the same person is closed.
@@ -145,6 +174,8 @@ class Hall:
         """
         if self.meeting.take(seat, message, program=role == "face", now=time.monotonic()):
             self._tell(Changed(person=seat.person))
+        if self._neighbours:
+            self._neighbours.took(seat.number, message, role)
 
     def hear(self, seat: Seat, said: Said) -> None:
         """Do what a person says.
@@ -159,7 +190,10 @@ class Hall:
                 if seat.muted:
                     raise NotAllowed("a moderator has muted you", again=True)
                 if said.text:
-                    self._tell(Line(number=seat.number, name=seat.name, text=said.text, time_s=time.time()))
+                    line = Line(number=seat.number, name=seat.name, text=said.text, time_s=time.time())
+                    self._tell(line)
+                    if self._neighbours:
+                        self._neighbours.spoken(line)
             case Voice():
                 seat.voice = said.open
                 self._tell(Changed(person=seat.person))
@@ -180,6 +214,9 @@ class Hall:
         """Send what moved, and free places that nobody came back to."""
         for seat in self.meeting.expire(now=now):
             self._free(seat)
+        if self._neighbours:
+            self._neighbours.tick(now=now)
+            self._follow()
         if self._replay:
             for answer in self._replay.step(self.meeting, now=now):
                 self._tell(answer)
@@ -193,9 +230,11 @@ class Hall:
             self._end_recording()
 
     def close(self) -> None:
-        """Let go of what is replayed."""
+        """Let go of what is replayed, and of the other processes."""
         if self._replay:
             self._replay.close()
+        if self._neighbours:
+            self._neighbours.close()
 
     def _record_roster(self) -> None:
         if self._recorder:
@@ -213,16 +252,38 @@ class Hall:
         return self._pages if role == "page" else self._programs
 
     def _tell(self, answer: Answer, *, but: Seat | None = None) -> None:
+        """Tell all; what is true of people from now on goes to the other processes with the next account."""
+        self._tell_here(answer, but=but)
+        if self._neighbours:
+            self._neighbours.changed()
+
+    def _tell_here(self, answer: Answer, *, but: Seat | None = None) -> None:
         for id, connection in self._pages.items():
             if but is None or id != but.id:
                 connection.say(answer)
 
     def _pass_on(self, seat: Seat, said: Description | Candidate) -> None:
-        for person in self.meeting.people:
-            if person.number == said.to and person.id in self._pages:
-                self._pages[person.id].say(Signal(sender=seat.number, signal=said))
-                return
-        # they have just left: the caller hears of that by the roster
+        called, signal = self.meeting.numbered(said.to), Signal(sender=seat.number, signal=said)
+        if called is None:
+            return  # they have just left: the caller hears of that by the roster
+        if called.id in self._pages:
+            self._pages[called.id].say(signal)
+        elif self._neighbours and called.home != self.meeting.process:
+            self._neighbours.called(called.id, signal)
+
+    def _call(self, id: str, signal: Signal) -> None:
+        if connection := self._pages.get(id):
+            connection.say(signal)
+
+    def _oust(self, ousted: Ousted) -> None:
+        self._returns.pop(ousted.id, None)
+        if connection := self._pages.pop(ousted.id, None):
+            connection.refuse(ousted.text, again=ousted.again)
+
+    def _follow(self) -> None:
+        """Let go of programs whose person has left by another process."""
+        for id in [id for id in self._programs if self.meeting.seat(id) is None]:
+            self._programs.pop(id).refuse("whose face this moves has left", again=True)
 
     def _moderate(self, by: Seat, act: Moderate) -> None:
         seat = self.meeting.moderate(by, act)

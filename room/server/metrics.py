@@ -10,6 +10,7 @@ _MEANING = {
     "rooms": "Rooms with people in them.",
     "people": "People who have a place, broken connections among them.",
     "connections": "Open WebSockets.",
+    "redis": "Whether Redis can be reached, of a server with --redis.",
     "states": "States that came in.",
     "ticks_sent": "Ticks that went to somebody.",
     "ticks_dropped": "Ticks that a slow connection never got.",
@@ -19,16 +20,17 @@ _MEANING = {
     "slow": "Connections that were ended because they read too slowly.",
     "late_s": "Seconds by which ticks were late, all together.",
 }
-_NOW = ("rooms", "people", "connections")
+_NOW = ("rooms", "people", "connections", "redis")
 
 
 @dataclass(kw_only=True)
 class Metrics:
-    """Counts since the start; the first three are of now."""
+    """Counts since the start; the first four are of now."""
 
     rooms: int = 0
     people: int = 0
     connections: int = 0
+    redis: int = 0
     states: int = 0
     ticks_sent: int = 0
     ticks_dropped: int = 0

@@ -15,6 +15,12 @@ from room.state.seat import Seat
 KEEP_S = 30.0
 """A place is kept this long for somebody whose connection broke: a laptop's change of networks takes ten."""
 
+ELSEWHERE_S = 5.0
+"""Longer wait for somebody of another process: that process says first that their place is free."""
+
+NUMBERS = 65536
+"""Of people: two bytes before each state."""
+
 MOST_REMOVED = 1000
 """People whom a room keeps out; beyond it the oldest may try again, and a moderator had better lock the door."""
 
@@ -31,16 +37,22 @@ class Meeting:
     ----------
     most_people
         Places, kept ones among them.
+    process
+        Name of the process that this is, where several carry the room (`room.state.accounts`).
+    first_number
+        Of its people: others begin elsewhere, so that two seldom give one number at one time.
 
     Attributes
     ----------
     locked
         Whether only those who have a place may come in.
+    lock_acts
+        How often moderators locked or unlocked.
     """
 
-    def __init__(self, *, most_people: int) -> None:
-        self.most_people = most_people
-        self.locked = False
+    def __init__(self, *, most_people: int, process: str = "", first_number: int = 0) -> None:
+        self.most_people, self.process, self._first_number = most_people, process, first_number
+        self.locked, self.lock_acts = False, 0
         self._seats: dict[str, Seat] = {}
         self._removed: dict[str, None] = {}
 
@@ -50,13 +62,48 @@ class Meeting:
         return tuple(seat.person for seat in self._seats.values())
 
     @property
+    def seats(self) -> tuple[Seat, ...]:
+        """All places."""
+        return tuple(self._seats.values())
+
+    @property
+    def removed(self) -> tuple[str, ...]:
+        """Ids of those who are kept out."""
+        return tuple(self._removed)
+
+    @property
     def empty(self) -> bool:
-        """Whether nobody has a place any more, but those of a recording."""
-        return all(seat.replayed for seat in self._seats.values())
+        """Whether nobody of this process has a place any more, but those of a recording."""
+        return all(seat.replayed or seat.home != self.process for seat in self._seats.values())
 
     def seat(self, id: str) -> Seat | None:
         """The place of a person; None where they have none."""
         return self._seats.get(id)
+
+    def numbered(self, number: int) -> Seat | None:
+        """The place with a number; None where nobody has it."""
+        return next((seat for seat in self._seats.values() if seat.number == number), None)
+
+    def is_out(self, id: str) -> bool:
+        """Whether somebody is kept out."""
+        return id in self._removed
+
+    def keep_out(self, id: str) -> bool:
+        """Let somebody in no more; says whether that is new."""
+        if id in self._removed:
+            return False
+        self._removed[id] = None
+        if len(self._removed) > MOST_REMOVED:
+            self._removed.pop(next(iter(self._removed)))
+        return True
+
+    def settle(self, seat: Seat | None, number: int, id: str) -> Seat:
+        """Give somebody of another process their place: a new one, or ``seat`` with a number that is free."""
+        if seat is None:
+            seat = Seat(number=number, id=id, name="", avatar="", visit="", moderator=False)
+            self._seats[id] = seat
+        seat.number = number
+        return seat
 
     def enter(self, join: Join, *, moderator: bool) -> Seat:
         """Give somebody who came with a good key their place: a new one, or the one that is kept for them.
@@ -93,6 +140,7 @@ class Meeting:
             self._seats[id] = seat
         seat.name, seat.avatar, seat.visit, seat.moderator = join.name, join.avatar, join.visit, moderator
         seat.gone_at, seat.voice = None, False
+        seat.home, seat.entry = self.process, seat.entry + 1
         return seat
 
     def replay(self, *, id: str, name: str, avatar: str) -> Seat:
@@ -105,13 +153,18 @@ class Meeting:
             visit="",
             moderator=False,
             replayed=True,
+            home=self.process,
         )
         self._seats[seat.id] = seat
         return seat
 
     def _free_number(self) -> int:
         taken = {seat.number for seat in self._seats.values()}
-        return next(number for number in itertools.count() if number not in taken)
+        return next(
+            number
+            for number in ((self._first_number + step) % NUMBERS for step in itertools.count())
+            if number not in taken
+        )
 
     def take(self, seat: Seat, message: bytes, *, program: bool, now: float) -> bool:
         """Keep somebody's state for the next tick; says whether another moves their face from now on.
@@ -135,19 +188,18 @@ class Meeting:
         if not by.moderator:
             raise NotAllowed("only a moderator can do this; use the moderator's link")
         if act.action in ("lock", "unlock"):
-            self.locked = act.action == "lock"
+            self.locked, self.lock_acts = act.action == "lock", self.lock_acts + 1
             return None
-        seat = next((seat for seat in self._seats.values() if seat.number == act.number), None)
+        seat = None if act.number is None else self.numbered(act.number)
         if seat is None:
             raise NotAllowed(f"nobody here has number {act.number}")
         if act.action == "remove":
             if seat is by:
                 raise NotAllowed("a moderator cannot remove themselves; leave instead")
             self._seats.pop(seat.id)
-            self._removed[seat.id] = None
-            if len(self._removed) > MOST_REMOVED:
-                self._removed.pop(next(iter(self._removed)))
+            self.keep_out(seat.id)
         else:
+            seat.mute_acts += 1
             seat.mute(act.action == "mute")
         return seat
 
@@ -158,7 +210,10 @@ class Meeting:
     def expire(self, *, now: float) -> list[Seat]:
         """Free the places of those who did not come back in `KEEP_S`; gives them."""
         late = [
-            seat for seat in self._seats.values() if seat.gone_at is not None and now - seat.gone_at > KEEP_S
+            seat
+            for seat in self._seats.values()
+            if seat.gone_at is not None
+            and now - seat.gone_at > KEEP_S + (0 if seat.home == self.process else ELSEWHERE_S)
         ]
         for seat in late:
             self.leave(seat)

@@ -33,6 +33,12 @@ class Seat:
         Whether they agreed to be, in a room that is.
     replayed
         Whether they come out of a recording: nobody's page or voice is behind them.
+    home
+        Process at which their page is.
+    entry
+        Counts their comings, by whatever process.
+    mute_acts
+        How often moderators muted them or gave their voice back.
     """
 
     number: int
@@ -46,6 +52,9 @@ class Seat:
     muted: bool = False
     recorded: bool = False
     replayed: bool = False
+    home: str = ""
+    entry: int = 0
+    mute_acts: int = 0
     _waiting: list[bytes] = field(default_factory=list)
     _page: bytes | None = None
     _program: bytes | None = None
@@ -98,6 +107,11 @@ class Seat:
         """What came since the last call, oldest first."""
         waiting, self._waiting = self._waiting, []
         return waiting
+
+    @property
+    def page_state(self) -> bytes | None:
+        """What the page said last, whoever moves the face; None before the first."""
+        return self._page
 
     def _wait(self) -> None:
         if (state := self.state) is not None:

@@ -13,6 +13,7 @@ from room.protocol.texts import Answer, Join, Left, Refused, Welcome, read_answe
 from room.protocol.tick import unpack
 from room.recording import Recorder
 from room.server import Keys, Limits, Relays, Rooms, new_keys
+from room.server.telegraph import Telegraph
 
 SOON_S = 5.0
 """What is awaited comes in milliseconds; a loaded machine is given time."""
@@ -127,6 +128,7 @@ async def open_room(
     port: int = 0,
     recorder: Recorder | None = None,
     replayed: Path | None = None,
+    telegraph: Telegraph | None = None,
 ) -> AsyncIterator[Place]:
     """A server in this process, on a free port unless one is named."""
     keys = keys or new_keys()
@@ -137,6 +139,7 @@ async def open_room(
         origins=origins,
         recorder=recorder,
         replayed=replayed,
+        telegraph=telegraph,
     )
     runner = web.AppRunner(rooms.application(), access_log=None, shutdown_timeout=0.1)
     await runner.setup()

@@ -3,7 +3,6 @@
 import asyncio
 import os
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -15,8 +14,9 @@ import aiohttp
 import psutil
 import pytest
 
-from room.protocol.texts import Changed, Welcome
+from room.protocol.texts import Changed, Left, Welcome
 from room.server import load_keys
+from tests.room.engines import free_port, needs_redis, redis
 from tests.room.guests import Guest, Place
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -24,14 +24,8 @@ BACK_S = 3.0
 """As the issue asks: after this time everybody is back where they stood."""
 
 
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 @contextmanager
-def server(folder: Path, port: int) -> Iterator[subprocess.Popen]:
+def server(folder: Path, port: int, *options: str) -> Iterator[subprocess.Popen]:
     """``room serve`` as people start it."""
     command = (
         sys.executable,
@@ -42,6 +36,7 @@ def server(folder: Path, port: int) -> Iterator[subprocess.Popen]:
         str(port),
         "--keys",
         str(folder / "room.keys"),
+        *options,
     )
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     process = subprocess.Popen(
@@ -71,7 +66,7 @@ async def _back(place: Place, guest: Guest, **state: object) -> Guest:
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no process can be killed so here")
 def test_a_killed_server_comes_back_with_its_people_where_they_stood(tmp_path):
-    port = _free_port()
+    port = free_port()
     stood = [{"floor_m": (float(index), -1.0), "heading": 0.5} for index in range(4)]
 
     async def meet(process: subprocess.Popen) -> tuple[Place, list[Guest]]:
@@ -102,9 +97,43 @@ def test_a_killed_server_comes_back_with_its_people_where_they_stood(tmp_path):
     asyncio.run(run())
 
 
+@needs_redis
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no process can be killed so here")
+def test_people_of_a_killed_server_go_on_by_another_one_where_they_stood(tmp_path):
+    """Two processes carry one room over Redis; a page whose server ends comes back by whichever answers."""
+
+    async def run() -> None:
+        ports, wire = [free_port(), free_port()], free_port()
+        options = ("--redis", f"redis://127.0.0.1:{wire}/0")
+        with (
+            redis(wire),
+            server(tmp_path, ports[0], *options) as first,
+            server(tmp_path, ports[1], *options),
+        ):
+            north, south = (_place(tmp_path, port) for port in ports)
+            ada, ben = await north.guest(), await south.guest(name="Ben")
+            await ada.move(floor_m=(3.0, 4.0))
+            await ben.until(lambda: ada.number in ben.states)
+            first.send_signal(signal.SIGKILL)
+            await ada.end()
+            start = time.monotonic()
+            again = await south.guest(secret=ada.secret)
+            assert (again.number, again.welcome.id) == (ada.number, ada.welcome.id)
+            await again.until(lambda: again.number in again.states)
+            assert again.states[again.number].floor_m == (3.0, 4.0)
+            await again.move(floor_m=(5.0, 4.0))
+            await ben.until(lambda: ben.states[ada.number].floor_m == (5.0, 4.0))
+            assert time.monotonic() - start < BACK_S
+            assert not ben.all(Left)
+            for place in (north, south):
+                await place.session.close()
+
+    asyncio.run(run())
+
+
 def test_a_stopped_server_says_so_and_ends_in_time(tmp_path):
     async def run() -> None:
-        port = _free_port()
+        port = free_port()
         with server(tmp_path, port) as process:
             place = _place(tmp_path, port)
             ada = await place.guest()
@@ -142,7 +171,7 @@ def test_a_message_of_a_gigabyte_takes_no_memory_and_nobody_notices(tmp_path):
         return sent
 
     async def run() -> None:
-        port = _free_port()
+        port = free_port()
         with server(tmp_path, port) as process:
             place = _place(tmp_path, port)
             ada, ben = await place.guest(), await place.guest(name="Ben")
@@ -167,7 +196,7 @@ def test_many_who_talk_nonsense_disturb_nobody(tmp_path):
         await socket.close()
 
     async def run() -> None:
-        port = _free_port()
+        port = free_port()
         with server(tmp_path, port):
             place = _place(tmp_path, port)
             ada, ben = await place.guest(), await place.guest(name="Ben")
@@ -191,7 +220,7 @@ def test_many_who_talk_nonsense_disturb_nobody(tmp_path):
 
 def test_a_guest_who_claims_another_is_told_by_the_secret_alone(tmp_path):
     async def run() -> None:
-        port = _free_port()
+        port = free_port()
         with server(tmp_path, port):
             place = _place(tmp_path, port)
             ada, ben = await place.guest(), await place.guest(name="Ben")

@@ -1,0 +1,157 @@
+"""Brings together what several processes know of one room, so that all of them come to know the same.
+
+Accounts may come in any order, and more than once. Of two places of one person the later entry counts, and of mutes and
+locks the latest act. Of two people with one number the smaller id keeps it. Who was removed by one is removed by all.
+"""
+
+from dataclasses import dataclass, field
+
+from room.protocol.accounts import Account, Mute, Resident
+from room.protocol.texts import Changed, Door, Left
+from room.state.meeting import Meeting
+from room.state.seat import Seat
+
+SILENT_S = 6.0
+"""A process that says nothing for so long has ended: its people are away. It speaks three times in this time."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ousted:
+    """Somebody of this process who has to go, as the others know better.
+
+    Parameters
+    ----------
+    id
+        Of the person.
+    text
+        What they are told.
+    again
+        Whether their page comes back by itself.
+    """
+
+    id: str
+    text: str
+    again: bool
+
+
+@dataclass(kw_only=True)
+class Merged:
+    """What an account changed.
+
+    Parameters
+    ----------
+    told
+        What the people of this process have to hear.
+    ousted
+        Those of them who have to go.
+    """
+
+    told: list[Changed | Left | Door] = field(default_factory=list)
+    ousted: list[Ousted] = field(default_factory=list)
+
+
+def account(meeting: Meeting, *, asks: bool = False) -> Account:
+    """All that this process knows of a room."""
+    seats = [seat for seat in meeting.seats if not seat.replayed]
+    return Account(
+        process=meeting.process,
+        asks=asks,
+        people=tuple(_resident(seat) for seat in seats if seat.home == meeting.process),
+        mutes=tuple(
+            Mute(id=seat.id, muted=seat.muted, acts=seat.mute_acts) for seat in seats if seat.mute_acts
+        ),
+        removed=meeting.removed,
+        locked=meeting.locked,
+        locks=meeting.lock_acts,
+    )
+
+
+def merge(meeting: Meeting, said: Account, *, now: float) -> Merged:
+    """Take what another process knows. ``now`` in the room's seconds."""
+    merged = Merged()
+    for id in said.removed:
+        if meeting.keep_out(id):
+            _drop(meeting, id, merged, text="a moderator has removed you from this room")
+    if (said.locks, said.locked) > (meeting.lock_acts, meeting.locked):
+        changed = said.locked != meeting.locked
+        meeting.lock_acts, meeting.locked = said.locks, said.locked
+        if changed:
+            merged.told.append(Door(locked=said.locked))
+    listed = {resident.id for resident in said.people}
+    for seat in meeting.seats:
+        if seat.home == said.process and seat.id not in listed:
+            _drop(meeting, seat.id, merged)
+    for resident in said.people:
+        _settle(meeting, resident, said.process, merged, now=now)
+    for mute in said.mutes:
+        seat = meeting.seat(mute.id)
+        if seat and (mute.acts, mute.muted) > (seat.mute_acts, seat.muted):
+            changed, seat.mute_acts = mute.muted != seat.muted, mute.acts
+            seat.mute(mute.muted)
+            if changed:
+                merged.told.append(Changed(person=seat.person))
+    return merged
+
+
+def silent(meeting: Meeting, process: str, *, now: float) -> list[Changed]:
+    """A process has ended: its people are away, and may come back by another."""
+    told = []
+    for seat in meeting.seats:
+        if seat.home == process and seat.gone_at is None:
+            seat.gone_at, seat.voice = now, False
+            told.append(Changed(person=seat.person))
+    return told
+
+
+def _resident(seat: Seat) -> Resident:
+    return Resident(
+        number=seat.number,
+        id=seat.id,
+        name=seat.name,
+        avatar=seat.avatar,
+        visit=seat.visit,
+        moderator=seat.moderator,
+        present=seat.gone_at is None,
+        voice=seat.voice,
+        entry=seat.entry,
+    )
+
+
+def _settle(meeting: Meeting, resident: Resident, process: str, merged: Merged, *, now: float) -> None:
+    """Give somebody of another process their place here, unless a better claim stands against it."""
+    if meeting.is_out(resident.id):
+        return
+    seat = meeting.seat(resident.id)
+    if seat and (seat.entry, seat.home) > (resident.entry, process):
+        return
+    rival = meeting.numbered(resident.number)
+    if rival and rival.id != resident.id:
+        if rival.id < resident.id:
+            return  # their own process hears of the rival, and has them come in anew
+        _drop(meeting, rival.id, merged, text="the room was joined with another; you come back", again=True)
+    if seat and seat.home == meeting.process:
+        merged.ousted.append(Ousted(id=seat.id, text="you came in from another window", again=False))
+    before = seat.person if seat else None
+    if seat and seat.number != resident.number:
+        merged.told.append(Left(number=seat.number))
+        before = None
+    seat = meeting.settle(seat, resident.number, resident.id)
+    seat.home, seat.entry = process, resident.entry
+    seat.name, seat.avatar, seat.visit = resident.name, resident.avatar, resident.visit
+    seat.moderator, seat.voice, seat.recorded = resident.moderator, resident.voice, False
+    if resident.present:
+        seat.gone_at = None
+    elif seat.gone_at is None:
+        seat.gone_at = now
+    if seat.person != before:
+        merged.told.append(Changed(person=seat.person))
+
+
+def _drop(meeting: Meeting, id: str, merged: Merged, *, text: str = "", again: bool = False) -> None:
+    seat = meeting.seat(id)
+    if seat is None:
+        return
+    meeting.leave(seat)
+    merged.told.append(Left(number=seat.number))
+    if seat.home == meeting.process:
+        merged.ousted.append(Ousted(id=id, text=text, again=again))
