@@ -142,9 +142,11 @@ def test_a_word_that_comes_late_takes_nothing_back(act):
     ]
     for at, whom in ((0, 0), (1, 1), (2, 2)):
         _do(meetings, "enter", at, whom, 0)
+    _exchange(meetings)
     if act.startswith("un"):
         _do(meetings, act.removeprefix("un"), 0, 0, 0)
-    _exchange(meetings)
+        assert meetings[0].locked or meetings[0].seats[0].muted
+        _exchange(meetings)
     assert all(len(meeting.seats) == 3 for meeting in meetings)
     late = [account(meeting) for meeting in meetings]
     if act == "come in by another":
