@@ -24,10 +24,11 @@ import cv2
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
+from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.levels import level_table
 from regress.runtime.headset.looks import levels_of
 from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_search import EyePoints, find_placement
+from regress.runtime.headset.placement_search import find_placement
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 
 FILMS = ("film_a", "film_b")

@@ -14,7 +14,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.learning.headset.arrays import read_arrays
-from regress.runtime.headset.placement_search import EyePoints
+from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.headset.traced_eyes import corrected, eye_features, fused
 

@@ -2,6 +2,7 @@
 
 import typer
 
+from regress.cli.headset_calibrate import calibrate
 from regress.cli.headset_check import check
 from regress.cli.headset_evaluate import evaluate
 from regress.cli.headset_export import export
@@ -22,5 +23,6 @@ headset.command()(evaluate)
 headset.command()(temporal)
 headset.command()(predict)
 headset.command()(check)
+headset.command()(calibrate)
 headset.command()(report)
 headset.command()(export)

@@ -80,6 +80,14 @@ def predict(
             "auto, which looks for it. Again a later frame: it counts from there on, after a new seat.",
         ),
     ] = None,
+    person: Annotated[
+        Path | None,
+        typer.Option(
+            "--person",
+            help="File of `regress headset calibrate`: neutral pictures, own ends of ranges, lids and gaze; the table "
+            "gets openness and pupils too.",
+        ),
+    ] = None,
     keep_neutral: Annotated[
         bool,
         typer.Option(
@@ -165,6 +173,7 @@ def predict(
         targets_of,
     )
     from regress.cli.headset_notes import check_model, level_notes, rate_note, seat_notes, tell_of
+    from regress.cli.headset_person import neutrals_of, read_own
     from regress.cli.output import output_of
     from regress.cli.results import check_targets, needs_times, write_prediction
     from regress.errors import InputError
@@ -206,6 +215,7 @@ def predict(
             bits=bits is not None,
         )
     check_model(predictor, model, trust=trust, points=points)
+    own = read_own(predictor, person, still=dataset is not None)
     if video is not None:
         check_film_name(video)
     short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
@@ -233,8 +243,11 @@ def predict(
         placement=placed,
         tables=tables,
     )
+    neutrals = neutrals if neutral else neutrals_of(own, predictor, footage, tables)
+    # whose file it is needs no proof, and another seat's neutral picture is worth more than none
+    keep_neutral = keep_neutral or own is not None
     prediction, reseated = predict_footage(
-        predictor, footage, neutrals, output=output, keep_neutral=keep_neutral, temporal=temporal
+        predictor, footage, neutrals, output=output, keep_neutral=keep_neutral, temporal=temporal, person=own
     )
     of_rate = rate_note(predictor.model.temporal.fps, footage.fps) if temporal else ()
     for note in (*seat_notes(reseated, keep_neutral=keep_neutral), *of_rate):

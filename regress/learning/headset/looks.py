@@ -4,8 +4,8 @@ import numpy as np
 
 from facegen.conventions import VIEW_POINTS
 from regress.learning.headset.arrays import HeadsetArrays
+from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.looks import CameraLooks, looks_of
-from regress.runtime.headset.placement_search import EyePoints
 from regress.runtime.headset.traced_eyes import eye_features
 
 _FEWEST = 50

@@ -7,6 +7,7 @@ from enum import Enum
 import numpy as np
 
 from regress.errors import InputError
+from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.looks import CameraLooks, TakeLooks, looks_of
@@ -14,7 +15,7 @@ from regress.runtime.headset.orientation import told_orientation
 from regress.runtime.headset.parts import mirror_partner
 from regress.runtime.headset.pictures import ASPECT
 from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_search import EyePoints, FoundPlacement, find_placement, traces_an_eye
+from regress.runtime.headset.placement_search import FoundPlacement, find_placement
 from regress.runtime.headset.predictor import HeadsetPredictor
 
 FEWEST_FRAMES = 20

@@ -123,6 +123,23 @@ class HeadsetGraph:
         arrays = self._run(names, pictures, neutral, present, calibrated)
         return Estimates(**dict(zip(names, arrays, strict=True)))
 
+    def see(
+        self,
+        pictures: dict[str, np.ndarray],
+        *,
+        neutral: dict[str, np.ndarray] | None = None,
+        present: np.ndarray | None = None,
+        calibrated: np.ndarray | None = None,
+    ) -> tuple[Estimates, dict[str, np.ndarray]]:
+        """What `run` and `trace` say, for the time of one."""
+        names = [name for name in GRAPH_OUTPUTS if name in self._outputs]
+        cameras = [name for name in pictures if points_output(name) in self._outputs]
+        wanted = [*names, *map(points_output, cameras)]
+        arrays = self._run(wanted, pictures, neutral, present, calibrated)
+        count = len(names)
+        estimates = Estimates(**dict(zip(names, arrays[:count], strict=True)))
+        return estimates, dict(zip(cameras, arrays[count:], strict=True))
+
     def trace(self, pictures: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Pixels (n, P, 2) float32 of the points that each of these cameras traces; see ``HeadsetModel.points``.
 
@@ -133,13 +150,8 @@ class HeadsetGraph:
         return dict(zip(cameras, points, strict=True))
 
     def look(self, pictures: dict[str, np.ndarray]) -> tuple[Estimates, dict[str, np.ndarray]]:
-        """What `run` and `trace` say of uncalibrated pictures, for the time of one."""
-        names = [name for name in GRAPH_OUTPUTS if name in self._outputs]
-        cameras = [name for name in pictures if points_output(name) in self._outputs]
-        arrays = self._run([*names, *map(points_output, cameras)], pictures, None, None, None)
-        count = len(names)
-        estimates = Estimates(**dict(zip(names, arrays[:count], strict=True)))
-        return estimates, dict(zip(cameras, arrays[count:], strict=True))
+        """What `see` says of uncalibrated pictures."""
+        return self.see(pictures)
 
     def _run(
         self,

@@ -10,11 +10,14 @@ from facegen.conventions import BLENDSHAPES
 from regress.errors import InputError
 from regress.runtime.headset.confidence import HeadsetConfidence
 from regress.runtime.headset.estimates import Estimates
+from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.levels import Levels
+from regress.runtime.headset.person import OwnEnds, Person
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.seats import SeatWatch
 from regress.runtime.headset.temporal import TAPS
-from regress.runtime.sample import Sample
+from regress.runtime.sample import NO_EYES, Sample
+from regress.runtime.stages.gaze import LOOKS, look_weights
 from regress.runtime.stages.stage import Stage
 
 ASSUMED_FPS = 30.0
@@ -35,6 +38,10 @@ class HeadsetNetworks(Stage):
         none, another person's is not.
     levels
         Levels pictures as they come, and neutral ones alike; None takes both as they are.
+    reader
+        Measures the eyes and sets the gaze; None leaves both.
+    person
+        Whose own ends count, with a reader.
     """
 
     def __init__(
@@ -44,9 +51,14 @@ class HeadsetNetworks(Stage):
         fps: float = ASSUMED_FPS,
         keep_neutral: bool = False,
         levels: Levels | None = None,
+        reader: EyeReader | None = None,
+        person: Person | None = None,
     ) -> None:
         self._predictor, self._fps, self._keep = predictor, fps, keep_neutral
         self.levels = levels
+        self._reader = reader
+        self._points: Mapping[str, np.ndarray] = {}
+        self._ends = None if person is None or reader is None else OwnEnds.of(person, reader.sides)
         scored = predictor.model.scores is not None
         self._confidence = HeadsetConfidence(predictor.model) if scored else None
         self._neutral: Mapping[str, np.ndarray] | None = None
@@ -72,36 +84,55 @@ class HeadsetNetworks(Stage):
         if not sample.pictures:
             nothing = np.full(len(BLENDSHAPES), np.nan)
             trust = None if self._confidence is None else np.zeros(len(BLENDSHAPES))
-            return replace(sample, weights=nothing, gaze=np.full(4, np.nan), confidence=trust)
-        estimates, calibrated = self._estimate(sample if self.levels is None else self.levels.step(sample))
+            eyes = None if self._reader is None else NO_EYES
+            return replace(sample, weights=nothing, gaze=np.full(4, np.nan), eyes=eyes, confidence=trust)
+        seen = sample if self.levels is None else self.levels.step(sample)
+        estimates, calibrated = self._estimate(seen)
         trust = None
         if self._confidence is not None:
             present = np.array([name in sample.pictures for name in self._predictor.sizes])
             trust = self._confidence.of_frame(estimates.deviation[0], present, calibrated=calibrated)
-        return replace(
+        answer = replace(
             sample,
             weights=np.clip(estimates.weights[0].astype(np.float64), 0, 1),
             gaze=estimates.gaze[0].astype(np.float64).reshape(4),
             confidence=trust,
         )
+        return answer if self._reader is None else self._with_eyes(answer, seen.pictures)
+
+    def _with_eyes(self, sample: Sample, pictures: Mapping[str, np.ndarray]) -> Sample:
+        """The sample with its eyes measured, a gaze that meets in front, and the person's own ends."""
+        points = {name: traced[0] for name, traced in self._points.items()}
+        eyes, gaze = self._reader.read(pictures, points, sample.gaze)
+        weights = sample.weights if self._ends is None else self._ends.apply(sample.weights, eyes)
+        weights = weights.copy()
+        weights[LOOKS] = look_weights(gaze)
+        return replace(sample, weights=weights, gaze=gaze, eyes=eyes)
 
     def _estimate(self, sample: Sample) -> tuple[Estimates, bool]:
         """What the network says, and whether it compared the frame with neutral pictures."""
         pictures = {name: picture[None] for name, picture in sample.pictures.items()}
         if self._seat is None:
-            return self._predictor.predict(pictures), False
+            return self._see(pictures), False
         if self._seat.changed and not self._keep:
-            return self._predictor.predict(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
+            return self._see(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
         neutral = self._neutral if self.levels is None else self.levels.levelled(self._neutral)
-        estimates = self._predictor.predict(pictures, neutral=neutral)
+        estimates = self._see(pictures, neutral=neutral)
         if not self._seat.changed:
             compared = self._seat.step(float(estimates.same_seat[0]))
             self._doubted_from = None if compared else self._doubted_from or sample.label
             if self._seat.changed:
                 self.reseated.append(self._doubted_from)
             if not (compared or self._keep):
-                return self._predictor.predict(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
+                return self._see(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
         return estimates, True
+
+    def _see(self, pictures: Mapping[str, np.ndarray], **neutral: object) -> Estimates:
+        """Estimates; what is traced is kept, where anybody measures by it."""
+        if self._reader is None:
+            return self._predictor.predict(pictures, **neutral)
+        estimates, self._points = self._predictor.see(pictures, **neutral)
+        return estimates
 
 
 class TemporalConvolution(Stage):

@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 
+from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import ASSUMED_FPS, HeadsetNetworks, TemporalConvolution
 from regress.runtime.headset.neutral import Neutral
+from regress.runtime.headset.person import Person
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.soundness import PictureSoundness
@@ -33,6 +35,8 @@ class HeadsetStream(Stage):
     placement
         What of each camera's pictures the network is to see, and at which levels
         (``regress.runtime.headset.placement_file`` reads it); without, all of them, levelled by themselves.
+    person
+        Whose own ends count; samples then have ``eyes`` as well. Neutral pictures are given apart.
 
     Raises
     ------
@@ -49,10 +53,18 @@ class HeadsetStream(Stage):
         keep_neutral: bool = False,
         temporal: bool = False,
         placement: Mapping[str, CameraPlacement] | None = None,
+        person: Person | None = None,
     ) -> None:
         self.soundness = PictureSoundness(predictor.sizes, placement)
         levels = Levels(predictor.model.looks, placement)
-        self.networks = HeadsetNetworks(predictor, fps=fps, keep_neutral=keep_neutral, levels=levels)
+        self.networks = HeadsetNetworks(
+            predictor,
+            fps=fps,
+            keep_neutral=keep_neutral,
+            levels=levels,
+            reader=None if person is None else EyeReader(predictor, person),
+            person=person,
+        )
         taps = [TemporalConvolution(predictor)] if temporal else []
         self.after = Chain([*taps, *(output or Output()).stages()])
 
@@ -77,6 +89,7 @@ def predict_footage(
     output: Output | None = None,
     keep_neutral: bool = False,
     temporal: bool = False,
+    person: Person | None = None,
 ) -> tuple[Prediction, tuple[str, ...]]:
     """Weights, gaze and confidence of a recording: each frame as `HeadsetStream` steps it, but for levels.
 
@@ -88,7 +101,7 @@ def predict_footage(
         Its pictures are at the network's size, and those at fault are marked.
     neutrals
         Each counts from its row to the next one's; the first from the beginning, wherever it was taken.
-    output, keep_neutral, temporal
+    output, keep_neutral, temporal, person
         As `HeadsetStream` takes them.
 
     Returns
@@ -104,7 +117,12 @@ def predict_footage(
     """
     output = output or Output()
     stream = HeadsetStream(
-        predictor, output, fps=footage.fps or ASSUMED_FPS, keep_neutral=keep_neutral, temporal=temporal
+        predictor,
+        output,
+        fps=footage.fps or ASSUMED_FPS,
+        keep_neutral=keep_neutral,
+        temporal=temporal,
+        person=person,
     )
     stream.networks.levels = None
     starts = {neutral.row: neutral.pictures for neutral in neutrals[1:]}

@@ -67,13 +67,30 @@ class HeadsetPredictor:
         InputError
             Where a camera is not the model's, or is present in a calibrated frame and has no neutral picture.
         """
-        count = len(next(iter(pictures.values())))
-        repeated = neutral and {
-            name: np.broadcast_to(picture, (count, *picture.shape[-2:])) for name, picture in neutral.items()
-        }
-        return self.graph.run(
-            dict(pictures), present=present, neutral=repeated or None, calibrated=calibrated
-        )
+        repeated = _repeated(neutral, pictures)
+        return self.graph.run(dict(pictures), present=present, neutral=repeated, calibrated=calibrated)
+
+    def see(
+        self,
+        pictures: Mapping[str, np.ndarray],
+        *,
+        neutral: Mapping[str, np.ndarray] | None = None,
+        calibrated: np.ndarray | None = None,
+    ) -> tuple[Estimates, dict[str, np.ndarray]]:
+        """Estimates as `predict` gives them, and the pixels (n, P, 2) that each camera traces, for the time of one."""
+        repeated = _repeated(neutral, pictures)
+        return self.graph.see(dict(pictures), neutral=repeated, calibrated=calibrated)
+
+
+def _repeated(
+    neutral: Mapping[str, np.ndarray] | None, pictures: Mapping[str, np.ndarray]
+) -> dict[str, np.ndarray] | None:
+    """Neutral pictures for each frame; None where there are none."""
+    count = len(next(iter(pictures.values())))
+    return {
+        name: np.broadcast_to(picture, (count, *picture.shape[-2:]))
+        for name, picture in (neutral or {}).items()
+    } or None
 
 
 def is_headset_model(folder: str | os.PathLike[str]) -> bool:

@@ -1,30 +1,27 @@
 """Reads from an eye's traced points how far its lids are open and where it looks, set right by what was looked at.
 
-The unit of length is the iris, nearly the same in all people: 11.7 mm across ([1]_). Where the eye looks follows from
+The unit of length is the iris, nearly the same in all people. Where the eye looks follows from
 where the pupil lies between the eye's corners, by a linear map that training's labels have given for each camera (its
 pose and the eyeball's size are in it). That map is of the training's rig and of the mean person; targets that a person
 has looked at correct it for the person, camera and seat. The network's direct answer is corrected alike, and both are
-fused by how far each is off at the targets: of a camera unlike the training's the direct one says little.
-
-References
-----------
-.. [1] F. Rüfer et al., "White-to-white corneal diameter", Cornea 24(3), 2005.
+fused by how far each is off at the targets: of a camera unlike the training's the direct one says little. Where both
+eyes have a camera, their lines of sight meet in front (``regress.runtime.headset.vergence``).
 """
 
 import csv
 import io
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from regress.errors import InputError
+from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
+from regress.runtime.headset.eye_reader import HALF_SHUT, HIDDEN_DEG, IRIS_MM
 from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.placement_search import EyePoints, traces_an_eye
 from regress.runtime.headset.predictor import HeadsetPredictor
-
-IRIS_MM = 11.7
-"""Diameter of an iris."""
+from regress.runtime.headset.pupils import pupil_share
+from regress.runtime.headset.vergence import meeting
 
 OWN_OPENNESS = 90.0
 """Percentile of a take's openness that counts as the person's own: wide eyes are above."""
@@ -50,13 +47,19 @@ class TracedEye:
         Mean distance of the lids' margins.
     openness : (n,) float64
         As a share of the person's own (`OWN_OPENNESS`): 0 is shut.
+    pupil : (n,) float64
+        Diameter of the pupil over that of the iris; NaN where it is hidden.
     gaze_deg : (n, 2) float64
         Yaw to the subject's left and pitch upwards.
+    error_deg : (n,) float64
+        Of the gaze: at the targets, and more where the eye is half shut.
     """
 
     openness_mm: np.ndarray
     openness: np.ndarray
+    pupil: np.ndarray
     gaze_deg: np.ndarray
+    error_deg: np.ndarray
 
 
 def eye_features(points: np.ndarray, eye: EyePoints) -> tuple[np.ndarray, np.ndarray]:
@@ -76,8 +79,35 @@ def eye_features(points: np.ndarray, eye: EyePoints) -> tuple[np.ndarray, np.nda
     return (points[:, eye.pupil] - corners) / diameter, apart / diameter
 
 
-def corrected(gaze_deg: np.ndarray, looked: np.ndarray, targets_deg: np.ndarray) -> np.ndarray:
-    """Gaze (n, 2) in degrees, corrected by targets (k, 2) at which it was said to be ``looked`` (k, 2).
+@dataclass(frozen=True, kw_only=True)
+class OwnGaze:
+    """What sets several answers about one eye's gaze right, and how they become one.
+
+    Parameters
+    ----------
+    maps
+        (2, 3) of each answer: yaw and pitch in degrees from the answer's yaw and pitch and 1.
+    shares : (answers,)
+        Adding up to 1.
+    error_deg
+        Of all together at the targets.
+    decided
+        Whether there were targets enough to tell which answer is better; the first one stands alone without.
+    """
+
+    maps: tuple[np.ndarray, ...]
+    shares: np.ndarray
+    error_deg: float
+    decided: bool = True
+
+    def apply(self, gazes_deg: Sequence[np.ndarray]) -> np.ndarray:
+        """One gaze (n, 2) of the answers (n, 2)."""
+        better = [gaze @ one[:, :2].T + one[:, 2] for gaze, one in zip(gazes_deg, self.maps, strict=True)]
+        return np.tensordot(self.shares, np.array(better), axes=1)
+
+
+def correction(looked: np.ndarray, targets_deg: np.ndarray) -> np.ndarray:
+    """Map (2, 3) to targets (k, 2) in degrees from where an answer says they were looked for (k, 2), and 1.
 
     The slopes and turns of the map stay near those of the mean person as far as the targets say nothing of them: one
     target moves the map, five or nine over the field decide it.
@@ -85,23 +115,38 @@ def corrected(gaze_deg: np.ndarray, looked: np.ndarray, targets_deg: np.ndarray)
     middle_looked, middle_target = looked.mean(axis=0), targets_deg.mean(axis=0)
     beside, wanted = looked - middle_looked, targets_deg - middle_target
     gram = beside.T @ beside + _STEADY_DEG**2 * np.eye(2)
-    slopes = np.linalg.solve(gram, beside.T @ wanted + _STEADY_DEG**2 * np.eye(2))
-    return (gaze_deg - middle_looked) @ slopes + middle_target
+    slopes = np.linalg.solve(gram, beside.T @ wanted + _STEADY_DEG**2 * np.eye(2)).T
+    return np.column_stack([slopes, middle_target - slopes @ middle_looked])
 
 
-def fused(gazes_deg: Sequence[np.ndarray], looked: Sequence[int], targets_deg: np.ndarray) -> np.ndarray:
-    """Several answers (n, 2) in degrees as one, each corrected by targets (k, 2) at ``looked`` rows.
+def corrected(gaze_deg: np.ndarray, looked: np.ndarray, targets_deg: np.ndarray) -> np.ndarray:
+    """Gaze (n, 2) in degrees through the `correction` by targets (k, 2) at which it was said to be ``looked``."""
+    one = correction(looked, targets_deg)
+    return gaze_deg @ one[:, :2].T + one[:, 2]
+
+
+def own_gaze(looked: Sequence[np.ndarray], targets_deg: np.ndarray) -> OwnGaze:
+    """What targets (k, 2) in degrees say of several answers (k, 2) at them.
 
     An answer counts by the inverse of its squared error at the targets. Fewer than `FEWEST_TARGETS` show no errors;
     the first answer then stands alone.
     """
-    rows = list(looked)
-    better = [corrected(gaze, gaze[rows], targets_deg) if rows else gaze for gaze in gazes_deg]
-    if len(rows) < FEWEST_TARGETS:
-        return better[0]
-    errors = np.array([((gaze[rows] - targets_deg) ** 2).sum(axis=1).mean() for gaze in better])
+    maps = [correction(each, targets_deg) if len(each) else np.eye(2, 3) for each in looked]
+    if len(targets_deg) < FEWEST_TARGETS:
+        return OwnGaze(maps=tuple(maps), shares=np.eye(len(maps))[0], error_deg=1.0, decided=False)
+    off = [each @ one[:, :2].T + one[:, 2] - targets_deg for each, one in zip(looked, maps, strict=True)]
+    errors = (np.array(off) ** 2).sum(axis=2).mean(axis=1)
     shares = 1 / (errors + _LEAST_DEG**2)
-    return np.tensordot(shares / shares.sum(), np.array(better), axes=1)
+    shares /= shares.sum()
+    together = np.tensordot(shares, np.array(off), axes=1)
+    error_deg = float(np.sqrt((together**2).sum(axis=1).mean() + _LEAST_DEG**2))
+    return OwnGaze(maps=tuple(maps), shares=shares, error_deg=error_deg)
+
+
+def fused(gazes_deg: Sequence[np.ndarray], looked: Sequence[int], targets_deg: np.ndarray) -> np.ndarray:
+    """Several answers (n, 2) in degrees as one, each corrected by targets (k, 2) at ``looked`` rows."""
+    rows = list(looked)
+    return own_gaze([gaze[rows] for gaze in gazes_deg], targets_deg).apply(gazes_deg)
 
 
 def traced_eyes(
@@ -139,28 +184,52 @@ def traced_eyes(
     for name in cameras:
         points = traced[name].astype(np.float64)
         points[~footage.present[:, footage.cameras.index(name)]] = np.nan
-        pupil, apart = eye_features(points, EyePoints.of(predictor, name))
+        eye = EyePoints.of(predictor, name)
+        pupil, apart = eye_features(points, eye)
         gaze = np.column_stack([pupil, np.ones(len(pupil))]) @ np.array(predictor.model.looks[name].gaze).T
         seen = [row for row in rows if np.isfinite(gaze[row]).all()]
         wanted = np.array([rows[row] for row in seen]).reshape(-1, 2)
-        gaze = fused([gaze, direct[:, int(_is_right(predictor, name))]], seen, wanted)
+        answers = [gaze, direct[:, int(_is_right(predictor, name))]]
+        own = own_gaze([answer[seen] for answer in answers], wanted)
+        openness = apart / np.nanpercentile(apart, OWN_OPENNESS)
         eyes[name] = TracedEye(
-            openness_mm=IRIS_MM * apart, openness=apart / np.nanpercentile(apart, OWN_OPENNESS), gaze_deg=gaze
+            openness_mm=IRIS_MM * apart,
+            openness=openness,
+            pupil=np.array(
+                [
+                    pupil_share(picture, at, eye)
+                    for picture, at in zip(footage.pictures[name], points, strict=True)
+                ]
+            ),
+            gaze_deg=own.apply(answers),
+            error_deg=own.error_deg + HIDDEN_DEG * np.clip(1 - openness / HALF_SHUT, 0, 1),
         )
-    return eyes
+    return _meeting(predictor, eyes)
+
+
+def _meeting(predictor: HeadsetPredictor, eyes: dict[str, TracedEye]) -> dict[str, TracedEye]:
+    """Both eyes looking at one place; one eye by itself as it is."""
+    sides = sorted(eyes, key=lambda name: _is_right(predictor, name))
+    if [_is_right(predictor, name) for name in sides] != [False, True]:
+        return eyes
+    gaze, error = (
+        np.stack([getattr(eyes[name], part) for name in sides], axis=1) for part in ("gaze_deg", "error_deg")
+    )
+    met = meeting(gaze, error**2)
+    return {name: replace(eyes[name], gaze_deg=met[:, sides.index(name)]) for name in eyes}
 
 
 def eyes_csv(eyes: Mapping[str, TracedEye], numbers: Sequence[int]) -> str:
     """A row a frame; cells of absent cameras are empty."""
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    columns = ("openness_mm", "openness", "yaw_deg", "pitch_deg")
+    columns = ("openness_mm", "openness", "pupil", "yaw_deg", "pitch_deg")
     table.writerow(["frame", *(f"{name}.{column}" for name in eyes for column in columns)])
     for row, number in enumerate(numbers):
         values = [
             value
             for eye in eyes.values()
-            for value in (eye.openness_mm[row], eye.openness[row], *eye.gaze_deg[row])
+            for value in (eye.openness_mm[row], eye.openness[row], eye.pupil[row], *eye.gaze_deg[row])
         ]
         table.writerow([int(number), *("" if np.isnan(value) else f"{value:.3f}" for value in values)])
     return text.getvalue()

@@ -133,6 +133,7 @@ class Mirror(Stage):
             sample,
             weights=mirror(sample.weights[None])[0],
             gaze=None if gaze is None else gaze[[2, 3, 0, 1]] * [-1, 1, -1, 1],
+            eyes=None if sample.eyes is None else sample.eyes.mirrored,
             head=None if head is None else head * [-1, 1, 1, -1, 1, -1],
             confidence=None if trust is None else mirror(trust[None])[0],
         )

@@ -35,6 +35,27 @@ def _placement(folder: Path, workshop: Workshop) -> None:
     (folder / "placement.toml").write_text("\n".join(lines) + "\n")
 
 
+def _person(folder: Path, workshop: Workshop) -> None:
+    _take(folder, workshop)
+    from regress.runtime.headset.person import OwnEye, Person, packed_picture, write_person
+    from regress.runtime.headset.predictor import load_headset_predictor
+
+    model = load_headset_predictor(workshop.headset_model).model
+    person = Person(
+        network_sha256=model.network_sha256,
+        rest={"jawOpen": 0.02, "mouthPucker": 0.05},
+        full={"jawOpen": 0.7, "eyeBlinkLeft": 0.6},
+        eyes={
+            "left_eye": OwnEye(shut_mm=1.5, rest_mm=9.0, lids=0.4, direct=((1.0, 0.0, -2.0), (0.0, 1.0, 3.0)))
+        },
+        neutral={
+            one.name: packed_picture(np.full((one.height, one.width), 90, dtype=np.uint8))
+            for one in model.cameras
+        },
+    )
+    write_person(folder / "anna.json", person)
+
+
 def _film(folder: Path, workshop: Workshop) -> None:
     import cv2
 
@@ -112,6 +133,13 @@ READERS = (
         make=_placement,
         target="placement.toml",
         kind="toml",
+    ),
+    Reader(
+        name="person",
+        command=f"regress headset predict {{headset_model}} {_TAKE} --person in/anna.json --out out/w.csv",
+        make=_person,
+        target="anna.json",
+        kind="json",
     ),
     Reader(
         name="film",

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.placement_search import EyePoints
-from regress.runtime.headset.traced_eyes import IRIS_MM, corrected, eye_features, fused
+from regress.runtime.headset.eye_points import EyePoints
+from regress.runtime.headset.eye_reader import IRIS_MM
+from regress.runtime.headset.traced_eyes import corrected, eye_features, fused
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
 LIDS, IRIS = 12, 8

@@ -1,0 +1,109 @@
+"""``regress headset calibrate``: a guided minute in, a person's own ends of every range out."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regress.errors import InputError
+
+
+def _face(asked: str) -> type:
+    return Annotated[
+        str | None,
+        typer.Option(metavar="FOLDER|FIRST-LAST", help=f"{asked}: a folder, or frames of the take."),
+    ]
+
+
+def calibrate(
+    model: Annotated[
+        str, typer.Argument(metavar="[MODEL]", help="Model folder, or a ready-made model's name.")
+    ] = "",
+    out: Annotated[
+        Path | None, typer.Option("--out", help="The person's file to write, for `predict --person`.")
+    ] = None,
+    rest: _face("The face at rest, needed") = None,
+    shut: _face("Both eyes shut") = None,
+    wide: _face("Both eyes wide open") = None,
+    jaw_open: _face("The mouth as wide as it goes") = None,
+    lips_rolled: _face("Both lips rolled in") = None,
+    smile: _face("As broad a smile as can be") = None,
+    cheeks: _face("Both cheeks puffed") = None,
+    brows_up: _face("Brows as high as they go") = None,
+    pucker: _face("Lips as for a kiss") = None,
+    look: _face("Looking around, or at --looked-at") = None,
+    looked_at: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--looked-at",
+            metavar="FRAME:YAW:PITCH",
+            help="What was looked at in a frame of --look, in degrees to the person's left and upwards. Without any, "
+            "the middle of all glances lies ahead.",
+        ),
+    ] = None,
+    camera: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--camera", metavar="NAME=PATH", help="A camera's pictures or film of one take of all faces."
+        ),
+    ] = None,
+    left_eye: Annotated[
+        Path | None, typer.Option("--left-eye", help="Short for --camera left_eye=PATH.")
+    ] = None,
+    right_eye: Annotated[
+        Path | None, typer.Option("--right-eye", help="Short for --camera right_eye=PATH.")
+    ] = None,
+    mouth: Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")] = None,
+    bits: Annotated[
+        int | None,
+        typer.Option(
+            "--bits", min=8, max=16, help="How many bits the cameras use, of pictures with 16 bits a pixel."
+        ),
+    ] = None,
+    placement: Annotated[
+        Path | None, typer.Option("--placement", help="TOML of `regress headset check`.")
+    ] = None,
+) -> None:
+    """Find a person's own ends of each range in a guided minute: rest becomes 0, full movements become 1.
+
+    Faces are folders with a film or a folder of pictures for each camera (left_eye, right_eye, mouth), or frames
+    FIRST-LAST of one take that is given by --left-eye, --right-eye and --mouth.
+
+    Example: regress headset calibrate --rest minute/rest --shut minute/shut --jaw-open minute/jaw --out anna.json
+    """
+    from facegen.console import say
+    from regress.cli.headset_input import camera_paths
+    from regress.cli.headset_minute import read_minute
+    from regress.runtime.headset.guided import FACES, person_of
+    from regress.runtime.headset.person import write_person
+    from regress.runtime.headset.placement_file import read_placement
+    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.ready_made import HEADSET
+
+    if out is None:
+        raise InputError("--out is needed: the person's file, as anna.json")
+    predictor = load_headset_predictor(model or HEADSET)
+    given = (rest, shut, wide, jaw_open, lips_rolled, smile, cheeks, brows_up, pucker, look)
+    named = {face: text for face, text in zip(FACES, given, strict=True) if text is not None}
+    short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
+    paths = camera_paths(
+        predictor, camera or [], {name: path for name, path in short.items() if path is not None}
+    )
+    minute = read_minute(
+        predictor,
+        named,
+        paths,
+        looked_at=looked_at or [],
+        bits=bits,
+        placement={} if placement is None else read_placement(placement, predictor.sizes),
+    )
+    for note in minute.notes:
+        say(note)
+    person, notes = person_of(predictor, minute.takes, unlevelled=minute.unlevelled)
+    for note in notes:
+        say(note)
+    write_person(out, person)
+    said = ", ".join(f"{name} {value:.2f}" for name, value in person.full.items())
+    say(
+        f"{out}: a full movement reads {said or 'nothing'}; give it to `regress headset predict --person {out}`"
+    )

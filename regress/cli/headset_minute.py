@@ -1,0 +1,136 @@
+"""Reads the takes of a guided minute: a folder for each face, or frames of one take of them all."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from regress.errors import InputError
+
+if TYPE_CHECKING:
+    from regress.runtime.headset.footage import Footage
+    from regress.runtime.headset.guided import GuidedTake
+    from regress.runtime.headset.placement import CameraPlacement
+    from regress.runtime.headset.predictor import HeadsetPredictor
+
+_RANGE = re.compile(r"(\d{1,18})-(\d{1,18})")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Minute:
+    """A guided minute's frames.
+
+    Parameters
+    ----------
+    takes
+        By face, at the levels of training.
+    unlevelled
+        Pictures (n, h, w) by camera of the face at rest, as they were before; empty without it.
+    notes
+        What is wrong with cameras and pictures, a sentence each.
+    """
+
+    takes: "dict[str, GuidedTake]"
+    unlevelled: dict[str, np.ndarray]
+    notes: tuple[str, ...]
+
+
+def read_minute(
+    predictor: "HeadsetPredictor",
+    named: Mapping[str, str],
+    paths: dict[str, Path],
+    *,
+    looked_at: Sequence[str] = (),
+    bits: int | None = None,
+    placement: "Mapping[str, CameraPlacement] | None" = None,
+) -> Minute:
+    """Frames of each face in which every given camera has a picture.
+
+    Parameters
+    ----------
+    named
+        By face what its option says: a folder, or ``FIRST-LAST`` of the take at ``paths``.
+    looked_at
+        ``FRAME:YAW:PITCH`` of frames of ``look``.
+
+    Raises
+    ------
+    InputError
+        Where a face's frames cannot be read, or there are none.
+    """
+    from regress.cli.headset_input import read_footage, targets_of
+    from regress.runtime.headset.guided import LOOK, REST, GuidedTake
+    from regress.runtime.headset.levels import level_table
+    from regress.runtime.headset.looks import levels_of
+
+    def read(cameras: dict[str, Path]) -> "Footage":
+        return read_footage(
+            predictor, None, cameras, from_start=False, fps=None, bits=bits, placement=placement
+        )
+
+    targets = targets_of(looked_at)
+    if targets and LOOK not in named:
+        raise InputError("--looked-at is for frames of --look; give --look too")
+    whole = read(paths) if paths else None
+    notes, pictures, numbers = list(whole.notes) if whole is not None else [], {}, {}
+    for face, text in named.items():
+        option = f"--{face.replace('_', '-')}"
+        span = _RANGE.fullmatch(text)
+        if span and whole is not None:
+            footage = whole
+            chosen = (whole.numbers >= int(span[1])) & (whole.numbers <= int(span[2]))
+        else:
+            footage = read(_cameras_in(Path(text), predictor, option))
+            chosen = np.ones(len(footage.numbers), dtype=bool)
+            notes += [f"{text}: {note}" for note in footage.notes]
+        chosen &= footage.present[:, footage.given].all(axis=1)
+        if not chosen.any():
+            raise InputError(f"{option} {text}: no frame there has a picture of every camera")
+        given = [name for name, there in zip(footage.cameras, footage.given, strict=True) if there]
+        pictures[face] = {name: footage.pictures[name][chosen] for name in given}
+        numbers[face] = {int(number): row for row, number in enumerate(footage.numbers[chosen])}
+    tables = {}
+    for name, looks in predictor.model.looks.items():
+        seen = [frames[name] for frames in pictures.values() if name in frames]
+        place = (placement or {}).get(name)
+        if place is not None and place.low is not None:
+            tables[name] = level_table(place.low, place.high, looks, fixed=True)
+        elif seen:
+            tables[name] = level_table(*levels_of(np.concatenate(seen)), looks)
+    lost = [frame for frame in targets if frame not in numbers[LOOK]]
+    if lost:
+        raise InputError(
+            f"--looked-at {lost[0]}: no frame of --look has this number and a picture of every camera"
+        )
+    takes = {
+        face: GuidedTake(
+            pictures={
+                name: tables[name][frames] if name in tables else frames for name, frames in shown.items()
+            },
+            targets_deg={numbers[LOOK][frame]: angles for frame, angles in targets.items()}
+            if face == LOOK
+            else {},
+        )
+        for face, shown in pictures.items()
+    }
+    return Minute(takes=takes, unlevelled=pictures.get(REST, {}), notes=tuple(dict.fromkeys(notes)))
+
+
+def _cameras_in(folder: Path, predictor: "HeadsetPredictor", option: str) -> dict[str, Path]:
+    """A face's folder of pictures or film of each camera, by the camera's name."""
+    found = {}
+    for name in predictor.sizes:
+        films = sorted(folder.glob(f"{name}.*")) if folder.is_dir() else []
+        if (folder / name).is_dir():
+            found[name] = folder / name
+        elif films:
+            found[name] = films[0]
+    if not found:
+        raise InputError(
+            f"{option} {folder}: no folder with {', '.join(predictor.sizes)} as folders of pictures or films; frames "
+            f"of a take are FIRST-LAST, beside --left-eye and the others"
+        )
+    return found

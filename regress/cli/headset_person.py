@@ -1,0 +1,68 @@
+"""What `regress headset predict` knows of a person: the file of `regress headset calibrate`."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from facegen.console import say
+from regress.errors import InputError
+
+if TYPE_CHECKING:
+    from regress.runtime.headset.footage import Footage
+    from regress.runtime.headset.neutral import Neutral
+    from regress.runtime.headset.person import Person
+    from regress.runtime.headset.predictor import HeadsetPredictor
+
+
+def read_own(predictor: "HeadsetPredictor", path: Path | None, *, still: bool) -> "Person | None":
+    """A person's file, where one is named, it is of this network and the footage is of one person.
+
+    Raises
+    ------
+    InputError
+        Where it is not.
+    """
+    from regress.runtime.headset.person import read_person
+
+    if path is None:
+        return None
+    person = read_person(path)
+    if still:
+        raise InputError("a dataset has many people, and --person is for a recording of one")
+    if person.network_sha256 != predictor.model.network_sha256:
+        raise InputError(
+            f"{path} was calibrated with another network than this model's; `regress headset calibrate` again"
+        )
+    strangers = [name for name in (*person.eyes, *person.neutral) if name not in predictor.sizes]
+    if strangers:
+        raise InputError(
+            f"{path}: the model has no camera {strangers[0][:60]!r}; it has {', '.join(predictor.sizes)}"
+        )
+    return person
+
+
+def neutrals_of(
+    person: "Person | None",
+    predictor: "HeadsetPredictor",
+    footage: "Footage",
+    tables: Mapping[str, np.ndarray],
+) -> "list[Neutral]":
+    """The neutral pictures of a person's file; none without one, or where a camera in use has none there."""
+    if person is None or not person.neutral:
+        return []
+    from regress.runtime.headset.neutral import Neutral
+    from regress.runtime.headset.person import unpacked_picture
+
+    used = [name for name, there in zip(footage.cameras, footage.given, strict=True) if there]
+    lacking = [name for name in used if name not in person.neutral]
+    if lacking:
+        say(f"the person's file has no neutral picture of {', '.join(lacking)}: frames are seen alone")
+        return []
+    pictures = {}
+    for name in used:
+        width, height = predictor.sizes[name]
+        picture = unpacked_picture(person.neutral[name], width=width, height=height, of=name)
+        pictures[name] = tables[name][picture] if name in tables else picture
+    return [Neutral(row=0, pictures=pictures)]

@@ -1,0 +1,159 @@
+"""Reads both eyes of a frame: lids, pupils and gaze, by what the network traces and says, and by what is known of the
+person."""
+
+from collections import deque
+from collections.abc import Mapping
+
+import numpy as np
+
+from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
+from regress.runtime.headset.person import OwnEye, Person
+from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.pupils import pupil_share
+from regress.runtime.headset.vergence import meeting
+from regress.runtime.sample import EyeMeasures
+
+IRIS_MM = 11.7
+"""Diameter of an iris, nearly the same in all people (F. Rüfer et al., "White-to-white corneal diameter", 2005)."""
+
+HALF_SHUT = 0.5
+"""Openness below which an eye's pupil is hidden in part: its gaze then follows the other eye's."""
+
+HIDDEN_DEG = 20.0
+"""Error of the gaze of an eye that is shut."""
+
+_MEMORY = 300
+"""Frames whose median is the iris's diameter: a half-hidden iris is traced too small."""
+
+_USUAL_OPENNESS = 0.85
+"""Lids of the mean of training's frames, over those of the resting eye: some of these frames are shut. Neutral frames
+of 60 other people read 1.00 in the median."""
+
+_PUPIL_EVERY = 4
+"""Frames: a pupil takes half a second to change, and measuring one 0.3 ms."""
+
+
+class EyeReader:
+    """Reads eyes frame by frame.
+
+    Parameters
+    ----------
+    predictor
+        The model; `cameras` are those of its cameras that trace an eye.
+    person
+        Whose own ends and gaze count; without, openness is against training's people, and gaze is the network's.
+
+    Attributes
+    ----------
+    sides : dict of int
+        Which eye each camera traces: 0 is the subject's left one.
+    """
+
+    def __init__(self, predictor: HeadsetPredictor, person: Person | None = None) -> None:
+        looks = predictor.model.looks
+        self._eyes = {
+            name: EyePoints.of(predictor, name)
+            for name in predictor.sizes
+            if traces_an_eye(predictor, name) and name in looks
+        }
+        self._maps = {
+            name: None if looks[name].gaze is None else np.array(looks[name].gaze) for name in self._eyes
+        }
+        self.sides = {
+            name: int(any(point.startswith("right_pupil") for point in predictor.model.points[name]))
+            for name in self._eyes
+        }
+        self._pupils = dict.fromkeys(self._eyes, float("nan"))
+        self._frame = 0
+        self._diameters = {name: deque(maxlen=_MEMORY) for name in self._eyes}
+        self._usual = {
+            name: OwnEye(
+                shut_mm=0.0,
+                rest_mm=IRIS_MM * _apart(eye.usual, eye) / _USUAL_OPENNESS / diameter_of(eye.usual, eye),
+            )
+            for name, eye in self._eyes.items()
+        }
+        self.use_person(person)
+
+    def use_person(self, person: Person | None) -> None:
+        """Count with what is known of a person from now on."""
+        self._own = {} if person is None else dict(person.eyes)
+
+    def read(
+        self, pictures: Mapping[str, np.ndarray], points: Mapping[str, np.ndarray], gaze_rad: np.ndarray
+    ) -> tuple[EyeMeasures, np.ndarray]:
+        """What is measured of the eyes, and their gaze (4,) in radians, as samples have it.
+
+        Parameters
+        ----------
+        pictures : mapping of (h, w) uint8
+            By camera, as the network sees them.
+        points : mapping of (P, 2)
+            Pixels of what it traces in them.
+        gaze_rad : (4,)
+            Its direct answer.
+        """
+        openness_mm, openness, pupil = np.full((3, 2), np.nan)
+        self._frame += 1
+        gaze_deg, variance = np.degrees(gaze_rad).reshape(2, 2), np.ones(2)
+        for name, eye in self._eyes.items():
+            if name not in points or name not in pictures:
+                continue
+            side, seen = self.sides[name], points[name].astype(np.float64)
+            self._diameters[name].append(diameter_of(seen, eye))
+            diameter = float(np.median(self._diameters[name]))
+            own = self._own.get(name, OwnEye())
+            openness_mm[side] = IRIS_MM * _apart(seen, eye) / diameter
+            known = own if own.rest_mm is not None and own.shut_mm is not None else self._usual[name]
+            openness[side] = known.openness(openness_mm[side])
+            pupil[side] = self._pupil(name, pictures[name], seen)
+            gaze_deg[side] = self._own_gaze(name, own, seen, diameter, gaze_deg[side])
+            hidden = np.clip(1 - openness[side] / HALF_SHUT, 0, 1) if np.isfinite(openness[side]) else 0.0
+            variance[side] = own.error_deg**2 + (HIDDEN_DEG * hidden) ** 2
+        met = meeting(gaze_deg[None], variance)[0]
+        measured = EyeMeasures(openness_mm=openness_mm, openness=openness, pupil=pupil)
+        return measured, np.radians(met).ravel()
+
+    def traced_gaze(self, camera: str, points: np.ndarray, diameter: float | None = None) -> np.ndarray:
+        """Yaw and pitch (2,) in degrees of a pupil between the eye's corners; NaN of models without such a map.
+
+        ``diameter`` is the iris's; the median of the frames that were read without.
+        """
+        if self._maps[camera] is None:
+            return np.full(2, np.nan)
+        eye = self._eyes[camera]
+        diameter = float(np.median(self._diameters[camera])) if diameter is None else diameter
+        corners = points[[eye.upper[0], eye.upper[-1]]].mean(axis=0)
+        return self._maps[camera] @ np.append((points[eye.pupil] - corners) / diameter, 1.0)
+
+    def _pupil(self, camera: str, picture: np.ndarray, points: np.ndarray) -> float:
+        """The pupil of now, or of just now: the eyes' turns do not fall on one frame."""
+        due = (self._frame + 2 * self.sides[camera]) % _PUPIL_EVERY == 0
+        if due or np.isnan(self._pupils[camera]):
+            self._pupils[camera] = pupil_share(picture, points, self._eyes[camera])
+        return self._pupils[camera]
+
+    def _own_gaze(
+        self, camera: str, own: OwnEye, points: np.ndarray, diameter: float, direct_deg: np.ndarray
+    ) -> np.ndarray:
+        """Both answers (2,) in degrees, each set right, by their shares; the direct one where nothing is known."""
+        answers, shares = [], []
+        traced = self.traced_gaze(camera, points, diameter)
+        for answer, affine, share in (
+            (traced, own.traced, own.traced_share),
+            (direct_deg, own.direct, 1 - own.traced_share),
+        ):
+            if affine is not None and np.isfinite(answer).all():
+                answers.append(np.array(affine) @ np.append(answer, 1.0))
+                shares.append(share)
+        return np.average(answers, axis=0, weights=shares) if sum(shares) > 0 else direct_deg
+
+
+def diameter_of(points: np.ndarray, eye: EyePoints) -> float:
+    """Of the iris, pixels; its points lie evenly on an ellipse."""
+    iris = points[eye.iris]
+    return float(2 * np.linalg.norm(iris - iris.mean(axis=0), axis=1).mean())
+
+
+def _apart(points: np.ndarray, eye: EyePoints) -> float:
+    return float(np.linalg.norm(points[eye.upper] - points[eye.lower], axis=1).mean())

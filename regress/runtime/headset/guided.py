@@ -1,0 +1,248 @@
+"""Makes a person's own ends of a guided minute: takes of rest and of named faces, as one network reads them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from regress.errors import InputError
+from regress.runtime.headset.eye_reader import EyeReader
+from regress.runtime.headset.person import HIGHEST_REST, LEAST_SPAN, OwnEye, Person, packed_picture
+from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.traced_eyes import own_gaze
+
+REST, LOOK = "rest", "look"
+
+FACES: Mapping[str, tuple[str, ...]] = {
+    REST: (),
+    "shut": ("eyeBlinkLeft", "eyeBlinkRight"),
+    "wide": ("eyeWideLeft", "eyeWideRight"),
+    "jaw_open": ("jawOpen",),
+    "lips_rolled": ("mouthRollUpper", "mouthRollLower"),
+    "smile": ("mouthSmileLeft", "mouthSmileRight"),
+    "cheeks": ("cheekPuff",),
+    "brows_up": ("browInnerUp", "browOuterUpLeft", "browOuterUpRight"),
+    "pucker": ("mouthPucker",),
+    LOOK: (),
+}
+"""Faces of a guided minute, in the order of asking, and the shapes that are whole in each."""
+
+_FULL = 0.6
+"""Quantile of a take that is the full movement: people need a third of the time to get there."""
+
+_SHUT = 0.7
+"""Of the lids' distance at rest, above which lids are not shut, or not seen."""
+
+_LEAST_REST = 0.005
+"""Reading at rest below which a shape is left out of the file."""
+
+_LEAST_ERROR = 0.02
+"""Of a blink in own units: what any reading is off by."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GuidedTake:
+    """Frames of one face.
+
+    Parameters
+    ----------
+    pictures
+        (n, h, w) uint8 by camera, as the network sees them.
+    targets_deg
+        Yaw and pitch of what was looked at, by frame.
+    """
+
+    pictures: Mapping[str, np.ndarray]
+    targets_deg: Mapping[int, tuple[float, float]]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Readings:
+    """What a network says of a take's frames: weights (n, 52), openness (n, 2) in mm, answers (n, 2) of each eye."""
+
+    weights: np.ndarray
+    openness_mm: np.ndarray
+    traced_deg: Mapping[str, np.ndarray]
+    direct_deg: Mapping[str, np.ndarray]
+
+
+def person_of(
+    predictor: HeadsetPredictor,
+    takes: Mapping[str, GuidedTake],
+    *,
+    unlevelled: Mapping[str, np.ndarray] | None = None,
+) -> tuple[Person, tuple[str, ...]]:
+    """A person's own ends, and a sentence for each face that said nothing.
+
+    Parameters
+    ----------
+    takes
+        By `FACES`; ``rest`` is needed.
+    unlevelled
+        Pictures of ``rest`` as they were before levels were set, for the neutral ones of the file; the take's own
+        without.
+
+    Raises
+    ------
+    InputError
+        Where there is no ``rest``, or the face was not at rest.
+    """
+    if REST not in takes:
+        raise InputError(f"--{REST} is needed: other faces are told by how they differ from it")
+    reader = EyeReader(predictor)
+    row = neutral_row(predictor, takes[REST].pictures)
+    neutral = None
+    if predictor.model.calibration != "none":
+        neutral = {name: frames[row] for name, frames in takes[REST].pictures.items()}
+    readings = {face: _read(predictor, reader, take, neutral) for face, take in takes.items()}
+    at_rest = np.median(readings[REST].weights, axis=0)
+    worst = int(np.argmax(at_rest))
+    if at_rest[worst] > HIGHEST_REST:
+        raise InputError(
+            f"--{REST}: {BLENDSHAPES[worst]} reads {at_rest[worst]:.2f} there; at most {HIGHEST_REST} is a resting face"
+        )
+    full, notes = _full(readings, at_rest)
+    eyes = {}
+    for camera, side in reader.sides.items():
+        if camera in takes[REST].pictures:
+            eyes[camera] = _own_eye(camera, side, readings, takes, notes)
+    kept = takes[REST].pictures if unlevelled is None else unlevelled
+    looks = {name for name in BLENDSHAPES if name.startswith("eyeLook")}
+    person = Person(
+        network_sha256=predictor.model.network_sha256,
+        rest={
+            name: round(float(value), 4)
+            for name, value in zip(BLENDSHAPES, at_rest, strict=True)
+            if value >= _LEAST_REST and name not in looks
+        },
+        full=full,
+        eyes=eyes,
+        neutral={} if neutral is None else {name: packed_picture(kept[name][row]) for name in neutral},
+    )
+    return person, tuple(notes)
+
+
+def neutral_row(predictor: HeadsetPredictor, pictures: Mapping[str, np.ndarray]) -> int:
+    """The frame that is nearest to the median of all: a mean of pictures would be blurred."""
+    weights = predictor.predict(pictures).weights
+    return int(np.argmin(np.abs(weights - np.median(weights, axis=0)).sum(axis=1)))
+
+
+def _read(
+    predictor: HeadsetPredictor,
+    reader: EyeReader,
+    take: GuidedTake,
+    neutral: Mapping[str, np.ndarray] | None,
+) -> Readings:
+    estimates, traced = predictor.see(take.pictures, neutral=neutral)
+    count = len(estimates.weights)
+    openness, found = [], {name: np.full((count, 2), np.nan) for name in reader.sides if name in traced}
+    for row in range(count):
+        points = {name: pixels[row] for name, pixels in traced.items()}
+        frame = {name: frames[row] for name, frames in take.pictures.items()}
+        openness.append(reader.read(frame, points, estimates.gaze[row].ravel())[0].openness_mm)
+        for name, gaze in found.items():
+            gaze[row] = reader.traced_gaze(name, points[name].astype(np.float64))
+    direct = np.degrees(estimates.gaze.astype(np.float64))
+    return Readings(
+        weights=estimates.weights.astype(np.float64),
+        openness_mm=np.array(openness),
+        traced_deg=found,
+        direct_deg={name: direct[:, reader.sides[name]] for name in found},
+    )
+
+
+def _full(readings: Mapping[str, Readings], at_rest: np.ndarray) -> tuple[dict[str, float], list[str]]:
+    """Readings of full movements by shape, and sentences on those that the network does not see."""
+    full, notes = {}, []
+    for face, shapes in FACES.items():
+        if face not in readings:
+            continue
+        top = np.quantile(readings[face].weights, _FULL, axis=0)
+        for name in shapes:
+            column = BLENDSHAPE_INDEX[name]
+            if top[column] - at_rest[column] < LEAST_SPAN:
+                notes.append(
+                    f"{face}: the network reads {name} {top[column]:.2f} there and {at_rest[column]:.2f} at rest; its "
+                    f"range stays as it is"
+                )
+            else:
+                full[name] = round(float(min(top[column], 1.0)), 4)
+    return full, notes
+
+
+def _own_eye(
+    camera: str,
+    side: int,
+    readings: Mapping[str, Readings],
+    takes: Mapping[str, GuidedTake],
+    notes: list[str],
+) -> OwnEye:
+    def lids(face: str) -> float | None:
+        if face not in readings:
+            return None
+        return round(float(np.clip(np.nanmedian(readings[face].openness_mm[:, side]), 0, 40)), 3)
+
+    shut, rest, wide = map(lids, ("shut", REST, "wide"))
+    if shut is not None and shut > _SHUT * rest:
+        notes.append(
+            f"shut: {camera} traces lids {shut:.1f} mm apart there and {rest:.1f} at rest: they say nothing"
+        )
+        shut = None
+    gaze = {}
+    if LOOK in takes and takes[LOOK].targets_deg:
+        rows = list(takes[LOOK].targets_deg)
+        targets = np.array([takes[LOOK].targets_deg[row] for row in rows])
+        answers = [each[camera][rows] for each in (readings[LOOK].traced_deg, readings[LOOK].direct_deg)]
+    elif LOOK in takes:
+        # without targets: the middle of what was looked at lies ahead
+        answers = [
+            np.quantile(each[camera], [0.1, 0.9], axis=0).mean(axis=0, keepdims=True)
+            for each in (readings[LOOK].traced_deg, readings[LOOK].direct_deg)
+        ]
+        targets = np.zeros((1, 2))
+    else:
+        answers, targets = [], np.zeros((0, 2))
+    if len(targets) and np.isfinite(answers).all():
+        own = own_gaze(answers, targets)
+        gaze = {
+            "traced": tuple(map(tuple, own.maps[0].tolist())),
+            "direct": tuple(map(tuple, own.maps[1].tolist())),
+            # few targets do not show which answer is the better one; in the training's own headset it is the direct one
+            "traced_share": float(own.shares[0]) if own.decided else 0.0,
+            "error_deg": own.error_deg,
+        }
+    return OwnEye(
+        shut_mm=shut,
+        rest_mm=rest,
+        wide_mm=wide,
+        lids=0.0 if shut is None else _lids_share(side, readings, shut, rest),
+        **gaze,
+    )
+
+
+def _lids_share(side: int, readings: Mapping[str, Readings], shut_mm: float, rest_mm: float) -> float:
+    """How much traced lids count against eyeBlink: the inverse of the squares of what each is off, in own units."""
+    column = BLENDSHAPE_INDEX[("eyeBlinkLeft", "eyeBlinkRight")[side]]
+    still = [face for face in (REST, LOOK) if face in readings]
+    blink_rest = float(np.median(readings[REST].weights[:, column]))
+    blink_span = float(np.median(readings["shut"].weights[:, column])) - blink_rest
+    if blink_span < LEAST_SPAN:
+        return 1.0
+
+    def squares(shut: Sequence[float], open_: Sequence[float]) -> float:
+        values = [(np.clip(shut, 0, 1) - 1) ** 2, np.clip(open_, 0, 1) ** 2]
+        return sum(float(np.mean(each)) for each in values) + _LEAST_ERROR**2
+
+    def blinks(face: str) -> np.ndarray:
+        return (readings[face].weights[:, column] - blink_rest) / blink_span
+
+    def by_lids(face: str) -> np.ndarray:
+        gaps = readings[face].openness_mm[:, side]
+        return (rest_mm - gaps[np.isfinite(gaps)]) / (rest_mm - shut_mm)
+
+    off_blink, off_lids = (
+        squares(of("shut"), np.concatenate([of(face) for face in still])) for of in (blinks, by_lids)
+    )
+    return round(off_blink / (off_blink + off_lids), 4)

@@ -1,0 +1,220 @@
+"""Keeps what a guided minute has found of a person: rest, own ends of every range, lids, gaze, neutral pictures.
+
+::
+
+    {"kind": "headset-person", "version": 1, "network_sha256": "...",
+     "rest": {"jawOpen": 0.02}, "full": {"jawOpen": 0.71},
+     "eyes": {"left_eye": {"shut_mm": 1.2, "rest_mm": 8.9, "wide_mm": 10.8, "lids": 0.4, "gaze": [...]}},
+     "neutral": {"left_eye": "<PNG in base64>"}}
+"""
+
+import base64
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
+
+import cv2
+import numpy as np
+from annotated_types import Ge, Interval, Le, Len
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.files import write_whole
+from facegen.formats.picture_size import picture_size
+from regress.errors import InputError
+from regress.runtime.documents import checked, read_document
+from regress.runtime.headset.model import MOST_CAMERAS
+from regress.runtime.sample import EyeMeasures
+
+MOST_PERSON_BYTES = 2**24
+"""Of a person's file: 64 neutral pictures of `MOST_PICTURE_CHARACTERS`."""
+
+MOST_PICTURE_CHARACTERS = 2**18
+"""Of one neutral picture in base64: 400 x 400 grey levels that do not compress take 213,000."""
+
+FULL_GAIN = 2.0
+"""Most by which a range is stretched: beyond it what is stretched is noise (regress.learning.training.gain). Lids are
+not held to it, for how noisy a blink reads is measured."""
+
+LEAST_SPAN = 0.15
+"""Between readings of rest and of a full movement, below which the network does not see it, or it was not made."""
+
+HIGHEST_REST = 0.5
+"""Reading at rest; above it the face was not at rest, or the pictures are none of the network's."""
+
+_BLINKS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
+
+Millimetres = Annotated[float, Interval(ge=0, le=40)]
+Row = Annotated[tuple[Annotated[float, Interval(ge=-1000, le=1000)], ...], Len(3, 3)]
+Affine = Annotated[tuple[Row, ...], Len(2, 2)]
+"""Yaw and pitch in degrees from an answer's yaw and pitch and 1."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OwnEye:
+    """One eye of a person, before one camera.
+
+    Parameters
+    ----------
+    shut_mm, rest_mm, wide_mm
+        Mean distance of the lids' margins, traced; what was not recorded is None.
+    lids
+        How much traced lids count against the network's eyeBlink, by how far each was off.
+    traced, direct
+        What sets the gaze of traced points and the direct answer right; None where no targets were looked at.
+    traced_share
+        How much the first counts against the second.
+    error_deg
+        Of the gaze at the targets.
+    """
+
+    __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
+
+    shut_mm: Millimetres | None = None
+    rest_mm: Millimetres | None = None
+    wide_mm: Millimetres | None = None
+    lids: Annotated[float, Interval(ge=0, le=1)] = 0.0
+    traced: Affine | None = None
+    direct: Affine | None = None
+    traced_share: Annotated[float, Interval(ge=0, le=1)] = 0.0
+    error_deg: Annotated[float, Interval(ge=0, le=180)] = 1.0
+
+    def openness(self, openness_mm: float) -> float:
+        """Share of the way from shut to rest; NaN where either is not known."""
+        if self.shut_mm is None or self.rest_mm is None or self.rest_mm <= self.shut_mm:
+            return float("nan")
+        return (openness_mm - self.shut_mm) / (self.rest_mm - self.shut_mm)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Person:
+    """Own ends of a person's ranges, as one network reads them.
+
+    Parameters
+    ----------
+    kind, version
+        Of this kind of file.
+    network_sha256
+        Of the network that read them.
+    rest, full
+        Readings of the resting face and of own full movements, by shape; those left out are 0 and 1.
+    eyes
+        By camera.
+    neutral
+        Neutral pictures by camera, as the network sees them before levels are set: grey PNG in base64.
+    """
+
+    __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
+
+    kind: Literal["headset-person"] = "headset-person"
+    version: Literal[1] = 1
+    network_sha256: Annotated[str, Len(0, 64)] = ""
+    rest: dict[str, Annotated[float, Ge(0), Le(HIGHEST_REST)]] = field(default_factory=dict)
+    full: dict[str, Annotated[float, Ge(LEAST_SPAN), Le(1)]] = field(default_factory=dict)
+    eyes: Annotated[dict[str, OwnEye], Len(0, MOST_CAMERAS)] = field(default_factory=dict)
+    neutral: Annotated[dict[str, Annotated[str, Len(0, MOST_PICTURE_CHARACTERS)]], Len(0, MOST_CAMERAS)] = (
+        field(default_factory=dict)
+    )
+
+    def __post_init__(self) -> None:
+        """Refuse shapes that there are not."""
+        strangers = [name for name in (*self.rest, *self.full) if name not in BLENDSHAPE_INDEX]
+        if strangers:
+            raise ValueError(f"{strangers[0][:60]!r} is not one of the 52 ARKit names")
+
+
+class OwnEnds:
+    """Stretches weights so that the person's rest reads 0 and own full movements read 1.
+
+    Parameters
+    ----------
+    rest, full
+        Readings by shape.
+    lids
+        How much traced lids count in eyeBlink, (2,), left first.
+    """
+
+    def __init__(self, rest: Mapping[str, float], full: Mapping[str, float], lids: np.ndarray) -> None:
+        self._rest = np.array([rest.get(name, 0.0) for name in BLENDSHAPES])
+        top = np.array([full.get(name, 1.0) for name in BLENDSHAPES])
+        least = np.full(len(BLENDSHAPES), 1 / FULL_GAIN)
+        least[_BLINKS] = LEAST_SPAN
+        self._span = np.maximum(top - self._rest, least * np.minimum(1.0, 1.0 - self._rest))
+        self._lids = lids
+
+    @classmethod
+    def of(cls, person: Person, sides: Mapping[str, int]) -> "OwnEnds":
+        """Those of a person; ``sides`` says which eye each camera traces, 0 for the left one."""
+        lids = np.zeros(2)
+        for camera, side in sides.items():
+            if camera in person.eyes:
+                lids[side] = person.eyes[camera].lids
+        return cls(person.rest, person.full, lids)
+
+    def apply(self, weights: np.ndarray, eyes: EyeMeasures | None) -> np.ndarray:
+        """Weights (52,) in [0, 1]; NaN stays."""
+        moved = np.clip((weights - self._rest) / self._span, 0, 1)
+        if eyes is not None:
+            shut = np.clip(1 - eyes.openness, 0, 1)
+            known = np.isfinite(shut)
+            lids = np.where(known, self._lids, 0.0)
+            moved[_BLINKS] = (1 - lids) * moved[_BLINKS] + lids * np.where(known, shut, 0.0)
+        return moved
+
+
+def read_person(path: str | os.PathLike[str]) -> Person:
+    """Read a person's file.
+
+    Raises
+    ------
+    InputError
+        Where it is missing or too large, or says what is not allowed.
+    """
+    path = Path(path)
+    document = read_document(path, most_bytes=MOST_PERSON_BYTES)
+    try:
+        return checked(Person, document)
+    except InputError as error:
+        raise InputError(f"{path} is no person of `regress headset calibrate`: {error}") from error
+
+
+def write_person(path: str | os.PathLike[str], person: Person) -> None:
+    """Write a person's file whole.
+
+    Raises
+    ------
+    OutputError
+        Where it cannot be written.
+    """
+    write_whole(Path(path), json.dumps(asdict(person), indent=1, allow_nan=False) + "\n")
+
+
+def packed_picture(picture: np.ndarray) -> str:
+    """A neutral picture (h, w) uint8 as the file holds it."""
+    return base64.b64encode(cv2.imencode(".png", picture)[1].tobytes()).decode("ascii")
+
+
+def unpacked_picture(text: str, *, width: int, height: int, of: str) -> np.ndarray:
+    """A neutral picture (h, w) uint8 of a file.
+
+    Raises
+    ------
+    InputError
+        Where it is no picture of this size; ``of`` says of what.
+    """
+    try:
+        content = base64.b64decode(text)
+    except ValueError:  # no base64
+        content = b""
+    # by its head, before a decoder allocates what that claims
+    claimed, picture = picture_size(content), None
+    if claimed == (width, height):
+        picture = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), cv2.IMREAD_GRAYSCALE)
+    if picture is None or picture.shape != (height, width):
+        size = "none" if claimed in (None, (width, height)) else f"{claimed[0]} x {claimed[1]}"
+        raise InputError(
+            f"the neutral picture of {of} of --person is {size}, and the model takes {width} x {height}"
+        )
+    return picture

@@ -1,0 +1,173 @@
+"""A guided minute: own ends of ranges from takes of faces, as `calibrate` writes and `predict --person` takes them."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from regress.cli import app
+from regress.errors import InputError
+from regress.runtime.headset.person import OwnEnds, OwnEye, Person, read_person, write_person
+from regress.runtime.sample import EyeMeasures
+
+TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
+CAMERAS = [
+    word
+    for name in ("left_eye", "right_eye", "mouth")
+    for word in (f"--{name.replace('_', '-')}", TAKE / name)
+]
+SHUT, REST = "90-93", "0-9"
+"""Frames of the sample in which both eyes are shut, and of a face at rest."""
+BLINKS = ["eyeBlinkLeft", "eyeBlinkRight"]
+
+
+def eyes_of(openness: tuple[float, float]) -> EyeMeasures:
+    return EyeMeasures(openness_mm=np.full(2, 5.0), openness=np.array(openness), pupil=np.full(2, 0.4))
+
+
+readings = st.dictionaries(st.sampled_from(BLENDSHAPES), st.floats(0, 0.4), max_size=20)
+
+
+@given(readings, readings, st.floats(0, 1))
+def test_rest_reads_nothing_own_full_movements_read_one_and_order_stays(rest, spans, lids):
+    full = {name: min(rest.get(name, 0.0) + 0.3 + span, 1.0) for name, span in spans.items()}
+    ends = OwnEnds(rest, full, np.full(2, lids))
+    at_rest = np.array([rest.get(name, 0.0) for name in BLENDSHAPES])
+    np.testing.assert_allclose(ends.apply(at_rest, eyes_of((1.0, 1.2))), 0, atol=1e-9)
+    moved = np.array([full.get(name, 1.0) for name in BLENDSHAPES])
+    read = ends.apply(moved, eyes_of((0.0, 0.0)))
+    span = moved - at_rest
+    whole = np.flatnonzero((span >= 0.5 * (1 - at_rest)) | np.isin(BLENDSHAPES, BLINKS))
+    np.testing.assert_allclose(read[whole], 1)
+    # ranges of less than half of what is left are stretched to twice at most
+    others = ~np.isin(BLENDSHAPES, BLINKS)
+    assert (read <= 2 * span / (1 - at_rest) + 1e-9)[others].all()
+    halfway = ends.apply((at_rest + moved) / 2, None)
+    assert (halfway <= ends.apply(moved, None) + 1e-12).all()
+
+
+def test_lids_say_what_the_network_does_not_and_a_lost_camera_says_nothing():
+    ends = OwnEnds({}, {}, np.array([1.0, 1.0]))
+    said = ends.apply(np.zeros(52), eyes_of((0.05, np.nan)))
+    assert said[BLENDSHAPE_INDEX["eyeBlinkLeft"]] == pytest.approx(0.95)
+    assert said[BLENDSHAPE_INDEX["eyeBlinkRight"]] == 0
+    assert np.isnan(ends.apply(np.full(52, np.nan), None)).all()
+    assert np.isnan(OwnEye(rest_mm=8.0).openness(4.0))
+    assert OwnEye(rest_mm=8.0, shut_mm=2.0).openness(5.0) == 0.5
+
+
+@pytest.fixture(scope="module")
+def person(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("person") / "anna.json"
+    words = ["headset", "calibrate", *CAMERAS, "--rest", REST, "--shut", SHUT, "--out", path]
+    result = CliRunner().invoke(app, [str(word) for word in words])
+    assert result.exit_code == 0, result.output
+    return path
+
+
+def weights_of(run, tmp_path: Path, *options: object) -> np.ndarray:
+    table = tmp_path / "w.csv"
+    code, _, said = run("headset", "predict", *CAMERAS, "--out", table, *options)
+    assert code == 0, said
+    return np.genfromtxt(table, delimiter=",", names=True)
+
+
+def test_shut_is_one_rest_is_nothing_and_the_table_has_eyes(run, tmp_path: Path, person: Path):
+    before = weights_of(run, tmp_path)
+    after = weights_of(run, tmp_path, "--person", person)
+    for side in ("Left", "Right"):
+        blink = after[f"eyeBlink{side}"]
+        assert np.median(blink[90:94]) >= 0.9
+        assert np.median(blink[:10]) <= 0.05
+        assert np.corrcoef(blink, before[f"eyeBlink{side}"])[0, 1] > 0.9
+    rest = np.array([[after[name][row] for name in BLENDSHAPES if "Look" not in name] for row in range(10)])
+    assert np.median(rest, axis=0).max() <= 0.05
+    for side in ("left", "right"):
+        openness = after[f"{side}_eye_openness"]
+        assert np.median(openness[:10]) == pytest.approx(1, abs=0.1)
+        assert np.nanmax(openness[90:94]) < 0.3
+        pupil = after[f"{side}_eye_pupil"]
+        assert 0.2 < np.nanmedian(pupil) < 0.8
+    vergence = after["right_eye_yaw_deg"] - after["left_eye_yaw_deg"]
+    assert vergence.min() >= -1e-4  # six decimals of degrees
+    assert "left_eye_openness" not in (before.dtype.names or ())
+
+
+def test_a_persons_file_is_read_as_it_was_written(person: Path, tmp_path: Path):
+    own = read_person(person)
+    write_person(tmp_path / "again.json", own)
+    assert (tmp_path / "again.json").read_bytes() == person.read_bytes()
+    assert set(own.neutral) == {"left_eye", "right_eye", "mouth"}
+    assert own.full["eyeBlinkLeft"] > 0.6
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"rest": {"jawOpen": 0.6}}, "jawOpen"),
+        ({"rest": {"jaw": 0.1}}, "'jaw' is not one of the 52 ARKit names"),
+        ({"eyes": {"left_eye": {"rest_mm": -1}}}, "rest_mm"),
+        ({"eyes": {"third_eye": {}}}, "the model has no camera 'third_eye'"),
+        (
+            {"neutral": {"left_eye": "none", "right_eye": "", "mouth": ""}},
+            "the neutral picture of left_eye of --person is none",
+        ),
+        ({"network_sha256": "0" * 64}, "another network"),
+        ({"more": 1}, "more"),
+        ({"version": 2}, "version"),
+    ],
+)
+def test_files_of_other_things_are_refused(run, tmp_path: Path, person: Path, change: dict, said: str):
+    damaged = tmp_path / "damaged.json"
+    damaged.write_text(json.dumps(json.loads(person.read_text()) | change))
+    code, _, told = run("headset", "predict", *CAMERAS, "--out", tmp_path / "w.csv", "--person", damaged)
+    assert (code, said in told) == (2, True), told
+    assert not (tmp_path / "w.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--shut", SHUT], "--rest is needed"),
+        (["--rest", SHUT], "eyeBlink"),
+        (["--rest", "900-950"], "--rest 900-950: no frame there"),
+        (["--rest", "nowhere"], "no folder with left_eye"),
+        (["--rest", REST, "--looked-at", "3:0:0"], "give --look too"),
+        (["--rest", REST, "--look", REST, "--looked-at", "30:0:0"], "no frame of --look has this number"),
+    ],
+)
+def test_a_minute_that_is_none_is_refused(run, tmp_path: Path, options: list[str], said: str):
+    out = tmp_path / "anna.json"
+    code, _, told = run("headset", "calibrate", *CAMERAS, *options, "--out", out)
+    assert (code, said in told) == (2, True), told
+    assert not out.exists()
+
+
+def test_folders_of_faces_are_takes_and_what_is_not_seen_is_said(run, tmp_path: Path):
+    for face, numbers in (("rest", range(4)), ("shut", range(4, 8))):
+        for camera in ("left_eye", "right_eye", "mouth"):
+            folder = tmp_path / face / camera
+            folder.mkdir(parents=True)
+            for path in sorted((TAKE / camera).iterdir())[numbers.start : numbers.stop]:
+                (folder / path.name).write_bytes(path.read_bytes())
+    out = tmp_path / "anna.json"
+    code, _, said = run(
+        "headset", "calibrate", "--rest", tmp_path / "rest", "--shut", tmp_path / "shut", "--out", out
+    )
+    assert code == 0, said
+    # the eyes were open: nothing is made of it
+    assert "its range stays as it is" in said
+    assert read_person(out).full == {}
+    assert all(eye.shut_mm is None and eye.lids == 0 for eye in read_person(out).eyes.values())
+
+
+def test_a_person_without_anything_changes_nothing():
+    weights = np.linspace(0, 1, 52)
+    np.testing.assert_allclose(OwnEnds.of(Person(), {}).apply(weights, None), weights)
+    with pytest.raises(InputError, match=r"nowhere\.json"):
+        read_person("nowhere.json")

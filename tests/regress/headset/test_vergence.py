@@ -1,0 +1,35 @@
+"""Both eyes meet in front, and the surer one leads."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from regress.runtime.headset.vergence import WIDEST_VERGENCE_DEG, meeting
+
+angles = st.floats(-60, 60)
+errors = st.floats(0.1, 30)
+
+
+@given(angles, angles, angles, angles, errors, errors)
+def test_lines_of_sight_meet_and_a_second_time_changes_nothing(
+    yaw, pitch, other_yaw, other_pitch, off, other_off
+):
+    gaze = np.array([[[yaw, pitch], [other_yaw, other_pitch]]])
+    variance = np.array([off, other_off]) ** 2
+    met = meeting(gaze, variance)
+    vergence = met[0, 1, 0] - met[0, 0, 0]
+    assert -1e-9 <= vergence <= WIDEST_VERGENCE_DEG + 1e-9
+    assert abs(met[0, 0, 1] - met[0, 1, 1]) < 1e-9
+    np.testing.assert_allclose(meeting(met, variance), met, atol=1e-9)
+    moved = np.abs(met - gaze)[0].max(axis=1)
+    # of the two, the surer eye gives way by less
+    assert (moved[0] - moved[1]) * (off - other_off) >= -1e-9
+    if 0 <= other_yaw - yaw <= WIDEST_VERGENCE_DEG:
+        np.testing.assert_array_equal(met[0, :, 0], gaze[0, :, 0])
+
+
+def test_an_eye_by_itself_stays_as_it_is():
+    gaze = np.array([[[5.0, 1.0], [np.nan, np.nan]], [[5.0, 1.0], [-5.0, 3.0]]])
+    met = meeting(gaze, np.array([1.0, 1.0]))
+    np.testing.assert_array_equal(met[0], gaze[0])
+    np.testing.assert_allclose(met[1], [[0.0, 2.0], [0.0, 2.0]])
