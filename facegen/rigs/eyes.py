@@ -1,8 +1,8 @@
 """Shapes the eye: a scleral sphere with a corneal cap, the iris inside it, and the line of sight.
 
-The sphere's radius belongs to the rig (MakeHuman's balls are oversized, 16.6 mm on average where people have
-12), the cornea, the iris and the pupil have human size on every rig, because pictures and pupil labels depend
-on them. Lids (`facegen.rigs.lids`) and eye meshes (`facegen.scene`) rest on the same surface,
+Eyes have human size on every rig, whatever its source draws (`facegen.rigs.human_eyes`), because pictures, pupil
+labels and every angle computed from them depend on it. An eye's centre is its centre of rotation, `GLOBE_AHEAD_M`
+behind the sphere's. Lids (`facegen.rigs.lids`) and eye meshes (`facegen.scene`) rest on the same surface,
 `lid_support_radius`.
 
 References
@@ -12,6 +12,8 @@ References
    7.8 mm, cornea 0.55 mm thick, anterior chamber 3.05 mm deep, refractive index 1.376 (cornea), 1.336 (aqueous).
 .. [3] E. Guestrin and M. Eizenman, "General theory of remote gaze estimation", IEEE TBME 53(6), 2006: the visual axis
    lies about 5 degrees nasal of and 1.5 degrees above the optical axis.
+.. [4] G. Fry and W. Hill, "The center of rotation of the eye", Am. J. Optometry 39(11), 1962: 13.5 mm behind the
+   cornea's apex in emmetropes.
 """
 
 from dataclasses import dataclass
@@ -26,6 +28,9 @@ IRIS_DEPTH_M = 3.6e-3
 """Iris plane behind the cornea's apex: corneal thickness and anterior chamber [2]_."""
 CORNEA_INDEX = 1.336
 """Refractive index between air and iris; the aqueous humour's, as the thin cornea barely bends [2]_."""
+GLOBE_AHEAD_M = 0.353e-3
+"""The sphere's centre lies this far before the centre of rotation, which in an eye of 12 mm is then 13.5 mm behind the
+cornea's apex [4]_."""
 KAPPA_NASAL_RAD = np.radians(5.0)
 KAPPA_UP_RAD = np.radians(1.5)
 """Visual axis against the optical axis, mean of people [3]_."""
@@ -37,8 +42,10 @@ class EyeGeometry:
 
     Attributes
     ----------
-    center, radius
-        Scleral sphere: (3,) and its radius.
+    center
+        (3,) centre of rotation; offsets count from here.
+    radius, sclera_center_offset
+        Scleral sphere: its radius, and how far along the axis its centre lies.
     axis
         (3,) unit optical axis, out of the face.
     limbus_radius
@@ -56,6 +63,7 @@ class EyeGeometry:
 
     center: np.ndarray
     radius: float
+    sclera_center_offset: float
     axis: np.ndarray
     limbus_radius: float
     limbus_offset: float
@@ -67,7 +75,7 @@ class EyeGeometry:
 
 def limbus_offset(eye_radius: np.ndarray) -> np.ndarray:
     """Distance of the limbus plane from the centre of eyeballs of the given radii (...), in metres."""
-    return np.sqrt(np.square(eye_radius) - IRIS_RADIUS_M**2)
+    return GLOBE_AHEAD_M + np.sqrt(np.square(eye_radius) - IRIS_RADIUS_M**2)
 
 
 def cornea_center_offset(eye_radius: np.ndarray) -> np.ndarray:
@@ -83,6 +91,7 @@ def eye_geometry(
     return EyeGeometry(
         center=np.asarray(center, np.float64),
         radius=float(radius),
+        sclera_center_offset=GLOBE_AHEAD_M,
         axis=np.asarray(axis, np.float64) / np.linalg.norm(axis),
         limbus_radius=IRIS_RADIUS_M,
         limbus_offset=float(limbus_offset(radius)),
@@ -108,16 +117,18 @@ def lid_support_radius(direction: np.ndarray, eye_radius: np.ndarray, axis: np.n
     Returns
     -------
     numpy.ndarray
-        (...) distances in metres: ``eye_radius`` outside the limbus, up to about 1.6 mm more on the cornea's
+        (...) distances in metres: about ``eye_radius`` outside the limbus, up to about 1.5 mm more on the cornea's
         apex.
     """
     cosine = np.einsum("...i,...i->...", direction, axis)
+    sine_square = 1.0 - np.square(cosine)
+    sclera = cosine * GLOBE_AHEAD_M + np.sqrt(np.square(eye_radius) - GLOBE_AHEAD_M**2 * sine_square)
     offset = cornea_center_offset(eye_radius)
     # far crossing of the ray with the cornea's sphere; a ray that misses it (negative root) stays on the
     # sclera
-    root = CORNEA_RADIUS_M**2 - np.square(offset) * (1.0 - np.square(cosine))
+    root = CORNEA_RADIUS_M**2 - np.square(offset) * sine_square
     cornea = cosine * offset + np.sqrt(np.maximum(root, 0.0))
-    return np.where(root > 0.0, np.maximum(eye_radius, cornea), eye_radius)
+    return np.where(root > 0.0, np.maximum(sclera, cornea), sclera)
 
 
 def visual_axis(optical_axis: np.ndarray) -> np.ndarray:

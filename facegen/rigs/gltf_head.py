@@ -11,6 +11,7 @@ from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, LANDMARK_GROUPS, Pa
 from facegen.errors import InputError
 from facegen.formats.gltf import read_gltf
 from facegen.rigs.gltf_mesh import HeadMesh, contents, eyeballs, join_parts
+from facegen.rigs.human_eyes import with_human_eyes
 from facegen.rigs.lids import COLUMN_SPACING_M, LEAST_COLUMNS, columns
 from facegen.rigs.marking import lid_neighbourhood, lip_faces, paint_brows, shortest_path
 from facegen.rigs.markup import HeadMarkup, Margins, read_markup
@@ -99,7 +100,7 @@ def build_head(path: Path, markup_path: Path | None, *, name: str) -> AddedHead:
         version=f"{path.name}, SHA-256 {hashlib.sha256(path.read_bytes()).hexdigest()[:16]}",
         missing=tuple(s for s, moved in zip(BLENDSHAPES, expression, strict=True) if not moved.any()),
     )
-    return AddedHead(rig=rig, left_out=mesh.left_out)
+    return AddedHead(rig=with_human_eyes(rig), left_out=mesh.left_out)
 
 
 def _used(faces: np.ndarray) -> np.ndarray:

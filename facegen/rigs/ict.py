@@ -13,6 +13,7 @@ from facegen.documents import load_json, read_text
 from facegen.errors import FormatError, InputError
 from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.files import assets_folder
+from facegen.rigs.human_eyes import with_human_eyes
 from facegen.rigs.identity import fit_sphere
 from facegen.rigs.marking import lid_neighbourhood, lip_faces
 from facegen.rigs.rig import Rig
@@ -20,7 +21,7 @@ from facegen.rigs.rig import Rig
 MOST_COMPONENTS = 60
 """Modes taken at most; 60 hold 98.8 % of the variance."""
 CENTIMETRE_M = 0.01
-VERSION = "ICT-FaceKit light, build 2"
+VERSION = "ICT-FaceKit light, build 3"
 LICENCE = "MIT"
 SOURCE = "ICT-FaceKit light (USC Institute for Creative Technologies, 2020), github.com/ICT-VGL/ICT-FaceKit"
 MOST_OBJ_BYTES = 32 * 1024**2
@@ -80,7 +81,7 @@ def build_ict(clone: Path, *, components: int = MOST_COMPONENTS) -> Rig:
     part[lip_faces(faces, part == Part.SKIN, vertices, landmarks)] = Part.LIPS
     outer = np.isin(part, (Part.SKIN, Part.LIPS))
     centre = centre - centre.mean(axis=0)
-    return Rig(
+    rig = Rig(
         name="ict",
         vertices=vertices,
         faces=faces.astype(np.int32),
@@ -107,6 +108,7 @@ def build_ict(clone: Path, *, components: int = MOST_COMPONENTS) -> Rig:
         version=VERSION,
         missing=missing,
     )
+    return with_human_eyes(rig)
 
 
 def _modes(folder: Path, neutral: np.ndarray, components: int) -> np.ndarray:

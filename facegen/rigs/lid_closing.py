@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from facegen.compilation import compiled
-from facegen.rigs.eyes import CORNEA_RADIUS_M, IRIS_RADIUS_M
+from facegen.rigs.eyes import CORNEA_RADIUS_M, GLOBE_AHEAD_M, IRIS_RADIUS_M
 
 OVERLAP_M = 0.9e-3
 """How far the upper margin lies below the lower one in the closed eye, mid-lid; 0 to 2 mm are allowed."""
@@ -21,6 +21,8 @@ CURTAIN_M, PASS_M = 0.3e-3, 1.0e-3
 cameras that look in between the margins, or in at their corners, meet them instead of the eye."""
 FRONT_M = 0.5e-3
 """The upper margin's distance in front of the lower one in the closed eye."""
+AHEAD = np.array([0.0, 0.0, 1.0])
+"""Lids fit an eye that looks this way; their clearance of it there is what they keep of every other."""
 STEADY_TRAVEL_M = 1.5e-3
 """Columns whose blink travels less than this take the weight as it is: their ratio would be noise."""
 
@@ -87,13 +89,12 @@ def close_eye(
     for face in range(len(vertices)):
         blink, down, squint = weights[face, lids.blink_index], weights[face, first], weights[face, second]
         for i in range(count):
-            square = 0.0
             for axis in range(3):
                 at = vertices[face, lids.vertices[i], axis] - center[face, axis] - blink * lids.blink[i, axis]
                 lid[i, axis] = at
                 opened[i, axis] = at - down * lids.closing[0, i, axis] - squint * lids.closing[1, i, axis]
-                square += opened[i, axis] * opened[i, axis]
-            thickness[i] = np.sqrt(square) - radius[face]
+            length = _length(opened, i)
+            thickness[i] = length - _support(opened, i, length, radius[face], cornea_offset[face], AHEAD)[0]
         measure_gap(lids, opened, gap)
         measure_gap(lids, lid, scale)
         for k in range(columns):
@@ -154,10 +155,12 @@ def _support(
 ) -> tuple[float, float]:
     """The eye's surface (`facegen.rigs.eyes.lid_support_radius`) under vertex i, and the cosine to the axis there."""
     cosine = (lid[i, 0] * gaze[0] + lid[i, 1] * gaze[1] + lid[i, 2] * gaze[2]) / length
-    root = CORNEA_RADIUS_M * CORNEA_RADIUS_M - cornea_offset * cornea_offset * (1.0 - cosine * cosine)
+    sine_square = 1.0 - cosine * cosine
+    sclera = cosine * GLOBE_AHEAD_M + np.sqrt(radius * radius - GLOBE_AHEAD_M * GLOBE_AHEAD_M * sine_square)
+    root = CORNEA_RADIUS_M * CORNEA_RADIUS_M - cornea_offset * cornea_offset * sine_square
     if root > 0.0:
-        return max(radius, cosine * cornea_offset + np.sqrt(root)), cosine
-    return radius, cosine
+        return max(sclera, cosine * cornea_offset + np.sqrt(root)), cosine
+    return sclera, cosine
 
 
 @compiled

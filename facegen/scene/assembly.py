@@ -11,6 +11,7 @@ from facegen.rigs import EyeGeometry, Rig
 from facegen.scene.accessories import WornAccessories
 from facegen.scene.eyes import eye_meshes
 from facegen.scene.housing import headset_meshes
+from facegen.scene.lid_edges import lid_edge_meshes
 from facegen.scene.lids import caruncle_meshes, crease_fields
 from facegen.scene.looks import Look, hair_meshes
 from facegen.scene.scene import Lamp, Mesh, Scene, View
@@ -69,6 +70,7 @@ def assemble(
     instead = {mesh.name for mesh in mouth}
     head = [mesh for mesh in head_meshes(rig, vertices) if mesh.name not in instead]
     eye_parts = [mesh for eye, side in zip(eyes, SIDES, strict=True) for mesh in eye_meshes(eye, side)]
+    eye_parts += lid_edge_meshes(rig, vertices, eyes)
     eye_parts += caruncle_meshes(rig, vertices, np.stack([eye.center for eye in eyes]))
     eye_parts += headset_meshes(headset, head_from_headset)
     hair = hair_meshes(look, vertices) if look else ()

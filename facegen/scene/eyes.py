@@ -70,7 +70,7 @@ def eye_meshes(eye: EyeGeometry, side: str) -> tuple[Mesh, ...]:
     apex_angle = np.arcsin(eye.limbus_radius / eye.cornea_radius)
     cornea = _sphere_profile(eye.cornea_radius, eye.cornea_center_offset, 0.0, apex_angle, 24)
     limbus_angle = np.arcsin(eye.limbus_radius / eye.radius)
-    sclera = _sphere_profile(eye.radius, 0.0, limbus_angle, np.pi, 64)
+    sclera = _sphere_profile(eye.radius, eye.sclera_center_offset, limbus_angle, np.pi, 64)
     iris_radius = np.linspace(eye.pupil_radius, eye.limbus_radius + IRIS_MARGIN_M, 24)
     iris = np.stack([iris_radius, np.full_like(iris_radius, eye.iris_plane_offset)], axis=-1)
     depth = eye.iris_plane_offset - PUPIL_DEPTH_M

@@ -183,7 +183,9 @@ class Landmarks:
 class Eyes:
     """Size of the pupils."""
 
-    pupil_radius_mm: quantity(0.8, 4.5, "millimetres") = _default({"uniform": [1.3, 3.2]})
+    pupil_radius_mm: quantity(0.8, 4.5, "millimetres") = _default(
+        {"normal": [1.88, 0.5], "within": [1.05, 3.1]}
+    )
     """Radius of both pupils."""
 
 

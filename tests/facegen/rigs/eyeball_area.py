@@ -8,7 +8,7 @@ from facegen.conventions import Part
 from facegen.geometry import rotation_from_angles
 from facegen.raster import faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.evaluation import EvaluatedFaces
-from facegen.rigs.eyes import CORNEA_RADIUS_M, cornea_center_offset
+from facegen.rigs.eyes import CORNEA_RADIUS_M, GLOBE_AHEAD_M, cornea_center_offset
 from facegen.rigs.lid_margins import lid_margins
 from facegen.rigs.rig import Rig
 
@@ -75,7 +75,9 @@ def _eye_depth(radius: float, axis: np.ndarray, shape: tuple[int, int]) -> np.nd
         square = ball_radius**2 - (x - centre[0]) ** 2 - (y - centre[1]) ** 2
         return np.where(square > 0.0, centre[2] + np.sqrt(np.maximum(square, 0.0)), -np.inf)
 
-    return np.maximum(ball(np.zeros(3), radius), ball(cornea_center_offset(radius) * axis, CORNEA_RADIUS_M))
+    return np.maximum(
+        ball(GLOBE_AHEAD_M * axis, radius), ball(cornea_center_offset(radius) * axis, CORNEA_RADIUS_M)
+    )
 
 
 def _in_polygon(points: np.ndarray, polygon: np.ndarray) -> np.ndarray:

@@ -15,6 +15,7 @@ TURN = (0.0, 0.6, 0.0, 0.8)
 """Of the node that the head hangs under: a quaternion that undoes the mesh's own turn about y."""
 UNIT, PLACE_M = 0.01, (0.1, 1.6, -0.05)
 """The mesh counts in centimetres under a node that scales it, and stands where a person's head is."""
+SOURCE_RADIUS_M = 0.0166
 
 
 class _Buffer:
@@ -105,13 +106,11 @@ def write_head(
     gltf.meshes.append(gl.Mesh(name="Face", primitives=primitives, extras={"targetNames": names}))
     gltf.nodes.append(gl.Node(name="Face", mesh=0))
     for side, name in enumerate(("EyeLeft", "EyeRight")):
-        ball, triangles, _ = eyeball_mesh(
-            rig.eye_center[side], rig.eye_radius[side], np.array((0.0, 0.0, 1.0))
-        )
-        offset = ball - rig.eye_center[side]  # a ball of the rig's radius, without the cornea
-        ball = rig.eye_center[side] + rig.eye_radius[side] * offset / np.linalg.norm(
-            offset, axis=1, keepdims=True
-        )
+        # as sources draw them: large, about the frame's origin, and without a cornea
+        middle = rig.eye_center[side] * [1.0, 0.0, 0.0]
+        ball, triangles, _ = eyeball_mesh(middle, SOURCE_RADIUS_M, np.array((0.0, 0.0, 1.0)))
+        offset = ball - middle
+        ball = middle + SOURCE_RADIUS_M * offset / np.linalg.norm(offset, axis=1, keepdims=True)
         attributes = gl.Attributes(POSITION=out.accessor(_in_file(ball)))
         primitive = gl.Primitive(attributes=attributes, indices=out.accessor(triangles.astype("<u4").ravel()))
         gltf.meshes.append(gl.Mesh(name=name, primitives=[primitive]))

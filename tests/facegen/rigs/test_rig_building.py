@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from facegen.raster import faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.eyes import CORNEA_RADIUS_M, IRIS_RADIUS_M, eye_geometry, lid_support_radius, visual_axis
+from facegen.rigs.human_eyes import EYE_RADIUS_M
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
 from facegen.rigs.subdivision import catmull_clark, subdivide_corners
 
@@ -79,12 +80,18 @@ def test_z_buffer_keeps_the_nearest() -> None:
 @pytest.mark.parametrize("radius", [0.012, 0.0166])
 def test_cornea_meets_the_sclera_at_the_limbus(radius: float) -> None:
     eye = eye_geometry(np.zeros(3), radius, np.array([0.0, 0.0, 1.0]))
-    angle = np.arcsin(IRIS_RADIUS_M / radius) + np.array([-1e-6, 1e-6])
+    angle = np.arctan2(IRIS_RADIUS_M, eye.limbus_offset) + np.array([-1e-6, 1e-6])
     direction = np.stack([np.sin(angle), np.zeros(2), np.cos(angle)], axis=-1)
-    np.testing.assert_allclose(lid_support_radius(direction, radius, eye.axis), radius, rtol=1e-5)
+    limbus = np.hypot(IRIS_RADIUS_M, eye.limbus_offset)
+    np.testing.assert_allclose(lid_support_radius(direction, radius, eye.axis), limbus, rtol=1e-5)
+    sclera = np.array([0.0, radius, eye.sclera_center_offset])
+    reach = np.linalg.norm(sclera)
+    np.testing.assert_allclose(lid_support_radius(sclera / reach, radius, eye.axis), reach)
     apex = lid_support_radius(eye.axis, radius, eye.axis)
     np.testing.assert_allclose(apex, eye.cornea_center_offset + CORNEA_RADIUS_M)
     assert eye.iris_plane_offset < eye.limbus_offset < apex
+    if radius == EYE_RADIUS_M:
+        np.testing.assert_allclose(apex, 13.5e-3, atol=1e-5)
 
 
 def test_visual_axes_converge() -> None:

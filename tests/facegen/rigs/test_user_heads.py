@@ -17,6 +17,7 @@ from facegen.labels import label_keypoints
 from facegen.rigs import Rig, evaluate, load_rig
 from facegen.rigs.building import add_rig
 from facegen.rigs.gltf_mesh import blendshape_sources
+from facegen.rigs.human_eyes import EYE_RADIUS_M
 from facegen.sampling import draw_samples
 from facegen.sampling.plan import plan_dataset
 from facegen.scene.lashes import lash_strips
@@ -124,8 +125,12 @@ def test_eyes_may_be_given_as_balls(anny: Rig, files, tmp_path: Path) -> None:
         )
     }
     _, added = add_rig(*changed(files, tmp_path, eyes=eyes, head="face"), folder=tmp_path)
-    np.testing.assert_allclose(added.rig.eye_radius, 0.0165)
-    np.testing.assert_allclose(added.rig.eye_center.mean(axis=0), 0.0, atol=1e-9)
+    np.testing.assert_allclose(added.rig.eye_radius, EYE_RADIUS_M)
+    # the head's origin lies between the file's balls; human eyes stand before and below it, at their distance
+    middle = added.rig.eye_center.mean(axis=0)
+    np.testing.assert_allclose(middle[0], 0.0, atol=1e-9)
+    assert -3e-3 < middle[1] < 0.0
+    assert 3e-3 < middle[2] < 8e-3
 
 
 def test_what_a_head_loses_is_said(anny: Rig, files, tmp_path: Path, monkeypatch) -> None:

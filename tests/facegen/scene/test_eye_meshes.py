@@ -49,7 +49,11 @@ def test_iris_plane_and_pupil_hole(eye):
     aside = np.linalg.norm(iris.vertices - eye.center - along[:, None] * eye.axis, axis=-1)
     assert np.allclose(along, eye.iris_plane_offset)
     assert np.isclose(aside.min(), eye.pupil_radius)
-    assert eye.limbus_radius < aside.max() < np.sqrt(eye.radius**2 - eye.iris_plane_offset**2)
+    assert (
+        eye.limbus_radius
+        < aside.max()
+        < np.sqrt(eye.radius**2 - (eye.iris_plane_offset - eye.sclera_center_offset) ** 2)
+    )
     assert iris.uv[..., 1].min() == 0.0
     assert iris.uv[..., 0].min() == 0.0
     assert iris.uv[..., 0].max() == 1.0
