@@ -11,6 +11,7 @@ from room.cli.links import RoomNames, print_links
 if TYPE_CHECKING:
     from room.recording import Recorder
     from room.server import Keys
+    from room.server.janus import Janus
     from room.server.telegraph import Telegraph
 
 
@@ -42,6 +43,13 @@ def serve(
             help="redis://HOST:PORT/0 of a Redis by which several servers carry one room, all with the same --keys."
         ),
     ] = None,
+    janus: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="ws://HOST:8188 of a Janus that passes voices on, for more than six people; several share the rooms."
+        ),
+    ] = None,
+    janus_secret: Annotated[Path | None, typer.Option(help="File of its api_secret.")] = None,
     record: Annotated[
         Path | None,
         typer.Option(
@@ -53,11 +61,15 @@ def serve(
 
     Example: room serve --host 0.0.0.0 --cert cert.pem --key key.pem --keys room.keys
     """
+    from room.errors import InputError
     from room.server import Address, Limits, Relays, Rooms, load_keys, new_keys
     from room.server import serve as run
 
     held = load_keys(keys) if keys else new_keys()
-    secret = _secret(turn, turn_secret)
+    if bool(turn) != bool(turn_secret):
+        raise InputError("a relay needs both --turn and --turn-secret")
+    secret = _secret(turn_secret, "coturn's static-auth-secret")
+    engines = _engines(janus, janus_secret)
     telegraph = _telegraph(redis, held, shared=keys is not None, recorded=record is not None)
     recorder = _recorder(record, names)
     relays = Relays(stun=tuple(stun or ()), turn=tuple(turn or ()), secret=secret)
@@ -69,6 +81,7 @@ def serve(
         origins=frozenset(origin or ()),
         recorder=recorder,
         telegraph=telegraph,
+        engines=engines,
     )
     address = Address(host=host, port=port, certificate=cert, private_key=key)
 
@@ -115,15 +128,23 @@ def _telegraph(url: str | None, keys: "Keys", *, shared: bool, recorded: bool) -
     return Telegraph(url, secret=keys.secret, said=lambda text: say(f"room: {text}"))
 
 
-def _secret(turn: list[str] | None, file: Path | None) -> str:
+def _engines(urls: list[str] | None, file: Path | None) -> "list[Janus]":
+    from room.errors import InputError
+    from room.server.janus import Janus
+
+    if file and not urls:
+        raise InputError("--janus-secret needs --janus, the address that it is for")
+    secret = _secret(file, "the api_secret of Janus")
+    return [Janus(url, secret=secret, said=lambda text: say(f"room: {text}")) for url in urls or ()]
+
+
+def _secret(file: Path | None, what: str) -> str:
     from facegen.documents import read_text
     from room.errors import InputError
 
-    if bool(turn) != bool(file):
-        raise InputError("a relay needs both --turn and --turn-secret")
     if file is None:
         return ""
     secret = read_text(file, most_bytes=4096).strip()
     if not secret:
-        raise InputError(f"{file}: is empty; it must hold coturn's static-auth-secret")
+        raise InputError(f"{file}: is empty; it must hold {what}")
     return secret

@@ -25,8 +25,8 @@ from pydantic import (
 from facegen.refusals import refusal
 from room.errors import FormatError
 
-MOST_TEXT_BYTES = 16 * 1024
-"""Of one text; a session description of a voice with all its codecs has 3 KiB."""
+MOST_TEXT_BYTES = 64 * 1024
+"""Of one text; a session description of a voice with all its codecs has 3 KiB, and one of 64 voices NNN."""
 
 MOST_CHAT_CHARACTERS = 500
 """Of one line of chat."""
@@ -59,6 +59,8 @@ Secret = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22,64}$")]
 """At least 128 bits in base64url, made by whoever joins: who has it is that person."""
 Key = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22}$")]
 Number = Annotated[int, Field(ge=0, le=65535)]
+EngineLine = Literal["up", "down"]
+"""One's own voice to an engine in the middle (`room.server.voices`), and the others' voices from it."""
 Avatar = Annotated[str, StringConstraints(pattern=r"^[a-z0-9_-]{1,32}$")]
 Visit = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{0,22}$")]
 """Made anew whenever a page is loaded: the same one after a break means that voices go on."""
@@ -102,19 +104,19 @@ class Voice(_Text):
 
 
 class Description(_Text):
-    """A session description of WebRTC, for one person."""
+    """A session description of WebRTC, for one person, or for one's own line to or from an engine of voices."""
 
     kind: Literal["description"] = "description"
-    to: Number
+    to: Number | EngineLine
     type: Literal["offer", "answer", "rollback"]
     sdp: str
 
 
 class Candidate(_Text):
-    """An address at which a person may be reached, for one person; empty where there are no more."""
+    """An address at which a person may be reached, for one person or a line; empty where there are no more."""
 
     kind: Literal["candidate"] = "candidate"
-    to: Number
+    to: Number | EngineLine
     candidate: Annotated[str, StringConstraints(max_length=1024)]
     mid: Annotated[str, StringConstraints(max_length=64)] | None = None
     line: Annotated[int, Field(ge=0, le=64)] | None = None
@@ -175,7 +177,7 @@ class IceServer(_Text):
 
 
 class Welcome(_Text):
-    """The first answer: who one is, who is there, and what the room allows."""
+    """The first answer: who one is, who is there, and what the room allows; ``engine`` where voices go by one."""
 
     kind: Literal["welcome"] = "welcome"
     version: Literal[1] = 1
@@ -188,15 +190,17 @@ class Welcome(_Text):
     shapes: tuple[str, ...]
     recording: bool
     replay: bool
+    engine: bool
     people: tuple[Person, ...]
     ice: tuple[IceServer, ...]
 
 
 class About(_Text):
-    """What a page may know before it comes in: whether the room is recorded, and whether it plays a recording."""
+    """What a page may know before it comes in: whether the room is recorded or plays a recording, and how voices go."""
 
     recording: bool
     replay: bool
+    engine: bool
 
 
 class Changed(_Text):
@@ -231,11 +235,25 @@ class Door(_Text):
 
 
 class Signal(_Text):
-    """A description or a candidate that came from somebody."""
+    """A description or a candidate that came from somebody, or of one's own line."""
 
     kind: Literal["signal"] = "signal"
-    sender: Number
+    sender: Number | EngineLine
     signal: Description | Candidate
+
+
+class Engine(_Text):
+    """Voices go by an engine from now on and both lines begin anew, or it is away for a while."""
+
+    kind: Literal["engine"] = "engine"
+    state: Literal["ready", "away"]
+
+
+class Heard(_Text):
+    """Whose voice each sound of the line down is from the next description on: the person's id by the ``mid``."""
+
+    kind: Literal["heard"] = "heard"
+    voices: dict[str, str]
 
 
 class Notice(_Text):
@@ -253,7 +271,7 @@ class Refused(_Text):
     again: bool
 
 
-Answer = Welcome | Changed | Left | Line | Door | Signal | Notice | Refused
+Answer = Welcome | Changed | Left | Line | Door | Signal | Engine | Heard | Notice | Refused
 
 _JOIN = TypeAdapter(Join)
 _SAID = TypeAdapter(Annotated[Said, Field(discriminator="kind")])

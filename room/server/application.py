@@ -3,8 +3,8 @@
 import asyncio
 import re
 import time
-from collections.abc import AsyncIterator
-from contextlib import suppress
+from collections.abc import AsyncIterator, Sequence
+from contextlib import AsyncExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +18,7 @@ from room.server.connection import PARTING_S, Connection
 from room.server.files import Files
 from room.server.hall import HERTZ, Hall
 from room.server.headers import protect, same_origin
+from room.server.janus import Janus
 from room.server.keys import Keys
 from room.server.limits import (
     BURST_S,
@@ -30,7 +31,9 @@ from room.server.limits import (
 )
 from room.server.metrics import Metrics
 from room.server.replay import Replay
+from room.server.switchboard import Switchboard
 from room.server.turn import Relays
+from room.server.voices import instance_of, voice_room
 from room.state import Seat
 
 if TYPE_CHECKING:  # needs an extra of its own
@@ -64,6 +67,8 @@ class Rooms:
         Records its one room; None where nothing is recorded.
     telegraph
         Reaches the other processes that carry the same rooms; None where this is the only one.
+    engines
+        Janus instances that share the rooms' voices; none where these go from page to page.
     replayed
         Recording that every room of this server plays; None where people meet each other alone.
     """
@@ -78,8 +83,9 @@ class Rooms:
         recorder: Recorder | None = None,
         replayed: Path | None = None,
         telegraph: "Telegraph | None" = None,
+        engines: Sequence[Janus] = (),
     ) -> None:
-        self._telegraph = telegraph
+        self._telegraph, self._engines = telegraph, engines
         self._recorder, self._replayed = recorder, replayed
         self._keys, self._limits, self._relays, self._origins = keys, limits, relays, origins
         self._halls: dict[str, Hall] = {}
@@ -122,6 +128,7 @@ class Rooms:
         self.metrics.rooms = len(self._halls)
         self.metrics.people = sum(len(hall.meeting.people) for hall in self._halls.values())
         self.metrics.connections = len(self._sockets)
+        self.metrics.engines = sum(engine.up for engine in self._engines)
         self.metrics.redis = int(self._telegraph is not None and self._telegraph.connected)
         return web.Response(text=self.metrics.text())
 
@@ -135,6 +142,7 @@ class Rooms:
         about = About(
             recording=self._recorder_of(request.match_info["name"]) is not None,
             replay=self._replayed is not None,
+            engine=bool(self._engines),
         )
         return web.Response(text=about.model_dump_json(), content_type="application/json")
 
@@ -223,9 +231,17 @@ class Rooms:
             recorder=self._recorder_of(name),
             replay=Replay(self._replayed) if self._replayed else None,
             telegraph=self._telegraph,
+            switchboard=self._switchboard(name),
         )
         await hall.open()
         self._halls[name] = hall
+
+    def _switchboard(self, name: str) -> Switchboard | None:
+        if not self._engines:
+            return None
+        # a person who comes back may stand in Janus's list a second time for a moment
+        room = voice_room(self._keys.secret, name, places=2 * self._limits.people)
+        return Switchboard(instance_of(name, self._engines), room)
 
     async def _listen(
         self, hall: Hall, seat: Seat, part: Part, socket: web.WebSocketResponse, connection: Connection
@@ -257,11 +273,10 @@ class Rooms:
                     connection.say(Notice(text=str(error)))
 
     async def _reaching(self, application: web.Application) -> AsyncIterator[None]:
-        if self._telegraph is None:
+        async with AsyncExitStack() as stack:
+            for reached in (*self._engines, *([self._telegraph] if self._telegraph else ())):
+                await stack.enter_async_context(reached.running())
             yield
-        else:
-            async with self._telegraph.running():
-                yield
 
     async def _ticking(self, application: web.Application) -> AsyncIterator[None]:
         task = asyncio.create_task(self._tick())

@@ -30,6 +30,7 @@ from room.server.connection import Connection
 from room.server.limits import BURST_S, NEWCOMERS_PER_S, RETURNS_PER_S, Bucket
 from room.server.neighbours import Neighbours
 from room.server.replay import Replay
+from room.server.switchboard import Switchboard
 from room.server.turn import Relays
 from room.state import Meeting, Seat, identity
 from room.state.accounts import Ousted
@@ -58,6 +59,8 @@ class Hall:
         Brings people of a recording in; None for a room of the living alone.
     telegraph
         Reaches the other processes that carry this room; None where there is one alone.
+    switchboard
+        Has an engine pass voices on; None where they go from page to page.
     """
 
     def __init__(
@@ -69,6 +72,7 @@ class Hall:
         recorder: Recorder | None = None,
         replay: Replay | None = None,
         telegraph: "Telegraph | None" = None,
+        switchboard: Switchboard | None = None,
     ) -> None:
         self.name = name
         self._recorder, self._replay = recorder, replay
@@ -82,6 +86,7 @@ class Hall:
         self._relays = relays
         self._pages: dict[str, Connection] = {}
         self._programs: dict[str, Connection] = {}
+        self._switchboard = switchboard
         self._newcomers = Bucket(NEWCOMERS_PER_S, burst=2 * most_people)
         self._returns: dict[str, Bucket] = {}
 
@@ -129,6 +134,7 @@ class Hall:
                 hertz=HERTZ,
                 recording=self._recorder is not None,
                 replay=self._replay is not None,
+                engine=self._switchboard is not None,
                 shapes=BLENDSHAPES,
                 people=self.meeting.people,
                 ice=self._relays.servers(seat.id, now_s=time.time()) if page else (),
@@ -137,6 +143,8 @@ class Hall:
         if page:
             connection.tick(self.meeting.whole(now=time.monotonic()))
             self._tell(Changed(person=seat.person), but=seat)
+            if self._switchboard:
+                self._switchboard.begin(seat.id, connection.say)
         return seat
 
     def _count(self, join: Join, *, moderator: bool) -> None:
@@ -157,6 +165,8 @@ class Hall:
         if connections.get(seat.id) is not connection:  # a newer one has taken its part
             return
         del connections[seat.id]
+        if role == "page" and self._switchboard:
+            self._switchboard.end(seat.id)
         if role == "face":
             seat.program_left()
         else:
@@ -214,6 +224,8 @@ class Hall:
         """Send what moved, and free places that nobody came back to."""
         for seat in self.meeting.expire(now=now):
             self._free(seat)
+        if self._switchboard:
+            self._switchboard.follow(self.meeting)
         if self._neighbours:
             self._neighbours.tick(now=now)
             self._follow()
@@ -230,7 +242,9 @@ class Hall:
             self._end_recording()
 
     def close(self) -> None:
-        """Let go of what is replayed, and of the other processes."""
+        """Let go of what is replayed, of the other processes and of the engine."""
+        if self._switchboard:
+            self._switchboard.close()
         if self._replay:
             self._replay.close()
         if self._neighbours:
@@ -263,6 +277,10 @@ class Hall:
                 connection.say(answer)
 
     def _pass_on(self, seat: Seat, said: Description | Candidate) -> None:
+        if isinstance(said.to, str):
+            if self._switchboard:
+                self._switchboard.hear(seat.id, said)
+            return
         called, signal = self.meeting.numbered(said.to), Signal(sender=seat.number, signal=said)
         if called is None:
             return  # they have just left: the caller hears of that by the roster
@@ -277,6 +295,8 @@ class Hall:
 
     def _oust(self, ousted: Ousted) -> None:
         self._returns.pop(ousted.id, None)
+        if self._switchboard:
+            self._switchboard.end(ousted.id)
         if connection := self._pages.pop(ousted.id, None):
             connection.refuse(ousted.text, again=ousted.again)
 
@@ -297,6 +317,8 @@ class Hall:
     def _free(self, seat: Seat, *, word: str = "you have left") -> None:
         self.meeting.leave(seat)
         self._returns.pop(seat.id, None)
+        if self._switchboard:
+            self._switchboard.end(seat.id)
         self._record_roster()
         for connections in (self._pages, self._programs):
             if connection := connections.pop(seat.id, None):

@@ -11,6 +11,7 @@ _MEANING = {
     "people": "People who have a place, broken connections among them.",
     "connections": "Open WebSockets.",
     "redis": "Whether Redis can be reached, of a server with --redis.",
+    "engines": "Instances of Janus that answer.",
     "states": "States that came in.",
     "ticks_sent": "Ticks that went to somebody.",
     "ticks_dropped": "Ticks that a slow connection never got.",
@@ -20,17 +21,18 @@ _MEANING = {
     "slow": "Connections that were ended because they read too slowly.",
     "late_s": "Seconds by which ticks were late, all together.",
 }
-_NOW = ("rooms", "people", "connections", "redis")
+_NOW = ("rooms", "people", "connections", "redis", "engines")
 
 
 @dataclass(kw_only=True)
 class Metrics:
-    """Counts since the start; the first four are of now."""
+    """Counts since the start; the first five are of now."""
 
     rooms: int = 0
     people: int = 0
     connections: int = 0
     redis: int = 0
+    engines: int = 0
     states: int = 0
     ticks_sent: int = 0
     ticks_dropped: int = 0

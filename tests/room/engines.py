@@ -6,9 +6,11 @@ import subprocess
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 
+ROOT = Path(__file__).resolve().parents[2]
 START_S = 10.0
 
 needs_redis = pytest.mark.skipif(
@@ -47,4 +49,23 @@ def redis(port: int) -> Iterator[subprocess.Popen]:
     """A Redis that keeps nothing."""
     command = ("redis-server", "--port", str(port), "--bind", "127.0.0.1", "--save", "", "--appendonly", "no")
     with started(*command, port=port) as process:
+        yield process
+
+
+needs_janus = pytest.mark.skipif(shutil.which("janus") is None, reason="needs Janus (Debian: janus)")
+
+API_SECRET = "north"
+
+
+@contextmanager
+def janus(port: int, folder: Path) -> Iterator[subprocess.Popen]:
+    """A Janus with the video room alone, as containers/room has it."""
+    settings = folder / f"janus-{port}"
+    settings.mkdir(exist_ok=True)
+    for file in sorted((ROOT / "containers" / "room" / "janus").glob("*.jcfg")):
+        text = file.read_text(encoding="utf-8")
+        for before, after in (("8188", str(port)), ("API_SECRET", API_SECRET)):
+            text = text.replace(before, after)
+        (settings / file.name).write_text(text, encoding="utf-8")
+    with started("janus", "--configs-folder", str(settings), port=port) as process:
         yield process

@@ -2,7 +2,7 @@
 
 import asyncio
 import secrets
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 
@@ -13,6 +13,7 @@ from room.protocol.texts import Answer, Join, Left, Refused, Welcome, read_answe
 from room.protocol.tick import unpack
 from room.recording import Recorder
 from room.server import Keys, Limits, Relays, Rooms, new_keys
+from room.server.janus import Janus
 from room.server.telegraph import Telegraph
 
 SOON_S = 5.0
@@ -129,6 +130,7 @@ async def open_room(
     recorder: Recorder | None = None,
     replayed: Path | None = None,
     telegraph: Telegraph | None = None,
+    engines: Sequence[Janus] = (),
 ) -> AsyncIterator[Place]:
     """A server in this process, on a free port unless one is named."""
     keys = keys or new_keys()
@@ -140,6 +142,7 @@ async def open_room(
         recorder=recorder,
         replayed=replayed,
         telegraph=telegraph,
+        engines=engines,
     )
     runner = web.AppRunner(rooms.application(), access_log=None, shutdown_timeout=0.1)
     await runner.setup()

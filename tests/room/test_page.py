@@ -75,15 +75,12 @@ FACE = """void (meeting.idle.update = () => ({
 }))"""
 """Lets a page send a face, as a camera would."""
 
-CONNECTED = (
-    "[...meeting.voice.peers.values()].some((peer) => peer.connection.connectionState === 'connected')"
-)
+CONNECTED = "[...meeting.voice.sounds.keys()].some((id) => meeting.voice.state(id) === 'connected')"
 
 EARS = """void (globalThis.listen = async () => {
-  const { context, peers } = meeting.voice;
-  const [{ panner }] = peers.values();
+  const { context, loopback } = meeting.voice;
   const split = new ChannelSplitterNode(context, { numberOfOutputs: 2 });
-  panner.connect(split);
+  context.createMediaStreamSource(loopback.element.srcObject).connect(split);
   const meters = [0, 1].map((ear) => new AnalyserNode(context, { fftSize: 4096 }));
   meters.forEach((meter, ear) => split.connect(meter, ear));
   const sums = [0, 0];
@@ -97,7 +94,7 @@ EARS = """void (globalThis.listen = async () => {
   }
   return sums;
 })"""
-"""Energy at the left and the right ear over three seconds, after the place was heard out of the voice."""
+"""Energy at the left and the right ear over three seconds, of what the page plays behind its loopback."""
 
 HEARD = """void (() => {
   globalThis.heard = [];
@@ -146,6 +143,7 @@ async def sides(ada: Tab, ben: Tab) -> dict[str, float]:
     """Energy at the ear of the other's side over that at the other ear."""
     for tab in (ada, ben):
         await tab.until(CONNECTED, 30)
+        await tab.until("meeting.voice.loopback.used", 10)
     await ada.ask("void Object.assign(meeting.walk, { x: 0, z: -2.2, heading: 0 })")
     await ada.ask(EARS)
     found = {}
@@ -207,7 +205,9 @@ async def restarted(folder: Path) -> dict[str, object]:
             await ada.ask("void Object.assign(meeting.walk, { x: 2.5, z: -1.5, heading: 1 })")
             for tab in tabs:
                 await tab.until(CONNECTED, 30)
-                await tab.ask("void (globalThis.before = [meeting.own, ...meeting.voice.peers.values()])")
+                await tab.ask(
+                    "void (globalThis.before = [meeting.own, ...meeting.voice.lines.peers.values()])"
+                )
             await ben.until(f"{other('Ada')}.newest?.floor_m[0] === 2.5")
         for tab in tabs:
             await tab.until("document.querySelector('#state').textContent.includes('broke')")
@@ -221,7 +221,7 @@ async def restarted(folder: Path) -> dict[str, object]:
                 "seconds": time.monotonic() - start,
                 "place": await ben.ask(f"{other('Ada')}.newest.floor_m"),
                 "same voices": [
-                    await tab.ask("before[1] === [...meeting.voice.peers.values()][0]") for tab in tabs
+                    await tab.ask("before[1] === [...meeting.voice.lines.peers.values()][0]") for tab in tabs
                 ],
                 "connected": [await tab.ask(CONNECTED) for tab in tabs],
             }

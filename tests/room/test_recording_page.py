@@ -84,7 +84,7 @@ def test_consent_is_asked_before_and_a_replay_moves_as_recorded(tmp_path):
             away = f"Math.hypot(meeting.walk.x - {floor[0]}, meeting.walk.z - {floor[1]}) > 0.69"
             await tab.until(f"meeting.placed && {away}")
             assert "replay" in await tab.ask("document.querySelector('#people').textContent")
-            assert await tab.ask("meeting.voice.peers.size") == 0, "nobody calls who cannot answer"
+            assert await tab.ask("meeting.voice.lines.peers.size") == 0, "nobody calls who cannot answer"
             await tab.ask("void (meeting.drawing = true)")
             await tab.look(width=960, height=600)
             await asyncio.sleep(1.0)

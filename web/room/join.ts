@@ -14,6 +14,8 @@ export interface Choice {
   readonly avatar: string;
   readonly microphone: Microphone | undefined;
   readonly camera: boolean;
+  /** Whether the microphone hears what is played, in a browser that has to be helped with that (loopback.ts). */
+  readonly echoes: boolean;
   readonly recorded: boolean;
 }
 
@@ -46,17 +48,20 @@ export function secretOf({ room }: Link): string {
 /** What the room says to whoever is still outside; a server that says nothing is tried for by the line itself. */
 export async function about({ room }: Link): Promise<About> {
   const answer = await fetch(`/room/${room}/about.json`, { cache: "no-store" }).catch(() => undefined);
-  return answer?.ok ? ((await answer.json()) as About) : { recording: false, replay: false };
+  return answer?.ok ? ((await answer.json()) as About) : { recording: false, replay: false, engine: false };
 }
 
 /** Ask until the person presses "Come in". */
-export async function ask(avatars: string[], { recording, replay }: About): Promise<Choice> {
+export async function ask(avatars: string[], { recording, replay, engine }: About): Promise<Choice> {
   const form = document.querySelector<HTMLFormElement>("#join")!;
   const field = <T extends HTMLElement>(name: string): T => form.elements.namedItem(name) as T;
   const [name, avatar, voice] = [field<HTMLInputElement>("name"), field<HTMLSelectElement>("avatar"), field<HTMLInputElement>("voice")];
   const [devices, camera] = [field<HTMLSelectElement>("microphone"), field<HTMLInputElement>("camera")];
+  const headphones = field<HTMLInputElement>("headphones");
   const consent = field<RadioNodeList & HTMLElement>("consent");
   document.querySelector<HTMLElement>("#recording")!.hidden = !recording;
+  document.querySelector<HTMLElement>("#straight")!.hidden = engine;
+  document.querySelector<HTMLElement>("#passed")!.hidden = !engine;
   document.querySelector<HTMLElement>("#replayed")!.hidden = !replay;
   for (const choice of document.querySelectorAll<HTMLInputElement>("#recording input")) choice.required = recording;
   const word = document.querySelector<HTMLElement>("#word")!;
@@ -100,7 +105,9 @@ export async function ask(avatars: string[], { recording, replay }: About): Prom
   localStorage.setItem("name", name.value.trim());
   form.hidden = true;
   await microphone?.resume();
-  return { name: name.value.trim(), avatar: avatar.value, microphone, camera: camera.checked, recorded: recording && consent.value === "yes" };
+  const echoes = !!microphone && !headphones.checked && "userAgentData" in navigator; // only Chromium has that
+  const recorded = recording && consent.value === "yes";
+  return { name: name.value.trim(), avatar: avatar.value, microphone, camera: camera.checked, echoes, recorded };
 }
 
 /** What a browser's refusal of a device means. */

@@ -67,8 +67,9 @@ class Meeting {
     private readonly join: ConstructorParameters<typeof Line>[1],
     private readonly microphone: Awaited<ReturnType<typeof ask>>["microphone"],
     private readonly faceLink: string,
+    echoes: boolean,
   ) {
-    this.voice = new Voice((signal) => this.line.say(signal));
+    this.voice = new Voice((signal) => this.line.say(signal), { echoes });
     this.voice.speakInto(microphone?.stream);
     this.sidebar = new Sidebar(
       this.voice,
@@ -103,7 +104,7 @@ class Meeting {
   private welcome(welcome: Welcome): void {
     this.own = welcome;
     this.placedBy = performance.now() + FIRST_TICK_MS;
-    this.voice.configure(welcome.ice);
+    this.voice.configure(welcome.ice, welcome.engine);
     for (const known of this.known.values()) known.figure?.dispose();
     this.known.clear();
     for (const person of welcome.people) this.meet(person);
@@ -131,10 +132,16 @@ class Meeting {
         this.tell(answer.locked ? "A moderator has locked the room: nobody new comes in." : "The room is open.");
         break;
       case "signal": {
-        const sender = this.known.get(answer.sender);
-        if (sender) void this.voice.hear(sender.person.id, answer.signal);
+        const { sender, signal } = answer;
+        const from = typeof sender === "string" ? sender : this.known.get(sender)?.person.id;
+        if (from) void this.voice.hear(from, signal);
         return;
       }
+      case "engine":
+      case "heard":
+        this.voice.engine(answer);
+        this.tell("");
+        return;
       case "notice":
       case "refused":
         this.tell(answer.text);
@@ -341,7 +348,7 @@ class Meeting {
   }
 
   private tell(text: string): void {
-    find("state").textContent = text;
+    find("state").textContent = text || this.voice.word;
   }
 
   private end(text: string): void {
@@ -372,6 +379,7 @@ async function main(): Promise<void> {
     { kind: "join", version: 1, key: link.key, secret, name: choice.name, avatar: choice.avatar, visit, role: "page", recorded: choice.recorded },
     choice.microphone,
     `${origin}/room/${link.room}#${link.key}.${secret}`,
+    choice.echoes,
   );
   if (choice.camera) await meeting.watch();
   Object.assign(globalThis, { meeting }); // for tests, and for who looks into the page

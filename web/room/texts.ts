@@ -18,16 +18,19 @@ export interface Person {
   replayed: boolean;
 }
 
+/** One's own voice to an engine in the middle, and the others' voices from it. */
+export type EngineLine = "up" | "down";
+
 export interface Description {
   kind: "description";
-  to: number;
+  to: number | EngineLine;
   type: "offer" | "answer" | "rollback";
   sdp: string;
 }
 
 export interface Candidate {
   kind: "candidate";
-  to: number;
+  to: number | EngineLine;
   candidate: string;
   mid?: string;
   line?: number;
@@ -49,6 +52,7 @@ export type Said =
 export interface About {
   recording: boolean;
   replay: boolean;
+  engine: boolean;
 }
 
 export interface Welcome {
@@ -62,6 +66,8 @@ export interface Welcome {
   shapes: string[];
   recording: boolean;
   replay: boolean;
+  /** Whether voices go by an engine. */
+  engine: boolean;
   people: Person[];
   ice: RTCIceServer[];
 }
@@ -72,6 +78,8 @@ export type Answer =
   | { kind: "left"; number: number }
   | { kind: "line"; number: number; name: string; text: string; time_s: number }
   | { kind: "door"; locked: boolean }
-  | { kind: "signal"; sender: number; signal: Description | Candidate }
+  | { kind: "signal"; sender: number | EngineLine; signal: Description | Candidate }
+  | { kind: "engine"; state: "ready" | "away" }
+  | { kind: "heard"; voices: Record<string, string> }
   | { kind: "notice"; text: string }
   | { kind: "refused"; text: string; again: boolean };

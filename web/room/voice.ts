@@ -1,140 +1,119 @@
 /**
- * Voices of the others, straight from browser to browser (WebRTC, a connection for each pair), heard from where they stand.
- *
- * Connections follow MDN's "perfect negotiation": either side may offer at any time, and the polite one gives way.
+ * Voices of the others, heard from where they stand, whichever way they come: straight from browser to browser (mesh.ts), or
+ * by an engine in the middle that passes each one on (engine.ts).
  */
 
-import type { Candidate, Description, Person } from "./texts.js";
-
-/** Full volume up to here, half at twice as far: a room's own law, not free air's. */
-const NEAR_M = 1.2;
-const ROLLOFF = 1;
-/** A voice moves to a new place in this time, so that steps do not click. */
-const GLIDE_S = 0.05;
-
-interface Peer {
-  readonly connection: RTCPeerConnection;
-  readonly polite: boolean;
-  readonly panner: PannerNode;
-  readonly gain: GainNode;
-  /** Chrome gives a remote voice to WebAudio only while a (muted) element plays it. */
-  readonly element: HTMLAudioElement;
-  readonly meter: AnalyserNode;
-  readonly visit: string;
-  offering: boolean;
-  ignoring: boolean;
-  number: number;
-}
-
-/** Metres in the room. */
-export interface Place {
-  x: number;
-  y: number;
-  z: number;
-}
+import { Engine } from "./engine.js";
+import { Loopback } from "./loopback.js";
+import { Mesh } from "./mesh.js";
+import { glide, Sound, type Place } from "./sound.js";
+import type { Answer, Candidate, Description, Person } from "./texts.js";
 
 export type Send = (said: Description | Candidate) => void;
+
+/** How voices travel. Each way gives to `play` what it brings, by the person's id, and to `stop` whose voice has ended. */
+export interface Lines {
+  speakInto(track: MediaStreamTrack | null): void;
+  /** Who is here now; `own` is this person's id. */
+  meet(people: ReadonlyMap<string, Person>, own: string): void;
+  /** Somebody has left for good. */
+  part(id: string): void;
+  hear(sender: string, signal: Description | Candidate): Promise<void>;
+  state(id: string): RTCPeerConnectionState;
+  close(): void;
+}
 
 export class Voice {
   /** Made when the person joins: browsers play nothing before a click. */
   readonly context = new AudioContext();
-  private readonly peers = new Map<string, Peer>();
+  /** All voices together, as they are played. */
+  readonly mix = new GainNode(this.context);
+  readonly sounds = new Map<string, Sound>();
+  readonly loopback: Loopback | undefined;
+  lines: Lines | undefined;
+  /** What the person should know of voices; empty while all is well. */
+  word = "";
   private readonly volumes = new Map<string, number>();
   private readonly muted = new Set<string>();
-  private microphone: MediaStream | undefined;
-  private ice: RTCIceServer[] = [];
+  private track: MediaStreamTrack | null = null;
 
-  constructor(private readonly send: Send) {}
+  /** `echoes` where a microphone hears the loudspeakers: then the browser's echo cancellation has to see what is played. */
+  constructor(
+    private readonly send: Send,
+    { echoes = false } = {},
+  ) {
+    if (echoes) this.loopback = new Loopback(this.context, this.mix);
+    else this.mix.connect(this.context.destination);
+  }
 
-  /** What a new connection needs; those that are there stay as they are. */
-  configure(ice: RTCIceServer[]): void {
-    this.ice = ice;
+  /** What the room says on coming in, again after each break; lines that are there go on. */
+  configure(ice: RTCIceServer[], engine: boolean): void {
+    if (engine && !(this.lines instanceof Engine)) this.use(new Engine(ice, this.send, this));
+    if (!engine && !(this.lines instanceof Mesh)) this.use(new Mesh(this.send, this));
+    if (this.lines instanceof Engine || this.lines instanceof Mesh) this.lines.ice = ice;
   }
 
   /** Let the others hear this, or nothing; may change at any time. */
   speakInto(stream: MediaStream | undefined): void {
-    this.microphone = stream;
-    const track = stream?.getAudioTracks()[0] ?? null;
-    for (const { connection } of this.peers.values()) {
-      void connection.getTransceivers()[0]?.sender.replaceTrack(track);
-    }
+    this.track = stream?.getAudioTracks()[0] ?? null;
+    this.lines?.speakInto(this.track);
   }
 
-  /**
-   * Keep one connection to each of the others who are here. `own` is this person's id.
-   *
-   * Who is not on the list is let alone while their voice arrives: after a restart of the server people come back one by one.
-   */
   meet(people: Iterable<Person>, own: string): void {
     const listed = new Map([...people].map((person) => [person.id, person]));
-    for (const [id, { connection, visit }] of [...this.peers]) {
-      const person = listed.get(id);
-      const gone = person ? !person.present || person.visit !== visit : connection.connectionState !== "connected";
-      if (gone) this.part(id);
-    }
-    for (const [id, person] of listed) {
-      if (id === own || !person.present || person.replayed) continue;
-      const peer = this.peers.get(id);
-      if (peer) peer.number = person.number;
-      else this.call(person, own < id);
-      this.setMuted(id, person.muted);
-    }
+    this.lines?.meet(listed, own);
+    for (const person of listed.values()) this.setMuted(person.id, person.muted);
   }
 
-  /** Somebody has left for good. */
   part(id: string): void {
-    const peer = this.peers.get(id);
-    if (!peer) return;
-    this.peers.delete(id);
-    peer.connection.onnegotiationneeded = peer.connection.onicecandidate = null;
-    peer.connection.close();
-    peer.panner.disconnect();
-    peer.gain.disconnect();
-    peer.element.srcObject = null;
+    this.lines?.part(id);
+    this.stop(id);
   }
 
-  async hear(id: string, signal: Description | Candidate): Promise<void> {
-    const peer = this.peers.get(id);
-    if (!peer) return;
-    const { connection } = peer;
-    try {
-      if (signal.kind === "candidate") {
-        const candidate = { candidate: signal.candidate, sdpMid: signal.mid ?? null, sdpMLineIndex: signal.line ?? null };
-        await connection.addIceCandidate(candidate);
-        return;
-      }
-      const collides = signal.type === "offer" && (peer.offering || connection.signalingState !== "stable");
-      peer.ignoring = !peer.polite && collides;
-      if (peer.ignoring) return;
-      await connection.setRemoteDescription(signal);
-      if (signal.type === "offer") {
-        await connection.setLocalDescription();
-        this.describe(peer);
-      }
-    } catch (error) {
-      // a candidate of an offer that was ignored, or a word of a connection that has ended meanwhile
-      if (!peer.ignoring && connection.signalingState !== "closed") console.warn("voice:", error);
+  /** `sender` is a person's id, or a line of an engine's. */
+  async hear(sender: string, signal: Description | Candidate): Promise<void> {
+    await this.lines?.hear(sender, signal);
+  }
+
+  /** What the room says of an engine. */
+  engine(answer: Extract<Answer, { kind: "engine" | "heard" }>): void {
+    if (!(this.lines instanceof Engine)) return;
+    if (answer.kind === "heard") this.lines.voices = answer.voices;
+    else {
+      this.word = answer.state === "away" ? "Voices are interrupted; they come back by themselves …" : "";
+      this.lines.begin(answer.state === "ready");
     }
+  }
+
+  /** A voice has come in. */
+  play(id: string, track: MediaStreamTrack): void {
+    let sound = this.sounds.get(id);
+    if (!sound) this.sounds.set(id, (sound = new Sound(this.context, this.mix, this.loudness(id))));
+    sound.play(track);
+  }
+
+  /** A voice has ended. */
+  stop(id: string): void {
+    this.sounds.get(id)?.close();
+    this.sounds.delete(id);
   }
 
   /** Put a voice where a head is. */
   place(id: string, at: Place): void {
-    const peer = this.peers.get(id);
-    if (!peer) return;
-    const until = this.context.currentTime + GLIDE_S;
-    peer.panner.positionX.linearRampToValueAtTime(at.x, until);
-    peer.panner.positionY.linearRampToValueAtTime(at.y, until);
-    peer.panner.positionZ.linearRampToValueAtTime(at.z, until);
+    this.sounds.get(id)?.place(at);
   }
 
   /** Put the ears where the own head is, turned by its heading in radians (0 looks along z, to the left is positive). */
   listen(at: Place, heading: number): void {
-    const { listener, currentTime } = this.context;
+    const { listener } = this.context;
     if (!listener.positionX) return; // Firefox before 2025 has only the old calls
-    const until = currentTime + GLIDE_S;
-    const glide = (parameter: AudioParam, value: number): void => void parameter.linearRampToValueAtTime(value, until);
-    glide(listener.positionX, at.x), glide(listener.positionY, at.y), glide(listener.positionZ, at.z);
-    glide(listener.forwardX, Math.sin(heading)), glide(listener.forwardZ, Math.cos(heading));
+    glide(this.context, [
+      [listener.positionX, at.x],
+      [listener.positionY, at.y],
+      [listener.positionZ, at.z],
+      [listener.forwardX, Math.sin(heading)],
+      [listener.forwardZ, Math.cos(heading)],
+    ]);
   }
 
   /** How loud somebody is here; 1 is as they are. */
@@ -150,93 +129,34 @@ export class Voice {
   /** What a moderator's mute does: nobody's page plays them. */
   private setMuted(id: string, muted: boolean): void {
     this.muted[muted ? "add" : "delete"](id);
-    const gain = this.peers.get(id)?.gain;
-    if (gain) gain.gain.value = muted ? 0 : this.volume(id);
+    const sound = this.sounds.get(id);
+    if (sound) sound.loudness = this.loudness(id);
   }
 
-  /** In words, for the list of people. */
-  state(id: string): "connected" | "connecting" | "failed" {
-    const state = this.peers.get(id)?.connection.connectionState;
-    return state === "connected" ? "connected" : state === "failed" ? "failed" : "connecting";
+  private loudness(id: string): number {
+    return this.muted.has(id) ? 0 : this.volume(id);
+  }
+
+  /** Whether somebody's voice could be heard now. */
+  state(id: string): RTCPeerConnectionState {
+    return this.lines?.state(id) ?? "new";
   }
 
   /** Sound of one person before it is placed, for tests: the greatest sample of the last moment. */
   peak(id: string): number {
-    const meter = this.peers.get(id)?.meter;
-    if (!meter) return 0;
-    const samples = new Float32Array(meter.fftSize);
-    meter.getFloatTimeDomainData(samples);
-    return samples.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0);
+    return this.sounds.get(id)?.peak() ?? 0;
   }
 
   close(): void {
-    for (const id of [...this.peers.keys()]) this.part(id);
+    this.lines?.close();
+    for (const id of [...this.sounds.keys()]) this.stop(id);
+    this.loopback?.close();
     void this.context.close();
   }
 
-  private call({ id, number, visit }: Pick<Person, "id" | "number" | "visit">, polite: boolean): void {
-    const connection = new RTCPeerConnection({ iceServers: this.ice });
-    const panner = new PannerNode(this.context, {
-      panningModel: "HRTF",
-      distanceModel: "inverse",
-      refDistance: NEAR_M,
-      rolloffFactor: ROLLOFF,
-    });
-    const gain = new GainNode(this.context, { gain: this.volume(id) });
-    const meter = new AnalyserNode(this.context, { fftSize: 2048 });
-    const element = new Audio();
-    element.muted = true;
-    panner.connect(gain).connect(this.context.destination);
-    const peer: Peer = { connection, polite, panner, gain, element, meter, visit, offering: false, ignoring: false, number };
-    this.peers.set(id, peer);
-
-    connection.ontrack = ({ track }) => {
-      const stream = new MediaStream([track]);
-      element.srcObject = stream;
-      void element.play().catch(() => undefined); // it is muted: only a page that is closing refuses
-      const source = this.context.createMediaStreamSource(stream);
-      source.connect(panner);
-      source.connect(meter);
-    };
-    connection.onicecandidate = ({ candidate }) => {
-      if (!candidate) return;
-      const { sdpMid, sdpMLineIndex } = candidate;
-      this.send({
-        kind: "candidate",
-        to: peer.number,
-        candidate: candidate.candidate,
-        ...(sdpMid === null ? {} : { mid: sdpMid }),
-        ...(sdpMLineIndex === null ? {} : { line: sdpMLineIndex }),
-      });
-    };
-    connection.oniceconnectionstatechange = () => {
-      if (connection.iceConnectionState === "failed") connection.restartIce();
-    };
-    connection.onnegotiationneeded = async () => {
-      try {
-        peer.offering = true;
-        await connection.setLocalDescription();
-        this.describe(peer);
-      } catch (error) {
-        if (connection.signalingState !== "closed") console.warn("voice:", error);
-      } finally {
-        peer.offering = false;
-      }
-    };
-    // the impolite one calls: both would only collide. The other answers with its own microphone on the same line
-    if (!polite) connection.addTransceiver(this.microphone?.getAudioTracks()[0] ?? "audio", { direction: "sendrecv" });
-    else {
-      connection.addEventListener("signalingstatechange", () => {
-        const transceiver = connection.getTransceivers()[0];
-        if (connection.signalingState !== "have-remote-offer" || !transceiver) return;
-        transceiver.direction = "sendrecv";
-        void transceiver.sender.replaceTrack(this.microphone?.getAudioTracks()[0] ?? null);
-      });
-    }
-  }
-
-  private describe({ connection, number }: Peer): void {
-    const { type, sdp } = connection.localDescription!;
-    if (type !== "pranswer") this.send({ kind: "description", to: number, type, sdp });
+  private use(lines: Lines): void {
+    this.lines?.close();
+    this.lines = lines;
+    lines.speakInto(this.track);
   }
 }

@@ -19,8 +19,14 @@ class Anything {
   close(): void {}
   addEventListener(): void {}
   addTransceiver(): void {}
+  createMediaStreamSource(): Anything {
+    return new Anything();
+  }
+  play(): Promise<void> {
+    return Promise.resolve();
+  }
 }
-for (const name of ["AudioContext", "RTCPeerConnection", "PannerNode", "AnalyserNode", "Audio"]) {
+for (const name of ["AudioContext", "RTCPeerConnection", "PannerNode", "AnalyserNode", "Audio", "MediaStream"]) {
   Object.assign(globalThis, { [name]: class extends Anything {} });
 }
 let loudness = { value: NaN };
@@ -49,7 +55,9 @@ const person = (muted: boolean): Person => ({
 
 test("a slider makes nobody heard whom a moderator has muted", () => {
   const voice = new Voice(() => undefined);
+  voice.configure([], false);
   voice.meet([person(false)], "a");
+  voice.play("b", {} as MediaStreamTrack);
   voice.setVolume("b", 0.5);
   assert.equal(loudness.value, 0.5);
   voice.meet([person(true)], "a");

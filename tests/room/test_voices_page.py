@@ -1,0 +1,84 @@
+"""Two pages of two servers hear each other by a real Janus, and again after it was killed."""
+
+import asyncio
+import time
+from contextlib import AsyncExitStack
+from pathlib import Path
+
+import pytest
+
+from room.server import new_keys
+from room.server.janus import Janus
+from room.server.telegraph import Telegraph
+from tests.browser import Tab, chromium, needs_chromium
+from tests.room.engines import API_SECRET, free_port, janus, needs_janus, needs_redis, redis
+from tests.room.guests import open_room
+from tests.room.speech import write_bursts
+from tests.room.test_page import AWAKE, come_in
+
+pytestmark = [needs_chromium, needs_janus, needs_redis, pytest.mark.slow]
+
+LOUD = (
+    "[...meeting.voice.sounds].some("
+    "([id, sound]) => meeting.voice.state(id) === 'connected' && sound.peak() > 0.01)"
+)
+"""Whether somebody is heard: bursts of speech reach .3, and a line without sound is 0."""
+
+STATE = "document.querySelector('#state').textContent"
+
+SENT = """(async () => {
+  const stats = await meeting.voice.lines.up.getStats();
+  return [...stats.values()].filter(({ type }) => type === 'outbound-rtp').length;
+})()"""
+
+
+async def heard(tabs: list[Tab]) -> float:
+    """Seconds until each of two people hears the other."""
+    start = time.monotonic()
+    for tab in tabs:
+        await tab.until(LOUD, 30)
+    return time.monotonic() - start
+
+
+async def talk(folder: Path) -> dict[str, object]:
+    """Two people by two servers, Redis and Janus, which is killed under them."""
+    write_bursts(folder / "speech.wav")
+    keys, wire, engine = new_keys(), free_port(), free_port()
+    async with AsyncExitStack() as stack:
+        stack.enter_context(redis(wire))
+        first = stack.enter_context(janus(engine, folder))
+        places = []
+        for _ in range(2):
+            telegraph = Telegraph(f"redis://127.0.0.1:{wire}/0", secret=keys.secret)
+            engines = [Janus(f"ws://127.0.0.1:{engine}", secret=API_SECRET)]
+            opened = open_room(keys=keys, telegraph=telegraph, engines=engines)
+            places.append(await stack.enter_async_context(opened))
+        sound = f"--use-file-for-fake-audio-capture={folder / 'speech.wav'}"
+        browser = await stack.enter_async_context(chromium(*AWAKE, sound))
+        tabs = []
+        for place, name in zip(places, ("Ada", "Ben"), strict=True):
+            link = f"{place.address}/room/meeting#{keys.key('meeting', 'guest')}"
+            tabs.append(await stack.enter_async_context(browser.open(link)))
+            await come_in(tabs[-1], name)
+        for tab in tabs:
+            await tab.until("meeting.known.size === 2")
+        found: dict[str, object] = {"heard": await heard(tabs), "lines up": await tabs[0].ask(SENT)}
+        first.kill()
+        for tab in tabs:
+            await tab.until(f"{STATE}.includes('Voices are interrupted')")
+        found["silent"] = [await tab.ask("meeting.voice.sounds.size") for tab in tabs]
+        stack.enter_context(janus(engine, folder))
+        found["heard again"] = await heard(tabs)
+        found["words"] = [await tab.ask(STATE) for tab in tabs]
+        found["complaints"] = [complaint for tab in tabs for complaint in tab.complaints]
+        return found
+
+
+def test_two_servers_people_hear_each_other_by_janus_also_after_it_was_killed(tmp_path):
+    found = asyncio.run(talk(tmp_path))
+    print(found)
+    assert found["lines up"] == 1, "one voice goes up, however many hear it"
+    assert found["silent"] == [0, 0]
+    assert found["heard again"] < 15
+    assert found["words"] == ["", ""]
+    assert found["complaints"] == []
