@@ -26,7 +26,7 @@ from facegen.refusals import refusal
 from room.errors import FormatError
 
 MOST_TEXT_BYTES = 64 * 1024
-"""Of one text; a session description of a voice with all its codecs has 3 KiB, and one of 64 voices NNN."""
+"""Of one text; a session description of a voice with all its codecs has 3 kB, an answer to 64 voices 49 kB."""
 
 MOST_CHAT_CHARACTERS = 500
 """Of one line of chat."""
