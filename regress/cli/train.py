@@ -41,7 +41,7 @@ def train(
     keypoints = read_dataset(dataset)
     check_place(out, KEYPOINTS)
     began = time.monotonic()
-    with progress(unit="steps") as draw:
+    with progress(unit="%") as draw:
         model = train_model(keypoints, chosen, seed=seed, progress=draw)
     save_model(model, out)
     say(f"trained on {model.record.training_rows} rows in {time.monotonic() - began:.0f} s; model in {out}")

@@ -1,62 +1,12 @@
 """Draws the report's figures as SVG text: in classes, so that the page's style decides the colours."""
 
 from collections.abc import Sequence
-from html import escape
 
 import numpy as np
 
-from regress.report.axes import Scale, figure, label
-from regress.report.content import LearningCurve, RegressionPlot, ShapeScores
+from regress.report.axes import Scale, label
+from regress.report.content import LearningCurve, RegressionPlot
 from regress.report.svg import line, picture, text, upright_text
-
-BAR_ROW = 17
-BAR_NAMES = 158
-BAR_WIDTH = 900
-BAR_VALUES = 52
-
-
-def score_bars(scores: Sequence[ShapeScores]) -> str:
-    """One row a shape: the network's R2 as a bar, ridge regression's as a mark; grouped by region."""
-    # Below -0.2 a shape is simply not seen; a longer bar would squeeze all the others.
-    lowest = np.nanmin([[0.0, 0.0], *([score.network.r2, score.ridge.r2] for score in scores)])
-    low = max(-0.2, float(lowest))
-    x = Scale(low=low, high=1.0, start=BAR_NAMES + 6, stop=BAR_WIDTH - BAR_VALUES)
-    rows, y, region = [], 26.0, None
-    for score in scores:
-        if score.region != region:
-            region = score.region
-            rows.append(text(0, y + 13, region, "region"))
-            y += 20
-        rows.append(_score_bar(score, x, y))
-        y += BAR_ROW
-    height = y + 8
-    grid = [line(x(tick), 20, x(tick), y + 2, "zero" if tick == 0 else "grid") for tick in x.ticks()]
-    ticks = [text(x(tick), 12, label(tick), "tick middle") for tick in x.ticks()]
-    return picture(
-        BAR_WIDTH, height, [*grid, *ticks, *rows], "R squared of every shape, networks beside ridge"
-    )
-
-
-def _score_bar(score: ShapeScores, x: Scale, y: float) -> str:
-    network, ridge = score.network.r2, score.ridge.r2
-    middle = y + BAR_ROW / 2
-    if score.grade == "unmoved":
-        return text(BAR_NAMES - 8, middle + 4, score.name, "name end") + text(
-            x(0.0) + 6, middle + 4, "never moves in the test split", "tick"
-        )
-    left, right = sorted((float(x(0.0)), float(x(network))))
-    width = max(right - left, 0.5)
-    title = escape(f"{score.name}: network {network:.3f}, ridge {ridge:.3f}")
-    return (
-        f"<g><title>{title}</title>"
-        + text(BAR_NAMES - 8, middle + 4, score.name, "name end")
-        + f'<rect class="bar {score.grade}" x="{left:.1f}" y="{y + 3:.1f}" width="{width:.1f}" '
-        f'height="{BAR_ROW - 6}" rx="1.5"/>'
-        + line(x(ridge), y + 1.5, x(ridge), y + BAR_ROW - 1.5, "ridge")
-        + text(BAR_WIDTH, middle + 4, figure(network), "value end")
-        + "</g>"
-    )
-
 
 SMALLEST_ERROR = 1e-4
 """Errors below are drawn here: a shape that never moves has error 0, which no logarithm shows."""
@@ -71,9 +21,9 @@ def error_range(curves: Sequence[LearningCurve]) -> tuple[float, float]:
 
 def learning_curves(curve: LearningCurve) -> str:
     """Training, validation and test error against steps, logarithmic, with the chosen step marked."""
-    width, height, left, bottom = 900, 320, 58, 46
+    width, height, left, bottom = 560, 300, 52, 46
     low, high = error_range([curve])
-    parts = _curve_parts(curve, (left, 14, width - 110, height - bottom), large=True, low=low, high=high)
+    parts = _curve_parts(curve, (left, 14, width - 88, height - bottom), large=True, low=low, high=high)
     return picture(width, height, parts, f"Learning curves, {curve.name}")
 
 
@@ -95,7 +45,7 @@ def _curve_parts(curve: LearningCurve, box, *, large: bool, low: float, high: fl
         parts.append(line(left, y(tick), right, y(tick), "grid"))
         if large or f"{tick:e}"[0] == "1":
             parts.append(text(left - 6, y(tick) + 4, label(tick), "tick end"))
-    for tick in x.ticks(10) if large else (0, steps):
+    for tick in x.ticks(6) if large else (0, steps):
         if tick == int(tick):
             parts.append(text(x(tick), bottom + (18 if large else 14), label(tick), "tick middle"))
     if curve.best_step is not None:

@@ -114,6 +114,22 @@ class CalibrationRow:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Accuracy:
+    """The figures that a report opens with: mean R2 of the visible shapes on one kind of points.
+
+    Parameters
+    ----------
+    points : str
+    alone, calibrated : float
+        From a frame alone, and beside the person's neutral face; NaN where a model has no such networks.
+    """
+
+    points: str
+    alone: float
+    calibrated: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Headline:
     """One large figure with what it means below it."""
 
@@ -132,6 +148,8 @@ class ReportContent:
         What of the test split the networks have never seen: people, or sessions where splits are by session.
     people_in_training : int
         People of the test split who are in training too.
+    accuracy : tuple of Accuracy
+        Exact points first; detected ones where the record has them.
     headlines : tuple of Headline
     scores : tuple of ShapeScores
         In the networks' order, region by region.
@@ -156,6 +174,7 @@ class ReportContent:
     summary: str
     unseen: str
     people_in_training: int
+    accuracy: tuple[Accuracy, ...]
     headlines: tuple[Headline, ...]
     scores: tuple[ShapeScores, ...]
     constant: tuple[str, ...]

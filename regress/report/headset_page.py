@@ -16,6 +16,7 @@ from regress.learning.headset.comparison import Comparison
 from regress.learning.headset.worst import WorstFrame
 from regress.report.axes import figure
 from regress.report.content import PARTLY_R2, SEEN_R2, Headline
+from regress.report.head import head_image
 from regress.report.headset_tables import (
     PageTable,
     components_table,
@@ -70,7 +71,7 @@ class Section:
     histogram: Markup
     honesty: str
     rivals: tuple[tuple[str, tuple[tuple[str, PageTable], ...]], ...]
-    worst: tuple[tuple[WorstFrame, tuple[tuple[str, Markup], ...]], ...]
+    worst: tuple[tuple[WorstFrame, tuple[tuple[str, Markup], ...], tuple[tuple[str, Markup], ...]], ...]
 
 
 def write_headset_report(
@@ -177,7 +178,14 @@ def _section(judged: Judged, name: str) -> Section:
         honesty=_deviation(figures),
         rivals=rivals,
         worst=tuple(
-            (one, tuple((camera, _image(picture, camera)) for camera, picture in one.pictures.items()))
+            (
+                one,
+                tuple((camera, _image(picture, camera)) for camera, picture in one.pictures.items()),
+                tuple(
+                    (words, head_image(weights, f"sample {one.sample}: {words} weights"))
+                    for words, weights in (("true", one.true), ("predicted", one.predicted))
+                ),
+            )
             for one in judged.worst
         ),
     )

@@ -9,12 +9,14 @@ from markupsafe import Markup
 
 from regress.learning.probes import Measured
 from regress.learning.probes.crosstalk import WEIGHT, CrossTalk
+from regress.learning.probes.examples import Example, Reading
 from regress.learning.probes.observability import NOISE_PERCENT, Observability
 from regress.learning.probes.people import PersonErrors
 from regress.learning.probes.poses import PITCH_DEG, WITHIN_DEG, YAW_DEG, PoseErrors
 from regress.learning.probes.stillness import JITTER_PERCENT, Stillness
 from regress.learning.probes.winks import SHUT, Winks
 from regress.report.content import PARTLY_R2, SEEN_R2
+from regress.report.head import head_image
 from regress.report.heatmap import leak_map, pose_map
 from regress.report.histogram import histogram
 from regress.report.portraits import portrait
@@ -49,7 +51,7 @@ class ProbedPart:
         Mean over all shapes.
     jitter : (J,) float64
         Mean over the visible shapes.
-    worst : tuple of (drawing, text, tuple of (shape, true, predicted))
+    worst : tuple of (true head, predicted head, face)
     """
 
     title: str
@@ -74,6 +76,23 @@ class ProbedPart:
 
 
 @dataclass(frozen=True, kw_only=True)
+class DrawnExample:
+    """A face by its points and true weights, and what networks made of it.
+
+    Parameters
+    ----------
+    title : str
+    points, true : Markup
+    readings : tuple of (head, points that were seen, with what, error)
+    """
+
+    title: str
+    points: Markup
+    true: Markup
+    readings: tuple[tuple[Markup, str, str, float], ...]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Probed:
     """Everything that the page says of probes.
 
@@ -89,6 +108,7 @@ class Probed:
     summary : tuple of (title, method, over, figures)
         Mean R2 of every method at every level of noise.
     parts : tuple of ProbedPart
+    examples : tuple of DrawnExample
     """
 
     faces: int
@@ -103,6 +123,7 @@ class Probed:
     two_ridges: bool
     summary: tuple
     parts: tuple[ProbedPart, ...]
+    examples: tuple[DrawnExample, ...]
 
 
 def probed_of(measured: Measured) -> Probed:
@@ -130,6 +151,23 @@ def probed_of(measured: Measured) -> Probed:
         two_ridges=any(one.method == "ridge, same rows" for one in measured.observability),
         summary=_summary(measured.observability),
         parts=tuple(_part(measured.observability, *found, most=float(most)) for found in parts),
+        examples=tuple(map(_drawn, measured.examples)),
+    )
+
+
+def _drawn(example: Example) -> DrawnExample:
+    person = f"person {example.person}"
+
+    def reading(one: Reading) -> tuple[Markup, str, str, float]:
+        points = "detected points" if one.detected else "exact points"
+        sees = _title(one.calibrated)
+        return head_image(one.weights, f"{person}: predicted from {points}, {sees}"), points, sees, one.mae
+
+    return DrawnExample(
+        title=f"{person}: {100 * example.better:.0f} % of the faces are read better",
+        points=Markup(portrait(example.points, f"{person}: 68 points")),
+        true=head_image(example.true, f"{person}: true weights"),
+        readings=tuple(map(reading, example.readings)),
     )
 
 
@@ -189,7 +227,14 @@ def _part(
         neutral_worst=_largest(still.neutral_mean, 5),
         neutral_mean=float(still.neutral_mean.mean()),
         jitter=still.jitter[:, _VISIBLE].mean(axis=1),
-        worst=tuple((Markup(portrait(face.points, f"Person {face.person}")), face) for face in people.worst),
+        worst=tuple(
+            (
+                head_image(face.true, f"person {face.person}: true weights"),
+                head_image(face.predicted, f"person {face.person}: predicted weights"),
+                face,
+            )
+            for face in people.worst
+        ),
     )
 
 

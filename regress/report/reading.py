@@ -9,6 +9,7 @@ from facegen.conventions import BLENDSHAPES, SPLITS
 from regress.errors import ModelError
 from regress.report.content import (
     SEEN_R2,
+    Accuracy,
     CalibrationRow,
     Figures,
     Headline,
@@ -19,8 +20,11 @@ from regress.report.content import (
     mean_curve,
 )
 from regress.runtime.model import Model, Regression, Scores, TrainingRecord
-from regress.runtime.model.record import NetworkTraining
+from regress.runtime.model.record import MeanScores, NetworkTraining
 from regress.targets import VISIBLE_SHAPES
+
+DELAUNAY_EDGES = 178
+"""Of the reference shape; one of them has no mirror image among them, so symmetric networks see 179."""
 
 
 def content_of(model: Model) -> ReportContent:
@@ -51,6 +55,7 @@ def content_of(model: Model) -> ReportContent:
             summary=_summary(model, in_training),
             unseen=unseen,
             people_in_training=in_training,
+            accuracy=_accuracy(record),
             headlines=_headlines(record, scores, unseen),
             scores=scores,
             constant=tuple(name for name in BLENDSHAPES if name not in model.outputs),
@@ -112,22 +117,37 @@ def _summary(model: Model, in_training: int) -> str:
 
 def _headlines(record: TrainingRecord, scores: tuple[ShapeScores, ...], unseen: str) -> tuple[Headline, ...]:
     visible = [score for score in scores if score.name in VISIBLE_SHAPES]
-    r2, ridge, all_r2, all_ridge = (
+    ridge, all_r2, all_ridge = (
         f"{_number(getattr(record.summary[method], figure)):.3f}"
-        for figure in ("mean_r2_visible", "mean_r2")
-        for method in ("network", "ridge")
+        for figure, method in (
+            ("mean_r2_visible", "ridge"),
+            ("mean_r2", "network"),
+            ("mean_r2", "ridge"),
+        )
     )
     mae, mean_mae = (
         f"{np.mean([getattr(score, method).mae for score in visible]):.3f}" for method in ("network", "mean")
     )
     seen = sum(score.grade == "seen" for score in scores)
     return (
-        Headline(value=r2, caption=f"mean R² of the {len(visible)} visible shapes; ridge regression {ridge}"),
+        Headline(value=ridge, caption=f"mean R² of the {len(visible)} visible shapes by ridge regression"),
         Headline(value=all_r2, caption=f"mean R² of all {len(scores)} shapes; ridge regression {all_ridge}"),
         Headline(
             value=mae, caption=f"mean absolute error of a visible shape's weight; always the mean {mean_mae}"
         ),
         Headline(value=f"{seen} of {len(scores)}", caption=f"shapes reach R² {SEEN_R2} on unseen {unseen}"),
+    )
+
+
+def _accuracy(record: TrainingRecord) -> tuple[Accuracy, ...]:
+    def visible(scores: dict[str, MeanScores], networks: str) -> float:
+        return _number(getattr(scores.get(networks), "mean_r2_visible", None))
+
+    kinds = (("exact points", record.summary), ("as a detector puts them", record.as_detected))
+    return tuple(
+        Accuracy(points=points, alone=visible(found, "network"), calibrated=visible(found, "calibrated"))
+        for points, found in kinds
+        if found
     )
 
 
@@ -164,12 +184,35 @@ def _provenance(model: Model) -> tuple[tuple[str, str], ...]:
         ("licence of the model", record.licence),
         ("recipe", f"{model.recipe}: {recipe}"),
         ("training rows", f"{record.training_rows:,}"),
-        ("edges", f"{len(model.features.edges)}, from {model.features.reference_name}"),
+        ("distances", _distances(model)),
+        ("hidden units", _hidden_units(model)),
         ("edges SHA-256", model.features.reference_sha256),
         ("seed", str(record.seed)),
         ("ways networks ended", _outcomes(record.networks)),
         ("versions", ", ".join(f"{name} {version}" for name, version in record.versions.items())),
     )
+
+
+def _distances(model: Model) -> str:
+    """How many distances the networks see of a frame, and why so many."""
+    count, beside = len(model.features.edges), model.calibrated
+    why = "edges"
+    if count == DELAUNAY_EDGES:
+        why = "the edges of the Delaunay triangulation"
+    elif count == DELAUNAY_EDGES + 1:
+        why = f"the {DELAUNAY_EDGES} edges of the Delaunay triangulation, and a mirror image for the one without"
+    text = f"{count} of a frame: {why} of {model.features.reference_name}"
+    if beside is not None and not len(beside.features.edges):
+        text += "; beside a neutral face the networks see how far the points moved instead"
+    return text
+
+
+def _hidden_units(model: Model) -> str:
+    """How many a network has, and why a symmetric one runs twice as many."""
+    trained, run = model.record.recipe["hidden"], len(model.networks.b1) // len(model.table)
+    if run == trained:
+        return f"{trained} a network"
+    return f"{trained} trained a network, {run} run: each is averaged with its own mirror image"
 
 
 def _rig(rig: Any) -> tuple[tuple[str, str], ...]:

@@ -35,7 +35,8 @@ def test_train_writes_a_model_that_evaluate_and_predict_read(
     code, out, err = run("train", dataset_folder, "--out", tmp_path / "model", "--seed", 3)
     assert (code, out) == (0, "")
     assert "network: test R2" in err
-    assert "all rows: 48 of 48 steps" in err
+    assert "training: 100 of 100 %" in err
+    assert "alpha" not in err
     code, out, _ = run("evaluate", tmp_path / "model", dataset_folder, "--json")
     figures = json.loads(out)
     assert code == 0
@@ -230,7 +231,7 @@ main()
 def test_ctrl_c_stops_training_with_a_sentence(dataset_folder: Path, tmp_path: Path):
     command = [sys.executable, "-c", _ENDLESS, "train", str(dataset_folder), "--out", str(tmp_path / "model")]
     process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert process.stderr.readline().startswith("alpha 0.3: 1 of ")
+    assert process.stderr.readline().startswith("training: 0 of 100 %")
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
     assert (process.returncode, out) == (75, "")

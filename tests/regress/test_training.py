@@ -168,6 +168,18 @@ def test_a_progress_callback_that_raises_stops_training(dataset: KeypointDataset
     assert calls
 
 
+@pytest.mark.parametrize("strengths", ["validation", "evidence"])
+def test_a_training_has_one_progress_that_never_goes_back(dataset: KeypointDataset, strengths: str):
+    calls = []
+    recipe = dataclasses.replace(QUICK, steps=3, search_rows=100, strengths=strengths, calibrated=True)
+    train(dataset, recipe, progress=lambda *call: calls.append(call))
+    names, done, totals = zip(*calls, strict=True)
+    assert set(names) == {"training"}
+    assert set(totals) == {100}
+    assert list(done) == sorted(set(done))
+    assert done[-1] == 100
+
+
 def test_the_record_says_whom_training_knows(dataset: KeypointDataset, quick_model: Model):
     assert quick_model.record.dataset.people_in_training == {"validation": 0, "test": 0}
     split = dataset.split.copy()

@@ -27,6 +27,8 @@ class WorstFrame:
         (h, w) uint8 by camera.
     shapes
         Name, true weight and predicted one of those that err most, by how far they move the face.
+    true, predicted
+        (52,) all weights, ``BLENDSHAPES`` order.
     """
 
     sample: int
@@ -35,6 +37,8 @@ class WorstFrame:
     geometry_mm: float
     pictures: dict[str, np.ndarray]
     shapes: tuple[tuple[str, float, float], ...]
+    true: np.ndarray
+    predicted: np.ndarray
 
 
 def worst_frames(
@@ -63,6 +67,8 @@ def worst_frames(
                 geometry_mm=float(errors[place]),
                 pictures={name: np.array(arrays.pictures[name][row]) for name in predictor.sizes},
                 shapes=tuple((BLENDSHAPES[one], float(true[one]), float(predicted[one])) for one in largest),
+                true=np.array(true),
+                predicted=np.array(predicted),
             )
         )
     return tuple(worst)

@@ -9,6 +9,7 @@ import numpy as np
 
 from regress.errors import InputError
 from regress.learning.probes.crosstalk import CrossTalk, cross_talk
+from regress.learning.probes.examples import Example, examples
 from regress.learning.probes.faces import read_faces
 from regress.learning.probes.methods import networks_of, ridges_of
 from regress.learning.probes.movements import movements
@@ -42,6 +43,7 @@ class Measured:
     winks : tuple of Winks
         Both empty where the dataset has no neutral faces.
     stillness : tuple of Stillness
+    examples : tuple of Example
     """
 
     faces: int
@@ -54,6 +56,7 @@ class Measured:
     cross_talk: tuple[CrossTalk, ...]
     winks: tuple[Winks, ...]
     stillness: tuple[Stillness, ...]
+    examples: tuple[Example, ...]
 
 
 def measure(model: Model, folder: Path) -> Measured:
@@ -93,6 +96,7 @@ def measure(model: Model, folder: Path) -> Measured:
         cross_talk=() if moves is None else tuple(cross_talk(method, people, moves) for method in networks),
         winks=() if moves is None else tuple(winks(method, faces, neutral) for method in networks),
         stillness=tuple(stillness(method, faces, neutral, people) for method in networks),
+        examples=examples(networks, faces, neutral),
     )
 
 

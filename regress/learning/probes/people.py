@@ -4,12 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from facegen.conventions import BLENDSHAPES
 from regress.learning.probes.faces import ProbeFaces
 from regress.learning.probes.methods import Method
 from regress.learning.training.preparation import OUTPUT_COLUMNS
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 
-WORST_FACES = 10
+WORST_FACES = 6
 _VISIBLE = [OUTPUTS.index(name) for name in VISIBLE_SHAPES]
 
 
@@ -26,12 +27,16 @@ class WorstFace:
         As the camera sees it, pixels, y down.
     shapes : tuple of (str, float, float)
         The three visible shapes with the largest errors: name, true weight, predicted weight.
+    true, predicted : (52,) float64
+        All weights, ``BLENDSHAPES`` order; no network predicts ``tongueOut``.
     """
 
     person: int
     mae: float
     points: np.ndarray
     shapes: tuple[tuple[str, float, float], ...]
+    true: np.ndarray
+    predicted: np.ndarray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +64,8 @@ class PersonErrors:
 
 def person_errors(method: Method, faces: ProbeFaces, neutral: ProbeFaces) -> PersonErrors:
     """Errors of a method on faces, of which ``neutral`` are the people's neutral ones."""
-    predicted = method.predict(faces.points_px, neutral.points_px)[:, _VISIBLE]
+    outputs = method.predict(faces.points_px, neutral.points_px)
+    predicted = outputs[:, _VISIBLE]
     true = faces.weights[:, OUTPUT_COLUMNS][:, _VISIBLE]
     errors = np.abs(predicted - true)
     of_face = errors.mean(axis=1)
@@ -80,6 +86,8 @@ def person_errors(method: Method, faces: ProbeFaces, neutral: ProbeFaces) -> Per
                     (VISIBLE_SHAPES[shape], float(true[row, shape]), float(predicted[row, shape]))
                     for shape in largest
                 ),
+                true=faces.weights[row],
+                predicted=all_weights(outputs[row]),
             )
         )
     return PersonErrors(
@@ -89,3 +97,10 @@ def person_errors(method: Method, faces: ProbeFaces, neutral: ProbeFaces) -> Per
         mae=of_person[order],
         worst=tuple(worst),
     )
+
+
+def all_weights(outputs: np.ndarray) -> np.ndarray:
+    """Weights (52,) of what networks say (O,) of one face; 0 where none says anything."""
+    weights = np.zeros(len(BLENDSHAPES))
+    weights[OUTPUT_COLUMNS] = outputs
+    return weights

@@ -175,9 +175,16 @@ def _fit_groups(
             train=Rows(inputs=train.inputs, targets=train.targets[group]),
             held_out=tuple(Rows(inputs=rows.inputs, targets=rows.targets[group]) for rows in held_out),
         )
+        taken = 0
+
+        def step(number: int, going: int) -> None:
+            nonlocal taken
+            taken += 1  # of all rounds, where the evidence chooses
+            stage.step(number, going)
+
         solve = minimise_with_evidence if evidence else minimise
-        result = solve(problem, start[group], alphas[group], settings, on_step=stage.step)
-        stage.finish(int(result.steps.max()))
+        result = solve(problem, start[group], alphas[group], settings, on_step=step)
+        stage.finish(taken)
         return result
 
     # Matrix products release Python's lock, so threads suffice; OpenBLAS itself keeps to one thread each.

@@ -7,8 +7,9 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from regress.errors import Interrupted
+from regress.learning.levenberg_marquardt import EVIDENCE_ROUNDS, EVIDENCE_STEPS
 from regress.learning.networks import fold
-from regress.learning.progress import Progress
+from regress.learning.progress import Progress, joined
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.fitting import Fit, fit_networks
 from regress.learning.training.gain import stretched
@@ -64,10 +65,12 @@ def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Prog
         reference_sha256=reference.sha256,
         depth=depths_of(reference) if recipe.undo_turn else None,
     )
+    both = recipe.calibrated and dataset.has_neutral_frames
+    progress = joined(progress, _work(len(dataset.rows("train")), recipe, both=both))
     alone = fit_set(dataset, features, recipe, calibrated=False, seed=seed, progress=progress)
     compared = None
     beside = beside_neutral(features, recipe)
-    if recipe.calibrated and dataset.has_neutral_frames:
+    if both:
         with _one_thread():
             compared = fit_set(dataset, beside, recipe, calibrated=True, seed=seed, progress=progress)
     model = Model(
@@ -91,6 +94,18 @@ def _trained(dataset: KeypointDataset, recipe: Recipe, seed: int, progress: Prog
     rows = len(alone.prepared.splits["train"].inputs)
     record = training_record(model, dataset, recipe, seed=seed, fits=fits, training_rows=rows)
     return dataclasses.replace(model, record=record)
+
+
+def _work(rows: int, recipe: Recipe, *, both: bool) -> dict[str, float]:
+    """Steps times rows of every stage, by its name."""
+    rows *= (2 if recipe.mirror else 1) * (1 if recipe.noise is None else recipe.noise.copies)
+    searched, steps = min(recipe.search_rows, rows), min(recipe.search_steps, recipe.steps)
+    if recipe.strengths == "evidence":
+        stages = {"evidence": (EVIDENCE_ROUNDS * EVIDENCE_STEPS + steps) * searched}
+    else:
+        stages = {f"alpha {alpha:g}": steps * searched for alpha in recipe.alphas}
+    stages["all rows"] = recipe.steps * rows
+    return stages | ({f"calibrated, {name}": work for name, work in stages.items()} if both else {})
 
 
 def _one_thread() -> threadpool_limits:

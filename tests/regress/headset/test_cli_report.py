@@ -44,11 +44,12 @@ class Outline(HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.open, self.addresses, self.pictures = [], [], []
+        self.open, self.addresses, self.places, self.pictures = [], [], [], []
 
     def handle_starttag(self, tag, attrs):
         named = dict(attrs)
         self.addresses += [value for key, value in attrs if key in ("src", "href") and tag != "img"]
+        self.places += [f"#{value}" for key, value in attrs if key == "id"]
         if tag == "img":
             self.pictures.append((named["alt"], named["src"]))
         if tag not in self.EMPTY:
@@ -73,7 +74,9 @@ def test_the_page_is_whole_and_fetches_nothing(
     page = out.read_text()
     outline = Outline()
     outline.feed(page)
-    assert outline.open == outline.addresses == []
+    assert outline.open == []
+    assert outline.addresses == outline.places
+    assert len(outline.places) == page.count("<h2")
     assert not re.search(r"https?://|@import|url\(", page)
     for word in (
         *BLENDSHAPES,
@@ -91,9 +94,9 @@ def test_the_page_is_whole_and_fetches_nothing(
     assert [(one["model"], one["people"]) for one in document["curve"]] == [("few", 5), ("many", 20)]
     assert f"{found.conditions['uncalibrated'].geometry_mm:.3f}" in page
     assert f"{found.shapes['jawOpen']['same_seat'].r2:.3f}".replace("-", "−") in page
-    # the worst frames' own pictures, three cameras each, in both sections
+    # the worst frames' own pictures, three cameras each and two heads, in both sections
     worst = worst_frames(predictor, arrays)
-    assert len(outline.pictures) == 2 * 3 * len(worst)
+    assert len(outline.pictures) == 2 * (3 + 2) * len(worst)
     name, source = outline.pictures[0]
     data = base64.b64decode(source.removeprefix("data:image/png;base64,"))
     picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)

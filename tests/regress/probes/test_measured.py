@@ -1,5 +1,6 @@
 """All probes on a trained model, as the page and the JSON file tell them."""
 
+import asyncio
 import dataclasses
 import json
 import math
@@ -8,6 +9,7 @@ import re
 import numpy as np
 import pytest
 
+from facegen.conventions import BLENDSHAPE_INDEX
 from regress.errors import InputError
 from regress.learning.probes import figures_of, measure, read_faces
 from regress.learning.probes.observability import NOISE_PERCENT
@@ -16,6 +18,7 @@ from regress.learning.training.noise import DetectorNoise
 from regress.report import write_report
 from regress.runtime.model import save_model
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
+from tests.browser import chromium, needs_chromium
 from tests.regress.conftest import write_dataset
 from tests.regress.drawn import drawn_heads
 
@@ -50,6 +53,49 @@ def measured(model, folder):
 @pytest.fixture(scope="module")
 def page(model, measured, tmp_path_factory):
     return write_report(model, tmp_path_factory.mktemp("page") / "report.html", measured).read_text()
+
+
+@needs_chromium
+def test_the_page_fits_a_telephone(page, tmp_path):
+    """Nothing reaches beyond a window of 400 pixels but what scrolls by itself, and no word of a bar is cut."""
+    path = tmp_path / "report.html"
+    path.write_text(page)
+    beyond = (
+        "[...document.querySelectorAll('main *')].filter(e => !e.closest('.wide')"
+        " && e.getBoundingClientRect().right > innerWidth + 1).map(e => e.outerHTML.slice(0, 80))"
+    )
+    cut = (
+        "[...document.querySelectorAll('.score > span')].filter(e => e.scrollWidth > e.clientWidth + 1)"
+        ".map(e => e.textContent)"
+    )
+
+    async def looked() -> None:
+        async with chromium() as browser, browser.open(path.as_uri()) as tab:
+            await tab.look(width=400, height=900)
+            await tab.until("document.readyState == 'complete'")
+            await tab.ask("document.querySelectorAll('details').forEach(one => one.open = true)")
+            assert await tab.ask("document.documentElement.scrollWidth") == 400
+            assert await tab.ask(beyond) == []
+            assert await tab.ask(cut) == []
+            # every picture of a head is one that the browser can draw
+            heads = "[...document.querySelectorAll('img.head')]"
+            assert await tab.ask(f"{heads}.length") > 20
+            assert await tab.ask(f"{heads}.every(one => one.complete && one.naturalWidth > 0)")
+            assert all(url.startswith("data:") for url in tab.asked if url != path.as_uri())
+            assert tab.complaints == []
+
+    asyncio.run(looked())
+
+
+def test_examples_go_from_well_read_to_badly_read(measured):
+    alone = [one.readings[0] for one in measured.examples]
+    assert not any(one.detected or one.calibrated for one in alone)
+    assert sorted(one.mae for one in alone) == [one.mae for one in alone]
+    for example in measured.examples:
+        assert len({(one.detected, one.calibrated) for one in example.readings}) == 4
+        for one in example.readings:
+            error = np.abs(one.weights - example.true)[[BLENDSHAPE_INDEX[name] for name in VISIBLE_SHAPES]]
+            assert error.mean() == pytest.approx(one.mae)
 
 
 def test_columns_are_read_as_they_were_written(folder):
@@ -102,8 +148,10 @@ def test_the_page_shows_every_probe(measured, page):
         "worst faces",
     ):
         assert title in page
-    drawings = 1 + 3 + 1 + 31  # bars, regressions, mean and small curves
-    assert page.count("<svg") == drawings + 2 * (3 + len(measured.people_errors[0].worst))
+    drawings = 3 + 1 + 31  # regressions, mean and small curves
+    assert page.count("<svg") == drawings + 2 * 3 + len(measured.examples)
+    heads = 5 * len(measured.examples) + 2 * 2 * len(measured.people_errors[0].worst)
+    assert page.count('<img class="head"') == heads
     assert "The test curve lies under the others" in page
     start = page.index("What noise leaves")
     first = re.search(r"networks</td>((?:<td>[^<]+</td>)+)", page[start:]).group(1)

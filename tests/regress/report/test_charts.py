@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from regress.report.axes import Scale, figure, label
-from regress.report.charts import learning_curves, regression_panel, score_bars, small_curves
+from regress.report.bars import score_bars
+from regress.report.charts import learning_curves, regression_panel, small_curves
 from regress.report.content import Figures, LearningCurve, RegressionPlot, ShapeScores, mean_curve
 
 
@@ -58,8 +59,6 @@ def numbers_in_frame(svg: str) -> bool:
 @pytest.mark.parametrize(
     "svg",
     [
-        score_bars(scores(0.9, 0.5, 0.05, -3.0, 1.0)),
-        score_bars(scores(0.9, np.nan)),
         learning_curves(curve([1, 0.5, 0.2], [1, 0.6, 0.7], [1, 0.7, 0.75])),
         learning_curves(curve([1.0], [1.0])),
         learning_curves(curve([0.0, 0.0], [0.0, 0.0])),
@@ -72,12 +71,23 @@ def test_figures_are_well_formed_and_stay_in_their_frames(svg):
     assert numbers_in_frame(svg)
 
 
+@pytest.mark.parametrize("r2", [(0.9, 0.5, 0.05, -3.0, 1.0), (0.9, np.nan), (-0.1,)])
+def test_bars_stay_in_their_tracks(r2):
+    root = ElementTree.fromstring(score_bars(scores(*r2)))
+    places = [dict(part.split(":") for part in one.attrib["style"].split(";")) for one in root.iter("b")]
+    assert len(places) == np.isfinite(r2).sum()
+    for place in places:
+        left, width = (float(place[key].removesuffix("%")) for key in ("left", "width"))
+        assert left >= 0
+        assert left + width <= 100.3  # the thinnest bar is wider than nothing
+    assert "".join(root.itertext()).count("never moves") == np.isnan(r2).sum()
+
+
 def test_bars_are_as_long_as_the_score():
-    root = ElementTree.fromstring(score_bars(scores(0.8, 0.4)))
-    long, short = (float(bar.attrib["width"]) for bar in root.iter("rect"))
+    bars = list(ElementTree.fromstring(score_bars(scores(0.8, 0.4))).iter("b"))
+    long, short = (float(re.search(r"width:([\d.]+)%", bar.attrib["style"])[1]) for bar in bars)
     assert long == pytest.approx(2 * short, rel=0.01)
-    kinds = [bar.attrib["class"] for bar in root.iter("rect")]
-    assert kinds == ["bar seen", "bar partly"]
+    assert [bar.attrib["class"] for bar in bars] == ["seen", "partly"]
 
 
 def test_density_puts_the_truth_across_and_the_prediction_up():

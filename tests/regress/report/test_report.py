@@ -30,14 +30,15 @@ def page(model):
 class Outline(HTMLParser):
     """Open tags and addresses of a page; complains of tags that do not close."""
 
-    EMPTY = frozenset({"meta", "line", "rect", "path"})
+    EMPTY = frozenset({"meta", "line", "rect", "path", "img"})
 
     def __init__(self):
         super().__init__()
-        self.open, self.addresses = [], []
+        self.open, self.addresses, self.places = [], [], []
 
     def handle_starttag(self, tag, attrs):
         self.addresses += [value for key, value in attrs if key in ("src", "href", "xlink:href", "action")]
+        self.places += [f"#{value}" for key, value in attrs if key == "id"]
         if tag not in self.EMPTY:
             self.open.append(tag)
 
@@ -52,7 +53,9 @@ def test_page_is_well_formed_and_fetches_nothing(page):
     outline = Outline()
     outline.feed(page)
     assert outline.open == []
-    assert outline.addresses == []
+    # the contents list names every section once, and nothing else is asked for
+    assert outline.addresses == outline.places
+    assert len(outline.addresses) == page.count("<h2")
     assert not re.search(r"https?://|@import|url\(", page)
 
 
@@ -71,9 +74,38 @@ def test_page_holds_every_shape_with_its_figures(model, page):
                 assert float(text.replace("\N{MINUS SIGN}", "-")) == pytest.approx(figure, abs=6e-4)
 
 
+def test_page_opens_with_both_figures_of_both_kinds_of_points(model, page):
+    opening = page[: page.index("<nav")]
+    shown = re.findall(r"<td><b>([^<]+)</b></td>", opening)
+    recorded = [
+        getattr(model.record, points)[networks].mean_r2_visible
+        for points in ("summary", "as_detected")
+        for networks in ("network", "calibrated")
+    ]
+    assert [float(text.replace("\N{MINUS SIGN}", "-")) for text in shown] == pytest.approx(recorded, abs=6e-4)
+
+
+@pytest.mark.parametrize(
+    ("recipe", "said"),
+    [
+        (
+            Recipe(name="s", denoise=True, symmetric=True),
+            ("179 of a frame: the 178 edges", "20 trained a network, 40 run"),
+        ),
+        (Recipe(name="p"), ("178 of a frame: the edges", "<dd>20 a network</dd>")),
+    ],
+)
+def test_page_explains_how_many_distances_and_units(recipe, said):
+    dataset = drawn_dataset(np.random.default_rng(4), people=40)
+    quick = dataclasses.replace(recipe, steps=2, alphas=(1.0,), search_rows=100)
+    page = render_page(content_of(train(dataset, quick)))
+    for words in said:
+        assert words in page
+
+
 def test_page_says_what_a_neutral_frame_brings(model, page):
-    start = page.index("What a neutral frame brings")
-    shown = re.findall(r"<td>([^<]+)</td>\s*</tr>", page[start : page.index("<h2>", start)])
+    start = page.index(">What a neutral frame brings</h2>")
+    shown = re.findall(r"<td>([^<]+)</td>\s*</tr>", page[start : page.index("<h2", start)])
     recorded = [
         getattr(getattr(model.record, landmarks)["calibrated"], key)
         for landmarks in ("summary", "as_detected")
@@ -87,8 +119,8 @@ def test_page_says_what_a_neutral_frame_brings(model, page):
 
 
 def test_page_says_plainly_what_cannot_be_seen(model, page):
-    start = page.index("What 68 points cannot show")
-    section = page[start : page.index("<h2>", start)]
+    start = page.index(">What 68 points cannot show</h2>")
+    section = page[start : page.index("<h2", start)]
     named = set(re.findall(r"<code>(\w+)</code>", section))
     scores = {shape: scores["network"].r2 for shape, scores in model.record.scores.items()}
     weak = {shape for shape, r2 in scores.items() if r2 is not None and r2 < 0.3}
@@ -133,7 +165,7 @@ def test_page_says_how_the_model_was_made(model, page):
 
 
 def test_figures_are_drawn(page):
-    assert page.count("<svg") == 1 + 3 + 1 + 31
+    assert page.count("<svg") == 3 + 1 + 31
 
 
 def test_names_from_a_dataset_are_escaped(model):
