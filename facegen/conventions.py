@@ -3,7 +3,8 @@
 Frames, all right-handed, all in metres:
 
 head
-    Origin midway between the eyeball centres; x to the subject's left, y up, z out of the face.
+    Origin midway between the mean head's eyeballs as the rig's source draws them, which is some 5 mm behind and 1 mm
+    above its human eyes; x to the subject's left, y up, z out of the face.
 camera
     OpenCV: x right, y down, z forward. ``camera_from_head`` maps head points to camera points.
 pixels

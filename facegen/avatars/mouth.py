@@ -56,7 +56,7 @@ def _own(shapes: FaceShapes, part: Part) -> Surface:
     colours = np.tile([*COLOURS[part], 1.0], (len(used), 1))
     if part == Part.EYE_CAVITY:
         # lids are pink at their margins and dark where nobody should look; the socket's bottom nobody sees
-        depth = shapes.rig.eye_center[:, 2].mean() + 11e-3 - surface.positions[:, 2]
+        depth = shapes.rig.eye_center[:, 2].mean() + 5.5e-3 - surface.positions[:, 2]
         colours[:, :3] *= 1.0 - 0.85 * np.clip(depth / 8e-3, 0.0, 1.0)[:, None]
         surface = replace(surface, colours=colours)
         return cut(surface, (depth[surface.triangles] < SOCKET_M).any(axis=1))

@@ -9,8 +9,8 @@ import numpy as np
 class Rig:
     """Everything about a head that does not depend on the sample; float64 in memory, float32 on disk.
 
-    All positions are in the head frame, in metres: origin midway between the mean head's eyeball centres, x
-    to the subject's left, y up, z out of the face. ``V`` vertices, ``F`` faces, ``K`` identity components,
+    All positions are in the head frame, in metres: origin midway between the eyeballs that the source
+    draws in the mean head, x to the subject's left, y up, z out of the face. ``V`` vertices, ``F`` faces, ``K`` identity components,
     ``T`` traits.
 
     Attributes
@@ -46,7 +46,7 @@ class Rig:
     landmark_vertices, landmark_weights
         (68, n) indices and weights: a landmark is the weighted sum of its vertices.
     eye_center, eye_center_identity
-        (2, 3) and (K, 2, 3): centres of the eyeballs, subject's left first, linear in identity.
+        (2, 3) and (K, 2, 3): the eyes' centres of rotation, subject's left first, linear in identity.
     eye_radius, eye_radius_identity
         (2,) and (K, 2): radii of the eyeballs in metres.
     upper_lid, lower_lid

@@ -52,8 +52,11 @@ def test_landmarks_are_those_of_the_head_that_was_written(anny: Rig, glb: Rig, f
     add_rig(*files, folder=tmp_path)
     there = landmarks(anny)
     assert np.linalg.norm(landmarks(load_rig("head", tmp_path)) - there, axis=-1).max() < 1e-5
-    # margins found on the finer mesh steer the lids at other columns
-    assert np.linalg.norm(landmarks(glb) - there, axis=-1).max() < 1e-4
+    offset = np.linalg.norm(landmarks(glb) - there, axis=-1)
+    lids = np.isin(np.arange(68), np.arange(36, 48))
+    assert offset[:, ~lids].max() < 1e-5
+    # margins found on the finer mesh place the eye a little elsewhere, and steer the lids at other columns
+    assert offset[:, lids].max() < 2.5e-4
     assert glb.components == 0
     assert glb.licence == "CC0-1.0"
 
@@ -126,11 +129,9 @@ def test_eyes_may_be_given_as_balls(anny: Rig, files, tmp_path: Path) -> None:
     }
     _, added = add_rig(*changed(files, tmp_path, eyes=eyes, head="face"), folder=tmp_path)
     np.testing.assert_allclose(added.rig.eye_radius, EYE_RADIUS_M)
-    # the head's origin lies between the file's balls; human eyes stand before and below it, at their distance
-    middle = added.rig.eye_center.mean(axis=0)
-    np.testing.assert_allclose(middle[0], 0.0, atol=1e-9)
-    assert -3e-3 < middle[1] < 0.0
-    assert 3e-3 < middle[2] < 8e-3
+    # the frame's origin is where the file's balls are; human eyes are where the lids are
+    before = [rig.eye_center - landmarks(rig)[0, 27] for rig in (added.rig, anny)]
+    np.testing.assert_allclose(*before, atol=3e-4)
 
 
 def test_what_a_head_loses_is_said(anny: Rig, files, tmp_path: Path, monkeypatch) -> None:
