@@ -13,7 +13,7 @@ from facegen.sampling.gaze import axes_from_weights
 
 CLEAR_M = 0.12e-3
 """Lids keep this from the drawn eye at every weight."""
-WAY = (0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0)
+WAY = (0.1, 0.2, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 """Weights at which that is looked after."""
 CLOSING = ("eyeBlink", "eyeSquint", "eyeLookDown")
 SKIN = (Part.SKIN, Part.LIPS, Part.BROWS, Part.MOUTH_CAVITY, Part.EYE_CAVITY)

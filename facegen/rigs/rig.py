@@ -10,8 +10,8 @@ class Rig:
     """Everything about a head that does not depend on the sample; float64 in memory, float32 on disk.
 
     All positions are in the head frame, in metres: origin midway between the eyeballs that the source
-    draws in the mean head, x to the subject's left, y up, z out of the face. ``V`` vertices, ``F`` faces, ``K`` identity components,
-    ``T`` traits.
+    draws in the mean head, x to the subject's left, y up, z out of the face. ``V`` vertices, ``F`` faces, ``K``
+    identity components, ``T`` traits.
 
     Attributes
     ----------
