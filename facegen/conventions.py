@@ -173,3 +173,18 @@ BLOCK = 1000
 """Samples that are drawn and computed together; a block is always computed whole, then cut."""
 SHARD_ROWS = 10_000
 """Rows of a keypoint shard: ten blocks, committed whole."""
+
+CAMERA_TERMS: tuple[str, ...] = (
+    *("x", "y", "z"),
+    *("forward_x", "forward_y", "forward_z"),
+    *("right_x", "right_y", "right_z"),
+    *("half_width", "half_height"),
+    *("off_right", "off_down"),
+    "fisheye",
+)
+"""What a network may be told of a camera (`facegen.geometry.camera_terms`): its place in the headset's frame in units
+of 5 cm, its axis and the right of its picture as unit vectors there, half the picture's sides over the focal lengths,
+the principal point from the picture's middle in picture widths and heights, and whether the lens is a fisheye's."""
+
+CAMERA_TERMS_MIRRORED: tuple[float, ...] = (-1, 1, 1, -1, 1, 1, 1, -1, -1, 1, 1, -1, 1, 1)
+"""``terms * CAMERA_TERMS_MIRRORED`` are those of a camera that sees the mirrored face, in a mirrored picture."""

@@ -1,5 +1,6 @@
 """Rigid motions, camera models and small solids: pure functions on arrays, float64."""
 
+from facegen.geometry.camera_terms import camera_terms
 from facegen.geometry.cameras import Camera, pixel_rays, project, project_pinhole, turning_radius, unproject
 from facegen.geometry.ellipses import Ellipse, fit_ellipse
 from facegen.geometry.mirrors import Reflection, fresnel, reflect_in_sphere, reflect_in_thread
@@ -22,6 +23,7 @@ __all__ = [
     "angles_from_direction",
     "angles_from_rotation",
     "apply_transform",
+    "camera_terms",
     "direction_from_angles",
     "fit_ellipse",
     "fresnel",

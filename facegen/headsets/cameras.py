@@ -37,12 +37,14 @@ class Lens:
     ``vignette`` is the share of the light that is lost in the corner farthest from the principal point, growing with
     the square of the distance from there. With an ``aperture_radius`` nothing is seen beyond a circle of that
     radius, whose middle lies ``aperture_offset`` (right, down) from the middle of the picture: the rim of a lens or of
-    the eyecup that the camera looks through.
+    the eyecup that the camera looks through. ``blur`` is the standard deviation of what a lens that is out of focus
+    spreads a point over.
     """
 
     vignette: Fraction = 0.0
     aperture_radius: Positive | None = None
     aperture_offset: Pair = (0.0, 0.0)
+    blur: Annotated[float, Field(ge=0, le=0.1)] = 0.0
 
 
 @record()

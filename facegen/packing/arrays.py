@@ -1,6 +1,7 @@
 """Packs arrays that training programs map into memory: pictures by camera, labels in Parquet, the face's basis.
 
-``arrays.json`` says what the arrays are of: headset, cameras, rows, rig, dataset, licence. ``CAMERA.npy`` is
+``arrays.json`` says what the arrays are of: headset, cameras, rows, rig, dataset, licence, and what is told of each
+row's cameras. ``CAMERA.npy`` is
 (rows, h, w) uint8; ``labels.parquet`` has its rows in the same order; ``face.npz`` turns errors of weights into
 millimetres: ``displacement`` (52, V, 3) and ``rest`` (V, 3), float32, head frame, metres.
 """
@@ -12,9 +13,9 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, SIDES, VIEW_POINTS, Part
+from facegen.conventions import BLENDSHAPES, CAMERA_TERMS, LANDMARK_GROUPS, SIDES, VIEW_POINTS, Part
 from facegen.errors import FormatError, InvalidData
-from facegen.geometry import angles_from_direction
+from facegen.geometry import Camera, angles_from_direction, camera_terms, invert_transform
 from facegen.packing.plan import Options, PackFile, PackFormat
 from facegen.packing.rendered import chosen_views, read_rendered
 from facegen.packing.view_points import view_points
@@ -69,6 +70,8 @@ def array_schema(dataset: Dataset, views: Sequence[str]) -> pa.Schema:
         "unit": "px",
     }
     points = pa.list_(pa.float32(), 2 * len(VIEW_POINTS))
+    about_camera = {"description": "CAMERA_TERMS of facegen.conventions: the unit's camera as it is"}
+    terms = pa.list_(pa.float32(), len(CAMERA_TERMS))
     pose = {"description": "how the headset sits", "shape": "4 4", "unit": "m"}
     slip = {"description": "part of it that changes from frame to frame: x y z, then yaw pitch roll"}
     return pa.schema(
@@ -78,6 +81,7 @@ def array_schema(dataset: Dataset, views: Sequence[str]) -> pa.Schema:
             pa.field("head_from_headset", pa.list_(pa.float32(), 16), nullable=False, metadata=pose),
             pa.field("slip", pa.list_(pa.float32(), 6), nullable=False, metadata=slip | {"unit": "m, rad"}),
             *(pa.field(f"points_{view}", points, nullable=False, metadata=about_points) for view in views),
+            *(pa.field(f"camera_{view}", terms, nullable=False, metadata=about_camera) for view in views),
         ],
         metadata={"licence": dataset.licence, "spec_hash": dataset.hash},
     )
@@ -148,7 +152,18 @@ def _row(record: dict, views: Sequence[str]) -> dict:
         "head_from_headset": np.ravel(headset["head_from_headset"]).tolist(),
         "slip": headset["slip"],
         **points,
+        **{f"camera_{view}": _camera_terms(record, view) for view in views},
     }
+
+
+def _camera_terms(record: dict, view: str) -> list[float]:
+    """What is told of a view's camera, from the sample's own labels."""
+    labels = record["views"][view]
+    intrinsics = ("model", "width", "height", "fx", "fy", "cx", "cy")
+    camera = Camera(**{name: labels["camera"][name] for name in intrinsics})
+    head_from_headset = np.array(record["headset"]["head_from_headset"])
+    headset_from_camera = invert_transform(np.array(labels["camera_from_head"]) @ head_from_headset)
+    return camera_terms(camera, headset_from_camera).tolist()
 
 
 def _about(dataset: Dataset, part: PackFile, options: Options) -> dict:
@@ -160,6 +175,8 @@ def _about(dataset: Dataset, part: PackFile, options: Options) -> dict:
             {"name": view, "width": camera.width, "height": camera.height}
             for view, camera in zip(chosen_views(dataset, options), cameras, strict=True)
         ],
+        "camera_terms": list(CAMERA_TERMS),
+        "drawn": dataset.spec.layout is not None,
         "rows": len(part.samples),
         "rig": dataset.rig.name,
         "dataset_hash": dataset.hash,

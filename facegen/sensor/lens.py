@@ -1,8 +1,11 @@
-"""Computes lens shading: the share of the light that gets through, across the picture."""
+"""Computes what a lens does to light: the share that gets through, across the picture, and the blur out of focus."""
 
 import numpy as np
 
 from facegen.headsets import HeadsetCamera
+
+SHARP_PX = 0.1
+"""A Gaussian of this standard deviation leaves a pixel all of its light."""
 
 
 def transmission(camera: HeadsetCamera) -> np.ndarray:
@@ -12,3 +15,23 @@ def transmission(camera: HeadsetCamera) -> np.ndarray:
     left = 1.0 - camera.lens.vignette * squared / squared.max()
     # the rim's edge falls within a pixel
     return left * np.clip(camera.inside_aperture_px(np.stack([u, v], axis=-1)) + 0.5, 0.0, 1.0)
+
+
+def defocused(light: np.ndarray, camera: HeadsetCamera) -> np.ndarray:
+    """Light (h, w) spread by the lens's blur, a Gaussian; borders go on outwards."""
+    sd_px = camera.lens.blur * camera.width
+    if sd_px < SHARP_PX:
+        return light
+    down, across = (_gaussian(side, sd_px) for side in light.shape)
+    return down @ light @ across.T
+
+
+def _gaussian(side: int, sd_px: float) -> np.ndarray:
+    """(side, side) shares of each pixel in each blurred one."""
+    reach = int(np.ceil(4.0 * sd_px))
+    offsets = np.arange(-reach, reach + 1)
+    share = np.exp(-0.5 * (offsets / sd_px) ** 2)
+    spread = np.zeros((side, side))
+    for offset, part in zip(offsets, share / share.sum(), strict=True):
+        spread[np.arange(side), np.clip(np.arange(side) + offset, 0, side - 1)] += part
+    return spread

@@ -9,7 +9,7 @@ from facegen.randomness import stream
 from facegen.sampling import Shot
 from facegen.scene import Glimpse, Layers
 from facegen.sensor.development import develop
-from facegen.sensor.lens import transmission
+from facegen.sensor.lens import defocused, transmission
 from facegen.sensor.motion import blurred
 from facegen.sensor.room import room_light
 
@@ -38,7 +38,8 @@ def develop_view(
     """
     light = layers.radiance.astype(np.float64) + room_light(layers, camera_from_head, shot)
     way_rad = np.multiply(shot.motion_rad_s, sensor.exposure_ms * 1e-3)
-    light = blurred(light, (way_rad[0] * camera.fx, way_rad[1] * camera.fy)) * transmission(camera)
+    light = blurred(light, (way_rad[0] * camera.fx, way_rad[1] * camera.fy))
+    light = defocused(light, camera) * transmission(camera)
     noise = shot.noise * draw_noise(stream(shot.noise_seed, "sensor noise", 0), light.shape)
     return develop(light, replace(sensor, exposure=sensor.exposure * shot.exposure_factor), noise=noise)
 

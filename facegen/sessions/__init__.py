@@ -1,13 +1,22 @@
-"""Sessions: what a person has and wears while the headset is on, drawn once, and the scene of each of their samples."""
+"""Sessions: the headset, looks and things that a person wears, drawn once, and the scene of each of their samples."""
 
+from facegen.sessions.drawn_headsets import drawn_headset, sees_enough
+from facegen.sessions.layouts import Layout, LayoutCamera, check_base, draw_layout, headset_of
 from facegen.sessions.sample_scene import SampleScene, build_sample_scene, draw_sample_scene
 from facegen.sessions.session import Session, draw_session, draw_unit_of_session
 
 __all__ = [
+    "Layout",
+    "LayoutCamera",
     "SampleScene",
     "Session",
     "build_sample_scene",
+    "check_base",
+    "draw_layout",
     "draw_sample_scene",
     "draw_session",
     "draw_unit_of_session",
+    "drawn_headset",
+    "headset_of",
+    "sees_enough",
 ]

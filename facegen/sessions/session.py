@@ -9,6 +9,7 @@ from facegen.randomness import stream
 from facegen.rigs import Rig
 from facegen.scene import Look, draw_look, made_up
 from facegen.scene.accessories import Accessories, draw_accessories
+from facegen.sessions.drawn_headsets import drawn_headset
 from facegen.spec import Spec
 
 
@@ -47,7 +48,7 @@ def draw_session(
     rig
         The rig that hair grows on.
     headset
-        As its file has it.
+        As its file has it; a spec with ranges of layouts draws the person's own on it.
     person, session
         Their numbers: looks and mouth belong to the person, the unit to the session, accessories to both.
     female
@@ -64,7 +65,7 @@ def draw_session(
         make_up=spec.looks.make_up,
     )
     return Session(
-        unit=draw_unit_of_session(spec, headset, session),
+        unit=draw_unit_of_session(spec, rig, headset, person=person, session=session),
         look=look if accessories.make_up is None else made_up(look, accessories.make_up),
         accessories=accessories,
         mouth=draw_mouth(stream(spec.seed, "mouth", person)),
@@ -72,6 +73,7 @@ def draw_session(
 
 
 @lru_cache(maxsize=8)  # checking a new unit takes longer than labelling a view
-def draw_unit_of_session(spec: Spec, headset: Headset, session: int) -> Headset:
-    """Draw the unit of a headset that is worn in a session."""
-    return draw_unit(headset, stream(spec.seed, "unit", session), scale=spec.sensor.tolerances)
+def draw_unit_of_session(spec: Spec, rig: Rig, headset: Headset, *, person: int, session: int) -> Headset:
+    """Draw the unit of a headset that a person wears in a session."""
+    worn = drawn_headset(spec, rig, headset, person)
+    return draw_unit(worn, stream(spec.seed, "unit", session), scale=spec.sensor.tolerances)

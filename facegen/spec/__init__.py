@@ -2,6 +2,7 @@
 
 from facegen.number_ranges import format_ranges, format_runs, listed, sample_numbers, sample_ranges, without
 from facegen.spec.distribution import Distribution, draw
+from facegen.spec.layout_ranges import LayoutRanges
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
 from facegen.spec.reference import spec_reference
 from facegen.spec.rigs import shares_of
@@ -13,6 +14,7 @@ __all__ = [
     "Expression",
     "Gaze",
     "Landmarks",
+    "LayoutRanges",
     "Looks",
     "Playback",
     "Spec",

@@ -1,28 +1,21 @@
 """Defines the spec of a dataset: a frozen record, read from TOML, which decides everything with a sample's number."""
 
-from dataclasses import field
 from typing import Annotated, Literal
 
 from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass
 
 from facegen.expression import COMPONENTS
-from facegen.spec.distribution import Distribution, parse, quantity
+from facegen.spec.distribution import quantity
+from facegen.spec.layout_ranges import LayoutRanges
 from facegen.spec.rigs import Rigs
+from facegen.spec.tables import STRICT, Share, default
 
-_STRICT = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True)
-# every key's docstring is its line in docs/spec.md and in the JSON schema
-
-Share = Annotated[float, Field(ge=0, le=1, json_schema_extra={"x-unit": "share"})]
 Count = Annotated[int, Field(ge=1)]
 Weight = Annotated[float, Field(ge=0, le=1000, json_schema_extra={"x-unit": "share"})]
 
 
-def _default(value: object) -> Distribution:
-    return field(default_factory=lambda: parse(value))
-
-
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Still:
     """``kind = "still"``: in each session every person shows some neutral faces, then some expressions."""
 
@@ -34,7 +27,7 @@ class Still:
     """Faces with an expression in each session, after the neutral ones."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Playback:
     """``kind = "playback"``: everyone plays one recording (a Live Link Face CSV), in one pose before one camera."""
 
@@ -48,7 +41,7 @@ class Playback:
     """Frames that are played; none means to the end."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Clips:
     """Clips of one kind in each session."""
 
@@ -58,7 +51,7 @@ class Clips:
     """Length of each; a clip is drawn whole for every block of 1,000 samples that it touches."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Sequence:
     """``kind = "sequence"``: every person is recorded in sessions, each of them the same list of clips."""
 
@@ -80,13 +73,13 @@ class Sequence:
     """Turns of talking and listening."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Identity:
     """Who the people are, as far as the rig knows such traits."""
 
     female: Share = 0.5
     """Share of women."""
-    age_years: quantity(18, 90, "years") = _default({"uniform": [18, 80]})
+    age_years: quantity(18, 90, "years") = default({"uniform": [18, 80]})
     """Age; the rig changes between 25 and 90."""
     ancestry_concentration: Annotated[float, Field(gt=0, le=100)] = 0.7
     """Of the Dirichlet distribution of African, Asian and Caucasian ancestry: small values give unmixed people."""
@@ -108,7 +101,7 @@ Mixture = dataclass(frozen=True, kw_only=True, config=ConfigDict(extra="forbid",
 """Its keys are those of `facegen.expression.COMPONENTS`."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Expression:
     """How faces move: a mixture of named components, held to what a face can do."""
 
@@ -123,31 +116,31 @@ class Expression:
     mixture: Mixture = Mixture(**{name: component.share for name, component in COMPONENTS.items()})
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Gaze:
     """Where both eyes look; they look at one point, ``distance_m`` away."""
 
-    yaw_deg: quantity(-35, 35, "degrees") = _default({"normal": [0, 12], "within": [-30, 30]})
+    yaw_deg: quantity(-35, 35, "degrees") = default({"normal": [0, 12], "within": [-30, 30]})
     """To the subject's left."""
-    pitch_deg: quantity(-30, 30, "degrees") = _default({"normal": [-3, 11], "within": [-25, 25]})
+    pitch_deg: quantity(-30, 30, "degrees") = default({"normal": [-3, 11], "within": [-25, 25]})
     """Upwards."""
-    distance_m: quantity(0.1, 100, "metres") = _default({"uniform": [0.3, 3.0]})
+    distance_m: quantity(0.1, 100, "metres") = default({"uniform": [0.3, 3.0]})
     """Distance of the point that is looked at; near ones turn the eyes inwards."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Head:
     """How the head is turned before the keypoint camera."""
 
-    yaw_deg: quantity(-60, 60, "degrees") = _default({"normal": [0, 6], "within": [-20, 20]})
+    yaw_deg: quantity(-60, 60, "degrees") = default({"normal": [0, 6], "within": [-20, 20]})
     """To the subject's left."""
-    pitch_deg: quantity(-45, 45, "degrees") = _default({"normal": [0, 6], "within": [-20, 20]})
+    pitch_deg: quantity(-45, 45, "degrees") = default({"normal": [0, 6], "within": [-20, 20]})
     """Upwards."""
-    roll_deg: quantity(-90, 90, "degrees") = _default({"normal": [0, 5], "within": [-20, 20]})
+    roll_deg: quantity(-90, 90, "degrees") = default({"normal": [0, 5], "within": [-20, 20]})
     """Towards the subject's left shoulder."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class KeypointCamera:
     """The camera that sees the keypoints: a pinhole before the face."""
 
@@ -155,15 +148,15 @@ class KeypointCamera:
     """Width of the picture."""
     height_px: Annotated[int, Field(ge=16, le=16384)] = 480
     """Height of the picture."""
-    fov_deg: quantity(5, 120, "degrees") = _default(60)
+    fov_deg: quantity(5, 120, "degrees") = default(60)
     """Horizontal field of view."""
-    distance_m: quantity(0.2, 10, "metres") = _default({"uniform": [0.5, 0.9]})
+    distance_m: quantity(0.2, 10, "metres") = default({"uniform": [0.5, 0.9]})
     """From the camera to the head, along its axis."""
-    offset_px: quantity(-8192, 8192, "pixels") = _default({"normal": [0, 20], "within": [-60, 60]})
+    offset_px: quantity(-8192, 8192, "pixels") = default({"normal": [0, 20], "within": [-60, 60]})
     """Of the head from the middle of the picture, in x and in y."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Landmarks:
     """What a detector would say: the exact points plus noise, as a share of the face's width in the picture."""
 
@@ -179,17 +172,17 @@ class Landmarks:
     """Whether there are ``contour_2d`` and ``contour_3d`` too: the 17 jaw points, slid to the outline where hidden."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Eyes:
     """Size of the pupils."""
 
-    pupil_radius_mm: quantity(0.8, 4.5, "millimetres") = _default(
+    pupil_radius_mm: quantity(0.8, 4.5, "millimetres") = default(
         {"normal": [1.88, 0.5], "within": [1.05, 3.1]}
     )
     """Radius of both pupils."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Looks:
     """What people wear in rendered pictures beside the headset; keypoints do not depend on it."""
 
@@ -201,7 +194,7 @@ class Looks:
     """Share of women with mascara, eyeliner and lipstick; how much is a session's."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Sensor:
     """What else differs from picture to picture; the headset's file says how much at a factor of 1."""
 
@@ -225,12 +218,12 @@ class Sensor:
     """Share of pictures in which one of the camera's LEDs stays dark."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Render:
     """Which samples are rendered, by which headset, and how."""
 
     headset: str = "tracking3"
-    """Name of a headset that comes with facegen, or path of a TOML file relative to the spec."""
+    """Name of a headset that comes with facegen, or path of a TOML file relative to the spec; see `[layout]` too."""
     samples: str = ""
     """Samples that are rendered, for example "0-99,140,200-240:10"."""
     size_px: Annotated[int, Field(ge=16, le=4096)] = 256
@@ -245,7 +238,7 @@ class Render:
     """Whether an EXR file with radiance, depth, normals and parts stands beside each picture."""
 
 
-@dataclass(frozen=True, kw_only=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, config=STRICT)
 class Spec:
     """A dataset. ``(Spec, sample number)`` decides every label and every pixel of a sample."""
 
@@ -276,3 +269,4 @@ class Spec:
     looks: Looks = Looks()
     sensor: Sensor = Sensor()
     render: Render = Render()
+    layout: LayoutRanges | None = None

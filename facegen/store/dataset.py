@@ -1,5 +1,6 @@
 """Opens and begins datasets: a spec with everything that it names, and the folder of its samples."""
 
+import dataclasses
 import hashlib
 import importlib.metadata
 import json
@@ -23,6 +24,7 @@ from facegen.headsets import Headset, headset_path, load_headset
 from facegen.refusals import refusal
 from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset, rig_of
+from facegen.sessions import check_base
 from facegen.spec import (
     LABEL_VERSION,
     Spec,
@@ -41,6 +43,9 @@ from facegen.store.stage import staging
 _Asset = TypeVar("_Asset")
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
+
+DRAWN = "drawn"
+"""Name of the headset of a dataset whose people each wear another one."""
 
 _FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "headset.toml", "recording.csv")
 """What `begin` leaves if it is killed before ``dataset.json``, and what a farm puts there before it."""
@@ -188,9 +193,11 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
     plan = plan_dataset(spec)
     rigs = tuple(_asset("rig", load_rig, name) for name in shares_of(spec.rig))
     headset = _asset("render.headset", load_headset, spec.render.headset)
+    if spec.layout is not None:
+        check_base(headset)
     assets = {
         **({"rig": rigs[0].sha256} if len(rigs) == 1 else {f"rig {rig.name}": rig.sha256 for rig in rigs}),
-        "headset": _content_sha256(TypeAdapter(Headset).dump_python(headset, mode="json")),
+        "headset": _content_sha256(_headset_content(headset)),
     }
     if plan.recording is not None:
         assets["recording"] = hashlib.sha256(np.ascontiguousarray(plan.recording).tobytes()).hexdigest()
@@ -198,7 +205,7 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
         folder=DatasetFolder(Path(out)),
         plan=plan,
         rigs=rigs,
-        headset=_scaled(headset, spec.render.size_px),
+        headset=_scaled(_named(headset, spec), spec.render.size_px),
         hash=spec_hash(spec, asset_sha256=assets),
     )
 
@@ -309,6 +316,20 @@ def _versions() -> dict[str, str]:
 
     installed = {name: importlib.metadata.version(name) for name in _PACKAGES}
     return {"facegen": __version__, **installed, "opencv": cv2.__version__}
+
+
+def _headset_content(headset: Headset) -> dict:
+    """What a headset's file says, for the hash; a key younger than some datasets stays out where it changes nothing."""
+    content = TypeAdapter(Headset).dump_python(headset, mode="json")
+    for camera in content["cameras"]:
+        if camera["lens"]["blur"] == 0:
+            del camera["lens"]["blur"]
+    return content
+
+
+def _named(headset: Headset, spec: Spec) -> Headset:
+    """The headset that a spec names; where it is drawn anew for each person, it is called so."""
+    return headset if spec.layout is None else dataclasses.replace(headset, name=DRAWN)
 
 
 def _scaled(headset: Headset, size_px: int) -> Headset:

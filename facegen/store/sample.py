@@ -62,8 +62,13 @@ class _Centers(_Closed):
 
 
 class _Camera(_Open):
+    model: Literal["pinhole", "fisheye"]
     width: Pixels
     height: Pixels
+    fx: Annotated[Number, Field(gt=0)]
+    fy: Annotated[Number, Field(gt=0)]
+    cx: Number
+    cy: Number
 
 
 class _View(_Open):

@@ -109,7 +109,8 @@ def develop_sample(
         key: getattr(settings, key) for key in ("exposure", "gain") if getattr(settings, key) is not None
     }
     headset = replace(dataset.headset, sensor=replace(dataset.headset.sensor, **changes))
-    unit = draw_unit_of_session(spec, headset, record["session"])
+    rig = dataset.rig_of(number)
+    unit = draw_unit_of_session(spec, rig, headset, person=record["person"], session=record["session"])
     pictures, shots = {}, {}
     for camera in unit.cameras:
         view = camera.name

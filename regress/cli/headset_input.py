@@ -77,6 +77,33 @@ def camera_paths(
     return paths
 
 
+def told_of(predictor: "HeadsetPredictor", headset: str | None) -> "HeadsetPredictor":
+    """The predictor, told where its cameras are by a headset's name or file; None tells nothing.
+
+    Raises
+    ------
+    InputError
+        Where the headset has none of the model's cameras, or the model does not listen.
+    """
+    if headset is None:
+        return predictor
+    from facegen.geometry import camera_terms
+    from facegen.headsets import load_headset
+
+    described = load_headset(headset)
+    terms = {
+        camera.name: camera_terms(camera.camera, camera.headset_from_camera)
+        for camera in described.cameras
+        if camera.name in predictor.sizes
+    }
+    if not terms:
+        raise InputError(
+            f"--headset {headset} has the cameras {', '.join(described.camera_names)}; the model has "
+            f"{', '.join(predictor.sizes)}"
+        )
+    return predictor.told(terms)
+
+
 def targets_of(named: Sequence[str]) -> dict[int, tuple[float, float]]:
     """Targets of ``FRAME:YAW:PITCH``, by frames.
 

@@ -66,6 +66,14 @@ def predict(
             help="TOML of `regress headset check`: what of each camera's pictures counts, at which levels.",
         ),
     ] = None,
+    headset: Annotated[
+        str | None,
+        typer.Option(
+            "--headset",
+            metavar="NAME|FILE.toml",
+            help="Headset file of facegen: where the cameras are, told to a model of drawn headsets (headset-any).",
+        ),
+    ] = None,
     out: OutOption = None,
     table_format: FormatOption = TableFormat.csv,
     retarget: RetargetOption = None,
@@ -171,6 +179,7 @@ def predict(
         read_footage,
         read_neutrals,
         targets_of,
+        told_of,
     )
     from regress.cli.headset_notes import check_model, level_notes, rate_note, seat_notes, tell_of
     from regress.cli.headset_person import neutrals_of, read_own
@@ -189,7 +198,7 @@ def predict(
 
     cameras = bool(camera or left_eye or right_eye or mouth)
     model, dataset = model_and_dataset(arguments or [], chosen, cameras=cameras)
-    predictor = load_headset_predictor(model)
+    predictor = told_of(load_headset_predictor(model), headset)
     output = output_of(
         filter_name=filter_name.value,
         smooth=smooth,

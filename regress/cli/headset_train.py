@@ -11,7 +11,7 @@ import typer
 from facegen.console import progress, say
 from regress.errors import InputError
 from regress.learning.headset.architectures import ARCHITECTURES
-from regress.learning.headset.recipe import WITHHOLDINGS, HeadsetRecipe, recipe_of
+from regress.learning.headset.recipe import DRAWN_SETTINGS, WITHHOLDINGS, HeadsetRecipe, recipe_of
 
 _PLAIN = HeadsetRecipe()
 
@@ -46,9 +46,13 @@ def train(
         float, typer.Option("--camera-dropout", help="Share of frames that a camera is absent from.")
     ] = _PLAIN.camera_dropout,
     randomise: Annotated[
-        float,
-        typer.Option("--randomise", help="Strength of photometric randomisation, for other cameras; try 1."),
-    ] = _PLAIN.randomise,
+        float | None,
+        typer.Option(
+            "--randomise",
+            help="Strength of photometric randomisation, for other cameras; try 1. Default: 1 where headsets are "
+            "drawn, else 0.",
+        ),
+    ] = None,
     withhold: Annotated[
         Literal[WITHHOLDINGS],
         typer.Option("--withhold", help="Frames to train without, to see what is learned from others."),
@@ -75,9 +79,12 @@ def train(
 ) -> None:
     """Train a network on pictures with exact labels, on one core; a second run goes on where the first was stopped.
 
+    Where each person of the arrays wears another, drawn headset, the network is told of the cameras, and pictures are
+    displaced and randomised more.
+
     Example: regress headset train datasets/out/headset-arrays --out models/headset
     """
-    recipe = _recipe(
+    chosen = _settings(
         {
             "architecture": architecture,
             "seed": seed,
@@ -86,7 +93,7 @@ def train(
             "modulation": modulation,
             "part_loss": part_loss,
             "camera_dropout": camera_dropout,
-            "randomise": randomise,
+            **({} if randomise is None else {"randomise": randomise}),
             "withhold": withhold,
             "people": people,
         },
@@ -98,6 +105,7 @@ def train(
     from regress.runtime.ready_made import model_folder
 
     frames = read_arrays(arrays)
+    recipe = recipe_of({**(DRAWN_SETTINGS if frames.drawn else {}), **chosen})
     for note in side_notes(tuple(camera.name for camera in frames.cameras)):
         say(note)
     began = time.monotonic()
@@ -112,10 +120,10 @@ def train(
     record = model.training
     say(f"trained on {record.rows} frames of {record.people} people in {time.monotonic() - began:.0f} s")
     for name, figures in (model.scores.conditions if model.scores else {}).items():
-        if name in ("uncalibrated", "same_seat"):
+        if name.removesuffix("_told") in ("uncalibrated", "same_seat"):
             r2 = "undefined" if figures.r2 is None else f"{figures.r2:.3f}"
             said = name.replace("_", " ")
-            say(f"{said:>14}: {figures.geometry_mm:.3f} mm, R2 {r2}, gaze {figures.gaze_deg:.2f} degrees")
+            say(f"{said:>17}: {figures.geometry_mm:.3f} mm, R2 {r2}, gaze {figures.gaze_deg:.2f} degrees")
     say(f"model in {out}")
 
 
@@ -132,12 +140,13 @@ def side_notes(cameras: tuple[str, ...]) -> list[str]:
     ]
 
 
-def _recipe(chosen: dict[str, object], pairs: Sequence[str]) -> HeadsetRecipe:
-    """The recipe of the options and of ``NAME=VALUE`` pairs."""
-    others = [name for name in _PLAIN.settings() if name not in chosen]
+def _settings(chosen: dict[str, object], pairs: Sequence[str]) -> dict[str, object]:
+    """The settings of the options and of ``NAME=VALUE`` pairs, checked; others are left out."""
+    others = [name for name in _PLAIN.settings() if name not in (*chosen, "randomise")]
     for pair in pairs:
         name, sign, text = pair.partition("=")
         if not sign or name not in others:
             raise InputError(f"--set {pair!r} is not NAME=VALUE with one of {', '.join(others)}")
         chosen[name] = text
-    return recipe_of(chosen)
+    recipe_of(chosen)
+    return chosen

@@ -2,7 +2,13 @@
 
 from typing import Any
 
-from regress.runtime.headset.estimates import GRAPH_OUTPUTS, POINTS, points_output
+from regress.runtime.headset.estimates import (
+    CAMERA_INPUT,
+    GRAPH_OUTPUTS,
+    POINTS,
+    TERMS_TOLD,
+    points_output,
+)
 from regress.runtime.headset.model import HeadsetModel
 
 FORMAT = "regress-headset"
@@ -43,6 +49,12 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
         "shape": ["n"],
         "meaning": calibrated,
     }
+    if model.camera_terms:
+        inputs[CAMERA_INPUT] = {
+            "type": "float32",
+            "shape": [len(cameras), TERMS_TOLD],
+            "meaning": "may be left out: for each camera camera_terms and then 1, or zeros where they are not known",
+        }
     return {
         "format": FORMAT,
         "version": 1,
@@ -51,6 +63,7 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
         "headset": model.headset,
         "cameras": cameras,
         "shapes": list(model.weights),
+        "camera_terms": list(model.camera_terms),
         "points": {name: list(points) for name, points in model.points.items()},
         "levels": {
             name: {"low": [looks.low[0], looks.low[-1]], "high": [looks.high[0], looks.high[-1]]}

@@ -12,7 +12,7 @@ from facegen.headsets import HeadsetSensor, Lens, load_headset
 from facegen.sampling import Shot
 from facegen.scene import Layers
 from facegen.sensor import develop, develop_view
-from facegen.sensor.lens import transmission
+from facegen.sensor.lens import defocused, transmission
 from facegen.sensor.motion import blurred
 
 SENSOR = HeadsetSensor(exposure=0.5, black_level=15)
@@ -149,3 +149,22 @@ def test_shots_differ_in_what_they_say():
     lit = shoot(room_radiance=0.5, room_direction=(0.0, 0.0, -1.0))
     assert lit.mean() == pytest.approx(plain.mean() + 240 * 0.5 * 0.5 * 0.55, abs=0.6)
     assert (shoot(room_radiance=0.5, room_direction=(0.0, 0.0, 1.0)) == plain).all()
+
+
+@given(blur=st.floats(0.0, 0.1), seed=st.integers(0, 2**16))
+@settings(max_examples=20, deadline=None)
+def test_a_lens_out_of_focus_spreads_light_and_loses_none(blur: float, seed: int):
+    light = np.random.default_rng(seed).random((64, 64))
+    camera = replace(EYE, lens=Lens(blur=blur))
+    soft = defocused(light, camera)
+    assert soft.min() >= light.min() - 1e-12
+    assert soft.max() <= light.max() + 1e-12
+    np.testing.assert_allclose(defocused(np.ones((64, 64)), camera), 1.0)
+    spot = np.zeros((64, 64))
+    spot[32, 30] = 1.0
+    spread = defocused(spot, camera)
+    v, u = np.mgrid[:64, :64]
+    assert spread.sum() == pytest.approx(1.0, abs=2e-3)
+    if 0.01 < blur < 0.06:  # a pixel's own width below, the border above
+        assert np.sqrt((spread * (u - 30) ** 2).sum()) == pytest.approx(blur * 64, rel=0.05)
+        assert (spread * v).sum() == pytest.approx(32, abs=0.1)

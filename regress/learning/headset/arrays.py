@@ -9,7 +9,7 @@ import numpy as np
 from annotated_types import Interval, Len
 
 from facegen.archives import load_npy, load_npz
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, VIEW_POINTS
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, CAMERA_TERMS, VIEW_POINTS
 from regress.errors import InputError
 from regress.learning.headset.geometry import FaceGeometry
 from regress.learning.labels import Columns, read_labels
@@ -61,6 +61,8 @@ class HeadsetArrays:
         Seconds from the clip's start.
     split, component : (n,) str
     neutral : (n,) bool
+    camera_terms : dict of (n, 14) float32
+        By camera: ``CAMERA_TERMS``; nothing of arrays that older versions packed.
     weights : (n, 52) float32
         In ``BLENDSHAPES`` order.
     gaze : (n, 4) float32
@@ -74,6 +76,7 @@ class HeadsetArrays:
     cameras: tuple[CameraInput, ...]
     pictures: dict[str, np.ndarray]
     points: dict[str, np.ndarray]
+    camera_terms: dict[str, np.ndarray]
     sample: np.ndarray
     person: np.ndarray
     session: np.ndarray
@@ -86,6 +89,11 @@ class HeadsetArrays:
     weights: np.ndarray
     gaze: np.ndarray
     face: FaceGeometry
+
+    @property
+    def drawn(self) -> bool:
+        """Whether people wear headsets that were drawn for them, and what is told of each row's cameras counts."""
+        return bool(self.description.get("drawn")) and bool(self.camera_terms)
 
     def rows(self, split: str) -> np.ndarray:
         """Row numbers of a split."""
@@ -182,12 +190,16 @@ class _Description:
     dataset_hash: str = ""
     rig: str = ""
     licence: str | list[str] = ""
+    drawn: bool = False
+    camera_terms: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse cameras of one name."""
         names = [camera.name for camera in self.cameras]
         if len(set(names)) < len(names):
             raise ValueError(f"two cameras have the same name, of {', '.join(names)}")
+        if self.camera_terms not in ((), CAMERA_TERMS):
+            raise ValueError("camera_terms are not those of this version")
 
 
 def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
@@ -215,8 +227,11 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
     # pictures first: their files cannot be smaller than what arrays.json claims, and then nor can labels be larger
     pictures = {camera.name: _pictures(folder, camera, about.rows) for camera in about.cameras}
     points = {f"points_{name}": 2 * len(VIEW_POINTS) for name in pictures}
+    terms = {f"camera_{name}": len(CAMERA_TERMS) for name in pictures if about.camera_terms}
     columns = Columns(
-        single=_SINGLE, lists={"weights": len(BLENDSHAPES), "gaze": 4, **points}, gaps=frozenset(points)
+        single=_SINGLE,
+        lists={"weights": len(BLENDSHAPES), "gaze": 4, **points, **terms},
+        gaps=frozenset(points),
     )
     labels = read_labels(
         folder / "labels.parquet",
@@ -236,6 +251,7 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
         pictures=pictures,
         face=_face(folder / "face.npz"),
         points={name: labels.pop(f"points_{name}").reshape(about.rows, -1, 2) for name in pictures},
+        camera_terms={name.removeprefix("camera_"): labels.pop(name) for name in terms},
         **labels,
     )
 

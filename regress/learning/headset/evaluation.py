@@ -1,6 +1,6 @@
 """Evaluates a headset network on arrays with exact labels; needs no PyTorch."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -32,11 +32,14 @@ class Condition:
         Cameras that are there; None means all.
     fallback
         Answer without calibration where the network says that the neutral pictures come from another seat.
+    told
+        Whether it is told where the cameras are.
     """
 
     calibration: str = "none"
     cameras: tuple[str, ...] | None = None
     fallback: bool = False
+    told: bool = False
 
 
 def estimate(
@@ -50,6 +53,8 @@ def estimate(
         Where the arrays' cameras are not the model's, or a row has no neutral picture of the kind asked for.
     """
     _check_cameras(model, arrays)
+    if condition.told:
+        return _estimate_told(graph, model, arrays, rows, condition)
     pictures = {name: arrays.pictures[name][rows] for name in condition.cameras or model.camera_names}
     if condition.calibration == "none":
         return graph.run(pictures)
@@ -66,6 +71,27 @@ def estimate(
     calibrated = answer.same_seat >= 0.5
     settled = graph.run(pictures, neutral=neutral, calibrated=calibrated)
     return replace(settled, same_seat=answer.same_seat)
+
+
+def _estimate_told(
+    graph: HeadsetGraph, model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray, condition: Condition
+) -> Estimates:
+    """`estimate` of each headset's rows apart, told of its cameras."""
+    terms = np.stack([arrays.camera_terms[name][rows] for name in model.camera_names], axis=1)
+    units, unit_of = np.unique(terms.reshape(len(rows), -1), axis=0, return_inverse=True)
+    unit_of = unit_of.reshape(-1)
+    parts = []
+    for number in range(len(units)):
+        chosen = np.flatnonzero(unit_of == number)
+        told = graph.told(dict(zip(model.camera_names, terms[chosen[0]], strict=True)))
+        parts.append(estimate(told, model, arrays, rows[chosen], replace(condition, told=False)))
+    back = np.argsort(np.argsort(unit_of, kind="stable"))
+    return Estimates(
+        **{
+            one.name: np.concatenate([getattr(part, one.name) for part in parts])[back]
+            for one in fields(Estimates)
+        }
+    )
 
 
 def evaluate(
@@ -139,6 +165,8 @@ def conditions(model: HeadsetModel, arrays: HeadsetArrays, rows: np.ndarray) -> 
             if (arrays.neutral_rows(other_seat=name == "other_seat")[rows] >= 0).all():
                 named[name] = Condition(calibration=name)
                 named[f"{name}_fallback"] = Condition(calibration=name, fallback=True)
+    if model.camera_terms and arrays.camera_terms:
+        named |= {f"{name}_told": replace(one, told=True) for name, one in named.items()}
     if len(cameras) > 1:
         for lost in cameras:
             named[f"without_{lost}"] = Condition(cameras=tuple(name for name in cameras if name != lost))

@@ -81,6 +81,12 @@ class HeadsetRecipe:
     plain
         Share of training frames that are displaced little (`PLAIN_DISPLACEMENT`) and not randomised: what a wide
         ``shift`` and ``randomise`` cost on the headset's own pictures is less with them.
+    camera_terms
+        Whether what is told of each camera (``CAMERA_TERMS``) is an input: for networks of drawn headsets.
+    terms_dropout
+        Probability that nothing is told of a training frame's cameras.
+    terms_noise
+        Standard deviation of the noise on what is told: nobody knows a camera's place to the millimetre.
     withhold
         One of ``WITHHOLDINGS``.
     people
@@ -117,6 +123,9 @@ class HeadsetRecipe:
     rotation_deg: Size = 3.0
     randomise: Size = 0.0
     plain: Share = 0.0
+    camera_terms: bool = False
+    terms_dropout: Share = 0.4
+    terms_noise: Size = 0.03
     withhold: Literal[WITHHOLDINGS] = "none"
     people: CountOrNone = 0
 
@@ -138,6 +147,18 @@ class HeadsetRecipe:
     def settings(self) -> dict[str, Any]:
         """The fields as JSON data."""
         return asdict(self)
+
+
+DRAWN_SETTINGS: Mapping[str, Any] = {
+    "camera_terms": True,
+    "randomise": 1.0,
+    "shift": 0.06,
+    "scale": 0.12,
+    "rotation_deg": 8.0,
+}
+"""What is another default where the arrays' headsets are drawn: the network is to fit cameras that nobody has seen.
+These decided on films of real eyes, where no synthetic figure shows a difference
+(docs/measurements/headset-networks.md)."""
 
 
 def recipe_of(settings: Mapping[str, Any]) -> HeadsetRecipe:

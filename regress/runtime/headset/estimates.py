@@ -9,6 +9,13 @@ from typing import Annotated, get_type_hints
 
 import numpy as np
 
+from facegen.conventions import CAMERA_TERMS
+
+CAMERA_INPUT = "cameras"
+"""Input of graphs that are told of their cameras: (cameras, 15) float32, zeros by default, the same for all frames."""
+TERMS_TOLD = len(CAMERA_TERMS) + 1
+"""``CAMERA_TERMS`` of a camera, and 1; zeros where nothing is known."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class GraphOutput:

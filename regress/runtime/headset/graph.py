@@ -1,15 +1,23 @@
 """Runs the trained graph in onnxruntime on one core."""
 
+import copy
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES
+from facegen.conventions import BLENDSHAPES, CAMERA_TERMS
 from facegen.documents import read_bytes
 from regress.errors import InputError, ModelError
-from regress.runtime.headset.estimates import GRAPH_OUTPUTS, POINTS, Estimates, points_output
+from regress.runtime.headset.estimates import (
+    CAMERA_INPUT,
+    GRAPH_OUTPUTS,
+    POINTS,
+    TERMS_TOLD,
+    Estimates,
+    points_output,
+)
 from regress.runtime.headset.folder import MOST_GRAPH_BYTES
 from regress.runtime.headset.model import CameraInput
 from regress.runtime.onnx_file import graph_fault
@@ -56,12 +64,39 @@ class HeadsetGraph:
         self._cameras = cameras
         self._outputs = {value.name for value in self._session.get_outputs()}
         self._shapes = _output_shapes(cameras, points or {})
+        self._told: np.ndarray | None = None
         self._check_interface()
 
     @property
     def outputs(self) -> frozenset[str]:
         """Names of all that it answers with."""
         return frozenset(self._outputs)
+
+    @property
+    def listens(self) -> bool:
+        """Whether it can be told where its cameras are."""
+        return CAMERA_INPUT in {value.name for value in self._session.get_overridable_initializers()}
+
+    def told(self, terms: Mapping[str, np.ndarray]) -> "HeadsetGraph":
+        """The same graph, told of cameras: ``CAMERA_TERMS`` (14,) by name; of those left out it knows nothing.
+
+        Raises
+        ------
+        InputError
+            Where the graph does not listen.
+        """
+        if not self.listens:
+            raise InputError(
+                "the model was trained for one headset and is not told where cameras are; leave that out, or take a "
+                "model of drawn headsets, as headset-any"
+            )
+        table = np.zeros((len(self._cameras), TERMS_TOLD), np.float32)
+        for row, camera in zip(table, self._cameras, strict=True):
+            if camera.name in terms:
+                row[:-1], row[-1] = np.asarray(terms[camera.name], np.float32).reshape(len(CAMERA_TERMS)), 1.0
+        other = copy.copy(self)
+        other._told = table
+        return other
 
     def _check_interface(self) -> None:
         """Refuse a graph whose inputs or outputs are not those that model.json speaks of."""
@@ -78,6 +113,13 @@ class HeadsetGraph:
                 raise ModelError(
                     f"network.onnx has an input {name} of {kind} {list(shape)}; model.json makes it "
                     f"{' '.join(map(str, needed[name]))}"
+                )
+        for value in self._session.get_overridable_initializers():
+            table = [len(self._cameras), TERMS_TOLD]
+            if value.name != CAMERA_INPUT or value.type != _FLOAT or list(value.shape) != table:
+                raise ModelError(
+                    f"network.onnx has an input {value.name[:60]!r} of {value.type} {value.shape} with a default; "
+                    f"{CAMERA_INPUT} of {_FLOAT} {table} alone may have one"
                 )
         for value in self._session.get_outputs():
             shape = self._shapes.get(value.name)
@@ -191,6 +233,8 @@ class HeadsetGraph:
                 blank = np.zeros((len(with_neutral[block]), camera.height, camera.width), np.uint8)
                 feed[f"pictures_{camera.name}"] = _rows(pictures, camera.name, block, blank)
                 feed[f"neutral_{camera.name}"] = _rows(neutral or {}, camera.name, block, blank)
+            if self._told is not None:
+                feed[CAMERA_INPUT] = self._told
             with session_errors("network.onnx cannot be run"):
                 blocks.append(self._session.run(names, feed))
             self._check_answers(dict(zip(names, blocks[-1], strict=True)), rows=len(with_neutral[block]))

@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from annotated_types import Ge, Gt, Interval, Le, Len
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, VIEW_POINTS
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, CAMERA_TERMS, VIEW_POINTS
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
 from regress.runtime.headset.figures import ClipSummary, Evaluation
 from regress.runtime.headset.looks import CameraLooks
@@ -169,6 +169,9 @@ class HeadsetModel:
     looks
         For each camera how its training pictures looked, by which `predict` levels others and `check` judges them;
         none in older models.
+    camera_terms
+        What the network may be told of each camera: ``CAMERA_TERMS`` where it was trained on drawn headsets, else
+        nothing. The graph then has an input ``cameras``, which may be left out.
     weights
         Names of the columns of ``weights``, ``deviation`` and ``shares``.
     outputs
@@ -196,6 +199,7 @@ class HeadsetModel:
     points: dict[str, tuple[str, ...]] = field(default_factory=dict)
     typical: dict[str, GreySquare] = field(default_factory=dict)
     looks: dict[str, CameraLooks] = field(default_factory=dict)
+    camera_terms: tuple[str, ...] = ()
     weights: tuple[str, ...] = BLENDSHAPES
     outputs: tuple[str, ...] = tuple(GRAPH_OUTPUTS)
     temporal: Temporal | None = None
@@ -213,6 +217,8 @@ class HeadsetModel:
             raise ValueError(f"two cameras have the same name, of {', '.join(names)}")
         if self.weights != BLENDSHAPES:
             raise ValueError("weights must be the 52 names of blendshapes in their order")
+        if self.camera_terms not in ((), CAMERA_TERMS):
+            raise ValueError("camera_terms must be empty, or the 14 terms of cameras in their order")
         for what, table, known in (
             ("parts", self.parts, BLENDSHAPE_INDEX),
             ("points", self.points, VIEW_POINTS),

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -35,6 +35,16 @@ class HeadsetPredictor:
     def sizes(self) -> dict[str, tuple[int, int]]:
         """Width and height of each camera's pictures, in the model's order."""
         return {camera.name: (camera.width, camera.height) for camera in self.model.cameras}
+
+    def told(self, terms: Mapping[str, np.ndarray]) -> "HeadsetPredictor":
+        """The same predictor, told where its cameras are: `facegen.conventions.CAMERA_TERMS` (14,) by camera.
+
+        Raises
+        ------
+        InputError
+            Where the model does not listen.
+        """
+        return replace(self, graph=self.graph.told(terms))
 
     @property
     def typical(self) -> dict[str, np.ndarray]:
@@ -116,4 +126,8 @@ def load_headset_predictor(folder: str | os.PathLike[str]) -> HeadsetPredictor:
     lost = sorted(set(model.outputs) - graph.outputs)
     if lost:
         raise ModelError(f"{folder / 'network.onnx'} has no output {lost[0]}; model.json names it")
+    if graph.listens != bool(model.camera_terms):
+        raise ModelError(
+            f"{folder / 'network.onnx'} and its model.json do not agree on whether the network is told of its cameras"
+        )
     return HeadsetPredictor(model=model, graph=graph)

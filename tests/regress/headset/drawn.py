@@ -8,7 +8,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, IRIS_POINTS, VIEW_POINTS, mirrored_name
+from facegen.conventions import BLENDSHAPES, CAMERA_TERMS, IRIS_POINTS, VIEW_POINTS, mirrored_name
 from regress.runtime.headset.parts import part_of
 
 CAMERAS = ("left_eye", "right_eye", "mouth")
@@ -16,8 +16,10 @@ SIDE = 24
 NEUTRAL_AND_FACES = ("neutral", "upper_face", "lower_face", "dense", "combined")
 
 
-def write_drawn_arrays(folder: Path, *, people: int = 30, sessions: int = 2, seed: int = 4) -> Path:
-    """Write what ``facegen pack --format arrays`` writes, of drawn pictures."""
+def write_drawn_arrays(
+    folder: Path, *, people: int = 30, sessions: int = 2, seed: int = 4, told: bool = False
+) -> Path:
+    """Write what ``facegen pack --format arrays`` writes, of drawn pictures; ``told``: of drawn headsets, too."""
     random = np.random.default_rng(seed)
     rows = []
     for person in range(people):
@@ -52,6 +54,8 @@ def write_drawn_arrays(folder: Path, *, people: int = 30, sessions: int = 2, see
             for camera in CAMERAS
         },
     }
+    if told:
+        columns |= {f"camera_{camera}": _lists(_terms(camera, columns["session"])) for camera in CAMERAS}
     pq.write_table(pa.table(columns), folder / "labels.parquet")
     for camera in CAMERAS:
         pictures = np.stack([row[5][camera] for row in rows])
@@ -69,9 +73,17 @@ def write_drawn_arrays(folder: Path, *, people: int = 30, sessions: int = 2, see
         "dataset_hash": f"drawn-{seed}",
         "licence": "CC0-1.0",
         "seed": seed,
+        **({"drawn": True, "camera_terms": list(CAMERA_TERMS)} if told else {}),
     }
     (folder / "arrays.json").write_text(json.dumps(description))
     return folder
+
+
+def _terms(camera: str, sessions: np.ndarray) -> np.ndarray:
+    """(n, 14) of a camera that stands elsewhere in each session."""
+    return np.stack(
+        [np.random.default_rng([len(camera), one]).normal(size=len(CAMERA_TERMS)) for one in sessions]
+    )
 
 
 def _expression(random: np.random.Generator, component: str) -> tuple[np.ndarray, np.ndarray]:

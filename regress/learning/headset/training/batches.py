@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.conventions import BLENDSHAPE_INDEX, CAMERA_TERMS, CAMERA_TERMS_MIRRORED
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.recipe import PLAIN_DISPLACEMENT, HeadsetRecipe
 from regress.learning.headset.training.resampling import reduced, warp_matrix
@@ -42,6 +42,9 @@ class Batch:
         Weights and gaze.
     plain : (n,) bool
         Frames whose light is left as it is.
+    terms : (n, cameras, 15) float32
+        ``CAMERA_TERMS`` of the cameras as the encoders see them, and 1; zeros where nothing is told. (n, cameras, 0)
+        where nothing ever is.
     """
 
     pictures: np.ndarray
@@ -52,6 +55,7 @@ class Batch:
     positions: tuple[np.ndarray, ...]
     outputs: np.ndarray
     plain: np.ndarray
+    terms: np.ndarray
 
 
 class TrainingFrames:
@@ -80,6 +84,7 @@ class TrainingFrames:
                 for seen, camera in zip(self._pictures, arrays.cameras, strict=True)
             ]
         )
+        self._terms = [arrays.camera_terms[name] for name in names] if recipe.camera_terms else None
         self._own_seat = arrays.neutral_rows()
         self._other_seat = arrays.neutral_rows(other_seat=True)
 
@@ -113,6 +118,7 @@ class TrainingFrames:
             positions=self._positions(rows, warps, straight),
             outputs=self.outputs[rows],
             plain=~straight,
+            terms=self._told(rows, straight),
         )
 
     def _draw_batch(self, random: np.random.Generator, rows: np.ndarray) -> Batch:
@@ -131,6 +137,10 @@ class TrainingFrames:
         present = random.random((count, cameras)) >= recipe.camera_dropout
         present[~present.any(axis=1)] = True
         outputs = self.outputs[rows]
+        terms = self._told(rows, mirrored)
+        if self._terms is not None:  # drawn only where it is asked for, as above
+            terms[..., :-1] += recipe.terms_noise * random.standard_normal(terms[..., :-1].shape)
+            terms *= random.random((count, 1, 1)) >= recipe.terms_dropout
         warps, neutral_warps = (
             self._warps(affine, mirrored) for affine in (frame, _where(displaced, seat, frame))
         )
@@ -143,7 +153,20 @@ class TrainingFrames:
             positions=self._positions(rows, warps, mirrored),
             outputs=np.where(mirrored[:, None], outputs[:, MIRROR] * MIRROR_SIGN, outputs),
             plain=plain,
+            terms=terms,
         )
+
+    def _told(self, rows: np.ndarray, mirrored: np.ndarray) -> np.ndarray:
+        """Terms (n, cameras, 15) float32 of the cameras of rows, as the encoders see them; none without them."""
+        sources = self._sources(mirrored)
+        if self._terms is None:
+            return np.zeros((*sources.shape, 0), np.float32)
+        terms = np.ones((*sources.shape, len(CAMERA_TERMS) + 1), np.float32)
+        for camera, source in enumerate(sources.T):
+            told = np.stack([self._terms[one][row] for one, row in zip(source, rows, strict=True)])
+            turned = (mirrored != self._flipped[camera])[:, None]
+            terms[:, camera, :-1] = np.where(turned, told * CAMERA_TERMS_MIRRORED, told)
+        return terms
 
     def _sources(self, mirrored: np.ndarray) -> np.ndarray:
         """(n, cameras) of whose pictures each camera sees: a mirrored frame's are its partner's."""

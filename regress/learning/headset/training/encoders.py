@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import torch
 from torch import nn
 
+from facegen.conventions import CAMERA_TERMS
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.foveas import Fovea, iris_columns
 from regress.learning.headset.training.resampling import linear_matrix
@@ -31,6 +32,7 @@ class Encoder(nn.Module):
     def __init__(self, recipe: HeadsetRecipe, traced: Sequence[int]) -> None:
         super().__init__()
         input_size, code, points = recipe.input_size, recipe.code, len(traced)
+        self.told = len(CAMERA_TERMS) + 1 if recipe.camera_terms else 0
         reduction = linear_matrix(recipe.square_size, input_size)
         self.register_buffer("reduction", torch.from_numpy(reduction.astype("float32")))
         layers, channels, sides = [], 1, []
@@ -46,8 +48,8 @@ class Encoder(nn.Module):
             sides.append(input_size)
         self.convolutions = nn.ModuleList(layers)
         irises = iris_columns(traced) if recipe.second_look else ()
-        # positions, those of irises again, how far from the neutral picture's, and whether there is one
-        position_inputs = 4 * points + sum(2 * len(columns) for columns in irises) + 1
+        # positions, those of irises again, how far from the neutral picture's, whether there is one, and the camera
+        position_inputs = 4 * points + sum(2 * len(columns) for columns in irises) + 1 + self.told
         self.looks = nn.Sequential(
             nn.Linear(2 * channels * sides[-1] ** 2 + position_inputs, code), nn.ReLU()
         )
@@ -92,11 +94,12 @@ class Encoder(nn.Module):
         return positions[:, best] * self.tracer.spread + self.tracer.usual
 
     def forward(
-        self, pictures: torch.Tensor, neutral: torch.Tensor, calibrated: torch.Tensor
+        self, pictures: torch.Tensor, neutral: torch.Tensor, calibrated: torch.Tensor, terms: torch.Tensor
     ) -> tuple[torch.Tensor, torch.Tensor]:
         """Part codes (n, width) and standardised positions of pictures and neutral ones (n, size, size).
 
-        Pictures are in grey levels; ``calibrated`` (n,) is 1 where the neutral one counts.
+        Pictures are in grey levels; ``calibrated`` (n,) is 1 where the neutral one counts, ``terms`` (n, 15 or 0) are
+        those of the camera (``Batch``).
         """
         has_neutral = calibrated[:, None]
         # without a neutral picture the frame stands in for it: batch statistics see no black ones
@@ -106,7 +109,8 @@ class Encoder(nn.Module):
         flat = features[-1].flatten(1)
         changed = (flat - features_before[-1].flatten(1)) * has_neutral
         if self.tracer is None:
-            return self.looks(torch.cat([flat, changed, has_neutral], dim=1)), flat.new_zeros(len(flat), 0, 2)
+            seen = [flat, changed, has_neutral, *self._heard(terms)]
+            return self.looks(torch.cat(seen, dim=1)), flat.new_zeros(len(flat), 0, 2)
         positions = self.tracer(features[1:])
         rest = self.tracer(features_before[1:])
         moved = (positions - rest.detach()).flatten(1) * has_neutral  # learns to trace from the frame itself
@@ -115,10 +119,21 @@ class Encoder(nn.Module):
             for fovea, columns in zip(self.foveas, self.irises, strict=True)
         ]
         seen_at = torch.cat(
-            [positions.flatten(1), *(one.flatten(1) for one in again), moved, has_neutral], dim=1
+            [
+                positions.flatten(1),
+                *(one.flatten(1) for one in again),
+                moved,
+                has_neutral,
+                *self._heard(terms),
+            ],
+            dim=1,
         )
         code = torch.cat([self.looks(torch.cat([flat, changed, seen_at], dim=1)), self.shape(seen_at)], dim=1)
         return code, torch.cat([positions, *again], dim=1)
+
+    def _heard(self, terms: torch.Tensor) -> list[torch.Tensor]:
+        """What is told of the camera; nothing for a network that does not listen, whose graph stays what it was."""
+        return [terms] if self.told else []
 
     def _look_again(
         self, fovea: Fovea, pictures: torch.Tensor, positions: torch.Tensor, columns: Sequence[int]

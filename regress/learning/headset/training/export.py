@@ -5,14 +5,17 @@ import warnings
 from collections.abc import Sequence
 
 import numpy as np
+import onnx
 import torch
+from onnx import numpy_helper
 from torch import nn
 
+from facegen.conventions import CAMERA_TERMS_MIRRORED
 from regress.errors import ModelError
 from regress.learning.headset.training.networks import HeadsetNetwork
 from regress.learning.headset.training.resampling import resampling_matrix
 from regress.learning.headset.training.targets import Targets
-from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
+from regress.runtime.headset.estimates import CAMERA_INPUT, GRAPH_OUTPUTS, TERMS_TOLD, points_output
 from regress.runtime.headset.model import CameraInput
 from regress.runtime.headset.outputs import WEIGHTS
 from regress.runtime.onnx_session import open_session
@@ -37,6 +40,10 @@ class Deployed(nn.Module):
     ) -> None:
         super().__init__()
         self.network, self.calibration = network, calibration
+        self.told = network.encoder(cameras[0].name).told > 0
+        mirrored = np.array([*CAMERA_TERMS_MIRRORED, 1], np.float32)
+        seen_as = [mirrored if camera.mirrored_of else np.ones_like(mirrored) for camera in cameras]
+        self.register_buffer("seen_as", torch.from_numpy(np.stack(seen_as)) if self.told else None)
         self.register_buffer("deviation_std", torch.from_numpy(targets.std * deviation_scale))
         self.register_buffer("mean", torch.from_numpy(targets.mean))
         self.register_buffer("std", torch.from_numpy(targets.std))
@@ -47,11 +54,17 @@ class Deployed(nn.Module):
             self.register_buffer(f"columns_{column}", torch.from_numpy(columns.T.copy()))
 
     def forward(self, *inputs: torch.Tensor) -> tuple[torch.Tensor, ...]:
-        """Outputs by ``output_names``; takes each camera's pictures and neutral ones, ``present``, ``calibrated``."""
+        """Outputs by ``output_names``; takes what `_probe` lists, in its order."""
+        terms = None
+        if self.told:
+            *inputs, told = inputs
+            terms = (told * self.seen_as).expand(inputs[-1].shape[0], -1, -1)
         *seen, present, calibrated = inputs
         if not self.calibration:  # a product, so that the graph keeps the input
             calibrated = 0 * calibrated
-        answer = self.network(self._squares(seen[0::2]), self._squares(seen[1::2]), present, calibrated)
+        answer = self.network(
+            self._squares(seen[0::2]), self._squares(seen[1::2]), present, calibrated, terms
+        )
         outputs_mean = answer.blended.mean * self.std + self.mean
         deviation = torch.sqrt(answer.blended.variance) * self.deviation_std
         # yaw and pitch of the left eye, then of the right
@@ -127,22 +140,26 @@ def export_graph(
     deployed = Deployed(network, cameras, targets, square_size, deviation_scale, calibration).eval()
     names = [f"{kind}_{camera.name}" for camera in cameras for kind in ("pictures", "neutral")]
     names += ["present", "calibrated"]
+    by_frame = [*names, *deployed.output_names]
+    names += [CAMERA_INPUT] * deployed.told
     buffer = io.BytesIO()
     with warnings.catch_warnings():
         # The exporter that needs no further package is called deprecated, and warns of what tracing fixes.
         warnings.simplefilter("ignore")
         torch.onnx.export(
             deployed,
-            _probe(cameras, 2),
+            _probe(cameras, 2, told=deployed.told),
             buffer,
             input_names=names,
             output_names=list(deployed.output_names),
-            dynamic_axes={name: {0: "frames"} for name in (*names, *deployed.output_names)},
+            dynamic_axes={name: {0: "frames"} for name in by_frame},
             opset_version=_OPSET,
             dynamo=False,
         )
     graph = buffer.getvalue()
-    difference = _difference(deployed, graph, names, _probe(cameras, 7))
+    if deployed.told:
+        graph = _with_nothing_told(graph, len(cameras))
+    difference = _difference(deployed, graph, names, _probe(cameras, 7, told=deployed.told))
     if not difference <= TOLERANCE:
         raise ModelError(
             f"the exported graph differs from PyTorch by {difference:.2g}; {TOLERANCE} is allowed"
@@ -150,8 +167,16 @@ def export_graph(
     return graph, difference
 
 
-def _probe(cameras: tuple[CameraInput, ...], count: int) -> tuple[torch.Tensor, ...]:
-    """Random frames, some without a camera, some without a neutral picture."""
+def _with_nothing_told(graph: bytes, cameras: int) -> bytes:
+    """The graph with zeros as the default of what is told of its cameras: programs may leave that input out."""
+    model = onnx.load_from_string(graph)
+    nothing = np.zeros((cameras, TERMS_TOLD), np.float32)
+    model.graph.initializer.append(numpy_helper.from_array(nothing, CAMERA_INPUT))
+    return model.SerializeToString()
+
+
+def _probe(cameras: tuple[CameraInput, ...], count: int, *, told: bool) -> tuple[torch.Tensor, ...]:
+    """Random frames, some without a camera, some without a neutral picture; and what is told of the cameras."""
     random = np.random.default_rng(count)
     seen = [
         torch.from_numpy(random.integers(0, 256, (count, camera.height, camera.width), dtype=np.uint8))
@@ -160,7 +185,9 @@ def _probe(cameras: tuple[CameraInput, ...], count: int) -> tuple[torch.Tensor, 
     ]
     present = (random.random((count, len(cameras))) < 0.7).astype(np.float32)
     present[0] = 1
-    return *seen, torch.from_numpy(present), torch.from_numpy((np.arange(count) % 2).astype(np.float32))
+    terms = torch.from_numpy(random.standard_normal((len(cameras), TERMS_TOLD)).astype(np.float32))
+    calibrated = torch.from_numpy((np.arange(count) % 2).astype(np.float32))
+    return *seen, torch.from_numpy(present), calibrated, *[terms] * told
 
 
 def _difference(deployed: Deployed, graph: bytes, names: list[str], probe: tuple[torch.Tensor, ...]) -> float:

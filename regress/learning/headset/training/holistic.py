@@ -29,9 +29,10 @@ class HolisticNetwork(HeadsetNetwork):
         neutral: Sequence[torch.Tensor],
         present: torch.Tensor,
         calibrated: torch.Tensor,
+        terms: torch.Tensor | None = None,
     ) -> Answer:
-        """Answer to pictures and neutral ones (n, size, size) by camera, ``present`` (n, cameras)."""
-        codes, positions = self.codes(pictures, neutral, calibrated)
+        """Answer to pictures and neutral ones (n, size, size) by camera, ``present`` (n, cameras); see `codes`."""
+        codes, positions = self.codes(pictures, neutral, calibrated, terms)
         seen = [
             torch.lerp(absent, code, here[:, None])
             for absent, code, here in zip(self.absent, codes, present.unbind(1), strict=True)

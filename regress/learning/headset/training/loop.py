@@ -62,6 +62,11 @@ class Training:
         self._began_s, self._earlier_s = time.process_time(), 0.0
         torch.set_num_threads(1)  # other splits of a sum end in other last bits
         torch.manual_seed(recipe.seed)
+        if recipe.camera_terms and not arrays.camera_terms:
+            raise InputError(
+                f"{arrays.folder} does not say where cameras are, and camera_terms asks for it; pack the dataset again "
+                "with facegen pack"
+            )
         rows = arrays.kept_rows("train", withhold=recipe.withhold, people=recipe.people)
         self.recipe = recipe
         self.history: list[dict[str, float]] = []
@@ -163,7 +168,8 @@ class Training:
             pictures, neutral = draw_photometry(random, pictures, neutral, self.recipe.randomise, batch.plain)
         calibrated = torch.from_numpy(batch.calibrated)
         present = torch.from_numpy(batch.present)
-        answer = self.network(pictures.unbind(1), neutral.unbind(1), present, calibrated)
+        terms = torch.from_numpy(batch.terms)
+        answer = self.network(pictures.unbind(1), neutral.unbind(1), present, calibrated, terms)
         return total_loss(
             self.network,
             answer,
@@ -251,7 +257,7 @@ def answer_to(network: HeadsetNetwork, batch: Batch) -> Answer:
     """A network's answer to a batch as it is."""
     pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
     present, calibrated = torch.from_numpy(batch.present), torch.from_numpy(batch.calibrated)
-    return network(pictures.unbind(1), neutral.unbind(1), present, calibrated)
+    return network(pictures.unbind(1), neutral.unbind(1), present, calibrated, torch.from_numpy(batch.terms))
 
 
 def _scaled_gram(arrays: HeadsetArrays, targets: Targets, rows: np.ndarray) -> torch.Tensor:

@@ -42,10 +42,11 @@ class ModularNetwork(HeadsetNetwork):
         neutral: Sequence[torch.Tensor],
         present: torch.Tensor,
         calibrated: torch.Tensor,
+        terms: torch.Tensor | None = None,
     ) -> Answer:
-        """Answer to pictures and neutral ones (n, size, size) by camera, ``present`` (n, cameras)."""
+        """Answer to pictures and neutral ones (n, size, size) by camera, ``present`` (n, cameras); see `codes`."""
         means, log_variances, seat = [], [], 0.0
-        codes, positions = self.codes(pictures, neutral, calibrated)
+        codes, positions = self.codes(pictures, neutral, calibrated, terms)
         if self.tells:
             codes = self._with_heard(codes, present)
         for column, code in enumerate(codes):

@@ -92,19 +92,29 @@ class HeadsetNetwork(nn.Module):
         return self.encoders[self.owners[camera] or camera]
 
     def codes(
-        self, pictures: Sequence[torch.Tensor], neutral: Sequence[torch.Tensor], calibrated: torch.Tensor
+        self,
+        pictures: Sequence[torch.Tensor],
+        neutral: Sequence[torch.Tensor],
+        calibrated: torch.Tensor,
+        terms: torch.Tensor | None,
     ) -> tuple[list[torch.Tensor], tuple[torch.Tensor, ...]]:
         """Part codes (n, width) and positions (n, P, 2) by camera, from grey pictures (n, size, size) by camera.
 
+        ``terms`` (n, cameras, 15) are what is told of the cameras, as their encoders see them; None tells nothing.
+
         Cameras that share an encoder go through it together.
         """
+        if terms is None:
+            told = next(iter(self.encoders.values())).told
+            terms = calibrated.new_zeros(len(calibrated), len(self.cameras), told)
         codes: dict[str, torch.Tensor] = {}
         positions: dict[str, torch.Tensor] = {}
         for name, encoder in self.encoders.items():
             users = [camera for camera in self.cameras if camera == name or self.owners[camera] == name]
             columns = [self.cameras.index(camera) for camera in users]
             seen, rest = (torch.cat([given[column] for column in columns]) for given in (pictures, neutral))
-            encoded = encoder(seen, rest, calibrated.repeat(len(users)))
+            told = torch.cat([terms[:, column] for column in columns])
+            encoded = encoder(seen, rest, calibrated.repeat(len(users)), told)
             for by_camera, values in zip((codes, positions), encoded, strict=True):
                 by_camera |= zip(users, values.unflatten(0, (len(users), -1)).unbind(), strict=True)
         return [codes[camera] for camera in self.cameras], tuple(positions[camera] for camera in self.cameras)

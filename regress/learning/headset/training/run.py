@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import torch
 
+from facegen.conventions import CAMERA_TERMS
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.looks import camera_looks
@@ -90,6 +91,7 @@ def train_headset(
         looks={
             name: camera_looks(arrays, name, training.rows, points.get(name, ())) for name in arrays.pictures
         },
+        camera_terms=CAMERA_TERMS if recipe.camera_terms else (),
         outputs=(*GRAPH_OUTPUTS, *map(points_output, points)),
         training=HeadsetTraining(
             recipe=recipe.settings(),
