@@ -1,6 +1,11 @@
-"""Writes the states of those who agreed to be recorded, a line at a time, each whole on disk before the next."""
+"""Writes the states of those who agreed to be recorded, a line at a time, each whole on disk before the next.
+
+A thread of its own writes: a disk that stalls would else hold up everybody's ticks.
+"""
 
 import os
+import queue
+import threading
 import time
 from collections.abc import Callable, Iterable
 from io import FileIO
@@ -13,6 +18,9 @@ from room.errors import InputError
 from room.protocol.texts import Person
 from room.protocol.tick import unpack
 from room.recording.lines import MOST_RECORDING_BYTES, Came, Event, Gone, Heading, Tick
+
+MOST_WAITING = 300
+"""Lines that wait for the disk, of ten seconds; with more it does not keep up, and the recording ends."""
 
 
 class Recorder:
@@ -27,7 +35,8 @@ class Recorder:
     hertz
         Ticks a second.
     ended
-        Called with a sentence where the recording ends before the meeting: no space is left, or it is full.
+        Called with a sentence where the recording ends before the meeting: no space is left, or it is full. Another
+        thread may call it.
     most_bytes
         Of the file.
 
@@ -49,7 +58,7 @@ class Recorder:
         most_bytes: int = MOST_RECORDING_BYTES,
     ) -> None:
         self.path, self.room = path, room
-        self._ended, self._most_bytes, self._bytes = ended, most_bytes, 0
+        self._ended, self._most_bytes = ended, most_bytes
         self._known: dict[int, Came] = {}
         self._began = time.monotonic()
         try:
@@ -62,14 +71,19 @@ class Recorder:
             if isinstance(error.__cause__, FileExistsError):
                 raise InputError(f"{path}: is there already; name another file for this recording") from None
             raise
-        self._file: FileIO | None = FileIO(handle, "wb")
-        heading = Heading(room=room, began_s=time.time(), hertz=hertz, shapes=BLENDSHAPES)
-        self._put(self._file, heading.model_dump_json().encode())
+        self._lines: queue.Queue[bytes | None] = queue.Queue(MOST_WAITING)
+        self._open = True
+        file = FileIO(handle, "wb")
+        heading = _line(Heading(room=room, began_s=time.time(), hertz=hertz, shapes=BLENDSHAPES))
+        self._put(file, heading)
+        self._bytes = len(heading)
+        self._thread = threading.Thread(target=self._write, args=(file,), name="recorder", daemon=True)
+        self._thread.start()
 
     @property
     def open(self) -> bool:
         """Whether lines are still written."""
-        return self._file is not None
+        return self._open
 
     def roster(self, people: Iterable[Person]) -> None:
         """Note who is recorded from now on, and who no longer."""
@@ -83,12 +97,12 @@ class Recorder:
         }
         for number in self._known.keys() - recorded.keys():
             del self._known[number]
-            self._line(Gone(time_ms=now, number=number))
+            self._take(Gone(time_ms=now, number=number))
         for number, came in recorded.items():
             before = self._known.get(number)
             if before is None or before.model_copy(update={"time_ms": now}) != came:
                 self._known[number] = came
-                self._line(came)
+                self._take(came)
 
     def tick(self, content: bytes) -> None:
         """Keep what the room sends to all, of those who are recorded."""
@@ -96,35 +110,62 @@ class Recorder:
         kept = tuple((number, state) for number, state in states if number in self._known)
         if kept:
             # they were checked when they came in
-            self._line(Tick.model_construct(time_ms=self._now(), states=kept))
+            self._take(Tick.model_construct(time_ms=self._now(), states=kept))
+
+    def settle(self) -> None:
+        """Wait until all that was taken so far is on disk."""
+        self._lines.join()
 
     def close(self) -> None:
-        """End the file."""
-        if self._file is not None:
-            self._file.close()
-            self._file = None
+        """End the file, with all that was taken."""
+        self._open = False
+        if self._thread.is_alive():
+            self._lines.put(None)
+            self._thread.join()
 
     def _now(self) -> int:
         return int((time.monotonic() - self._began) * 1000)
 
-    def _line(self, event: Event) -> None:
-        if self._file is None:
+    def _take(self, event: Event) -> None:
+        if not self._open:
             return
-        line = event.model_dump_json().encode()
-        if self._bytes + len(line) >= self._most_bytes:
-            self.close()
-            self._ended(f"{self.path}: is full, with {self._most_bytes:,} bytes; the recording has ended")
+        line = _line(event)
+        if self._bytes + len(line) > self._most_bytes:
+            self._end(f"{self.path}: is full, with {self._most_bytes:,} bytes; the recording has ended")
             return
+        self._bytes += len(line)
         try:
-            self._put(self._file, line)
-        except OutputError as error:
-            self.close()
-            self._ended(f"{error}; the recording has ended, and the meeting goes on")
+            self._lines.put_nowait(line)
+        except queue.Full:
+            self._end(
+                f"{self.path}: the disk does not keep up; the recording has ended, and the meeting goes on"
+            )
+
+    def _end(self, text: str) -> None:
+        self._open = False
+        self._ended(text)
+
+    def _write(self, file: FileIO) -> None:
+        """Write what was taken until there is no more; after a failure nothing."""
+        failed = False
+        while (line := self._lines.get()) is not None:
+            try:
+                if not failed:
+                    self._put(file, line)
+            except OutputError as error:
+                failed = True
+                self._end(f"{error}; the recording has ended, and the meeting goes on")
+            finally:
+                self._lines.task_done()
+        file.close()
 
     def _put(self, file: FileIO, line: bytes) -> None:
         """Hand a line to the system, which keeps it whatever becomes of this process."""
-        left = memoryview(line + b"\n")
-        self._bytes += len(left)
+        left = memoryview(line)
         with output_errors(self.path):
             while left:
                 left = left[file.write(left) :]
+
+
+def _line(event: Event | Heading) -> bytes:
+    return event.model_dump_json().encode() + b"\n"

@@ -15,6 +15,7 @@ from room.protocol.accounts import Part
 from room.protocol.texts import MOST_TEXT_BYTES, About, Chat, Notice, read_join, read_said
 from room.recording import Recorder
 from room.server.connection import PARTING_S, Connection
+from room.server.door import Door
 from room.server.files import Files
 from room.server.hall import HERTZ, Hall
 from room.server.headers import protect, same_origin
@@ -23,7 +24,6 @@ from room.server.keys import Keys
 from room.server.limits import (
     BURST_S,
     CHATS_PER_S,
-    MOST_STRANGERS,
     STATES_PER_S,
     TEXTS_PER_S,
     Bucket,
@@ -91,14 +91,14 @@ class Rooms:
         self._halls: dict[str, Hall] = {}
         self._opening: dict[str, asyncio.Task[None]] = {}
         self._sockets: set[web.WebSocketResponse] = set()
-        self._strangers = 0
+        self._door = Door()
         self._files = Files(STATIC)
         self.metrics = Metrics()
 
     def application(self) -> web.Application:
         """Everything that is answered, and the ticks behind it."""
         application = web.Application(client_max_size=MOST_TEXT_BYTES)
-        application.router.add_get("/", self._door)
+        application.router.add_get("/", self._outside)
         application.router.add_get("/avatars.json", self._avatars)
         application.router.add_get("/health", self._health)
         application.router.add_get("/metrics", self._count)
@@ -112,7 +112,7 @@ class Rooms:
         application.cleanup_ctx.append(self._ticking)
         return application
 
-    async def _door(self, request: web.Request) -> web.Response:
+    async def _outside(self, request: web.Request) -> web.Response:
         return web.Response(text="a room has a link of its own; ask whoever holds the meeting\n")
 
     async def _avatars(self, request: web.Request) -> web.Response:
@@ -157,8 +157,6 @@ class Rooms:
         if not same_origin(request, self._origins):
             self.metrics.refused += 1
             raise web.HTTPForbidden(text="another site's page may not come in\n")
-        if self._strangers >= MOST_STRANGERS:
-            raise web.HTTPServiceUnavailable(text="too many come in at once; try again\n")
         socket = web.WebSocketResponse(
             max_msg_size=MOST_TEXT_BYTES, heartbeat=HEARTBEAT_S, compress=False, timeout=1.0
         )
@@ -169,7 +167,7 @@ class Rooms:
         connection = Connection(socket, self.metrics, cut=transport.abort)
         self._sockets.add(socket)
         try:
-            await self._meet(name, socket, connection)
+            await self._meet(request, socket, connection)
         except (FormatError, NotAllowed) as error:
             self.metrics.refused += 1
             connection.refuse(str(error), again=isinstance(error, NotAllowed) and error.again)
@@ -180,7 +178,9 @@ class Rooms:
             await connection.close()
         return socket
 
-    async def _meet(self, name: str, socket: web.WebSocketResponse, connection: Connection) -> None:
+    async def _meet(
+        self, request: web.Request, socket: web.WebSocketResponse, connection: Connection
+    ) -> None:
         """Whatever somebody does from coming in to going.
 
         Raises
@@ -190,18 +190,18 @@ class Rooms:
         NotAllowed
             If a rule ends the connection.
         """
-        self._strangers += 1
+        stranger = self._door.knock(request.remote, connection.cut)
         try:
             first = await socket.receive(timeout=JOIN_S)
         except asyncio.TimeoutError:
             raise NotAllowed(f"nothing was said for {JOIN_S:g} seconds", again=True) from None
         finally:
-            self._strangers -= 1
+            self._door.pass_by(stranger)
         if first.type in (WSMsgType.CLOSE, WSMsgType.CLOSING, WSMsgType.CLOSED, WSMsgType.ERROR):
             return
         if first.type is not WSMsgType.TEXT:
             raise FormatError("the first message must be the text that says who comes in")
-        join = read_join(first.data)
+        join, name = read_join(first.data), request.match_info["name"]
         role = self._keys.role(name, join.key)
         if role is None:
             raise NotAllowed("this link is not, or no longer, one of this room; ask for a new one")

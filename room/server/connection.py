@@ -33,7 +33,7 @@ class Connection:
     def __init__(
         self, socket: web.WebSocketResponse, metrics: Metrics, *, cut: Callable[[], None] = lambda: None
     ) -> None:
-        self._socket, self._metrics, self._cut = socket, metrics, cut
+        self._socket, self._metrics, self.cut = socket, metrics, cut
         self._cutting: asyncio.TimerHandle | None = None
         self._texts: deque[str] = deque()
         self._ticks: deque[bytes] = deque(maxlen=MOST_TICKS_QUEUED)
@@ -61,7 +61,7 @@ class Connection:
         if self._last is None:
             self._last = Refused(text=text, again=again)
             self._wake.set()
-            self._cutting = asyncio.get_running_loop().call_later(PARTING_S, self._cut)
+            self._cutting = asyncio.get_running_loop().call_later(PARTING_S, self.cut)
 
     async def close(self) -> None:
         """Stop sending, without a word."""

@@ -5,6 +5,7 @@ import secrets
 from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager, suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, web
 
@@ -14,7 +15,9 @@ from room.protocol.tick import unpack
 from room.recording import Recorder
 from room.server import Keys, Limits, Relays, Rooms, new_keys
 from room.server.janus import Janus
-from room.server.telegraph import Telegraph
+
+if TYPE_CHECKING:  # needs an extra of its own
+    from room.server.telegraph import Telegraph
 
 SOON_S = 5.0
 """What is awaited comes in milliseconds; a loaded machine is given time."""
@@ -129,7 +132,7 @@ async def open_room(
     port: int = 0,
     recorder: Recorder | None = None,
     replayed: Path | None = None,
-    telegraph: Telegraph | None = None,
+    telegraph: "Telegraph | None" = None,
     engines: Sequence[Janus] = (),
 ) -> AsyncIterator[Place]:
     """A server in this process, on a free port unless one is named."""

@@ -6,6 +6,8 @@ import json
 import os
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -21,6 +23,7 @@ from room.protocol.texts import Changed, Left, Notice, Person
 from room.protocol.tick import pack
 from room.recording import Recorder, check_recording, read_recording
 from room.recording.lines import Came, Gone, Heading, Tick
+from room.recording.writer import MOST_WAITING
 from room.server.hall import HERTZ
 from tests.room.guests import Guest, Place, open_room
 
@@ -46,11 +49,12 @@ def test_only_who_agreed_is_in_the_file_and_everybody_sees_who_that_is(tmp_path)
     path = tmp_path / "meeting.jsonl"
 
     async def run() -> None:
-        async with open_room(recorder=make_recorder(path)) as place:
+        recorder = make_recorder(path)
+        async with open_room(recorder=recorder) as place:
             async with place.session.get(f"{place.address}/room/meeting/about.json") as answer:
-                assert await answer.json() == {"recording": True, "replay": False}
+                assert await answer.json() == {"recording": True, "replay": False, "engine": False}
             async with place.session.get(f"{place.address}/room/other/about.json") as answer:
-                assert await answer.json() == {"recording": False, "replay": False}
+                assert await answer.json() == {"recording": False, "replay": False, "engine": False}
             chair = await place.guest(moderator=True, name="Chair")
             ada = await place.guest(recorded=True)
             ben = await place.guest(name="Ben Declines")
@@ -64,6 +68,7 @@ def test_only_who_agreed_is_in_the_file_and_everybody_sees_who_that_is(tmp_path)
             await asyncio.gather(walk(ada, floor_m=(1.0, 2.0)), walk(ben, floor_m=(7.0, 7.0)))
             await ada.say(kind="chat", text="not for the file")
             await chair.until(lambda: (ada.number, 19) in chair.sequences)
+            recorder.settle()
             seen = {state for number, state in states(path) if number == ada.number}
             assert len(seen) == 20
             assert {state.floor_m for _, state in states(path)} == {(1.0, 2.0)}
@@ -121,6 +126,31 @@ def test_other_rooms_of_the_server_are_not_recorded(tmp_path):
         check_recording(path)
 
 
+def test_a_disk_that_stalls_holds_up_nobody(tmp_path, monkeypatch):
+    """Ticks go on while a line cannot be written; after ten seconds' lines the recording ends with a word."""
+    path, said, stalled = tmp_path / "meeting.jsonl", [], threading.Event()
+    recorder = make_recorder(path, ended=said.append)
+    monkeypatch.setattr(recorder, "_put", lambda file, line: stalled.wait())
+
+    async def run() -> None:
+        async with open_room() as place:
+            people = [
+                (await place.guest(recorded=True)).welcome.people[0].model_copy(update={"recorded": True})
+            ]
+            recorder.roster(people)
+            content = pack([(people[0].number, encode(Message()))], time_ms=0)
+            start = time.monotonic()
+            for _ in range(MOST_WAITING + 2):
+                recorder.tick(content)
+            assert time.monotonic() - start < 1
+            assert ["does not keep up" in text for text in said] == [True]
+            assert not recorder.open
+            stalled.set()
+
+    asyncio.run(run())
+    recorder.close()
+
+
 @pytest.mark.parametrize("limit", ["bytes", "disk"])
 def test_a_recording_that_cannot_go_on_ends_and_the_meeting_does_not(limit, tmp_path):
     path, said = tmp_path / "meeting.jsonl", []
@@ -163,6 +193,7 @@ def test_a_killed_server_leaves_a_readable_file(tmp_path):
             guest = Guest(socket, "")
             await walk(guest, steps=30)
             await guest.until(lambda: (0, 29) in guest.sequences)
+            await asyncio.sleep(0.2)  # the thread that writes has its turn, on a loaded machine too
             run.kill()
             await guest.reading
             return len(guest.sequences)

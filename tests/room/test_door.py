@@ -1,0 +1,70 @@
+"""Nobody holds the door: who says nothing gives way to who comes."""
+
+import asyncio
+
+import pytest
+from aiohttp import WSMsgType
+from hypothesis import given
+from hypothesis import strategies as st
+
+from room.server.door import Door
+from tests.room.guests import open_room
+
+HOSTS = ["192.0.2.1", "192.0.2.2", "2001:db8::1", "2001:db8::2", "2001:db8:0:1::1", None]
+
+
+@given(st.lists(st.sampled_from(HOSTS), max_size=60))
+def test_never_more_than_so_many_and_a_crowd_cuts_its_own_oldest(hosts):
+    door, standing = Door(most=8), []
+    for index, host in enumerate(hosts):
+        before = list(standing)
+        door.knock(host, lambda index=index: standing.remove(index))
+        cut = [each for each in before if each not in standing]
+        standing.append(index)
+        assert len(standing) <= 8
+        for each in cut:
+            network = _network(hosts[each])
+            counts = [_network(hosts[other]) for other in before]
+            assert counts.count(network) == max(map(counts.count, counts)), (
+                "of the network that most come from"
+            )
+            assert each == next(other for other in before if _network(hosts[other]) == network), "the oldest"
+
+
+def _network(host: str | None) -> str:
+    return "2001:db8::" if host in ("2001:db8::1", "2001:db8::2") else str(host)
+
+
+def test_a_host_that_fills_the_door_keeps_out_nobody_of_another():
+    door, cut = Door(most=8), []
+    for index in range(8):
+        door.knock("192.0.2.1", lambda index=index: cut.append(index))
+    door.knock("192.0.2.2", lambda: cut.append("ada"))
+    for index in range(8, 100):
+        door.knock("192.0.2.1", lambda index=index: cut.append(index))
+    assert cut == list(range(93))
+
+
+@pytest.mark.parametrize("address", ["2001:db8::1%eth0", "::ffff:192.0.2.1", "", None, "unix"])
+def test_every_address_is_taken(address):
+    Door().knock(address, lambda: None)
+
+
+def test_somebody_comes_in_past_many_who_say_nothing(monkeypatch):
+    monkeypatch.setattr("room.server.application.Door", lambda: Door(most=8))
+
+    async def run() -> None:
+        async with open_room() as place:
+            silent = [await place.connect() for _ in range(20)]
+            ada = await place.guest()
+            async with asyncio.timeout(5):
+                assert (await silent[0].receive()).type in (
+                    WSMsgType.CLOSE,
+                    WSMsgType.CLOSED,
+                    WSMsgType.ERROR,
+                )
+            assert not ada.socket.closed
+            for socket in silent:
+                await socket.close()
+
+    asyncio.run(run())
