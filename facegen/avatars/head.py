@@ -14,7 +14,7 @@ from facegen.avatars.parts import face_parts
 from facegen.avatars.people import Person
 from facegen.avatars.shapes import face_shapes
 from facegen.avatars.skeleton import head_bones
-from facegen.avatars.skin import head_share
+from facegen.avatars.skin import chest_share, head_share
 from facegen.avatars.surface import Surface, trimmed
 from facegen.rigs import Rig
 
@@ -51,7 +51,9 @@ def head_bytes(
     shapes = face_shapes(rig)
     parts = face_parts(shapes, look, hair=hair, seed=seed)
     end = NECK_END_M[wheel is not None]
-    surfaces = [trimmed(parts.skin, parts.skin.positions[:, 1] - end), *parts.others]
+    head, chest = head_share(parts.skin.positions), chest_share(parts.skin.positions)
+    skin = parts.skin.carried(("Head", "Neck", "Chest"), np.stack([head, 1.0 - head - chest, chest], axis=-1))
+    surfaces = [trimmed(skin, skin.positions[:, 1] - end), *parts.others]
     if wheel is not None:
         surfaces.append(_bust(wheel, rig))
     extras: dict[str, Any] = {

@@ -16,6 +16,8 @@ CHART_FALL = 0.8
 """How much denser the chart is before the face than behind it."""
 NECK_S = (-0.155, -0.085)
 """Heights between which the neck's skin goes over to the head, metres."""
+CHEST_S = (-0.175, -0.12)
+"""Heights between which the chest's skin goes over to the neck: shoulders that turned with it would pierce a shirt."""
 
 
 def chart(points: np.ndarray) -> np.ndarray:
@@ -29,10 +31,19 @@ def chart(points: np.ndarray) -> np.ndarray:
 
 
 def head_share(points: np.ndarray) -> np.ndarray:
-    """Share (...) that the head has in carrying points (..., 3) of the head frame; the neck has the rest."""
+    """Share (...) that the head has in carrying points (..., 3) of the head frame; neck and chest have the rest."""
+    return _above(points, NECK_S)
+
+
+def chest_share(points: np.ndarray) -> np.ndarray:
+    """Share (...) that the chest has in carrying points (..., 3) of the head frame."""
+    return (1.0 - _above(points, CHEST_S)) * (1.0 - head_share(points))
+
+
+def _above(points: np.ndarray, heights_m: tuple[float, float]) -> np.ndarray:
     # the border rises towards the front, along jaw and nape
     height = points[..., 1] + 0.35 * (points[..., 2] + 0.07)
-    share = np.clip((height - NECK_S[0]) / (NECK_S[1] - NECK_S[0]), 0.0, 1.0)
+    share = np.clip((height - heights_m[0]) / (heights_m[1] - heights_m[0]), 0.0, 1.0)
     return share * share * (3.0 - 2.0 * share)
 
 
