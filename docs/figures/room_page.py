@@ -1,0 +1,33 @@
+"""Brings somebody into a room's page for pictures: without a microphone, and with nothing on it but the room."""
+
+import json
+
+from tests.browser import Tab
+
+BARE = "nav, aside, #mirror, #state { display: none !important }"
+
+
+async def come_in(tab: Tab, name: str, avatar: str = "") -> None:
+    """Fill in the form and wait for the room's answer."""
+    await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+    await tab.ask(
+        f"(() => {{ const form = document.querySelector('#join'); form.elements.name.value = {json.dumps(name)};"
+        f" form.elements.avatar.value = {json.dumps(avatar)} || form.elements.avatar.value;"
+        " if (form.elements.voice.checked) form.elements.voice.click(); form.requestSubmit(); })()"
+    )
+    await tab.until("globalThis.meeting?.own && meeting.placed", 30)
+
+
+async def stand(tab: Tab, *, x: float, z: float, heading: float, pitch: float = 0.0) -> None:
+    """Put whoever looks to a place, in metres and radians, also where the table is."""
+    where = json.dumps({"x": x, "z": z, "heading": heading, "pitch": pitch})
+    await tab.ask(f"void Object.assign(meeting.walk, {where}, {{ update() {{}} }})")
+
+
+async def only_the_room(tab: Tab) -> None:
+    """Take buttons, lists and the mirror away; a style of its own, as the content policy allows none in the page."""
+    await tab.ask(
+        f"void document.adoptedStyleSheets.push(Object.assign(new CSSStyleSheet(), {{ }})),"
+        f" void document.adoptedStyleSheets[0].replaceSync({json.dumps(BARE)})"
+    )
+    await tab.ask("void (document.querySelector('#mirror').hidden = true)")
