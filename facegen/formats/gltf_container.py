@@ -23,6 +23,9 @@ MOST_RECORDS = 200_000
 MOST_VALUES = 5_000_000
 """Commas in the JSON: each stands for a number or a text of a list, 40 bytes."""
 
+MOST_CHUNKS = 1_000
+"""Of a file: two are usual, and each empty one would cost 8 bytes there and a hundred here."""
+
 BIN = b"BIN\0"
 _MAGIC, _JSON = b"glTF", b"JSON"
 
@@ -40,24 +43,51 @@ def open_glb(path: Path) -> tuple[dict[str, Any], Chunks]:
     FormatError
         There is no such file, or it is no binary glTF 2.0 file, is damaged, or too large.
     """
-    content = read_gltf_bytes(path)
+    return parse_glb(read_gltf_bytes(path), str(path))
+
+
+def parse_glb(
+    content: bytes, where: str, *, most_json_bytes: int = MOST_BYTES
+) -> tuple[dict[str, Any], Chunks]:
+    """The same of bytes that are at hand already.
+
+    Parameters
+    ----------
+    content
+        The whole file.
+    where
+        Begins the sentence of an error.
+    most_json_bytes
+        Of the document; it is not parsed where it is longer.
+
+    Raises
+    ------
+    FormatError
+        It is no binary glTF 2.0 file, is damaged, or too large.
+    """
     if not is_binary(content):
-        raise FormatError(f"{path} is not a binary glTF 2.0 file (.glb or .vrm)")
+        raise FormatError(f"{where} is not a binary glTF 2.0 file (.glb or .vrm)")
     chunks, place = [], 12
     while place < len(content):
         if place + 8 > len(content):
-            raise FormatError(f"{path} is damaged: {len(content) - place} bytes stand behind its last chunk")
+            raise FormatError(f"{where} is damaged: {len(content) - place} bytes stand behind its last chunk")
         length, kind = struct.unpack_from("<I4s", content, place)
         if place + 8 + length > len(content):
-            raise FormatError(f"{path} is cut off: a chunk of {length} bytes begins at {place}")
+            raise FormatError(f"{where} is cut off: a chunk of {length} bytes begins at {place}")
         chunks.append((kind, content[place + 8 : place + 8 + length]))
         place += 8 + length
+        if len(chunks) > MOST_CHUNKS:
+            raise FormatError(f"{where} has more than {MOST_CHUNKS:,} chunks; two are usual")
     if not chunks or chunks[0][0] != _JSON:
-        raise FormatError(f"{path} is damaged: its first chunk is not a glTF document")
-    check_amount(chunks[0][1], path)
-    document = parse_json(chunks[0][1], where=str(path))
+        raise FormatError(f"{where} is damaged: its first chunk is not a glTF document")
+    if len(chunks[0][1]) > most_json_bytes:
+        raise FormatError(
+            f"{where} has a document of {len(chunks[0][1]):,} bytes; up to {most_json_bytes:,} are read"
+        )
+    check_amount(chunks[0][1], where)
+    document = parse_json(chunks[0][1], where=where)
     if not isinstance(document, dict):
-        raise FormatError(f"{path} is damaged: its first chunk is not a glTF document")
+        raise FormatError(f"{where} is damaged: its first chunk is not a glTF document")
     return document, chunks[1:]
 
 
@@ -94,7 +124,7 @@ def json_of(content: bytes) -> bytes:
     return content[20 : 20 + struct.unpack_from("<I", content.ljust(16, b"\0"), 12)[0]]
 
 
-def check_amount(text: bytes, path: Path) -> None:
+def check_amount(text: bytes, path: Path | str) -> None:
     """Refuse JSON that takes a reader gigabytes and minutes, before it is parsed.
 
     Raises

@@ -126,7 +126,7 @@ class Moderate(_Text):
     """What a moderator does; ``number`` is whom, but for the door."""
 
     kind: Literal["moderate"] = "moderate"
-    action: Literal["mute", "unmute", "remove", "lock", "unlock"]
+    action: Literal["mute", "unmute", "undress", "remove", "lock", "unlock"]
     number: Number | None = None
 
 
@@ -137,13 +137,19 @@ class Consent(_Text):
     recorded: bool
 
 
+class Undress(_Text):
+    """Takes the avatar off that one brought: the one of the server's is worn again."""
+
+    kind: Literal["undress"] = "undress"
+
+
 class Leave(_Text):
     """Goes for good: the place is not kept."""
 
     kind: Literal["leave"] = "leave"
 
 
-Said = Chat | Voice | Description | Candidate | Moderate | Consent | Leave
+Said = Chat | Voice | Description | Candidate | Moderate | Consent | Undress | Leave
 """What a person may say once they are in."""
 
 
@@ -151,7 +157,9 @@ class Person(_Text):
     """One line of the roster.
 
     ``number`` stands before each state of a tick; ``id`` is the same person's whenever they come back. ``recorded`` are
-    those whose states go to the room's file, ``replayed`` those who come out of one.
+    those whose states go to the room's file, ``replayed`` those who come out of one. ``own`` is the
+    SHA-256 of an avatar that they brought, which the room's key fetches (`room.server.dressing`); ``avatar`` stands in
+    for it until it is there.
     """
 
     number: Number
@@ -166,6 +174,7 @@ class Person(_Text):
     face: Literal["page", "program"]
     recorded: bool
     replayed: bool
+    own: Annotated[str, StringConstraints(pattern=r"^([0-9a-f]{64})?$")] = ""
 
 
 class IceServer(_Text):

@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING
 
 from aiohttp import WSMessage, WSMsgType, web
 
+from room.avatars import Wardrobe
 from room.errors import FormatError, NotAllowed
 from room.protocol.accounts import Part
 from room.protocol.texts import MOST_TEXT_BYTES, About, Chat, Notice, read_join, read_said
 from room.recording import Recorder
 from room.server.connection import PARTING_S, Connection
 from room.server.door import Door
+from room.server.dressing import Dressing
 from room.server.files import Files
 from room.server.hall import HERTZ, Hall
 from room.server.headers import protect, same_origin
@@ -93,6 +95,8 @@ class Rooms:
         self._sockets: set[web.WebSocketResponse] = set()
         self._door = Door()
         self._files = Files(STATIC)
+        self._wardrobe = Wardrobe()
+        self._dressing = Dressing(keys, self._wardrobe, self._halls.get, origins)
         self.metrics = Metrics()
 
     def application(self) -> web.Application:
@@ -105,6 +109,8 @@ class Rooms:
         application.router.add_get("/room/{name}", self._page)
         application.router.add_get("/room/{name}/about.json", self._about)
         application.router.add_get("/room/{name}/socket", self._socket)
+        application.router.add_post("/room/{name}/avatar", self._dressing.take)
+        application.router.add_get("/room/{name}/avatar/{digest}", self._dressing.give)
         application.router.add_get("/static/{path:.+}", self._file)
         application.on_response_prepare.append(protect)
         application.on_shutdown.append(self._close)
@@ -130,6 +136,7 @@ class Rooms:
         self.metrics.connections = len(self._sockets)
         self.metrics.engines = sum(engine.up for engine in self._engines)
         self.metrics.redis = int(self._telegraph is not None and self._telegraph.connected)
+        self.metrics.avatar_bytes = self._wardrobe.kept_bytes
         return web.Response(text=self.metrics.text())
 
     async def _page(self, request: web.Request) -> web.Response:
@@ -228,6 +235,7 @@ class Rooms:
             name,
             most_people=self._limits.people,
             relays=self._relays,
+            wardrobe=self._wardrobe,
             recorder=self._recorder_of(name),
             replay=Replay(self._replayed) if self._replayed else None,
             telegraph=self._telegraph,

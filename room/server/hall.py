@@ -4,6 +4,7 @@ import time
 from typing import TYPE_CHECKING
 
 from facegen.conventions import BLENDSHAPES
+from room.avatars import Wardrobe
 from room.errors import NotAllowed
 from room.protocol.accounts import Part
 from room.protocol.texts import (
@@ -22,6 +23,7 @@ from room.protocol.texts import (
     Notice,
     Said,
     Signal,
+    Undress,
     Voice,
     Welcome,
 )
@@ -53,6 +55,8 @@ class Hall:
         Places.
     relays
         What browsers are told for their voices.
+    wardrobe
+        Keeps the avatars that people bring.
     recorder
         Takes the states of those who agreed; None where nobody is recorded.
     replay
@@ -69,6 +73,7 @@ class Hall:
         *,
         most_people: int,
         relays: Relays,
+        wardrobe: Wardrobe,
         recorder: Recorder | None = None,
         replay: Replay | None = None,
         telegraph: "Telegraph | None" = None,
@@ -83,7 +88,8 @@ class Hall:
         self._neighbours = telegraph and Neighbours(
             self.meeting, telegraph, name, tell=self._tell_here, call=self._call, oust=self._oust
         )
-        self._relays = relays
+        self._relays, self._wardrobe = relays, wardrobe
+        self.uploads: dict[str, Bucket] = {}
         self._pages: dict[str, Connection] = {}
         self._programs: dict[str, Connection] = {}
         self._switchboard = switchboard
@@ -217,8 +223,30 @@ class Hall:
                 seat.recorded = said.recorded
                 self._record_roster()
                 self._tell(Changed(person=seat.person))
+            case Undress():
+                self._undress(seat)
+                self._tell(Changed(person=seat.person))
             case Leave():
                 self._free(seat)
+
+    def dress(self, seat: Seat, content: bytes) -> str:
+        """Let somebody wear an avatar that was checked, and tell all; gives its digest.
+
+        Raises
+        ------
+        NotAllowed
+            If the server has no room for it; they wear the stand-in then.
+        """
+        self._undress(seat)
+        try:
+            seat.own = self._wardrobe.put(content, (self.name, seat.id))
+        finally:
+            self._tell(Changed(person=seat.person))
+        return seat.own
+
+    def _undress(self, seat: Seat) -> None:
+        seat.own = ""
+        self._wardrobe.drop((self.name, seat.id))
 
     def tick(self, *, now: float) -> None:
         """Send what moved, and free places that nobody came back to."""
@@ -295,6 +323,9 @@ class Hall:
 
     def _oust(self, ousted: Ousted) -> None:
         self._returns.pop(ousted.id, None)
+        self._wardrobe.drop((self.name, ousted.id))
+        if seat := self.meeting.seat(ousted.id):
+            seat.own = ""
         if self._switchboard:
             self._switchboard.end(ousted.id)
         if connection := self._pages.pop(ousted.id, None):
@@ -309,6 +340,9 @@ class Hall:
         seat = self.meeting.moderate(by, act)
         if seat is None:
             self._tell(Door(locked=self.meeting.locked))
+        elif act.action == "undress":
+            self._undress(seat)
+            self._tell(Changed(person=seat.person))
         elif act.action == "remove":
             self._free(seat, word="a moderator has removed you from this room")
         else:
@@ -319,6 +353,8 @@ class Hall:
         self._returns.pop(seat.id, None)
         if self._switchboard:
             self._switchboard.end(seat.id)
+        self.uploads.pop(seat.id, None)
+        self._undress(seat)
         self._record_roster()
         for connections in (self._pages, self._programs):
             if connection := connections.pop(seat.id, None):

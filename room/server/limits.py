@@ -29,6 +29,13 @@ NEWCOMERS_PER_S = 10
 RETURNS_PER_S = 1
 """Times that one person comes in again, with a burst of ten: a network that comes and goes, a page loaded anew."""
 
+MOST_UPLOADS = 4
+"""Own avatars that come in at one time: each is held whole in memory until it was checked."""
+
+UPLOADS_PER_S = 1 / 30
+UPLOADS_BURST = 4
+"""Own avatars of one person, and how many at once: who tries several, or loads the page again."""
+
 MOST_QUEUED = 512
 """Texts that wait for a slow connection before it is closed: it has not read for the time of a whole meeting's talk."""
 

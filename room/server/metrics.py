@@ -12,6 +12,7 @@ _MEANING = {
     "connections": "Open WebSockets.",
     "redis": "Whether Redis can be reached, of a server with --redis.",
     "engines": "Instances of Janus that answer.",
+    "avatar_bytes": "Bytes of avatars that people brought.",
     "states": "States that came in.",
     "ticks_sent": "Ticks that went to somebody.",
     "ticks_dropped": "Ticks that a slow connection never got.",
@@ -21,18 +22,19 @@ _MEANING = {
     "slow": "Connections that were ended because they read too slowly.",
     "late_s": "Seconds by which ticks were late, all together.",
 }
-_NOW = ("rooms", "people", "connections", "redis", "engines")
+_NOW = ("rooms", "people", "connections", "redis", "engines", "avatar_bytes")
 
 
 @dataclass(kw_only=True)
 class Metrics:
-    """Counts since the start; the first five are of now."""
+    """Counts since the start; the first six are of now."""
 
     rooms: int = 0
     people: int = 0
     connections: int = 0
     redis: int = 0
     engines: int = 0
+    avatar_bytes: int = 0
     states: int = 0
     ticks_sent: int = 0
     ticks_dropped: int = 0

@@ -198,6 +198,8 @@ class Meeting:
                 raise NotAllowed("a moderator cannot remove themselves; leave instead")
             self._seats.pop(seat.id)
             self.keep_out(seat.id)
+        elif act.action == "undress":
+            seat.own, seat.undressed = "", True
         else:
             seat.mute_acts += 1
             seat.mute(act.action == "mute")

@@ -39,6 +39,10 @@ class Seat:
         Counts their comings, by whatever process.
     mute_acts
         How often moderators muted them or gave their voice back.
+    own
+        SHA-256 of the avatar that they brought; empty where they wear one of the server's.
+    undressed
+        Whether a moderator has taken it off: they bring no other.
     """
 
     number: int
@@ -55,6 +59,8 @@ class Seat:
     home: str = ""
     entry: int = 0
     mute_acts: int = 0
+    own: str = ""
+    undressed: bool = False
     _waiting: list[bytes] = field(default_factory=list)
     _page: bytes | None = None
     _program: bytes | None = None
@@ -81,6 +87,7 @@ class Seat:
             face=self.face,
             recorded=self.recorded,
             replayed=self.replayed,
+            own=self.own,
         )
 
     def take(self, message: bytes, *, program: bool, now: float) -> bool:

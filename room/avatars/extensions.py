@@ -1,0 +1,53 @@
+"""Says which extensions of glTF an own avatar may have: none by which a file acts, and required ones that are read.
+
+References
+----------
+.. [1] https://github.com/KhronosGroup/glTF/tree/main/extensions, and https://github.com/vrm-c/vrm-specification
+"""
+
+from collections.abc import Iterable
+
+from room.errors import FormatError
+
+READ = frozenset(
+    """
+    KHR_materials_anisotropy KHR_materials_clearcoat KHR_materials_dispersion KHR_materials_emissive_strength
+    KHR_materials_ior KHR_materials_iridescence KHR_materials_sheen KHR_materials_specular
+    KHR_materials_transmission KHR_materials_unlit KHR_materials_volume KHR_mesh_quantization
+    KHR_texture_transform EXT_texture_webp
+    VRM VRMC_vrm VRMC_springBone VRMC_node_constraint VRMC_materials_mtoon VRMC_materials_hdr_emissiveMultiplier
+    """.split()
+)
+"""What a file may require: the page's reader knows it, and it needs nothing from outside."""
+
+HOW = {
+    "KHR_draco_mesh_compression": "export it without Draco compression",
+    "EXT_meshopt_compression": "export it without meshopt compression",
+    "KHR_meshopt_compression": "export it without meshopt compression",
+    "KHR_texture_basisu": "export it with PNG or JPEG in place of KTX2",
+}
+
+ACTING = ("interactivity", "behavior", "script", "audio", "event", "link", "hubs", "gpu_instancing")
+"""Words in names of extensions by which a file does something, asks for something, or multiplies what it draws."""
+
+
+def check_extensions(used: Iterable[str], required: Iterable[str]) -> None:
+    """Refuse what acts, and what is needed and not read.
+
+    Raises
+    ------
+    FormatError
+        With the extension's name, and what to do.
+    """
+    required = tuple(required)
+    for name in (*used, *required):
+        if any(word in name.lower() for word in ACTING):
+            raise FormatError(
+                f"this avatar has {name[:60]}, by which a file acts by itself; export it without, as a mere body"
+            )
+    for name in required:
+        if name not in READ:
+            raise FormatError(
+                f"this avatar needs {name[:60]}, which the room's page does not read; "
+                f"{HOW.get(name, 'export it without')}"
+            )

@@ -1,0 +1,74 @@
+"""Keeps people's own avatars in memory, by their content, for as long as somebody in a room wears them."""
+
+import hashlib
+from dataclasses import dataclass, field
+
+from room.errors import NotAllowed
+
+MOST_KEPT_BYTES = 512 * 1024**2
+"""Of all own avatars of one server together: 16 of the largest, or some fifty of usual ones."""
+
+Wearer = tuple[str, str]
+"""A room's name and a person's id."""
+
+
+def digest_of(content: bytes) -> str:
+    """What an avatar is called: the SHA-256 of its bytes."""
+    return hashlib.sha256(content).hexdigest()
+
+
+@dataclass
+class _Kept:
+    content: bytes
+    wearers: set[Wearer] = field(default_factory=set)
+
+
+class Wardrobe:
+    """Avatars that were checked, each once however many wear it.
+
+    Parameters
+    ----------
+    most_bytes
+        Of all together.
+    """
+
+    def __init__(self, *, most_bytes: int = MOST_KEPT_BYTES) -> None:
+        self._most_bytes = most_bytes
+        self._kept: dict[str, _Kept] = {}
+
+    @property
+    def kept_bytes(self) -> int:
+        """Held now."""
+        return sum(len(kept.content) for kept in self._kept.values())
+
+    def put(self, content: bytes, wearer: Wearer) -> str:
+        """Let somebody wear an avatar, in place of any other of theirs; gives its digest.
+
+        Raises
+        ------
+        NotAllowed
+            If there is no room for it; they wear none then.
+        """
+        self.drop(wearer)
+        digest = digest_of(content)
+        if digest not in self._kept:
+            if self.kept_bytes + len(content) > self._most_bytes:
+                raise NotAllowed(
+                    "this server keeps as many own avatars as it can; try again later", again=True
+                )
+            self._kept[digest] = _Kept(content)
+        self._kept[digest].wearers.add(wearer)
+        return digest
+
+    def get(self, digest: str, room: str) -> bytes | None:
+        """An avatar that somebody wears in this room; None where nobody does."""
+        kept = self._kept.get(digest)
+        worn = kept is not None and any(place == room for place, _ in kept.wearers)
+        return kept.content if kept and worn else None
+
+    def drop(self, wearer: Wearer) -> None:
+        """Forget what somebody wears, and its bytes if nobody else does."""
+        for digest, kept in list(self._kept.items()):
+            kept.wearers.discard(wearer)
+            if not kept.wearers:
+                del self._kept[digest]

@@ -1,0 +1,135 @@
+"""Takes people's own avatars in, and gives them to those who have the room's key.
+
+``POST /room/NAME/avatar`` with ``Authorization: Bearer KEY.SECRET`` and the file as its body, from somebody who is in
+the room; ``GET /room/NAME/avatar/SHA-256`` with ``Bearer KEY``. A refusal is a sentence as plain text.
+"""
+
+import asyncio
+import re
+from collections.abc import Callable
+
+from aiohttp import web
+
+from room.avatars import Wardrobe, check_avatar
+from room.avatars.check import MOST_AVATAR_BYTES
+from room.errors import FormatError, NotAllowed
+from room.server.hall import Hall
+from room.server.headers import same_origin
+from room.server.keys import Keys
+from room.server.limits import MOST_UPLOADS, UPLOADS_BURST, UPLOADS_PER_S, Bucket
+from room.state import Seat, identity
+
+UPLOAD_S = 120.0
+"""For one file: the largest at 2.3 Mbit/s."""
+
+_BEARER = re.compile(r"Bearer ([A-Za-z0-9_-]{22})(?:\.([A-Za-z0-9_-]{22,64}))?")
+DIGEST = re.compile(r"[0-9a-f]{64}")
+
+
+class Dressing:
+    """The two handlers.
+
+    Parameters
+    ----------
+    keys
+        Of all rooms.
+    wardrobe
+        Where avatars are kept.
+    hall_of
+        The room of a name, while somebody is in it.
+    origins
+        Of proxies in front of this server.
+    """
+
+    def __init__(
+        self, keys: Keys, wardrobe: Wardrobe, hall_of: Callable[[str], Hall | None], origins: frozenset[str]
+    ) -> None:
+        self._keys, self._wardrobe, self._hall_of, self._origins = keys, wardrobe, hall_of, origins
+        self._uploads = 0
+        self._checking = asyncio.Lock()
+
+    async def take(self, request: web.Request) -> web.Response:
+        """An upload."""
+        if not same_origin(request, self._origins):
+            raise web.HTTPForbidden(text="another site's page may not come in\n")
+        hall, seat = self._who(request)
+        if seat.undressed:
+            raise web.HTTPForbidden(
+                text="a moderator has taken your own avatar off; choose one of the room's\n"
+            )
+        if not hall.uploads.setdefault(seat.id, Bucket(UPLOADS_PER_S, burst=UPLOADS_BURST)).take(
+            now=asyncio.get_running_loop().time()
+        ):
+            raise web.HTTPTooManyRequests(text="too many avatars at once; wait half a minute\n")
+        if self._uploads >= MOST_UPLOADS:
+            raise web.HTTPServiceUnavailable(text="many bring avatars at once; try again in a minute\n")
+        self._uploads += 1
+        try:
+            content = await asyncio.wait_for(_body(request), UPLOAD_S)
+            async with self._checking:  # one after the other, beside the loop: who meets notices nothing
+                await asyncio.to_thread(check_avatar, content)
+            if hall.meeting.seat(seat.id) is not seat:
+                raise web.HTTPForbidden(text="you have left the room\n")
+            return web.json_response({"own": hall.dress(seat, content)})
+        except asyncio.TimeoutError:
+            raise web.HTTPRequestTimeout(
+                text=f"the avatar did not arrive in {UPLOAD_S:g} seconds\n"
+            ) from None
+        except FormatError as error:
+            raise web.HTTPUnprocessableEntity(text=f"{error}\n") from None
+        except NotAllowed as error:
+            raise web.HTTPServiceUnavailable(text=f"{error}\n") from None
+        finally:
+            self._uploads -= 1
+
+    async def give(self, request: web.Request) -> web.Response:
+        """A download; the page asks once for each avatar."""
+        name, digest = request.match_info["name"], request.match_info["digest"]
+        self._secret_of(request)
+        content = self._wardrobe.get(digest, name) if DIGEST.fullmatch(digest) else None
+        if content is None:
+            raise web.HTTPNotFound(text="nobody wears this avatar any more\n")
+        headers = {"Cache-Control": "no-store"}  # it is somebody's; the page holds it while they are there
+        return web.Response(body=content, content_type="model/gltf-binary", headers=headers)
+
+    def _who(self, request: web.Request) -> tuple[Hall, Seat]:
+        secret = self._secret_of(request)
+        hall = self._hall_of(request.match_info["name"])
+        seat = hall.meeting.seat(identity(secret)) if hall and secret else None
+        if hall is None or seat is None or seat.home != hall.meeting.process:
+            raise web.HTTPForbidden(text="only who is in the room brings an avatar; come in first\n")
+        return hall, seat
+
+    def _secret_of(self, request: web.Request) -> str | None:
+        found = _BEARER.fullmatch(request.headers.get("Authorization", ""))
+        if found is None or self._keys.role(request.match_info["name"], found[1]) is None:
+            raise web.HTTPForbidden(
+                text="this link is not, or no longer, one of this room; ask for a new one\n"
+            )
+        return found[2]
+
+
+async def _body(request: web.Request) -> bytes:
+    """The whole body, never more than is allowed.
+
+    Raises
+    ------
+    aiohttp.web.HTTPRequestEntityTooLarge
+        If it says that it is larger, or is.
+    """
+    pieces, size = [], request.content_length or 0
+    if size <= MOST_AVATAR_BYTES:
+        size = 0
+        async for piece in request.content.iter_any():
+            size += len(piece)
+            if size > MOST_AVATAR_BYTES:
+                break
+            pieces.append(piece)
+    if size > MOST_AVATAR_BYTES:
+        raise web.HTTPRequestEntityTooLarge(
+            MOST_AVATAR_BYTES,
+            size,
+            text=f"this avatar is larger than {MOST_AVATAR_BYTES:,} bytes, the most that is shown to others; "
+            "export it with smaller textures\n",
+        )
+    return b"".join(pieces)

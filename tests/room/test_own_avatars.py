@@ -1,0 +1,312 @@
+"""An avatar that somebody brings: checked before it is shown, fetched with the key alone, forgotten with its person."""
+
+import asyncio
+import hashlib
+import io
+import struct
+from contextlib import suppress
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from room.avatars import Wardrobe, check_avatar
+from room.avatars.check import (
+    MOST_AVATAR_BYTES,
+    MOST_DOCUMENT_BYTES,
+    MOST_DRAWN,
+    MOST_NODES,
+    MOST_NUMBERS,
+    MOST_PICTURES,
+    MOST_SIDE_PIXELS,
+    MOST_TEXTURE_PIXELS,
+    MOST_TRIANGLES,
+)
+from room.avatars.extensions import HOW
+from room.errors import FormatError, NotAllowed
+from room.protocol.texts import Changed, Left, Notice
+from room.server.application import STATIC
+from room.server.limits import UPLOADS_BURST
+from tests.room.avatars import BINARY, POINTS, avatar, png, textured
+from tests.room.guests import Guest, Place, open_room
+
+
+def _nodes(count: int):
+    return lambda made: made["nodes"].extend({} for _ in range(count))
+
+
+def _at(*path: object, **values: object):
+    """Change a record of the document."""
+
+    def change(made: dict) -> None:
+        for key in path:
+            made = made[key]
+        made.update(values)
+
+    return change
+
+
+def _many_pictures(made: dict) -> None:
+    made["images"] *= MOST_PICTURES + 1
+
+
+def _large_pictures(made: dict) -> None:
+    made["images"] *= MOST_TEXTURE_PIXELS // MOST_SIDE_PIXELS**2 + 1
+
+
+LARGE = png(MOST_SIDE_PIXELS, MOST_SIDE_PIXELS, whole=False)
+
+REFUSED = {
+    "nothing": (b"", "is not a binary glTF"),
+    "text": (b"{}", "is not a binary glTF"),
+    "too large": (bytes(MOST_AVATAR_BYTES + 1), "smaller textures"),
+    "cut": (avatar()[:-8], "is cut off"),
+    "a document that is too large": (
+        avatar(lambda made: made.update(extras="x" * MOST_DOCUMENT_BYTES)),
+        "document",
+    ),
+    "a file beside it": (avatar(_at("images", 0, uri="https://elsewhere.example/skin.png")), "beside itself"),
+    "a buffer beside it": (avatar(_at("buffers", 0, uri="body.bin")), "beside itself"),
+    "an address in an extension": (
+        avatar(lambda made: made.update(extensions={"X": [{"a": {"uri": "javascript:alert(1)"}}]})),
+        "beside itself",
+    ),
+    "behaviour": (avatar(lambda made: made.update(extensionsUsed=["KHR_interactivity"])), "acts by itself"),
+    "sound": (avatar(lambda made: made.update(extensionsUsed=["KHR_audio_emitter"])), "acts by itself"),
+    "copies": (
+        avatar(lambda made: made.update(extensionsUsed=["EXT_mesh_gpu_instancing"])),
+        "acts by itself",
+    ),
+    "Draco": (
+        avatar(lambda made: made.update(extensionsRequired=["KHR_draco_mesh_compression"])),
+        HOW["KHR_draco_mesh_compression"],
+    ),
+    "an extension that nobody knows": (
+        avatar(lambda made: made.update(extensionsRequired=["ACME_x"])),
+        "ACME_x",
+    ),
+    "SVG": (
+        textured(b"<svg xmlns='http://www.w3.org/2000/svg'><script>alert(1)</script></svg>"),
+        "is no PNG",
+    ),
+    "half a picture": (textured(png(4, 4)[:12]), "is no PNG"),
+    "a wide texture": (textured(png(MOST_SIDE_PIXELS + 1, 1, whole=False)), "a side"),
+    "many textures": (avatar(_many_pictures), "textures"),
+    "large textures": (
+        avatar(
+            lambda made: (_large_pictures(made), made["bufferViews"][1].update(byteLength=len(LARGE))),
+            POINTS + LARGE,
+        ),
+        "together",
+    ),
+    "no mesh": (avatar(_at("nodes", 0, mesh=None)), "nothing to look at"),
+    "points alone": (avatar(_at("meshes", 0, "primitives", 0, mode=0)), "nothing to look at"),
+    "many triangles by zeros": (
+        avatar(
+            lambda made: (
+                _at("accessors", 1, count=3 * MOST_TRIANGLES + 3, type="SCALAR", componentType=5125)(made),
+                _at("meshes", 0, "primitives", 0, indices=1, targets=[])(made),
+            )
+        ),
+        "triangles",
+    ),
+    "one mesh many times": (avatar(lambda made: made["nodes"].extend([{"mesh": 0}] * MOST_DRAWN)), "parts"),
+    "a shape of zeros": (avatar(_at("accessors", 1, count=MOST_NUMBERS // 3)), "fewer vertices"),
+    "one shape again and again": (
+        avatar(
+            lambda made: (
+                _at("accessors", 1, count=10_000)(made),
+                _at("meshes", 0, "primitives", 0, targets=[{"POSITION": 1}] * 2_001)(made),
+            )
+        ),
+        "fewer vertices",
+    ),
+    "many nodes": (avatar(_nodes(MOST_NODES)), "nodes"),
+    "a node below itself": (avatar(_at("nodes", 1, children=[0])), "hang on themselves"),
+    "a node below two": (avatar(lambda made: made["nodes"].append({"children": [1]})), "hangs on two"),
+    "a node that is not there": (avatar(_at("nodes", 1, children=[7])), "names node 7"),
+    "a mesh that is not there": (avatar(_at("nodes", 0, mesh=1)), "names mesh 1"),
+    "an accessor that is not there": (
+        avatar(_at("meshes", 0, "primitives", 0, attributes={"POSITION": 9})),
+        "names accessor 9",
+    ),
+    "a view behind the file": (avatar(_at("bufferViews", 0, byteLength=10**6)), "ends behind"),
+    "an accessor behind its view": (avatar(_at("accessors", 0, count=4)), "reads behind"),
+    "a buffer without bytes": (avatar(_at("buffers", 0, byteLength=10**6)), "binary part"),
+    "two buffers": (avatar(lambda made: made["buffers"].append({"byteLength": 4})), "binary part"),
+    "sparse values that are too many": (
+        avatar(
+            _at(
+                "accessors",
+                1,
+                sparse={
+                    "count": 4,
+                    "indices": {"bufferView": 0, "componentType": 5121},
+                    "values": {"bufferView": 0},
+                },
+            )
+        ),
+        "sparse",
+    ),
+    "a component of no kind": (avatar(_at("accessors", 0, componentType=5130)), "of no kind"),
+    "a count of text": (avatar(_at("accessors", 0, count="3")), "accessors[0].count"),
+    "a negative offset": (avatar(_at("accessors", 0, byteOffset=-4)), "accessors[0].byteOffset"),
+    "chunks without end": (
+        avatar()[:8] + struct.pack("<I", 0) + struct.pack("<I4s", 0, b"JSON") * 2000,
+        "chunks",
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", sorted(REFUSED))
+def test_what_others_cannot_load_is_refused_in_one_sentence(fault):
+    content, word = REFUSED[fault]
+    with pytest.raises(FormatError) as told:
+        check_avatar(content)
+    assert word in str(told.value)
+    assert "\n" not in str(told.value)
+    assert len(str(told.value)) < 400
+
+
+def test_whole_avatars_are_taken():
+    check_avatar(avatar())
+    ready = sorted((STATIC / "avatars").glob("*.glb"))
+    assert ready
+    for path in ready:
+        check_avatar(path.read_bytes())
+
+
+@given(st.integers(0, len(avatar()) - 1), st.integers(0, 255))
+def test_any_byte_may_be_another(place, byte):
+    content = bytearray(avatar())
+    content[place] = byte
+    with suppress(FormatError):
+        check_avatar(bytes(content))
+
+
+def test_a_wardrobe_keeps_each_avatar_once_and_no_more_than_it_may():
+    wardrobe = Wardrobe(most_bytes=10)
+    digest = wardrobe.put(b"abcdef", ("lab", "ada"))
+    assert wardrobe.put(b"abcdef", ("lab", "ben")) == digest == hashlib.sha256(b"abcdef").hexdigest()
+    assert wardrobe.kept_bytes == 6
+    with pytest.raises(NotAllowed):
+        wardrobe.put(b"ghijkl", ("lab", "cy"))
+    assert wardrobe.get(digest, "lab") == b"abcdef"
+    assert wardrobe.get(digest, "hall") is None, "another room's"
+    wardrobe.drop(("lab", "ada"))
+    assert wardrobe.get(digest, "lab") == b"abcdef"
+    wardrobe.drop(("lab", "ben"))
+    assert wardrobe.kept_bytes == 0
+    assert wardrobe.put(b"ghijkl", ("lab", "cy")) != digest
+
+
+def _bearer(place: Place, guest: Guest | None = None, key: str = "") -> dict[str, str]:
+    key = key or place.keys.key(place.name, "guest")
+    return {"Authorization": f"Bearer {key}" + (f".{guest.secret}" if guest else "")}
+
+
+async def bring(place: Place, guest: Guest, content: object, **headers: str) -> tuple[int, str]:
+    """Upload; the status, and the digest or the sentence."""
+    address = f"{place.address}/room/{place.name}/avatar"
+    async with place.session.post(address, data=content, headers=_bearer(place, guest) | headers) as answer:
+        return answer.status, (await answer.json())["own"] if answer.ok else (await answer.text()).strip()
+
+
+async def fetch(place: Place, digest: str, key: str = "") -> tuple[int, bytes]:
+    address = f"{place.address}/room/{place.name}/avatar/{digest}"
+    async with place.session.get(address, headers=_bearer(place, key=key)) as answer:
+        return answer.status, await answer.read()
+
+
+def dressed(guest: Guest, digest: str):
+    return guest.told(Changed, lambda answer: answer.person.name == "Ada" and answer.person.own == digest)
+
+
+def meet(run):
+    """Ada and Ben in a room, and a moderator."""
+
+    async def open_and_run() -> None:
+        async with open_room() as place:
+            ada, ben = await place.guest(), await place.guest(name="Ben")
+            await run(place, ada, ben)
+
+    asyncio.run(asyncio.wait_for(open_and_run(), 30))
+
+
+def test_an_avatar_goes_to_those_with_the_key_and_goes_with_its_person():
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        content = avatar()
+        status, digest = await bring(place, ada, content)
+        assert (status, digest) == (200, hashlib.sha256(content).hexdigest())
+        await dressed(ben, digest)
+        late = await place.guest(name="Cy")
+        assert digest in {person.own for person in late.welcome.people}
+        assert await fetch(place, digest) == (200, content)
+        assert (await fetch(place, digest, key="k" * 22))[0] == 403
+        assert (await fetch(place, "0" * 64))[0] == 404
+        assert (await fetch(place, "..%2f..%2froom.html"))[0] == 404
+        async with place.session.get(f"{place.address}/metrics") as answer:
+            assert f"room_avatar_bytes {len(content)}\n" in await answer.text()
+        await ada.say(kind="leave")
+        await ben.told(Left)
+        assert (await fetch(place, digest))[0] == 404
+
+    meet(run)
+
+
+def test_one_may_take_it_off_and_a_moderator_may_for_good():
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        digest = (await bring(place, ada, avatar()))[1]
+        await dressed(ben, digest)
+        ben.answers.clear()
+        await ada.say(kind="undress")
+        await dressed(ben, "")
+        assert (await fetch(place, digest))[0] == 404
+        assert (await bring(place, ada, avatar()))[1] == digest
+        await dressed(ben, digest)
+        ben.answers.clear()
+        await ben.say(kind="moderate", action="undress", number=ada.number)
+        assert "only a moderator" in (await ben.told(Notice)).text
+        chair = await place.guest(name="Chair", moderator=True)
+        await chair.say(kind="moderate", action="undress", number=ada.number)
+        await dressed(ben, "")
+        assert (await fetch(place, digest))[0] == 404
+        status, sentence = await bring(place, ada, avatar())
+        assert status == 403
+        assert "a moderator" in sentence
+
+    meet(run)
+
+
+def test_refusals_are_sentences_and_change_nothing():
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        status, sentence = await bring(place, ada, BINARY)
+        assert (status, sentence) == (422, "this avatar is not a binary glTF 2.0 file (.glb or .vrm)")
+        status, sentence = await bring(place, ada, io.BytesIO(bytes(MOST_AVATAR_BYTES + 1)))
+        assert status == 413
+        assert "smaller textures" in sentence
+
+        async def endless():
+            for _ in range(MOST_AVATAR_BYTES // 2**20 + 2):
+                yield bytes(2**20)
+
+        assert (await bring(place, ada, endless()))[0] == 413, "a body that does not say how long it is"
+        assert (await bring(place, ada, avatar(), Origin="https://elsewhere.example"))[0] == 403
+        assert (await bring(place, ada, avatar(), Authorization=f"Bearer {'k' * 22}.{ada.secret}"))[0] == 403
+        key = place.keys.key(place.name, "guest")
+        assert (await bring(place, ada, avatar(), Authorization=f"Bearer {key}.{'s' * 22}"))[0] == 403, (
+            "not there"
+        )
+        assert (await bring(place, ada, avatar(), Authorization=f"Bearer {key}"))[0] == 403, "of nobody"
+        assert not ben.all(Changed) or all(not answer.person.own for answer in ben.all(Changed))
+
+    meet(run)
+
+
+def test_who_tries_again_and_again_waits():
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        found = [await bring(place, ada, b"x") for _ in range(UPLOADS_BURST + 1)]
+        assert [status for status, _ in found] == [422] * UPLOADS_BURST + [429]
+        assert (await bring(place, ben, avatar()))[0] == 200, "others do not"
+
+    meet(run)
