@@ -1,4 +1,4 @@
-"""A headset's three films go through ``track --to room:``, and others in the room see the face that the networks find."""
+"""A headset's three films go through ``track --to room:``, and others in the room see what the networks find."""
 
 import asyncio
 import csv

@@ -44,7 +44,7 @@ export class Wardrobe {
   }
 }
 
-function dressed(avatar: Avatar): Dressed {
+export function dressed(avatar: Avatar): Dressed {
   avatar.root.updateMatrixWorld(true);
   return { avatar, height: new Box3().setFromObject(avatar.root).getSize(new Vector3()).y };
 }

@@ -41,7 +41,7 @@ export class Figure {
   ) {
     const whole = height > WHOLE_M;
     const body = whole ? avatar.root : height > BUST_M ? new Group() : makeBody(number);
-    this.limbs = new Limbs(body);
+    this.limbs = new Limbs(body, whole ? avatar.vrm : undefined);
     this.standing = whole ? 0 : EYES_M;
     this.upper.add(avatar.root, body);
     avatar.root.traverse((node) => void (node.castShadow = true));

@@ -12,6 +12,8 @@ export interface Link {
 export interface Choice {
   readonly name: string;
   readonly avatar: string;
+  /** One's own avatar, which is not checked yet. */
+  readonly own: File | undefined;
   readonly microphone: Microphone | undefined;
   readonly camera: boolean;
   /** Whether the microphone hears what is played, in a browser that has to be helped with that (loopback.ts). */
@@ -107,7 +109,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   await microphone?.resume();
   const echoes = !!microphone && !headphones.checked && "userAgentData" in navigator; // only Chromium has that
   const recorded = recording && consent.value === "yes";
-  return { name: name.value.trim(), avatar: avatar.value, microphone, camera: camera.checked, echoes, recorded };
+  return { name: name.value.trim(), avatar: avatar.value, own: field<HTMLInputElement>("own").files?.[0], microphone, camera: camera.checked, echoes, recorded };
 }
 
 /** What a browser's refusal of a device means. */

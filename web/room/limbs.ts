@@ -1,6 +1,7 @@
 /** Moves arms and legs, of a skeleton or of the simple body, towards what a gesture, a seat or a step asks of them. */
 
 import { Quaternion, Vector3, type Object3D } from "three";
+import type { VRM, VRMHumanBoneName } from "@pixiv/three-vrm";
 
 import { Turn } from "../avatar/bones.js";
 
@@ -85,17 +86,41 @@ class Limb {
   }
 }
 
+/** VRM's names of what Mixamo calls otherwise; the side stands before both. */
+const OF_VRM: Record<string, string> = {
+  Arm: "UpperArm",
+  ForeArm: "LowerArm",
+  Hand: "Hand",
+  UpLeg: "UpperLeg",
+  Leg: "LowerLeg",
+  Foot: "Foot",
+};
+
+/** Bones by Mixamo's names, whatever stands before them; of a VRM its normalised ones, which its springs follow. */
+function skeleton(root: Object3D, vrm: VRM | undefined): Map<string, Object3D> {
+  const bones = new Map<string, Object3D>();
+  if (!vrm) root.traverse((node) => void bones.set(node.name.replace(/^mixamorig:?/, ""), node));
+  else {
+    for (const [side, prefix] of [["left", "Left"], ["right", "Right"]] as const) {
+      for (const [name, theirs] of Object.entries(OF_VRM)) {
+        const bone = vrm.humanoid.getNormalizedBoneNode((side + theirs) as VRMHumanBoneName);
+        if (bone) bones.set(prefix + name, bone);
+      }
+    }
+  }
+  return bones;
+}
+
 export class Limbs {
   private readonly arms: [Limb | undefined, Limb | undefined];
   private readonly legs: [Limb | undefined, Limb | undefined];
   private walked = 0;
   private time = 0;
 
-  /** `root` faces +z, y up, at rest; bones are found by Mixamo's names, whatever stands before them. */
-  constructor(root: Object3D) {
+  /** `root` faces +z, y up, at rest. */
+  constructor(root: Object3D, vrm?: VRM) {
     root.updateMatrixWorld(true);
-    const bones = new Map<string, Object3D>();
-    root.traverse((node) => void bones.set(node.name.replace(/^mixamorig:?/, ""), node));
+    const bones = skeleton(root, vrm);
     const limb = (names: readonly string[], prefix: string, side: 1 | -1): Limb | undefined => {
       const [upper, lower, end] = names.map((name) => bones.get(prefix + name));
       return upper && lower && end ? new Limb([upper, lower, end], root, side) : undefined;

@@ -3,8 +3,9 @@
 import type { Quaternion } from "three";
 
 import { rotation } from "../avatar/index.js";
-import { Wardrobe } from "./avatars.js";
+import { Wardrobe, type Dressed } from "./avatars.js";
 import { EYES_M, SEATED_M } from "./body.js";
+import { Brought } from "./brought.js";
 import { FaceCamera } from "./face.js";
 import { Figure } from "./figure.js";
 import { about, ask, randomText, readLink, secretOf, sentence } from "./join.js";
@@ -34,6 +35,8 @@ interface Known {
   readonly playback: Playback;
   figure: Figure | undefined;
   wears: string;
+  /** Frees what an avatar of their own holds. */
+  free: () => void;
   newest: Message | undefined;
 }
 
@@ -49,6 +52,7 @@ class Meeting {
   private readonly walk = new Walk(find("view"));
   private readonly wardrobe = new Wardrobe();
   private readonly idle = new Idle();
+  private readonly brought: Brought;
   private readonly sidebar: Sidebar;
   private readonly line: Line;
   private camera: FaceCamera | undefined;
@@ -83,6 +87,7 @@ class Meeting {
       broken: () => this.tell("The connection broke; coming back …"),
       ended: (text) => this.end(text),
     });
+    this.brought = new Brought(`${location.pathname}/avatar`, join.key, join.secret, () => this.line.say({ kind: "undress" }));
     this.controls();
     find("meeting").hidden = false;
     find("view").hidden = false;
@@ -101,13 +106,19 @@ class Meeting {
     }
   }
 
+  /** Wear a file of one's own. */
+  bring(file: File): Promise<void> {
+    return this.brought.wear(file);
+  }
+
   private welcome(welcome: Welcome): void {
     this.own = welcome;
     this.placedBy = performance.now() + FIRST_TICK_MS;
     this.voice.configure(welcome.ice, welcome.engine);
-    for (const known of this.known.values()) known.figure?.dispose();
+    for (const known of this.known.values()) undress(known);
     this.known.clear();
     for (const person of welcome.people) this.meet(person);
+    this.brought.again();
     this.locked = welcome.locked;
     this.tell("");
     this.line.say({ kind: "voice", open: this.microphone?.isOpen ?? false });
@@ -119,11 +130,13 @@ class Meeting {
       case "person":
         this.meet(answer.person);
         break;
-      case "left":
-        this.voice.part(this.known.get(answer.number)?.person.id ?? "");
-        this.known.get(answer.number)?.figure?.dispose();
+      case "left": {
+        const known = this.known.get(answer.number);
+        this.voice.part(known?.person.id ?? "");
+        if (known) undress(known);
         this.known.delete(answer.number);
         break;
+      }
       case "line":
         this.sidebar.line(answer.name, answer.text, answer.time_s);
         return;
@@ -158,21 +171,35 @@ class Meeting {
       playback: new Playback(),
       figure: undefined,
       wears: "",
+      free: () => undefined,
       newest: undefined,
     };
     if (known.person.face !== person.face) known.playback.restart(); // their clocks differ
     known.person = person;
     this.known.set(person.number, known);
-    if (known.wears === person.avatar) return;
-    known.wears = person.avatar;
-    this.dress(known, this.wardrobe.plain());
-    void this.wardrobe.another(person.avatar).then((dressed) => {
-      if (dressed && this.known.get(person.number) === known && known.wears === person.avatar) this.dress(known, dressed);
-    });
+    if (person.number === this.own?.number) this.brought.wears(person.own);
+    const wears = `${person.avatar} ${person.own}`;
+    if (known.wears === wears) return;
+    known.wears = wears;
+    void this.clothe(known, person, wears);
   }
 
-  private dress(known: Known, { avatar, height }: { avatar: Figure["avatar"]; height: number }): void {
-    known.figure?.dispose();
+  /** The plain head until the room's avatar is there, and that one until the person's own is. */
+  private async clothe(known: Known, person: Person, wears: string): Promise<void> {
+    const still = (): boolean => this.known.get(person.number) === known && known.wears === wears;
+    const own = person.own ? this.brought.fetch(person.own) : undefined;
+    if (!known.figure || !person.own) this.dress(known, this.wardrobe.plain());
+    const ready = await this.wardrobe.another(person.avatar);
+    if (ready && still()) this.dress(known, ready);
+    const brought = await own;
+    if (!brought) return;
+    if (still()) this.dress(known, brought, () => brought.avatar.dispose());
+    else brought.avatar.dispose();
+  }
+
+  private dress(known: Known, { avatar, height }: Dressed, free = (): void => undefined): void {
+    undress(known);
+    known.free = free;
     known.figure = new Figure(avatar, known.person.number, height);
     known.figure.root.visible = false; // until it is known where they stand
     this.view.scene.add(known.figure.root);
@@ -356,11 +383,17 @@ class Meeting {
     this.microphone?.close();
     this.camera?.close();
     this.own = undefined;
-    for (const known of this.known.values()) known.figure?.dispose();
+    for (const known of this.known.values()) undress(known);
     this.known.clear();
     find("mirror").hidden = true;
     this.tell(text);
   }
+}
+
+function undress(known: Known): void {
+  known.figure?.dispose();
+  known.free();
+  known.figure = undefined;
 }
 
 async function main(): Promise<void> {
@@ -382,6 +415,7 @@ async function main(): Promise<void> {
     choice.echoes,
   );
   if (choice.camera) await meeting.watch();
+  if (choice.own) void meeting.bring(choice.own);
   Object.assign(globalThis, { meeting }); // for tests, and for who looks into the page
 }
 

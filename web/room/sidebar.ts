@@ -68,10 +68,11 @@ export class Sidebar {
     small.textContent = words.join(" · ");
     if (chair && !self) {
       small.append(words.length ? " " : "");
-      for (const action of [person.muted ? "unmute" : "mute", "remove"] as const) {
+      const acts = [person.muted ? "unmute" : "mute", ...(person.own ? (["undress"] as const) : []), "remove"] as const;
+      for (const action of acts) {
         const button = document.createElement("button");
         button.type = "button";
-        button.textContent = action;
+        button.textContent = action === "undress" ? "take avatar off" : action;
         button.addEventListener("click", () => this.moderate(action, person.number));
         small.append(button);
       }

@@ -16,6 +16,8 @@ export interface Person {
   recorded: boolean;
   /** Whether they come out of one: no page and no voice is behind them. */
   replayed: boolean;
+  /** SHA-256 of an avatar that they brought; `avatar` stands in for it. */
+  own: string;
 }
 
 /** One's own voice to an engine in the middle, and the others' voices from it. */
@@ -36,7 +38,7 @@ export interface Candidate {
   line?: number;
 }
 
-export type Act = "mute" | "unmute" | "remove" | "lock" | "unlock";
+export type Act = "mute" | "unmute" | "undress" | "remove" | "lock" | "unlock";
 
 export type Said =
   | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page"; recorded: boolean }
@@ -46,6 +48,7 @@ export type Said =
   | Candidate
   | { kind: "moderate"; action: Act; number?: number }
   | { kind: "consent"; recorded: boolean }
+  | { kind: "undress" }
   | { kind: "leave" };
 
 /** What a page asks before it comes in. */
