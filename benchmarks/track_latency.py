@@ -2,9 +2,16 @@
 
     python benchmarks/track_latency.py --film face.mp4 --seconds 60   # MediaPipe, landmark networks, 30 a second
     python benchmarks/track_latency.py --headset --seconds 600        # three cameras of 96 pixels, 120 a second
+    python benchmarks/track_latency.py --headset --page               # the same while a tab looks and wants pictures
 
 Cameras are virtual: pictures are in memory and come at their times, as a driver would give them. Answers go by VMC, and
-are received by a socket of this process. Figures of one run stand in docs/track.md.
+are received by a socket of this process. The tab of --page is another process, which reads what the page is sent.
+Figures are of all frames behind the first two seconds, not of the last ones alone. A picture is lost where no frame has
+it: because nobody read it in time, or because a newer one took its place. Figures of runs stand in docs/track.md and
+docs/track-headset.md.
+
+On a machine that others use as well, `chrt -f 5` before the command (Linux, as root) makes it go first: what is left of
+the tail is then our own.
 """
 
 import argparse
@@ -12,14 +19,20 @@ import json
 import os
 import platform
 import socket
+import subprocess
+import sys
 import threading
 import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import cv2
 import numpy as np
 
+from regress.runtime.sample import Sample
 from track.detectors import open_detector
+from track.page import Page
 from track.profile.profile import Profile
 from track.session.headset import HeadsetPipeline
 from track.session.landmarks import LandmarkPipeline
@@ -27,6 +40,9 @@ from track.session.measures import Measures
 from track.session.session import Session
 from track.sinks.targets import open_sink, parse_target
 from track.sources import Capture, Picture, Source
+
+WARM_S = 2.0
+"""Seconds of frames that are not measured."""
 
 SAMPLES = Path(__file__).resolve().parents[1] / "docs" / "samples" / "headset"
 
@@ -78,6 +94,80 @@ class Receiver(threading.Thread):
             self.count += 1
 
 
+class Counted:
+    """A capture that counts from a moment on how many pictures its cameras had, and how many came in frames.
+
+    Parameters
+    ----------
+    capture, cameras
+        The cameras are the capture's, by name.
+    begin
+        Called at the first moment that counts, `WARM_S` after the first one: networks warm up before.
+    """
+
+    def __init__(
+        self, capture: Capture, cameras: dict[str, VirtualCamera], begin: Callable[[], None]
+    ) -> None:
+        self._capture, self.now_s = capture, capture.now_s
+        self._cameras, self._begin = cameras, begin
+        self._begins_s = time.monotonic() + WARM_S
+        self._last: dict[str, np.ndarray] = {}
+        self._had_before: int | None = None
+        self.had = self.taken = 0
+
+    def read(self, within_s: float | None = None) -> Sample | None:
+        """The next moment."""
+        sample = self._capture.read(within_s)
+        had = sum(each.given + each.lost for each in self._cameras.values())
+        fresh = [name for name, picture in sample.pictures.items() if picture is not self._last.get(name)]
+        self._last |= sample.pictures
+        if self._had_before is not None:
+            self.had, self.taken = had - self._had_before, self.taken + len(fresh)
+        elif time.monotonic() > self._begins_s:
+            self._had_before = had
+            self._begin()
+        return sample
+
+
+TAB = """
+import asyncio, aiohttp, json, sys
+
+async def look(link):
+    async with aiohttp.ClientSession() as web, web.ws_connect(link + "stream", origin=link[:-1]) as stream:
+        await stream.send_json({"verb": "picture", "value": True})
+        async for message in stream:
+            if message.type is aiohttp.WSMsgType.TEXT and (said := json.loads(message.data))["type"] == "frame":
+                await stream.send_json({"verb": "seen", "value": said["number"]})
+
+asyncio.run(look(sys.argv[1]))
+"""
+
+
+@contextmanager
+def page_of(session: Session, cameras: tuple[str, ...]) -> Iterator[Page]:
+    """The session's page, with a tab that looks."""
+    with Page(session.ask, cameras=cameras) as page:
+        tab = subprocess.Popen([sys.executable, "-c", TAB, page.url])
+        try:
+            until_s = time.monotonic() + 20
+            while not page.wants_pictures and time.monotonic() < until_s:
+                time.sleep(0.1)
+            if not page.wants_pictures:
+                raise SystemExit("the tab does not look")
+            yield page
+        finally:
+            tab.terminate()
+            tab.wait()
+
+
+def stolen_s() -> float:
+    """Seconds that the host kept this virtual machine's cores for others, since it started; NaN but on Linux."""
+    try:
+        return int(Path("/proc/stat").read_text().split()[8]) / os.sysconf("SC_CLK_TCK")
+    except OSError:
+        return float("nan")
+
+
 def film_pictures(path: Path, most: int = 300) -> list[np.ndarray]:
     """Pictures of a film, in memory."""
     film, pictures = cv2.VideoCapture(str(path)), []
@@ -125,32 +215,34 @@ def measure(arguments: argparse.Namespace) -> dict[str, object]:
     session = Session(
         pipeline=pipeline, sinks=[sink], profile=Profile(person="nobody", camera="virtual"), say=print
     )
-    # networks warm up on the first pictures, and are measured on the others
-    with Capture({name: opener(name) for name in pictures}) as capture:
-        session.run(capture, seconds=2.0)
-        session.measures = Measures()
-        lost_before = sum(each.lost for each in cameras.values())
-        given_before = cameras[next(iter(cameras))].given
-        cpu, wall = time.process_time(), time.monotonic()
-        summary = session.run(capture, seconds=arguments.seconds)
-        cpu, wall = time.process_time() - cpu, time.monotonic() - wall
-        lost = sum(each.lost for each in cameras.values()) - lost_before
-        given = cameras[next(iter(cameras))].given - given_before
+    before: dict[str, float] = {}
+
+    def begin() -> None:
+        session.measures = Measures(remembered=int(arguments.seconds * fps) + 1000)
+        before.update(cpu_s=time.process_time(), wall_s=time.monotonic(), stolen_s=stolen_s())
+
+    with ExitStack() as open_now:
+        capture = open_now.enter_context(Capture({name: opener(name) for name in pictures}))
+        screen = open_now.enter_context(page_of(session, tuple(pictures))) if arguments.page else None
+        counted = Counted(capture, cameras, begin)
+        summary = session.run(counted, screen, seconds=WARM_S + arguments.seconds)
+        cpu_s, wall_s = time.process_time() - before["cpu_s"], time.monotonic() - before["wall_s"]
     session.close()
     receiver.over = True
     receiver.join()
     return {
-        "pictures": given,
+        "pictures": counted.had,
+        "pictures_lost": counted.had - counted.taken,
         "frames": summary.frames,
-        "late_for_the_driver": lost,
         "datagrams": receiver.count,
-        "seconds": wall,
-        "process_cpu_ms_per_frame": 1e3 * cpu / max(summary.frames, 1),
+        "seconds": wall_s,
+        "process_cpu_ms_per_frame": 1e3 * cpu_s / max(summary.frames, 1),
         "without_detector_cpu_ms_p50": sum(
             figures["p50"] for name, figures in summary.cpu_ms.items() if name != "detector"
         ),
         "picture_to_datagram_ms": summary.latency_ms,
         "cpu_ms": summary.cpu_ms,
+        "stolen_by_the_host_s": stolen_s() - before["stolen_s"],
         "machine": f"{platform.machine()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.0f}",
     }
 
@@ -165,6 +257,7 @@ def main() -> None:
     kind.add_argument("--headset", action="store_true", help="the sample of docs/samples/headset")
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--fps", type=float, help="pictures a second; 30 of a film, 120 of a headset")
+    parser.add_argument("--page", action="store_true", help="with a tab that looks and wants pictures")
     parser.add_argument("--json", action="store_true")
     found = measure(arguments := parser.parse_args())
     if arguments.json:

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from typing import TYPE_CHECKING
 
 from regress.errors import ModelError
@@ -40,13 +41,18 @@ def _opt_out() -> None:
 @contextmanager
 def session_errors(what: str) -> Iterator[None]:
     """Turn what onnxruntime raises into `ModelError`: what it is about, and the first line of the reason."""
+    try:
+        yield
+    except _raised() as error:
+        reason = next(iter(str(error).splitlines()), "") or type(error).__name__
+        raise ModelError(f"{what}: {reason}") from error
+
+
+@cache
+def _raised() -> tuple[type[Exception], ...]:
+    """What onnxruntime raises; its own classes share no base but Exception."""
     _opt_out()
     from onnxruntime.capi import onnxruntime_pybind11_state as state
 
-    # its classes share no base but Exception
-    kinds = [kind for kind in vars(state).values() if isinstance(kind, type) and issubclass(kind, Exception)]
-    try:
-        yield
-    except (*kinds, RuntimeError, ValueError, MemoryError) as error:
-        reason = next(iter(str(error).splitlines()), "") or type(error).__name__
-        raise ModelError(f"{what}: {reason}") from error
+    own = [kind for kind in vars(state).values() if isinstance(kind, type) and issubclass(kind, Exception)]
+    return (*own, RuntimeError, ValueError, MemoryError)

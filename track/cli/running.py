@@ -6,12 +6,14 @@ import threading
 import webbrowser
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from track.cli.opening import Wishes, camera_texts, is_headset, open_cameras, open_pipeline, open_profile
-from track.errors import InputError, OutputError
-from track.profile.profile import Profile, write_profile
+from track.errors import InputError
+from track.profile.keeper import ProfileKeeper
+from track.profile.profile import write_profile
 
 if TYPE_CHECKING:
     from track.session.session import Screen, Session, Summary
@@ -73,36 +75,24 @@ def open_session(
     capture = open_cameras(wishes, texts)
     closing.callback(capture.close)
     profile, path = open_profile(wishes, pipeline, capture.titles, say)
+    if must_keep:
+        keep = partial(write_profile, path)
+    else:
+        keeper = ProfileKeeper(path, say)
+        closing.callback(keeper.close)
+        keep = keeper.keep
     session = Session(
         pipeline=pipeline,
         sinks=sinks,
         profile=profile,
         say=say,
-        keep=_keeper(path, None if must_keep else say),
+        keep=keep,
         new_recording=lambda: _open(f"csv:{_free_name()}", say),
         mirror=options.mirror,
         timed=not wishes.fast,
     )
     closing.callback(session.close)
     return session, capture
-
-
-def _keeper(path: Path, say: Callable[[str], None] | None) -> Callable[[Profile], None]:
-    """What stores a profile; where it cannot, ``say`` is told once, if there is one."""
-    told = False
-
-    def keep(profile: Profile) -> None:
-        nonlocal told
-        try:
-            write_profile(path, profile)
-        except OutputError as error:
-            if say is None:
-                raise
-            if not told:
-                say(f"{error}; what is changed now is forgotten at the end")
-            told = True
-
-    return keep
 
 
 def open_sinks(

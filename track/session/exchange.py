@@ -1,6 +1,6 @@
 """Whether a headset's cameras were exchanged while it is worn: each picture against what every camera showed lately."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from enum import Enum
 from itertools import combinations
@@ -40,10 +40,17 @@ class ExchangeWatch(Stage):
         """The sample without exchanged pictures; ``faults`` names their cameras."""
         seen = {name: _standard(_small(picture)) for name, picture in (sample.pictures or {}).items()}
         before, self._exchanged = self._exchanged, set()
-        for pair in combinations(seen, 2):
+        known = [name for name in seen if name in self._looks]
+        likeness = self._likeness(known, seen)
+        for one, other in combinations(range(len(known)), 2):
+            pair = {known[one], known[other]}
             margin = 0.0 if before.issuperset(pair) else MARGIN
-            if self._better_exchanged(*pair, seen) > margin:
-                self._exchanged |= set(pair)
+            # by how much two pictures are liker each other's camera than their own
+            crossed = (
+                likeness[one][other] + likeness[other][one] - likeness[one][one] - likeness[other][other]
+            )
+            if crossed / 2 > margin:
+                self._exchanged |= pair
         faults = dict.fromkeys(sorted(self._exchanged), CameraFault.EXCHANGED)
         if not faults:
             for name, look in seen.items():
@@ -52,17 +59,17 @@ class ExchangeWatch(Stage):
         pictures = {name: picture for name, picture in sample.pictures.items() if name not in faults}
         return replace(sample, pictures=pictures, faults={**sample.faults, **faults})
 
-    def _better_exchanged(self, one: str, other: str, seen: Mapping[str, np.ndarray]) -> float:
-        """By how much two pictures are liker each other's camera than their own; 0 where one is not known."""
-        if one not in self._looks or other not in self._looks:
-            return 0.0
-        looks = np.array([self._looks[one], self._looks[other]])
-        likeness = np.array([seen[one], seen[other]]) @ looks.T
-        return float(np.fliplr(likeness).trace() - likeness.trace()) / 2
+    def _likeness(self, names: Sequence[str], seen: Mapping[str, np.ndarray]) -> list[list[float]]:
+        """Correlation of each picture (a row) with what each camera showed lately."""
+        if not names:
+            return []
+        return (
+            np.array([seen[name] for name in names]) @ np.array([self._looks[name] for name in names]).T
+        ).tolist()
 
     def _learn(self, name: str, look: np.ndarray) -> None:
         mixed = (1 - LEARNT) * self._looks.get(name, look) + LEARNT * look
-        self._looks[name] = mixed / max(float(np.linalg.norm(mixed)), 1e-9)
+        self._looks[name] = _normed(mixed)
 
 
 def _small(picture: np.ndarray) -> np.ndarray:
@@ -72,5 +79,8 @@ def _small(picture: np.ndarray) -> np.ndarray:
 def _standard(picture: np.ndarray) -> np.ndarray:
     """Grey levels (576,) about their mean, of length 1; zeros of a picture of one level."""
     values = picture.astype(np.float32).ravel()
-    values -= values.mean()
-    return values / max(float(np.linalg.norm(values)), 1e-9)
+    return _normed(values - values.mean())
+
+
+def _normed(values: np.ndarray) -> np.ndarray:
+    return values / max(float(values @ values) ** 0.5, 1e-9)

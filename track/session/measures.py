@@ -15,11 +15,18 @@ LATELY_S = 2.0
 
 
 class Measures:
-    """Figures of the last frames; memory does not grow."""
+    """Figures of the last frames; memory does not grow.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    remembered
+        As `REMEMBERED`.
+    """
+
+    def __init__(self, remembered: int = REMEMBERED) -> None:
+        self._remembered = remembered
         self._cpu_s: dict[str, deque[float]] = {}
-        self._latency_s: deque[float] = deque(maxlen=REMEMBERED)
+        self._latency_s: deque[float] = deque(maxlen=remembered)
         self._times_s: deque[float] = deque(maxlen=REMEMBERED)
         self.frames = 0
 
@@ -29,7 +36,7 @@ class Measures:
         start = time.thread_time()
         yield
         if name not in self._cpu_s:
-            self._cpu_s[name] = deque(maxlen=REMEMBERED)
+            self._cpu_s[name] = deque(maxlen=self._remembered)
         self._cpu_s[name].append(time.thread_time() - start)
 
     def frame(self, now_s: float, latency_s: float | None) -> None:

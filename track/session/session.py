@@ -3,12 +3,12 @@
 import queue
 import time
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from regress.runtime.sample import Sample
 from regress.runtime.stages.output import Mirror
@@ -21,6 +21,7 @@ from track.session.fault_telling import FaultTelling
 from track.session.measures import Measures
 from track.session.pipeline import Pipeline
 from track.session.ranges import GazeCentre, Ranges
+from track.session.undisturbed import undisturbed
 from track.sinks.sink import Sink
 
 TICK_S = 1 / 30
@@ -93,7 +94,7 @@ class Session:
     say
         Told what a person should know, a sentence each.
     keep
-        Stores a profile that has changed.
+        Stores a profile that has changed, and returns at once: it is called between two frames.
     new_recording
         Opens a recording, each time that the page asks for one.
     mirror
@@ -126,6 +127,7 @@ class Session:
         self._step: Step | None = None
         self._looks: list[np.ndarray] | None = None
         self._new_recording, self._recording = new_recording, None
+        self._finishing = ThreadPoolExecutor(max_workers=1, thread_name_prefix="recording")
         self._pictures_wanted, self._timed, self._stopped = False, timed, False
         self._faces, self._first_s, self._last_s = 0, None, 0.0
         if profile.placement:
@@ -158,8 +160,7 @@ class Session:
         self, pictures: Pictures, screen: Screen | None = None, *, seconds: float | None = None
     ) -> Summary:
         """Answer frames until there are no more, or it is stopped, or so many seconds have passed."""
-        # one face's products are too small to share: BLAS' other threads only wait, and burn 29 ms of CPU a frame
-        with threadpool_limits(limits=1, user_api="blas"):
+        with undisturbed():
             self._run(pictures, screen, seconds)
         return self.summary()
 
@@ -288,8 +289,15 @@ class Session:
             elif not wanted and self._recording is not None:
                 recording, self._recording = self._recording, None
                 self.sinks.remove(recording)
-                recording.close()
-                self._say(f"recorded {recording.title}")
+                self._finishing.submit(self._finish, recording)
+        except OutputError as error:
+            self._say(str(error))
+
+    def _finish(self, recording: Sink) -> None:
+        """Give the page's recording its name, in another thread: a disk takes a frame's time and more."""
+        try:
+            recording.close()
+            self._say(f"recorded {recording.title}")
         except OutputError as error:
             self._say(str(error))
 
@@ -297,6 +305,7 @@ class Session:
         """Let sinks and stages go: recordings are written whole, each whether or not another one can be."""
         with ExitStack() as closing:
             closing.callback(self.pipeline.close)
+            closing.callback(self._finishing.shutdown)
             for sink in self.sinks:
                 closing.callback(sink.close)
 

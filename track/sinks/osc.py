@@ -9,7 +9,7 @@ References
 """
 
 import struct
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 
 from pythonosc.osc_message_builder import OscMessageBuilder
@@ -27,6 +27,12 @@ def message(address: str, *values: str | int | float | bool) -> bytes:
     tags = "".join(_tag(number) for number in numbers)
     packed = [number for number in numbers if not isinstance(number, bool)]
     return _head(address, texts, tags) + struct.pack(">" + tags.replace("T", "").replace("F", ""), *packed)
+
+
+def number_message(address: str, *texts: str) -> Callable[[float], bytes]:
+    """What makes messages of these texts and one float: a frame has seventy, and `message` would look at each anew."""
+    head, pack = _head(address, texts, "f"), struct.Struct(">f").pack
+    return lambda number: head + pack(number)
 
 
 def bundles(messages: Iterable[bytes], most_bytes: int = DATAGRAM_BYTES) -> Iterator[bytes]:

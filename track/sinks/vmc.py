@@ -14,7 +14,7 @@ import numpy as np
 from regress.runtime.sample import Sample
 from regress.runtime.stages.retargeting.target_file import read_retargeting
 from track.sinks.axes import NO_TURN, eye_turns, head_pose, unity_position, unity_quaternion
-from track.sinks.osc import bundles, message
+from track.sinks.osc import bundles, message, number_message
 from track.sinks.sink import Sink, Tell, has_face
 from track.sinks.targets import Target
 from track.sinks.udp import UdpSink
@@ -50,7 +50,10 @@ class Vmc:
     def __init__(self, names: str = "both") -> None:
         targets = [read_retargeting(target) for target in SETS[names]]
         self._retargets = [
-            (target, [_spelled(name, target_name) for name in target.names])
+            (
+                target,
+                [number_message("/VMC/Ext/Blend/Val", _spelled(name, target_name)) for name in target.names],
+            )
             for target, target_name in zip(targets, SETS[names], strict=True)
         ]
 
@@ -73,9 +76,9 @@ class Vmc:
         if eyes is not None:
             for name, turn in zip(("LeftEye", "RightEye"), eyes, strict=True):
                 yield _bone("/VMC/Ext/Bone/Pos", name, REST[name], turn)
-        for target, names in self._retargets:
-            for name, value in zip(names, target.apply(sample.weights[None])[0].tolist(), strict=True):
-                yield message("/VMC/Ext/Blend/Val", name, value)
+        for target, values in self._retargets:
+            weights = target.apply(sample.weights[None])[0].tolist()
+            yield from (value(weight) for value, weight in zip(values, weights, strict=True))
         yield message("/VMC/Ext/Blend/Apply")
 
 

@@ -4,7 +4,7 @@ from enum import Enum
 
 import numpy as np
 
-from regress.runtime.headset.faults import DARK
+from regress.runtime.headset.faults import is_black
 from track.sources.source import Picture
 
 FROZEN_S = 0.5
@@ -43,7 +43,7 @@ class PictureWatch:
         """What is wrong with the next picture."""
         if picture.pixels is None:
             return None
-        if np.percentile(picture.pixels[::_STRIDE, ::_STRIDE], 98) < DARK:
+        if is_black(picture.pixels[::_STRIDE, ::_STRIDE]):
             return CameraFault.BLACK
         if self._first is None or not _same(self._first.pixels, picture.pixels):
             self._first = picture

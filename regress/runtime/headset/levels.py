@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
+import cv2
 import numpy as np
 
 from regress.runtime.headset.footage import Footage
@@ -13,6 +14,10 @@ from regress.runtime.stages.stage import Stage
 
 _MEMORY = 300
 """Frames by which live levels forget: ten seconds, in which eyes close several times."""
+
+_GREYS = np.arange(256)
+
+_ENDS = np.array([DARK, BRIGHT]) / 100
 
 _LEAST_RANGE = 8.0
 """Grey levels that a picture's darkest and brightest lie apart at least: stretching fewer makes pictures of noise."""
@@ -36,11 +41,11 @@ def level_table(low: float, high: float, looks: CameraLooks, *, fixed: bool = Fa
     if fixed:
         wanted_low, wanted_high = looks.low[1], looks.high[1]
     else:
-        wanted_low = float(np.clip(low, looks.low[0], looks.low[2]))
-        wanted_high = float(np.clip(high, looks.high[0], looks.high[2]))
+        wanted_low = min(max(low, looks.low[0]), looks.low[2])
+        wanted_high = min(max(high, looks.high[0]), looks.high[2])
     slope = (wanted_high - wanted_low) / (high - low)
-    table = wanted_low + slope * (np.arange(256) - low)
-    return np.clip(np.rint(table), 0, 255).astype(np.uint8)
+    table = wanted_low + slope * (_GREYS - low)
+    return np.rint(table).clip(0, 255).astype(np.uint8)
 
 
 def tables_of(
@@ -106,16 +111,16 @@ class Levels(Stage):
         return replace(sample, pictures=self.levelled(sample.pictures or {}))
 
     def levelled(self, pictures: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-        """Pictures (..., h, w) uint8 by camera with the levels of the moment: a neutral picture's are the frames'."""
+        """Pictures (h, w) uint8 by camera with the levels of the moment: a neutral picture's are the frames'."""
         return {
-            name: self._tables[name][picture] if name in self._tables else picture
+            name: cv2.LUT(picture, self._tables[name]) if name in self._tables else picture
             for name, picture in pictures.items()
         }
 
     def _table(self, name: str, picture: np.ndarray) -> np.ndarray:
-        seen = np.bincount(picture.ravel(), minlength=256) / picture.size
+        seen = cv2.calcHist([picture], [0], None, [256], [0, 256]).ravel() / picture.size
         before = self._counts.get(name)
-        self._counts[name] = seen if before is None else seen + before * (1 - 1 / _MEMORY)
-        shares = np.cumsum(self._counts[name]) / self._counts[name].sum()
-        low, high = (float(np.searchsorted(shares, percent / 100)) for percent in (DARK, BRIGHT))
-        return level_table(low, high, self._looks[name])
+        self._counts[name] = counts = seen if before is None else seen + before * (1 - 1 / _MEMORY)
+        shares = np.cumsum(counts)
+        low, high = np.searchsorted(shares, shares[-1] * _ENDS)
+        return level_table(float(low), float(high), self._looks[name])

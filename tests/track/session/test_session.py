@@ -1,5 +1,6 @@
 """A session over a talking face: answers, commands, calibration, profiles."""
 
+import time
 from contextlib import suppress
 from dataclasses import replace
 
@@ -129,9 +130,32 @@ def test_the_page_s_recording_is_opened_and_closed():
     assert session.moment(session.sinks[0].samples[-1]).settings["recording"]
     session.ask(Command(verb="record", value=False))
     session.answer(frames(5, 6)[0])
+    session.close()
     assert [len(each.samples) for each in made] == [4]
     assert made[0].closed
     assert len(session.sinks) == 1
+
+
+class Slow(Kept):
+    """Takes two frames' time to be whole, as a disk does."""
+
+    def close(self) -> None:
+        time.sleep(0.5)
+        super().close()
+
+
+def test_a_recording_that_takes_its_time_to_be_whole_holds_no_frame_up():
+    made, said = [Slow()], []
+    session = new_session(new_recording=made.copy().pop, said=said)
+    for value, sample in zip((True, False), frames(0, 2), strict=True):
+        session.ask(Command(verb="record", value=value))
+        since_s = time.monotonic()
+        session.answer(sample)
+        assert time.monotonic() - since_s < 0.4
+    assert not made[0].closed
+    session.close()
+    assert made[0].closed
+    assert said[-1] == "recorded kept"
 
 
 def full() -> Kept:
@@ -151,6 +175,7 @@ def test_a_recording_of_the_page_that_cannot_be_written_stops_nothing(new_record
         session.ask(Command(verb="record", value=value))
         (answer,) = session.answer(sample)
         recording = session.moment(answer).settings["recording"]
+    session.close()
     assert [sentence for sentence in said if "no space left" in sentence] == ["track-001.csv: no space left"]
     assert not recording
     assert len(session.sinks) == 1
