@@ -194,12 +194,13 @@ class Session:
 
     def moment(self, sample: Sample) -> Moment:
         """What the page shows of an answer."""
+        fps, latency_ms = self.measures.shown(time.monotonic())
         return Moment(
             sample=sample,
             pictures=dict(sample.pictures or {}) if self._pictures_wanted else {},
             points=self.pipeline.points(sample) if self._pictures_wanted else {},
-            fps=self.measures.fps,
-            latency_ms=self.measures.latency_ms(),
+            fps=fps,
+            latency_ms=latency_ms,
             faults=self._telling.now,
             step=self._step,
             settings={

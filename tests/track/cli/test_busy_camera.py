@@ -28,7 +28,9 @@ def shim(tmp_path: Path) -> Path:
         pytest.skip("needs Linux and a C compiler")
     built = tmp_path / "busy_camera.so"
     source = Path(__file__).parent / "busy_camera.c"
-    subprocess.run([compiler, "-shared", "-fPIC", "-Wall", "-Werror", source, "-o", built, "-ldl"], check=True)
+    subprocess.run(
+        [compiler, "-shared", "-fPIC", "-Wall", "-Werror", source, "-o", built, "-ldl"], check=True
+    )
     return built
 
 
