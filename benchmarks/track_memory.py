@@ -5,7 +5,7 @@
 
 All is as in `track run`: a capture with its threads, networks, VMC, a recorded table, and the page with a tab that
 wants pictures. Four times a minute of the hour the face is gone for 2 s, every six minutes each camera is unplugged,
-and every minute a gain is set. Figures of one run stand in docs/track.md.
+and every minute a gain is set. Figures of one run stand in docs/measurements/live.md.
 """
 
 import argparse

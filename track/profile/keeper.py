@@ -51,6 +51,7 @@ class ProfileKeeper:
             self._over.wait(self._pause_s)
             self._changed.clear()
             self._write()
+        self._write()  # what changed while the last file was written
 
     def _write(self) -> None:
         profile = self._newest

@@ -15,7 +15,6 @@ def undisturbed() -> Iterator[None]:
     A full collection walks over all that libraries made when they were imported, 13 to 17 ms; of what frames leave it
     takes less than one.
     """
-    gc.collect()
     gc.freeze()
     try:
         with threadpool_limits(limits=1, user_api="blas"):

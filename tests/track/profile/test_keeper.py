@@ -16,27 +16,24 @@ def profile(gain: float) -> Profile:
     return Profile(person="anna", camera="camera 0", gains={"jawOpen": gain})
 
 
-def test_a_slider_that_is_drawn_writes_a_few_files_and_the_last_gain(tmp_path: Path, monkeypatch):
-    threads = []
+def test_a_slider_that_is_drawn_waits_for_no_disk_and_its_last_gain_is_written(tmp_path: Path, monkeypatch):
+    begun, disk, gains = threading.Event(), threading.Event(), []
 
     def write(path: Path, given: Profile) -> None:
-        threads.append(threading.current_thread())
-        time.sleep(0.05)
-        path.write_text(str(given.gains["jawOpen"]))
+        begun.set()
+        assert disk.wait(20)
+        gains.append(given.gains["jawOpen"])
 
     monkeypatch.setattr(keeper, "write_profile", write)
-    kept = ProfileKeeper(tmp_path / "anna.toml", pytest.fail, pause_s=0.1)
-    longest_s = 0.0
+    kept = ProfileKeeper(tmp_path / "anna.toml", pytest.fail, pause_s=0.01)
+    kept.keep(profile(0.5))
+    assert begun.wait(20)
     for step in range(100):
-        since_s = time.monotonic()
         kept.keep(profile(step / 100))
-        longest_s = max(longest_s, time.monotonic() - since_s)
-        time.sleep(0.002)
+    assert gains == []
+    disk.set()
     kept.close()
-    assert (tmp_path / "anna.toml").read_text() == "0.99"
-    assert 1 <= len(threads) <= 10
-    assert threading.current_thread() not in threads
-    assert longest_s < 0.05
+    assert gains == [0.5, 0.99]
 
 
 def test_what_changed_just_before_the_end_is_written(tmp_path: Path):
