@@ -63,9 +63,8 @@ def janus(port: int, folder: Path) -> Iterator[subprocess.Popen]:
     settings = folder / f"janus-{port}"
     settings.mkdir(exist_ok=True)
     for file in sorted((ROOT / "containers" / "room" / "janus").glob("*.jcfg")):
-        text = file.read_text(encoding="utf-8")
-        for before, after in (("8188", str(port)), ("API_SECRET", API_SECRET)):
-            text = text.replace(before, after)
+        text = file.read_text(encoding="utf-8").replace("8188", str(port))
         (settings / file.name).write_text(text, encoding="utf-8")
-    with started("janus", "--configs-folder", str(settings), port=port) as process:
+    command = ("janus", "--configs-folder", str(settings), "--apisecret", API_SECRET)
+    with started(*command, port=port) as process:
         yield process

@@ -1,0 +1,147 @@
+"""What containers/room starts, started here by the real programs: the recipes were written where no container runs."""
+
+import asyncio
+import re
+import shutil
+import subprocess
+import time
+from contextlib import suppress
+from pathlib import Path
+
+import aiohttp
+import pytest
+import typer
+import yaml
+
+from room.cli import app
+from room.protocol.texts import Left
+from room.server import load_keys
+from room.server.turn import Relays
+from tests.room.engines import free_port, needs_redis, redis, started
+from tests.room.guests import Place
+from tests.room.test_chaos import server
+
+ROOM = Path(__file__).resolve().parents[2] / "containers" / "room"
+COMPOSE = yaml.safe_load((ROOM / "compose.yaml").read_text(encoding="utf-8"))
+SERVICES = COMPOSE["services"]
+
+
+def test_every_file_that_compose_names_is_there():
+    for service in SERVICES.values():
+        recipe = (ROOM / service["build"]["context"] / service["build"]["dockerfile"]).resolve()
+        for line in recipe.read_text(encoding="utf-8").splitlines():
+            if line.startswith("COPY "):
+                for source in line.split()[1:-1]:
+                    assert (ROOM.parents[1] / source).exists(), source
+        for secret in service.get("secrets", ()):
+            assert secret in COMPOSE["secrets"]
+        command = " ".join(service["command"])
+        assert set(re.findall(r"/run/secrets/(\w+)", command)) == set(service.get("secrets", ()))
+        for name in re.findall(r"/etc/room/([\w./]+)", command):
+            assert (ROOM / name).exists(), name
+
+
+def test_compose_starts_a_server_of_rooms_with_options_that_it_has():
+    serve = typer.main.get_command(app).commands["serve"]
+    known = {option for parameter in serve.params for option in parameter.opts}
+    for name in ("room-1", "room-2"):
+        subcommand, *options = SERVICES[name]["command"]
+        assert subcommand == "serve"
+        assert {option.partition("=")[0] for option in options} <= known
+    addresses = " ".join(SERVICES["room-1"]["command"])
+    assert all(host in SERVICES for host in re.findall(r"=(?:redis|ws)://(\w+):", addresses))
+
+
+def test_ports_that_are_published_are_those_of_the_settings():
+    janus = (ROOM / "janus" / "janus.jcfg").read_text()
+    assert re.search(r'rtp_port_range = "([\d-]+)"', janus)[1] in SERVICES["janus"]["ports"][0]
+    coturn = dict(
+        line.split("=", 1) for line in (ROOM / "turnserver.conf").read_text().splitlines() if "-port=" in line
+    )
+    assert f"{coturn['min-port']}-{coturn['max-port']}:" in SERVICES["coturn"]["ports"][2]
+    assert coturn["listening-port"] + ":" in SERVICES["coturn"]["ports"][0]
+    assert "ports" not in SERVICES["redis"], "Redis has no door to the outside"
+    assert not any("8188" in port for port in SERVICES["janus"]["ports"]), "nor has what commands Janus"
+
+
+@needs_redis
+def test_redis_starts_as_compose_starts_it():
+    port = free_port()
+    with started(*SERVICES["redis"]["command"], "--port", str(port), port=port):
+        pass
+
+
+@pytest.mark.skipif(shutil.which("turnserver") is None, reason="needs coturn (Debian: coturn)")
+def test_a_running_coturn_takes_the_credentials_of_a_page_and_no_others(tmp_path):
+    """With the settings that stand here; and it passes nothing on to machines of private networks."""
+    port = free_port()
+    here = ("--listening-ip", "127.0.0.1", "--relay-ip", "127.0.0.1", "--listening-port", str(port))
+    files = ("--pidfile", f"{tmp_path}/pid", "--userdb", f"{tmp_path}/users", "--log-file", f"{tmp_path}/log")
+    settings = ("-c", str(ROOM / "turnserver.conf"), "--static-auth-secret", "north")
+    relay = Relays(turn=("turn:b:2",), secret="north").servers("ada", now_s=time.time())[0]
+
+    def client(password: str) -> str:
+        command = ("turnutils_uclient", "-p", str(port), "-u", relay.username, "-w", password)
+        with suppress(subprocess.TimeoutExpired):
+            done = subprocess.run(
+                [*command, "-n", "1", "-c", "-y", "127.0.0.1"], capture_output=True, text=True, timeout=20
+            )
+            return done.stdout + done.stderr
+        return ""
+
+    with started("turnserver", *settings, *here, *files, port=port):
+        taken, refused = client(relay.credential), client("guess")
+    assert "Cannot complete Allocation" not in taken
+    assert "channel bind: error 403 (Forbidden IP)" in taken
+    assert "Cannot complete Allocation" in refused
+
+
+@pytest.mark.slow
+@needs_redis
+@pytest.mark.skipif(
+    not (shutil.which("haproxy") and shutil.which("openssl")), reason="needs haproxy and openssl (Debian)"
+)
+def test_whose_server_is_killed_comes_back_at_the_same_address(tmp_path):
+    """HAProxy with the settings that stand here, two servers by https, Redis: one server is killed."""
+    ports, wire, front = [free_port(), free_port()], free_port(), free_port()
+    made = ("openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes")
+    files = ("-out", tmp_path / "cert.pem", "-keyout", tmp_path / "key.pem")
+    subprocess.run([*made, "-days", "1", "-subj", "/CN=localhost", *files], check=True, capture_output=True)
+    options = ("--cert", str(tmp_path / "cert.pem"), "--key", str(tmp_path / "key.pem"))
+    settings = (ROOM / "haproxy.cfg").read_text().replace("bind :8443", f"bind 127.0.0.1:{front}")
+    for number, port in enumerate(ports, 1):
+        settings = settings.replace(f"room-{number}:8443", f"127.0.0.1:{port}")
+    (tmp_path / "haproxy.cfg").write_text(settings)
+
+    async def run(first: subprocess.Popen) -> None:
+        place = Place(f"https://127.0.0.1:{front}", load_keys(tmp_path / "room.keys"))
+        await place.session.close()
+        place.session = aiohttp.ClientSession(connector=aiohttp.TCPConnector(ssl=False))
+        north, south = (Place(f"https://127.0.0.1:{port}", place.keys) for port in ports)
+        for straight in (north, south):
+            await straight.session.close()
+            straight.session = place.session
+        ada, ben = await north.guest(), await south.guest(name="Ben")  # the first is killed
+        await ada.move(floor_m=(3.0, 4.0))
+        await ben.until(lambda: ada.number in ben.states)
+        first.kill()
+        await ada.end()
+        start = time.monotonic()
+        again = None
+        while again is None:
+            with suppress(aiohttp.ClientError):
+                again = await place.guest(secret=ada.secret)
+        print(f"back after {time.monotonic() - start:.1f} s")
+        assert time.monotonic() - start < 4
+        assert again.number == ada.number
+        assert not ben.all(Left)
+        await place.session.close()
+
+    with (
+        redis(wire),
+        server(tmp_path, ports[0], "--redis", f"redis://127.0.0.1:{wire}/0", *options) as first,
+        server(tmp_path, ports[1], "--redis", f"redis://127.0.0.1:{wire}/0", *options),
+        started("haproxy", "-f", str(tmp_path / "haproxy.cfg"), port=front),
+    ):
+        time.sleep(2.5)  # until HAProxy has seen both
+        asyncio.run(run(first))
