@@ -11,6 +11,8 @@ import numpy as np
 from PIL import Image
 
 from facegen.conventions import BLENDSHAPES, MIRRORED_LANDMARKS, Part
+from facegen.preview.looks import draw_look
+from facegen.preview.person import dressed_person
 from facegen.preview.portraits import portrait
 from facegen.rigs import Rig, evaluate, eye_centers, load_rig, neutral_landmarks
 from facegen.rigs.anny import PEOPLE, SEED, draw_heads
@@ -19,8 +21,10 @@ from facegen.sampling.people import People, draw_people
 from facegen.spec import parse_spec
 
 OUT = Path(__file__).resolve().parents[1] / "pictures" / "people.jpg"
-COLUMNS, ROWS, STEP_M = 8, 6, 0.85e-3
-WINDOW_M = (-0.115, 0.110, 0.115, -0.130)
+COLUMNS, ROWS, STEP_M = 8, 6, 1.4e-3
+WINDOW_M = (-0.121, 0.159, 0.121, -0.149)
+FINER = 2
+"""Pictures are drawn so many times finer, and averaged: hair is finer than a pixel."""
 MEASURES = ("interpupillary distance", "face width", "face height", "mouth width", "nose length")
 PUBLISHED = {  # mean and standard deviation in mm, women, men and both: NIOSH 2003, see docs/population.md
     "interpupillary distance": ((63.14, 3.98), (65.07, 3.80), (64.37, 3.97)),
@@ -104,16 +108,36 @@ def print_tables(rig: Rig) -> None:
 def draw_sheet(rig: Rig) -> None:
     """Write `OUT`: neutral faces of the first people, heads turned by 20 degrees in every other one."""
     count = COLUMNS * ROWS
-    identity, gaze = people(rig).identity[:count], np.tile((0.0, 0.0, 1.0), (count, 2, 1))
+    drawn, gaze = people(rig), np.tile((0.0, 0.0, 1.0), (count, 2, 1))
+    identity = drawn.identity[:count]
     cells = []
     for i in range(count):
         face = evaluate(rig, identity[i : i + 1], np.zeros((1, len(BLENDSHAPES))), gaze[i : i + 1])
-        drawn = portrait(
-            rig, face, 0, gaze[i], yaw_deg=(-20, 0, 0, 20)[i % 4], window_m=WINDOW_M, step_m=STEP_M
+        look = draw_look(
+            i,
+            female=bool(drawn.female[i]),
+            age_years=float(drawn.age_years[i]),
+            ancestry=drawn.ancestry[i],
         )
-        cells.append(np.round(255 * np.clip(drawn.picture, 0, 1)).astype(np.uint8))
+        yaw_deg = (-20, 0, 0, 20)[i % 4]
+        aside = 0.09 * np.sin(np.radians(yaw_deg))  # the head's middle, which lies behind the eyes
+        picture = portrait(
+            rig,
+            face,
+            0,
+            gaze[i],
+            yaw_deg=yaw_deg,
+            window_m=(WINDOW_M[0] + aside, WINDOW_M[1], WINDOW_M[2] + aside, WINDOW_M[3]),
+            step_m=STEP_M / FINER,
+            person=dressed_person(rig, identity[i], look),
+        ).picture
+        high, wide = (size // FINER for size in picture.shape[:2])
+        picture = (
+            picture[: high * FINER, : wide * FINER].reshape(high, FINER, wide, FINER, 3).mean(axis=(1, 3))
+        )
+        cells.append(np.round(255 * picture).astype(np.uint8))
     sheet = np.reshape(cells, (ROWS, COLUMNS, *cells[0].shape)).transpose(0, 2, 1, 3, 4)
-    Image.fromarray(sheet.reshape(ROWS * cells[0].shape[0], -1, 3)).save(OUT, quality=88)
+    Image.fromarray(sheet.reshape(ROWS * cells[0].shape[0], -1, 3)).save(OUT, quality=84)
 
 
 def print_basis(wheel: Path, *, others: int = 300) -> None:

@@ -14,6 +14,7 @@ from facegen.avatars.skin import OUTSIDE, chart
 from facegen.conventions import LANDMARK_GROUPS, Part
 from facegen.raster import nearest_triangles, triangles_of
 from facegen.raster.z_buffer import barycentric
+from facegen.rigs import Rig
 
 PICTURE_PX = 1024
 SHADOW_VIEWS = 48
@@ -58,7 +59,7 @@ def paint_skin(
     shadow = _shadows(shapes.neutral, triangles, shapes.normals)
     light = np.einsum("nk,nk->n", share, shadow[corner])
     lips = _blurred(of_lips[number], row, column, size)
-    colour = _tones(point, lips, light, shapes, look, style, rng)
+    colour = skin_tones(point, lips, light, look, style, rig=rig, neutral=shapes.neutral, rng=rng)
     picture = np.zeros((size, size, 3))
     picture[row, column] = colour
     nearest = ndimage.distance_transform_edt(drawn.triangle < 0, return_distances=False, return_indices=True)
@@ -71,17 +72,33 @@ def _blurred(inside: np.ndarray, row: np.ndarray, column: np.ndarray, size: int)
     return cv2.GaussianBlur(mask, (0, 0), size / 1024 * 2.2)[row, column]
 
 
-def _tones(
+def skin_tones(
     point: np.ndarray,
     lips: np.ndarray,
     light: np.ndarray,
-    shapes: FaceShapes,
     look: Complexion,
     style: HairStyle,
+    *,
+    rig: Rig,
+    neutral: np.ndarray,
     rng: np.random.Generator,
 ) -> np.ndarray:
-    """Colours (n, 3) of places (n, 3) on the skin."""
-    marks = shapes.landmarks()
+    """Colours (n, 3), sRGB about 0 to 1, of places on a head's skin.
+
+    Parameters
+    ----------
+    point
+        (n, 3) places, metres in the head frame.
+    lips, light
+        (n,) share of the lips' red there, and of the sky's light that comes there.
+    look, style
+        Whose skin, and the hair that it bears.
+    rig, neutral
+        The rig, and the head's vertices (V, 3).
+    rng
+        Draws the spots.
+    """
+    marks = np.einsum("ln,lnc->lc", rig.landmark_weights, neutral[rig.landmark_vertices])
     skin = np.array(look.skin)
 
     def near(middle: np.ndarray, reach_m: float, flat: tuple[float, float, float] = (1, 1, 1)) -> np.ndarray:
@@ -118,7 +135,7 @@ def _tones(
     if look.beard > 0.0:
         colour *= 1.0 - look.beard * _beard(point, marks, pores)[:, None] * [0.20, 0.17, 0.12]
     colour = _paint_lips(colour, point, lips, marks, look, noise(point * [1.0, 0.12, 0.3], 1.5e-3, rng, 28))
-    rim = _lid_line(point, shapes)
+    rim = _lid_line(point, rig, neutral)
     colour *= 1.0 - rim[:, None] * [0.55, 0.62, 0.62]
     # folds: light that comes back from skin is red
     colour *= 1.0 - (1.0 - light[:, None]) * [0.42, 0.55, 0.58]
@@ -154,17 +171,16 @@ def _beard(point: np.ndarray, marks: np.ndarray, pores: np.ndarray) -> np.ndarra
     return below * inside * np.clip((point[:, 2] + 0.09) / 0.03, 0, 1) * (0.8 + 0.35 * pores)
 
 
-def _lid_line(point: np.ndarray, shapes: FaceShapes) -> np.ndarray:
+def _lid_line(point: np.ndarray, rig: Rig, neutral: np.ndarray) -> np.ndarray:
     """Share (n,) of the dark line that roots of lashes draw along the lids, stronger on the upper ones."""
     line = np.zeros(len(point))
-    rig = shapes.rig
     for eye in range(2):
         near = np.linalg.norm(point - rig.eye_center[eye], axis=1) < 0.032
         for margin, strength, reach in (
             (rig.upper_lid[eye], 0.85, 0.8e-3),
             (rig.lower_lid[eye], 0.35, 0.6e-3),
         ):
-            path = shapes.neutral[margin]
+            path = neutral[margin]
             dense = np.concatenate([a + (b - a) * np.linspace(0, 1, 8)[:, None] for a, b in pairwise(path)])
             along = np.linspace(0.0, 1.0, len(dense))
             gap = np.linalg.norm(point[near][:, None] - dense, axis=-1)

@@ -7,13 +7,20 @@ import cv2
 import numpy as np
 
 from facegen.errors import InputError
+from facegen.preview.looks import Look, draw_look
+from facegen.preview.person import dressed_person
 from facegen.preview.portraits import portrait
 from facegen.rigs import Rig, evaluate
 from facegen.sampling.gaze import axes_from_weights
+from facegen.sampling.people import people_of
 from facegen.store import Dataset, column_array
 
-WINDOW_M = (-0.115, 0.115, 0.115, -0.145)
-"""Left, top, right and bottom of the pictures: room for a head that turns."""
+WINDOW_M = (-0.150, 0.165, 0.150, -0.150)
+"""Left, top, right and bottom of the pictures: room for a head with hair that turns."""
+FACE_M = (-0.088, 0.072, 0.088, -0.114)
+"""The same of pictures in which a mouth is large enough to be read."""
+SOMEBODY = draw_look(3, female=True, ancestry=np.array([0.0, 0.0, 1.0]))
+"""Who plays weights of nobody that a dataset knows."""
 _SEEN, _HIDDEN = (0, 64, 255), (255, 255, 255)
 
 
@@ -37,6 +44,8 @@ class Performance:
         (n,) seconds.
     title
         What it is.
+    look
+        Whose colours and hair.
     """
 
     rig: Rig
@@ -46,6 +55,7 @@ class Performance:
     rotation: np.ndarray
     time_s: np.ndarray
     title: str
+    look: Look = SOMEBODY
 
     @property
     def fps(self) -> float:
@@ -77,7 +87,7 @@ class Performance:
         if not len(index):
             raise InputError(f"{self.title}: --frames chooses none of its {len(self.time_s)} frames")
         kept = {name: getattr(self, name)[index] for name in ("weights", "gaze", "rotation", "time_s")}
-        return Performance(rig=self.rig, identity=self.identity, title=self.title, **kept)
+        return Performance(rig=self.rig, identity=self.identity, title=self.title, look=self.look, **kept)
 
 
 def clip_of_dataset(dataset: Dataset, clip: int) -> Performance:
@@ -106,7 +116,19 @@ def clip_of_dataset(dataset: Dataset, clip: int) -> Performance:
         rotation=np.diag([1.0, -1.0, -1.0])
         @ head_in_camera,  # from OpenCV's camera back to y up, z to the viewer
         time_s=column_array(table, "time_s"),
+        look=_look_of(dataset, int(person)),
         title=f"clip {clip}: {kind}, person {person}, session {session}",
+    )
+
+
+def _look_of(dataset: Dataset, person: int) -> Look:
+    """Colours that go with a person of a dataset."""
+    drawn = people_of(dataset.spec, dataset.rigs[0], np.array([person]))
+    return draw_look(
+        person,
+        female=bool(drawn.female[0]),
+        age_years=float(drawn.age_years[0]),
+        ancestry=drawn.ancestry[0],
     )
 
 
@@ -132,9 +154,16 @@ def play_weights(rig: Rig, weights: np.ndarray, time_s: np.ndarray, *, title: st
     )
 
 
-def pictures(performance: Performance, *, height_px: int, landmarks: bool = True) -> Iterator[np.ndarray]:
+def pictures(
+    performance: Performance,
+    *,
+    height_px: int,
+    landmarks: bool = True,
+    window_m: tuple[float, float, float, float] = WINDOW_M,
+) -> Iterator[np.ndarray]:
     """RGB pictures (height, width, 3) uint8 of every frame, width and height even."""
-    step_m = (WINDOW_M[1] - WINDOW_M[3]) / height_px
+    step_m = (window_m[1] - window_m[3]) / height_px
+    person = dressed_person(performance.rig, performance.identity, performance.look)
     for row in range(len(performance.weights)):
         one = slice(row, row + 1)
         face = evaluate(
@@ -146,8 +175,9 @@ def pictures(performance: Performance, *, height_px: int, landmarks: bool = True
             0,
             performance.gaze[row],
             rotation=performance.rotation[row],
-            window_m=WINDOW_M,
+            window_m=window_m,
             step_m=step_m,
+            person=person,
         )
         picture = np.ascontiguousarray(np.round(drawn.picture * 255).astype(np.uint8))
         picture = picture[

@@ -7,6 +7,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, Part
 from facegen.geometry import rotation_from_angles
+from facegen.preview.person import Person, draw_person
 from facegen.raster import Nearest, faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import IRIS_RADIUS_M, lid_support_radius
@@ -25,6 +26,8 @@ COLOURS = {
     Part.EYE_CAVITY: (0.55, 0.30, 0.30),
     Part.HEADSET: (0.36, 0.38, 0.44),
 }
+SHEET_M = (-0.120, 0.165, 0.120, -0.135)
+"""Window of `draw_portraits`: the whole head, and room for a title above it."""
 HIDDEN_M = 4e-3
 """A landmark this far behind what is drawn is hidden; jaw points on the silhouette lie a little behind it."""
 
@@ -105,6 +108,7 @@ def portrait(
     rotation: np.ndarray | None = None,
     window_m: tuple[float, float, float, float] = (-0.100, 0.085, 0.100, -0.125),
     step_m: float = 0.5e-3,
+    person: Person | None = None,
 ) -> Portrait:
     """Draw one evaluated face (with all its vertices) for a distant viewer.
 
@@ -120,20 +124,42 @@ def portrait(
         Left, top, right and bottom of the picture, in the head turned towards the viewer.
     step_m
         Size of a pixel.
+    person
+        Colours and hair; without, parts have the plain colours of figures.
     """
     turn = rotation_from_angles(np.radians(yaw_deg), np.radians(pitch_deg), 0.0)
     if rotation is not None:
         turn = rotation.T
     vertices, triangles, part = drawn_mesh(rig, faces, index, gaze)
-    vertices = vertices @ turn
     left, top, right, bottom = window_m
     shape = (round((top - bottom) / step_m), round((right - left) / step_m))
-    depth = nearest_along_z(vertices, triangles, origin=np.array([left, top]), step=step_m, shape=shape)
+    if person is None:
+        vertices = vertices @ turn
+        near = nearest_along_z(vertices, triangles, origin=np.array([left, top]), step=step_m, shape=shape)
+        picture, depth = shade(vertices, triangles, part, near), near.value
+    else:
+        picture, depth = draw_person(
+            person,
+            (vertices, triangles, part),
+            _off_axis_m(vertices[len(rig.vertices) :], faces.eye_center[index], gaze),
+            turn=turn,
+            corner_m=(left, top),
+            step_m=step_m,
+            shape=shape,
+        )
     points = faces.landmarks[index] @ turn
     pixels = np.stack([(points[:, 0] - left) / step_m, (top - points[:, 1]) / step_m], axis=-1)
     column, row = np.clip(np.round(pixels).astype(int), 0, np.array(shape[::-1]) - 1).T
-    seen = points[:, 2] > depth.value[row, column] - HIDDEN_M
-    return Portrait(picture=shade(vertices, triangles, part, depth), landmarks=pixels, seen=seen)
+    seen = points[:, 2] > depth[row, column] - HIDDEN_M
+    return Portrait(picture=picture, landmarks=pixels, seen=seen)
+
+
+def _off_axis_m(vertices: np.ndarray, centers: np.ndarray, gaze: np.ndarray) -> np.ndarray:
+    """Distance of both eyeballs' vertices (n, 3), one after the other, from their eyes' axes."""
+    halves = vertices.reshape(2, -1, 3) - centers[:, None]
+    along = np.einsum("enc,ec->en", halves, gaze)
+    away = np.linalg.norm(halves - along[..., None] * gaze[:, None], axis=-1)
+    return np.where(along > 0.0, away, 1.0).ravel()
 
 
 def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
@@ -160,12 +186,14 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
     identity[0] = 0.0
     gaze = np.tile((0.0, 0.0, 1.0), (people, 2, 1))
     faces = evaluate(rig, identity, np.zeros((people, len(BLENDSHAPES))), gaze)
-    figure = Figure(figsize=(3.75 * len(VIEWS_DEG), 3.9375 * people), dpi=100)  # pixels match the file's
+    figure = Figure(figsize=(3.75 * len(VIEWS_DEG), 4.6875 * people), dpi=100)  # pixels match the file's
     canvas = FigureCanvasAgg(figure)
     for person in range(people):
         for column, (view, yaw) in enumerate(VIEWS_DEG.items()):
             axes = figure.add_axes((column / 3, 1 - (person + 1) / people, 1 / 3, 1 / people))
-            drawn = portrait(rig, faces, person, gaze[person], yaw_deg=yaw, step_m=0.2 / 375)
+            drawn = portrait(
+                rig, faces, person, gaze[person], yaw_deg=yaw, window_m=SHEET_M, step_m=0.24 / 375
+            )
             axes.imshow(drawn.picture, interpolation="nearest")
             axes.plot(*drawn.landmarks[drawn.seen].T, ".", color="#0040ff", markersize=3)
             axes.plot(*drawn.landmarks[~drawn.seen].T, ".", color="#ffffff", markersize=2)
@@ -176,6 +204,6 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
                 )
             axes.set_axis_off()
             if person == 0:
-                axes.set_title(view, y=0.95, fontsize=9)
+                axes.set_title(view, y=0.955, fontsize=9)
     with whole_file(out) as part:
         canvas.print_png(str(part), metadata={"Software": None})

@@ -49,6 +49,7 @@ def contact_sheet(
         name: column_array(table, name) for name in ("sample", "points_2d", "visibility", "weights", "person")
     }
     row_of = {int(sample): row for row, sample in enumerate(keypoints["sample"])}
+    columns = max(1, min(columns, len(numbers)))
     cells = len(views) + 2
     lines = -(-len(numbers) // columns)
     size = cells * columns * _CELL_INCHES, lines * _CELL_INCHES

@@ -36,7 +36,7 @@ def test_a_face_stays_as_it_was_where_a_row_has_no_weights(opening):
 def test_pictures_show_the_jaw_opening_and_the_landmarks_on_it(opening):
     shut, _, _, wide = pictures(opening, height_px=120, landmarks=False)
     assert shut.dtype == np.uint8
-    assert shut.shape == (120, 106, 3)
+    assert shut.shape == (120, 114, 3)
     change = np.abs(shut.astype(int) - wide).sum(axis=2) > 60
     rows = np.flatnonzero(change.any(axis=1))
     assert rows.min() > 60  # the lower half of the face alone

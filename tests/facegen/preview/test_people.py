@@ -1,0 +1,67 @@
+"""Previewed people differ, have their whole heads in the picture, and mouths that can be read."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from facegen.avatars.hair import STYLES
+from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.preview.looks import MENS_HAIR, WOMENS_HAIR, draw_look
+from facegen.preview.performance import FACE_M, WINDOW_M, pictures, play_weights
+from facegen.preview.person import PAPER
+
+PAPER_RGB = np.round(255 * np.array(PAPER))
+
+
+def drawn(rig, look, window_m=WINDOW_M, **weights: float) -> np.ndarray:
+    values = np.zeros((1, 52))
+    for name, weight in weights.items():
+        values[0, BLENDSHAPE_INDEX[name]] = weight
+    played = replace(play_weights(rig, values, np.zeros(1), title=""), look=look)
+    (picture,) = pictures(played, height_px=120, landmarks=False, window_m=window_m)
+    return picture.astype(float)
+
+
+def test_looks_differ_and_repeat():
+    looks = [draw_look(number) for number in range(48)]
+    assert looks == [draw_look(number) for number in range(48)]
+    skins = np.array([look.colours.skin for look in looks])
+    assert skins.mean(axis=1).std() > 0.1  # from dark to fair
+    assert len({look.colours.iris for look in looks}) > 3
+    assert len({look.colours.hair for look in looks}) > 8
+    assert {look.hair for look in looks} == {*WOMENS_HAIR, *MENS_HAIR} <= {*STYLES, "bald"}
+
+
+@pytest.mark.parametrize(("ancestry", "low", "high"), [((1, 0, 0), 0.2, 0.42), ((0, 0, 1), 0.55, 0.92)])
+def test_skin_goes_with_ancestry(ancestry, low, high):
+    for number in range(20):
+        assert low < np.mean(draw_look(number, ancestry=np.array(ancestry)).colours.skin) < high
+
+
+@pytest.mark.parametrize("seed", [0, 3])
+def test_a_picture_holds_the_whole_head(anny, seed):
+    picture = drawn(anny, draw_look(seed))
+    upper = picture[: len(picture) * 3 // 4]
+    for border in (picture[0], upper[:, 0], upper[:, -1]):
+        assert np.abs(border - PAPER_RGB).max() < 1.0
+    middle = picture[:, picture.shape[1] // 2]
+    assert (np.abs(middle - PAPER_RGB).max(axis=1) > 8).mean() > 0.7
+
+
+def test_hair_covers_the_head_and_no_eye(anny):
+    look = draw_look(3, female=True)
+    changed = np.abs(drawn(anny, look) - drawn(anny, replace(look, hair="bald"))).max(axis=2) > 12
+    top, eyes = changed[: len(changed) // 3], changed[len(changed) // 2 : len(changed) * 3 // 5]
+    assert top.mean() > 0.15
+    assert eyes[:, int(eyes.shape[1] * 0.38) : int(eyes.shape[1] * 0.62)].mean() < 0.02
+
+
+def test_a_strip_shows_a_mouth_twice_as_large(anny):
+    look = draw_look(3, female=True)
+
+    def moved(window_m) -> int:
+        still, spoken = (drawn(anny, look, window_m, jawOpen=weight) for weight in (0.0, 0.6))
+        return int((np.abs(still - spoken).max(axis=2) > 25).sum())
+
+    assert moved(FACE_M) > 2 * moved(WINDOW_M)
