@@ -2,6 +2,7 @@
 
 import typer
 
+from regress.cli.headset_adapt import adapt
 from regress.cli.headset_calibrate import calibrate
 from regress.cli.headset_check import check
 from regress.cli.headset_evaluate import evaluate
@@ -24,5 +25,6 @@ headset.command()(temporal)
 headset.command()(predict)
 headset.command()(check)
 headset.command()(calibrate)
+headset.command()(adapt)
 headset.command()(report)
 headset.command()(export)

@@ -5,14 +5,19 @@ from typing import Annotated
 
 import typer
 
+from regress.cli.headset_faces import (
+    BrowsUp,
+    Cheeks,
+    JawOpen,
+    LipsRolled,
+    Look,
+    Pucker,
+    Rest,
+    Shut,
+    Smile,
+    Wide,
+)
 from regress.errors import InputError
-
-
-def _face(asked: str) -> type:
-    return Annotated[
-        str | None,
-        typer.Option(metavar="FOLDER|FIRST-LAST", help=f"{asked}: a folder, or frames of the take."),
-    ]
 
 
 def calibrate(
@@ -22,16 +27,16 @@ def calibrate(
     out: Annotated[
         Path | None, typer.Option("--out", help="The person's file to write, for `predict --person`.")
     ] = None,
-    rest: _face("The face at rest, needed") = None,
-    shut: _face("Both eyes shut") = None,
-    wide: _face("Both eyes wide open") = None,
-    jaw_open: _face("The mouth as wide as it goes") = None,
-    lips_rolled: _face("Both lips rolled in") = None,
-    smile: _face("As broad a smile as can be") = None,
-    cheeks: _face("Both cheeks puffed") = None,
-    brows_up: _face("Brows as high as they go") = None,
-    pucker: _face("Lips as for a kiss") = None,
-    look: _face("Looking around, or at --looked-at") = None,
+    rest: Rest = None,
+    shut: Shut = None,
+    wide: Wide = None,
+    jaw_open: JawOpen = None,
+    lips_rolled: LipsRolled = None,
+    smile: Smile = None,
+    cheeks: Cheeks = None,
+    brows_up: BrowsUp = None,
+    pucker: Pucker = None,
+    look: Look = None,
     looked_at: Annotated[
         list[str] | None,
         typer.Option(

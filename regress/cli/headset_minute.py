@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 _RANGE = re.compile(r"(\d{1,18})-(\d{1,18})")
 
 
+_LABELLED = "labelled"
+"""Beside the faces: frames with a table of weights."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Minute:
     """A guided minute's frames.
@@ -31,11 +35,15 @@ class Minute:
         Pictures (n, h, w) by camera of the face at rest, as they were before; empty without it.
     notes
         What is wrong with cameras and pictures, a sentence each.
+    labels
+        Pictures by camera, levelled, and weights (m, 52) of frames of the take with a table of weights; NaN of shapes
+        that it has not.
     """
 
     takes: "dict[str, GuidedTake]"
     unlevelled: dict[str, np.ndarray]
     notes: tuple[str, ...]
+    labels: tuple[dict[str, np.ndarray], np.ndarray] | None = None
 
 
 def read_minute(
@@ -46,6 +54,7 @@ def read_minute(
     looked_at: Sequence[str] = (),
     bits: int | None = None,
     placement: "Mapping[str, CameraPlacement] | None" = None,
+    labels: Path | None = None,
 ) -> Minute:
     """Frames of each face in which every given camera has a picture.
 
@@ -55,6 +64,8 @@ def read_minute(
         By face what its option says: a folder, or ``FIRST-LAST`` of the take at ``paths``.
     looked_at
         ``FRAME:YAW:PITCH`` of frames of ``look``.
+    labels
+        CSV with weights of frames of the take.
 
     Raises
     ------
@@ -89,9 +100,16 @@ def read_minute(
         chosen &= footage.present[:, footage.given].all(axis=1)
         if not chosen.any():
             raise InputError(f"{option} {text}: no frame there has a picture of every camera")
-        given = [name for name, there in zip(footage.cameras, footage.given, strict=True) if there]
-        pictures[face] = {name: footage.pictures[name][chosen] for name in given}
+        pictures[face] = {name: frames[chosen] for name, frames in _given(footage).items()}
         numbers[face] = {int(number): row for row, number in enumerate(footage.numbers[chosen])}
+    known = None
+    if labels is not None:
+        if whole is None:
+            raise InputError(
+                f"--weights {labels} is of frames of a take; give it by --left-eye and the others"
+            )
+        rows, known = _labels(labels, whole)
+        pictures[_LABELLED] = {name: frames[rows] for name, frames in _given(whole).items()}
     tables = {}
     for name, looks in predictor.model.looks.items():
         seen = [frames[name] for frames in pictures.values() if name in frames]
@@ -116,7 +134,53 @@ def read_minute(
         )
         for face, shown in pictures.items()
     }
-    return Minute(takes=takes, unlevelled=pictures.get(REST, {}), notes=tuple(dict.fromkeys(notes)))
+    labelled = takes.pop(_LABELLED, None)
+    return Minute(
+        takes=takes,
+        unlevelled=pictures.get(REST, {}),
+        notes=tuple(dict.fromkeys(notes)),
+        labels=None if labelled is None else (dict(labelled.pictures), known),
+    )
+
+
+def _given(footage: "Footage") -> dict[str, np.ndarray]:
+    """Pictures of cameras that have any."""
+    return {
+        name: footage.pictures[name]
+        for name, there in zip(footage.cameras, footage.given, strict=True)
+        if there
+    }
+
+
+def _labels(path: Path, footage: "Footage") -> tuple[np.ndarray, np.ndarray]:
+    """Rows of the footage that a table of weights speaks of and that have all pictures, and their weights (m, 52)."""
+    from facegen.conventions import BLENDSHAPES
+    from facegen.formats.csv_rows import CsvRows, numbers_in
+
+    found = {}
+    with CsvRows(path) as table:
+        shapes = [name for name in BLENDSHAPES if name in table.columns]
+        if "frame" not in table.columns or not shapes:
+            raise InputError(f"--weights {path}: a column frame and columns of ARKit's names are needed")
+        columns = [table.columns[name] for name in ("frame", *shapes)]
+        for row in table:
+            try:
+                number, *values = numbers_in(row, columns)
+            except ValueError as error:
+                raise InputError(f"--weights {path}: a cell is not a number ({error})") from error
+            if np.isfinite([number, *values]).all() and min(values) >= 0 and max(values) <= 1:
+                found[number] = values
+    usable = footage.present[:, footage.given].all(axis=1)
+    rows = [row for row, number in enumerate(footage.numbers) if usable[row] and float(number) in found]
+    if not rows:
+        raise InputError(
+            f"--weights {path}: no frame of {footage.source} has weights from 0 to 1 there and all pictures"
+        )
+    weights = np.full((len(rows), len(BLENDSHAPES)), np.nan)
+    weights[:, [BLENDSHAPES.index(name) for name in shapes]] = [
+        found[float(footage.numbers[row])] for row in rows
+    ]
+    return np.array(rows), weights
 
 
 def _cameras_in(folder: Path, predictor: "HeadsetPredictor", option: str) -> dict[str, Path]:

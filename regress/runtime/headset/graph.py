@@ -182,6 +182,18 @@ class HeadsetGraph:
         estimates = Estimates(**dict(zip(names, arrays[:count], strict=True)))
         return estimates, dict(zip(cameras, arrays[count:], strict=True))
 
+    def read(
+        self,
+        values: Sequence[str],
+        pictures: dict[str, np.ndarray],
+        *,
+        neutral: dict[str, np.ndarray] | None = None,
+    ) -> tuple[Estimates, list[np.ndarray]]:
+        """What `run` says, and other outputs of a graph that has more than model.json tells."""
+        names = [name for name in GRAPH_OUTPUTS if name in self._outputs]
+        arrays = self._run([*names, *values], pictures, neutral, None, None)
+        return Estimates(**dict(zip(names, arrays[: len(names)], strict=True))), arrays[len(names) :]
+
     def trace(self, pictures: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Pixels (n, P, 2) float32 of the points that each of these cameras traces; see ``HeadsetModel.points``.
 
@@ -243,7 +255,9 @@ class HeadsetGraph:
     def _check_answers(self, answers: Mapping[str, np.ndarray], *, rows: int) -> None:
         """Refuse answers of other shapes than model.json's: what a graph declares it need not keep."""
         for name, answer in answers.items():
-            shape = [rows if side == _FRAMES else side for side in self._shapes.get(name, ())]
+            if name not in self._shapes:  # asked for by `read`
+                continue
+            shape = [rows if side == _FRAMES else side for side in self._shapes[name]]
             if len(shape) != answer.ndim or not _fits(answer.shape, shape) or answer.dtype != np.float32:
                 raise ModelError(
                     f"network.onnx answers with {name} of {answer.dtype} {list(answer.shape)}; model.json makes it "

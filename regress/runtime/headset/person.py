@@ -34,9 +34,10 @@ MOST_PERSON_BYTES = 2**24
 MOST_PICTURE_CHARACTERS = 2**18
 """Of one neutral picture in base64: 400 x 400 grey levels that do not compress take 213,000."""
 
-FULL_GAIN = 2.0
-"""Most by which a range is stretched: beyond it what is stretched is noise (regress.learning.training.gain). Lids are
-not held to it, for how noisy a blink reads is measured."""
+FULL_GAIN = 1.3
+"""Most by which a range is stretched: a network reads low what it does not see well, and a stretched guess is still a
+guess. On eight rendered people 1.3 gives back the 2.5 % that a rest of 0 gains, and 2 loses 5 % (docs/measurements/
+headset-networks.md). Lids are not held to it, for how noisy a blink reads is measured."""
 
 LEAST_SPAN = 0.15
 """Between readings of rest and of a full movement, below which the network does not see it, or it was not made."""

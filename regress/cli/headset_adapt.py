@@ -1,0 +1,122 @@
+"""``regress headset adapt``: a model whose last layers know one person, where frames suffice."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regress.cli.headset_faces import (
+    BrowsUp,
+    Cheeks,
+    JawOpen,
+    LipsRolled,
+    Pucker,
+    Rest,
+    Shut,
+    Smile,
+    Wide,
+)
+from regress.errors import InputError
+
+
+def adapt(
+    model: Annotated[
+        str, typer.Argument(metavar="[MODEL]", help="Model folder, or a ready-made model's name.")
+    ] = "",
+    out: Annotated[Path | None, typer.Option("--out", help="Model folder to write.")] = None,
+    rest: Rest = None,
+    shut: Shut = None,
+    wide: Wide = None,
+    jaw_open: JawOpen = None,
+    lips_rolled: LipsRolled = None,
+    smile: Smile = None,
+    cheeks: Cheeks = None,
+    brows_up: BrowsUp = None,
+    pucker: Pucker = None,
+    weights: Annotated[
+        Path | None,
+        typer.Option(
+            "--weights",
+            help="CSV with true weights of frames of the take, as `predict` writes them: of a person who follows an "
+            "avatar whose weights are known.",
+        ),
+    ] = None,
+    camera: Annotated[
+        list[str] | None,
+        typer.Option("--camera", metavar="NAME=PATH", help="A camera's pictures or film of the take."),
+    ] = None,
+    left_eye: Annotated[
+        Path | None, typer.Option("--left-eye", help="Short for --camera left_eye=PATH.")
+    ] = None,
+    right_eye: Annotated[
+        Path | None, typer.Option("--right-eye", help="Short for --camera right_eye=PATH.")
+    ] = None,
+    mouth: Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")] = None,
+    placement: Annotated[
+        Path | None, typer.Option("--placement", help="TOML of `regress headset check`.")
+    ] = None,
+) -> None:
+    """Adapt a model's last layers to a person, where frames that were held out get better by it; refuse to else.
+
+    Faces are named as `regress headset calibrate` takes them; each is held out in turn. With --weights frames of the
+    take count too, held out in eight stretches. Calibrate again with the model that is written.
+
+    Example: regress headset adapt headset-tracking3 --rest minute/rest --shut minute/shut --out models/anna
+    """
+    from dataclasses import replace
+
+    import numpy as np
+
+    from facegen.console import say
+    from regress.cli.headset_input import camera_paths
+    from regress.cli.headset_minute import read_minute
+    from regress.learning.headset.adaptation import LEAST_GAIN, adapted_graph, changes, judge, read_heads
+    from regress.learning.headset.known_frames import known_frames
+    from regress.runtime.headset.folder import save_headset_model
+    from regress.runtime.headset.placement_file import read_placement
+    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.model import HEADSET as KIND
+    from regress.runtime.model import check_place
+    from regress.runtime.ready_made import HEADSET, model_folder
+
+    if out is None:
+        raise InputError("--out is needed: a folder for the person's model")
+    check_place(out, KIND)
+    predictor = load_headset_predictor(model or HEADSET)
+    given = {
+        "rest": rest,
+        "shut": shut,
+        "wide": wide,
+        "jaw_open": jaw_open,
+        "lips_rolled": lips_rolled,
+        "smile": smile,
+        "cheeks": cheeks,
+        "brows_up": brows_up,
+        "pucker": pucker,
+    }
+    short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
+    paths = camera_paths(
+        predictor, camera or [], {name: path for name, path in short.items() if path is not None}
+    )
+    minute = read_minute(
+        predictor,
+        {face: text for face, text in given.items() if text is not None},
+        paths,
+        placement={} if placement is None else read_placement(placement, predictor.sizes),
+        labels=weights,
+    )
+    for note in minute.notes:
+        say(note)
+    pictures, neutral, frames = known_frames(predictor, minute.takes, minute.labels)
+    graph = (model_folder(model or HEADSET) / "network.onnx").read_bytes()
+    heads = read_heads(graph, predictor.model, pictures, neutral)
+    held = judge(heads, frames)
+    said = f"known weights of held-out frames err by {held.before:.4f}, and by {held.after:.4f} when adapted"
+    if not held.better:
+        raise InputError(
+            f"{said}: not {100 * LEAST_GAIN:g} % better, so nothing is written; more frames with --weights may help"
+        )
+    change = changes(heads, frames, np.arange(len(frames.fold)), pull=held.pull)
+    training = replace(predictor.model.training, began_as=predictor.model.network_sha256)
+    save_headset_model(replace(predictor.model, training=training), adapted_graph(graph, heads, change), out)
+    say(f"{out}: {said}; `regress headset calibrate {out}` comes next")
