@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.cli import app
 from regress.errors import InputError
-from regress.runtime.headset.person import OwnEnds, OwnEye, Person, read_person, write_person
+from regress.runtime.headset.person import FULL_GAIN, OwnEnds, OwnEye, Person, read_person, write_person
 from regress.runtime.sample import EyeMeasures
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
@@ -42,11 +42,11 @@ def test_rest_reads_nothing_own_full_movements_read_one_and_order_stays(rest, sp
     moved = np.array([full.get(name, 1.0) for name in BLENDSHAPES])
     read = ends.apply(moved, eyes_of((0.0, 0.0)))
     span = moved - at_rest
-    whole = np.flatnonzero((span >= 0.5 * (1 - at_rest)) | np.isin(BLENDSHAPES, BLINKS))
+    whole = np.flatnonzero((span >= (1 - at_rest) / FULL_GAIN) | np.isin(BLENDSHAPES, BLINKS))
     np.testing.assert_allclose(read[whole], 1)
-    # ranges of less than half of what is left are stretched to twice at most
+    # shorter ranges are stretched by no more than that
     others = ~np.isin(BLENDSHAPES, BLINKS)
-    assert (read <= 2 * span / (1 - at_rest) + 1e-9)[others].all()
+    assert (read <= FULL_GAIN * span / (1 - at_rest) + 1e-9)[others].all()
     halfway = ends.apply((at_rest + moved) / 2, None)
     assert (halfway <= ends.apply(moved, None) + 1e-12).all()
 
