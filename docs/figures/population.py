@@ -10,12 +10,13 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from facegen.conventions import BLENDSHAPES, MIRRORED_LANDMARKS, Part
+from facegen.conventions import BLENDSHAPES, MIRRORED_LANDMARKS
 from facegen.preview.looks import draw_look
 from facegen.preview.person import dressed_person
 from facegen.preview.portraits import portrait
-from facegen.rigs import Rig, evaluate, eye_centers, load_rig, neutral_landmarks
+from facegen.rigs import Rig, evaluate, load_rig, measures_mm, neutral_landmarks
 from facegen.rigs.anny import PEOPLE, SEED, draw_heads
+from facegen.rigs.callipers import MEASURES
 from facegen.rigs.identity import principal_components
 from facegen.sampling.people import People, draw_people
 from facegen.spec import parse_spec
@@ -25,7 +26,6 @@ COLUMNS, ROWS, STEP_M = 8, 6, 1.4e-3
 WINDOW_M = (-0.121, 0.159, 0.121, -0.149)
 FINER = 2
 """Pictures are drawn so many times finer, and averaged: hair is finer than a pixel."""
-MEASURES = ("interpupillary distance", "face width", "face height", "mouth width", "nose length")
 PUBLISHED = {  # mean and standard deviation in mm, women, men and both: NIOSH 2003, see docs/population.md
     "interpupillary distance": ((63.14, 3.98), (65.07, 3.80), (64.37, 3.97)),
     "face width": ((136.24, 6.53), (143.90, 6.86), (141.11, 7.68)),
@@ -35,36 +35,6 @@ PUBLISHED = {  # mean and standard deviation in mm, women, men and both: NIOSH 2
 }
 ONE_PERCENT = 2.3263
 """Standard deviations from the mean to the 1st and 99th percentile of a normal distribution."""
-
-
-ARCH_M, ROOT_M = (-0.037, -0.010), 0.015
-"""Where along z callipers find the cheekbones' arches, the further end half way from the eye's corner to the ear;
-and how far above and below the eyes the nose's root may lie."""
-
-
-def measures_mm(rig: Rig, identity: np.ndarray) -> dict[str, np.ndarray]:
-    """What callipers would measure on neutral faces, by `MEASURES`, (n,) each."""
-    points, eyes = 1e3 * neutral_landmarks(rig, identity), 1e3 * eye_centers(rig, identity)
-    skin = np.unique(rig.faces[np.isin(rig.part, (Part.SKIN, Part.BROWS))])
-    x, y, z = rig.vertices[skin].T
-    root = _skin_mm(rig, identity, skin[(np.abs(x) < 5e-4) & (np.abs(y) < ROOT_M) & (z > 0)])
-    sellion = root[np.arange(len(root)), np.argmin(root[..., 2], axis=1)]
-    level = (y < 0) & (y > 1e-3 * points[:, 33, 1].mean())
-    cheeks = _skin_mm(rig, identity, skin[level & (z > ARCH_M[0]) & (z < ARCH_M[1])])[..., 0]
-    values = (
-        eyes[:, 0, 0] - eyes[:, 1, 0],
-        cheeks.max(axis=1) - cheeks.min(axis=1),
-        np.linalg.norm(sellion - points[:, 8], axis=1),
-        np.linalg.norm(points[:, 48] - points[:, 54], axis=1),
-        np.linalg.norm(sellion - points[:, 33], axis=1),
-    )
-    return dict(zip(MEASURES, values, strict=True))
-
-
-def _skin_mm(rig: Rig, identity: np.ndarray, vertices: np.ndarray) -> np.ndarray:
-    """Positions (n, v, 3) of some of the neutral faces' vertices, away from the lids."""
-    moved = identity @ rig.identity[:, vertices].reshape(rig.components, -1)
-    return 1e3 * (rig.vertices[vertices] + moved.reshape(len(identity), -1, 3))
 
 
 def asymmetry_mm(rig: Rig, identity: np.ndarray) -> np.ndarray:

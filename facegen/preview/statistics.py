@@ -7,7 +7,7 @@ import pyarrow as pa
 
 from facegen.conventions import SHARD_ROWS, Visibility
 from facegen.geometry import angles_from_direction, angles_from_rotation
-from facegen.rigs import eye_centers
+from facegen.rigs import measures_mm
 from facegen.sampling import rig_of
 from facegen.sampling.cameras import FACING
 from facegen.store import Dataset, column_array
@@ -17,17 +17,8 @@ MOST_ROWS = 100_000
 
 _COLUMNS = (
     *("person", "split", "component", "sex", "age_years", "weights", "identity"),
-    *("gaze", "camera_from_head", "points_3d", "visibility", "neutral"),
+    *("gaze", "camera_from_head", "visibility", "neutral"),
 )
-
-MEASURES: dict[str, tuple[int, int]] = {
-    "face width": (0, 16),
-    "face height, nasion to chin": (27, 8),
-    "mouth width": (48, 54),
-    "nose length, nasion to nose base": (27, 33),
-    "outer eye corners": (36, 45),
-}
-"""Distances between landmarks (indices) that are measured on neutral faces."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +55,7 @@ class Statistics:
     visible
         (68,) share of rows in which each landmark is visible.
     measures
-        Of neutral faces; empty where none was read.
+        Of the people's neutral faces, as docs/population.md has them.
     """
 
     rows: int
@@ -129,19 +120,15 @@ def _counts(values: np.ndarray) -> dict[str, int]:
 
 
 def _measures(dataset: Dataset, column: dict[str, np.ndarray]) -> tuple[Measure, ...]:
-    still = np.flatnonzero((column["weights"] == 0).all(axis=1))
-    _, first = np.unique(column["person"][still], return_index=True)
-    rows = still[first]
-    points = 1e3 * column["points_3d"][rows]
-    lengths = {name: np.linalg.norm(points[:, a] - points[:, b], axis=1) for name, (a, b) in MEASURES.items()}
+    _, rows = np.unique(column["person"], return_index=True)
     identity, whose = (
         column["identity"][rows].astype(np.float64),
         rig_of(dataset.spec, column["person"][rows]),
     )
-    eyes = np.empty((len(rows), 2, 3))
+    lengths: dict[str, np.ndarray] = {}
     for index, rig in enumerate(dataset.rigs):
-        eyes[whose == index] = 1e3 * eye_centers(rig, identity[whose == index, : rig.components])
-    lengths = {"interpupillary distance": np.linalg.norm(eyes[:, 0] - eyes[:, 1], axis=1)} | lengths
+        for name, values in measures_mm(rig, identity[whose == index, : rig.components]).items():
+            lengths.setdefault(name, np.full(len(rows), np.nan))[whose == index] = values
     return tuple(
         Measure(
             name=name,
@@ -154,5 +141,5 @@ def _measures(dataset: Dataset, column: dict[str, np.ndarray]) -> tuple[Measure,
         )
         for name, values in lengths.items()
         for sex in ("female", "male")
-        if (of := column["sex"][rows] == sex).any()
+        if (of := (column["sex"][rows] == sex) & np.isfinite(values)).any()
     )

@@ -1,5 +1,6 @@
 """Rigs: heads linear in identity and expression, with eyes, lids and landmarks; built, stored, evaluated."""
 
+from facegen.rigs.callipers import measures_mm
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, visual_axis
 from facegen.rigs.files import load_rig, rigs_folder, save_rig
@@ -21,6 +22,7 @@ __all__ = [
     "lid_margins",
     "lid_support_radius",
     "load_rig",
+    "measures_mm",
     "neutral_landmarks",
     "occluder",
     "open_lid_gap",

@@ -1,11 +1,15 @@
 """The page of statistics says what the keypoints say."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from facegen.preview import dataset_statistics, statistics_page
+from facegen.rigs import measures_mm
+from facegen.rigs.callipers import MEASURES
+from facegen.sampling.people import draw_people
 from facegen.spec import parse_spec
 from facegen.store import Dataset, resolve
 from facegen.work import generate
@@ -47,10 +51,34 @@ def test_heads_are_measured_in_millimetres_each_person_once(dataset):
     assert {sum(m.people for m in of) for of in by_name.values()} == {60}
     for measure in by_name["interpupillary distance"]:
         assert 50 < measure.low < measure.mean < measure.high < 80
-    points = dataset.array("points_3d")[dataset.array("neutral")]
-    width = 1e3 * np.linalg.norm(points[:, 0] - points[:, 16], axis=1)
-    weighed = sum(m.people * m.mean for m in by_name["face width"]) / 60
-    assert weighed == pytest.approx(width.mean(), rel=1e-5)
+    # the rig is linear in identity, so a mean over people is measured on the people themselves
+    _, first = np.unique(dataset.array("person"), return_index=True)
+    (rig,) = dataset.rigs
+    people = measures_mm(rig, dataset.array("identity")[first].astype(float))
+    assert set(people) == set(by_name) == set(MEASURES)
+    for name, values in people.items():
+        weighed = sum(m.people * m.mean for m in by_name[name]) / 60
+        assert weighed == pytest.approx(values.mean(), rel=1e-6)
+
+
+def test_measures_are_those_of_the_docs(anny):
+    """Tables of docs/population.md: 2,000 people by the default spec."""
+    text = (Path(__file__).parents[3] / "docs" / "population.md").read_text()
+    rows = re.findall(r"^\| ([a-z ]+) \| (women|men) \| ([\d.]+) \| ([\d.]+) \|", text, re.MULTILINE)
+    assert len(rows) == 2 * len(MEASURES)
+    table = {
+        "version": 1,
+        "kind": "still",
+        "people": 1000,
+        "rig": "anny",
+        "still": {"neutral": 1, "faces": 0},
+    }
+    drawn = [draw_people(parse_spec(table | {"seed": seed}, where="docs"), anny, 0) for seed in (1, 2)]
+    found = measures_mm(anny, np.concatenate([block.identity for block in drawn]))
+    female = np.concatenate([block.female for block in drawn])
+    for name, sex, mean, sd in rows:
+        values = found[name][female == (sex == "women")]
+        assert (f"{values.mean():.1f}", f"{values.std():.1f}") == (mean, sd), (name, sex)
 
 
 def test_the_page_is_one_file_and_equal_data_give_equal_text(dataset):
