@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from regress.runtime.inputs import Fault
 from tests.track.faces import film_of
 from tests.track.mjpeg_server import MANNERS, MjpegServer, mjpeg_server
+from tests.track.other_servers import SERVERS
 from tests.track.virtual import noise, told
 from track.errors import CameraError
 from track.sources import SOURCES, CameraFault, Pace, Source, open_capture, open_source
@@ -155,6 +156,16 @@ def test_servers_of_any_manners_are_read(manners: str):
         source.close()
     assert all(picture.pixels.shape == (48, 64, 3) for picture in pictures)
     assert (np.diff([picture.time_s for picture in pictures]) >= 0).all()
+    assert all(not np.array_equal(one.pixels, other.pixels) for one, other in pairwise(pictures))
+
+
+@pytest.mark.parametrize("make", SERVERS)
+def test_servers_of_other_makes_are_read(make: str):
+    with SERVERS[make]() as port:
+        source = open_source(f"http://127.0.0.1:{port}/stream")
+        pictures = [source.read() for _ in range(5)]
+        source.close()
+    assert all(picture.pixels.shape == (48, 64, 3) for picture in pictures)
     assert all(not np.array_equal(one.pixels, other.pixels) for one, other in pairwise(pictures))
 
 

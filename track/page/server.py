@@ -25,6 +25,9 @@ MOST_VIEWERS = 8
 PICTURES_PER_SECOND = 15
 """Of each camera: enough to see oneself; 30 would double the cost of what is only looked at in passing."""
 
+FRAMES_PER_SECOND = 60
+"""That a tab is told: screens draw no more, and a headset's 120 would take the session's time for it."""
+
 HEARTBEAT_S = 20.0
 """After which a tab is asked whether it is still there; half of it later it is given up."""
 
@@ -75,7 +78,7 @@ class Page:
         self._avatar = avatar or STATIC / "head.glb"
         self._guard = Guard.of(host, token)
         self._newest: Moment | None = None
-        self._number, self._pictured_at = 0, -1.0
+        self._number, self._pictured_at, self._due_s = 0, -1.0, 0.0
         self._viewers: set[Viewer] = set()
         self._wants_pictures = False
         self._woken = False
@@ -116,7 +119,7 @@ class Page:
             return
         self._woken = True
         try:
-            self._loop.call_soon_threadsafe(self._show)
+            self._loop.call_soon_threadsafe(self._show_when_due)
         except RuntimeError:
             return  # closed in between
 
@@ -156,9 +159,12 @@ class Page:
         finally:
             await runner.cleanup()
 
+    def _show_when_due(self) -> None:
+        self._loop.call_later(max(0.0, self._due_s - time.monotonic()), self._show)
+
     def _show(self) -> None:
         """Offer the newest moment to all tabs; in the server's loop."""
-        self._woken = False
+        self._woken, self._due_s = False, time.monotonic() + 1 / FRAMES_PER_SECOND
         moment = self._newest
         if moment is None or not self._viewers:
             return

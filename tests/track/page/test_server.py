@@ -20,7 +20,7 @@ from track.messages import Command, Moment, Step
 from track.page import Page, frames
 from track.page.commands import MOST_GAIN, MOST_MESSAGE_BYTES, Seen, read_command
 from track.page.guard import Guard
-from track.page.server import MOST_VIEWERS, PICTURES_PER_SECOND
+from track.page.server import FRAMES_PER_SECOND, MOST_VIEWERS, PICTURES_PER_SECOND
 from track.page.viewer import UNSEEN_FRAMES
 
 STEPS = ("neutral", "jaw_open")
@@ -229,6 +229,22 @@ def test_a_slow_tab_gets_the_newest_frame_and_a_quick_one_all(page):
     assert quick == [number / 100 for number in range(1, 61)]
     assert slow == [0.01, 0.02]
     assert newest == 0.6
+
+
+def test_a_tab_is_told_no_more_than_a_screen_draws_and_the_last_frame_always(page):
+    async def look():
+        async with tab(page) as (quick, _):
+            begun, numbers, shown = time.perf_counter(), 0, []
+            while time.perf_counter() - begun < 1.0:
+                numbers += 1
+                page.publish(moment(numbers / 1000))
+                await asyncio.sleep(1 / 240)
+            while not shown or shown[-1] != round(numbers / 1000, 4):
+                shown.append(json.loads(await quick.receive_str(timeout=5))["weights"][0])
+            return len(shown), time.perf_counter() - begun
+
+    count, seconds = asyncio.run(look())
+    assert count <= FRAMES_PER_SECOND * seconds + 2
 
 
 def test_publishing_never_waits(page):
