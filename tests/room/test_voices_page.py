@@ -32,6 +32,17 @@ SENT = """(async () => {
 })()"""
 
 
+LOUDEST = """(async () => {
+  let most = 0;
+  for (let i = 0; i < 80; i++) {
+    await new Promise((resolve) => setTimeout(resolve, 40));
+    for (const sound of meeting.voice.sounds.values()) most = Math.max(most, sound.peak());
+  }
+  return most;
+})()"""
+"""The greatest sample of three seconds, in which speech begins once: of what comes in, before this page's own volume."""
+
+
 async def heard(tabs: list[Tab]) -> float:
     """Seconds until each of two people hears the other."""
     start = time.monotonic()
@@ -63,6 +74,12 @@ async def talk(folder: Path) -> dict[str, object]:
         for tab in tabs:
             await tab.until("meeting.known.size === 2")
         found: dict[str, object] = {"heard": await heard(tabs), "lines up": await tabs[0].ask(SENT)}
+        chair = await places[0].guest(name="Chair", moderator=True)
+        ada = next(person.number for person in chair.welcome.people if person.name == "Ada")
+        await chair.say(kind="moderate", action="mute", number=ada)
+        await asyncio.sleep(1.0)
+        found["muted"] = [await tab.ask(LOUDEST) for tab in tabs]
+        await chair.say(kind="moderate", action="unmute", number=ada)
         first.kill()
         for tab in tabs:
             await tab.until(f"{STATE}.includes('Voices are interrupted')")
@@ -78,6 +95,8 @@ def test_two_servers_people_hear_each_other_by_janus_also_after_it_was_killed(tm
     found = asyncio.run(talk(tmp_path))
     print(found)
     assert found["lines up"] == 1, "one voice goes up, however many hear it"
+    assert found["muted"][0] > 0.05
+    assert found["muted"][1] < 0.001, "Janus itself passes on nothing of who is muted"
     assert found["silent"] == [0, 0]
     assert found["heard again"] < 15
     assert found["words"] == ["", ""]
