@@ -40,7 +40,7 @@ LOUDEST = """(async () => {
   }
   return most;
 })()"""
-"""The greatest sample of three seconds, in which speech begins once: of what comes in, before this page's own volume."""
+"""The greatest sample of three seconds, in which speech begins once, before the page's own volume."""
 
 
 async def heard(tabs: list[Tab]) -> float:
