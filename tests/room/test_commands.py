@@ -13,6 +13,10 @@ from pathlib import Path
 
 import aiohttp
 import pytest
+from typer.testing import CliRunner
+
+from room.cli import app
+from room.errors import InputError
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -94,6 +98,54 @@ def test_what_cannot_be_used_is_refused_in_a_sentence(arguments, tmp_path):
     assert "#" not in done.stdout, "no link of a room that is not open"
     if "--people" not in arguments:  # that one is Typer's, with the usage above it
         assert done.stderr.count("\n") == 1, done.stderr
+
+
+ENGINES = {
+    "Redis without keys": ("--redis needs --keys", "--redis", "redis://localhost"),
+    "Redis and a recording": (
+        "one server",
+        *("--redis", "redis://localhost", "--keys", "{folder}/k", "--record", "{folder}/r"),
+    ),
+    "an address of no Redis": ("no address of a Redis", "--redis", "http://a", "--keys", "{folder}/k"),
+    "an address of no Janus": ("no address of a Janus", "--janus", "http://localhost:8188"),
+    "Janus without a host": ("no address of a Janus", "--janus", "ws://"),
+    "a secret of no Janus": ("needs --janus", "--janus-secret", "{folder}/secret"),
+    "an empty secret": ("is empty", "--janus", "ws://a:8188", "--janus-secret", "{folder}/empty"),
+}
+
+
+@pytest.mark.parametrize("case", ENGINES.values(), ids=ENGINES.keys())
+def test_engines_that_cannot_be_used_are_refused_before_anything_is_written(case, tmp_path):
+    (tmp_path / "empty").write_text("\n")
+    words, *arguments = case
+    filled = [argument.format(folder=tmp_path) for argument in arguments]
+    result = CliRunner().invoke(app, ["serve", "--port", "0", *filled])
+    assert isinstance(result.exception, InputError)
+    assert words in str(result.exception)
+    assert not (tmp_path / "r").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--redis", "redis://127.0.0.1:9/0", "--keys", "{folder}/k"), "redis is gone"),
+        (("--janus", "ws://127.0.0.1:9"), "is away"),
+    ],
+)
+def test_a_server_opens_though_an_engine_is_away_and_says_so(options, words, tmp_path):
+    filled = [option.format(folder=tmp_path) for option in options]
+    command = (sys.executable, "-m", "room", "serve", "--port", "0", *filled)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+    ) as run:
+        try:
+            assert "#" in run.stdout.readline()
+            assert any(words in line for line in run.stderr)
+        finally:
+            run.terminate()
+            assert run.wait(10) == 75
+            run.communicate()
 
 
 @pytest.mark.skipif(shutil.which("openssl") is None, reason="makes the certificate")
