@@ -21,7 +21,7 @@ FACE_M = (-0.088, 0.072, 0.088, -0.114)
 """The same of pictures in which a mouth is large enough to be read."""
 SOMEBODY = draw_look(3, female=True, ancestry=np.array([0.0, 0.0, 1.0]))
 """Who plays weights of nobody that a dataset knows."""
-_SEEN, _HIDDEN = (0, 64, 255), (255, 255, 255)
+_SEEN, _HIDDEN = (0, 190, 255), (255, 255, 255)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

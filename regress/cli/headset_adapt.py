@@ -16,6 +16,7 @@ from regress.cli.headset_faces import (
     Smile,
     Wide,
 )
+from regress.cli.options import LeftEyeOption, MouthOption, RightEyeOption
 from regress.errors import InputError
 
 
@@ -45,13 +46,9 @@ def adapt(
         list[str] | None,
         typer.Option("--camera", metavar="NAME=PATH", help="A camera's pictures or film of the take."),
     ] = None,
-    left_eye: Annotated[
-        Path | None, typer.Option("--left-eye", help="Short for --camera left_eye=PATH.")
-    ] = None,
-    right_eye: Annotated[
-        Path | None, typer.Option("--right-eye", help="Short for --camera right_eye=PATH.")
-    ] = None,
-    mouth: Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")] = None,
+    left_eye: LeftEyeOption = None,
+    right_eye: RightEyeOption = None,
+    mouth: MouthOption = None,
     placement: Annotated[
         Path | None, typer.Option("--placement", help="TOML of `regress headset check`.")
     ] = None,

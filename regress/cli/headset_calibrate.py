@@ -17,6 +17,7 @@ from regress.cli.headset_faces import (
     Smile,
     Wide,
 )
+from regress.cli.options import BitsOption, LeftEyeOption, MouthOption, RightEyeOption
 from regress.errors import InputError
 
 
@@ -52,19 +53,10 @@ def calibrate(
             "--camera", metavar="NAME=PATH", help="A camera's pictures or film of one take of all faces."
         ),
     ] = None,
-    left_eye: Annotated[
-        Path | None, typer.Option("--left-eye", help="Short for --camera left_eye=PATH.")
-    ] = None,
-    right_eye: Annotated[
-        Path | None, typer.Option("--right-eye", help="Short for --camera right_eye=PATH.")
-    ] = None,
-    mouth: Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")] = None,
-    bits: Annotated[
-        int | None,
-        typer.Option(
-            "--bits", min=8, max=16, help="How many bits the cameras use, of pictures with 16 bits a pixel."
-        ),
-    ] = None,
+    left_eye: LeftEyeOption = None,
+    right_eye: RightEyeOption = None,
+    mouth: MouthOption = None,
+    bits: BitsOption = None,
     placement: Annotated[
         Path | None, typer.Option("--placement", help="TOML of `regress headset check`.")
     ] = None,

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from regress.cli.options import BitsOption, CameraOption, LeftEyeOption, MouthOption, RightEyeOption
 from regress.errors import InputError
 
 
@@ -13,25 +14,11 @@ def check(
     model: Annotated[
         str, typer.Argument(metavar="[MODEL]", help="Model folder, or a ready-made model's name.")
     ] = "",
-    camera: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--camera", metavar="NAME=PATH", help="A camera's folder of pictures, or film; for each camera."
-        ),
-    ] = None,
-    left_eye: Annotated[
-        Path | None, typer.Option("--left-eye", help="Short for --camera left_eye=PATH.")
-    ] = None,
-    right_eye: Annotated[
-        Path | None, typer.Option("--right-eye", help="Short for --camera right_eye=PATH.")
-    ] = None,
-    mouth: Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")] = None,
-    bits: Annotated[
-        int | None,
-        typer.Option(
-            "--bits", min=8, max=16, help="How many bits the cameras use, of pictures with 16 bits a pixel."
-        ),
-    ] = None,
+    camera: CameraOption = None,
+    left_eye: LeftEyeOption = None,
+    right_eye: RightEyeOption = None,
+    mouth: MouthOption = None,
+    bits: BitsOption = None,
     out: Annotated[
         Path | None, typer.Option("--out", help="Placement to write: TOML for `predict --placement`.")
     ] = None,

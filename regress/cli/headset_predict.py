@@ -8,15 +8,20 @@ import typer
 from regress.cli.options import (
     AvatarOption,
     BetaOption,
+    BitsOption,
     BlendOption,
+    CameraOption,
     FilterName,
     FilterOption,
     FormatOption,
+    LeftEyeOption,
     MirrorOption,
     ModelOption,
+    MouthOption,
     OneEuroOption,
     OutOption,
     RetargetOption,
+    RightEyeOption,
     SmoothOption,
     TableFormat,
     TrustOption,
@@ -34,31 +39,17 @@ def predict(
         ),
     ] = None,
     chosen: ModelOption = None,
-    camera: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--camera", metavar="NAME=PATH", help="A camera's folder of pictures, or film; for each camera."
-        ),
-    ] = None,
-    left_eye: Annotated[
-        Path | None, typer.Option("--left-eye", help="Short for --camera left_eye=PATH.")
-    ] = None,
-    right_eye: Annotated[
-        Path | None, typer.Option("--right-eye", help="Short for --camera right_eye=PATH.")
-    ] = None,
-    mouth: Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")] = None,
+    camera: CameraOption = None,
+    left_eye: LeftEyeOption = None,
+    right_eye: RightEyeOption = None,
+    mouth: MouthOption = None,
     from_start: Annotated[
         bool,
         typer.Option(
             "--from-start", help="Match first frames, not numbers: eyes of one take, mouth of another."
         ),
     ] = False,
-    bits: Annotated[
-        int | None,
-        typer.Option(
-            "--bits", min=8, max=16, help="How many bits the cameras use, of pictures with 16 bits a pixel."
-        ),
-    ] = None,
+    bits: BitsOption = None,
     placement: Annotated[
         Path | None,
         typer.Option(

@@ -126,3 +126,25 @@ KeepGuessOption = Annotated[
         help="Leave the eyeLook shapes as lids let the networks guess them, where the head is turned or an eye winks.",
     ),
 ]
+
+CameraOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--camera", metavar="NAME=PATH", help="A camera's folder of pictures, or film; for each camera."
+    ),
+]
+
+LeftEyeOption = Annotated[Path | None, typer.Option("--left-eye", help="Short for --camera left_eye=PATH.")]
+
+RightEyeOption = Annotated[
+    Path | None, typer.Option("--right-eye", help="Short for --camera right_eye=PATH.")
+]
+
+MouthOption = Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")]
+
+BitsOption = Annotated[
+    int | None,
+    typer.Option(
+        "--bits", min=8, max=16, help="How many bits the cameras use, of pictures with 16 bits a pixel."
+    ),
+]
