@@ -1,0 +1,126 @@
+"""Benchmark sets: a set's rows are measured again, other data are refused, and the docs show what the sets hold."""
+
+import importlib.util
+import json
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPES
+from regress.learning.training import read_dataset
+from regress.runtime.ready_made import ready_made_models
+
+ROOT = Path(__file__).parents[2]
+SETS = sorted((ROOT / "benchmarks" / "sets").glob("*.toml"))
+
+
+@pytest.fixture(scope="module")
+def score():
+    spec = importlib.util.spec_from_file_location("score", ROOT / "benchmarks" / "score.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["score"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def small(score, dataset_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A set of the drawn dataset."""
+    sha256 = read_dataset(dataset_folder).sha256
+    path = tmp_path / "small.toml"
+    path.write_text(
+        f'kind = "landmarks"\nspec = "drawn"\nkeypoints_sha256 = "{sha256}"\nsplit = "test"\nmodel = "yours"\n'
+    )
+    monkeypatch.setattr(score, "SETS", tmp_path)
+    return path
+
+
+@pytest.fixture
+def run(score, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+    def call(*words: object) -> tuple[object, str, str]:
+        monkeypatch.setattr(sys, "argv", ["score.py", *map(str, words)])
+        code = 0
+        try:
+            score.main()
+        except SystemExit as stop:
+            code = stop.code
+        return code, *capsys.readouterr()
+
+    return call
+
+
+def test_a_set_measures_its_own_rows_again(run, small: Path, dataset_folder: Path, quick_model_folder: Path):
+    words = ("small", "--data", dataset_folder, "--model", quick_model_folder)
+    code, rows, _ = run(*words, "--toml")
+    assert code == 0
+    small.write_text(small.read_text() + rows)
+    # exact and detected points, without and with a neutral face, for networks and ridge regression; the mean
+    assert len(tomllib.loads(small.read_text())["row"]) == 2 * 2 * 2 + 1
+    code, table, said = run(*words, "--check")
+    assert (code, said.strip()) == (0, "every recorded row is measured again")
+    assert table.count("\n") == 2 + 9
+    first = re.search(r"r2 = \[(-?[\d.]+)", rows)
+    worse = f"r2 = [{float(first[1]) - 0.01:.3f}"
+    small.write_text(small.read_text().replace(first[0], worse, 1))
+    code, _, said = run(*words, "--check")
+    assert code == 1
+    assert said.startswith("yours, exact points: r2 is ")
+
+
+def test_predictions_of_anybody_are_scored(run, small: Path, dataset_folder: Path, tmp_path: Path):
+    dataset = read_dataset(dataset_folder)
+    rows = (dataset.split == "test") & ~dataset.neutral & (dataset.neutral_rows() >= 0)
+    np.save(tmp_path / "perfect.npy", dataset.weights[rows])
+    code, table, _ = run("small", "--data", dataset_folder, "--predictions", tmp_path / "perfect.npy")
+    assert code == 0
+    assert "| yours |  | 1.000 (1.000 to 1.000) | 0.000 (0.000 to 0.000) |" in table
+    np.save(tmp_path / "short.npy", dataset.weights[rows][:3])
+    code, _, _ = run("small", "--data", dataset_folder, "--predictions", tmp_path / "short.npy")
+    assert f"(3, {len(BLENDSHAPES)}), but must have ({rows.sum()}, {len(BLENDSHAPES)})" in code
+
+
+def test_other_data_and_unknown_sets_are_refused(run, small: Path, dataset_folder: Path):
+    small.write_text(re.sub(r'sha256 = "\w{4}', 'sha256 = "0000', small.read_text()))
+    assert "make them from the set's spec" in run("small", "--data", dataset_folder)[0]
+    assert "there are small" in run("large", "--data", dataset_folder)[0]
+
+
+def test_intervals_hold_the_figure_and_shrink_with_more_people(score):
+    rng = np.random.default_rng(2)
+    widths = []
+    for people in (20, 320):
+        person = np.repeat(np.arange(people), 5)
+        true = rng.uniform(size=(len(person), 3))
+        # people differ in how well they are read, frames of one person hardly
+        spread = rng.uniform(0.05, 0.3, people)[person][:, None]
+        predicted = true + spread * rng.standard_normal(true.shape)
+        value, low, high = score.r2_interval(predicted, true, person)
+        assert value == pytest.approx(np.mean(1 - ((predicted - true) ** 2).mean(0) / true.var(0)))
+        assert low < value < high
+        widths.append(high - low)
+        mean, low, high = score.interval(*score.by_person(np.abs(predicted - true).mean(axis=1), person))
+        assert mean == pytest.approx(np.abs(predicted - true).mean())
+        assert low < mean < high
+    assert widths[1] < widths[0] / 2
+
+
+@pytest.mark.parametrize("path", SETS, ids=lambda path: path.stem)
+def test_a_set_goes_with_its_spec_model_and_docs(path: Path):
+    benchmark = tomllib.loads(path.read_text())
+    assert (ROOT / benchmark["spec"]).is_file()
+    record = json.loads((ready_made_models()[benchmark["model"]] / "model.json").read_text())
+    if benchmark["kind"] == "headset":
+        assert record["dataset_hash"] == benchmark["dataset_hash"]
+    else:
+        trained = record["record"]["dataset"]
+        assert trained["keypoints_sha256"] == benchmark["keypoints_sha256"]
+        assert trained["spec_hash"] == benchmark["spec_hash"]
+    page = (ROOT / "docs" / "benchmarks.md").read_text()
+    for row in benchmark["row"]:
+        figures = (row[key] for key in row if key not in ("method", "given"))
+        cells = " | ".join(f"{mean:.3f} ({low:.3f} to {high:.3f})" for mean, low, high in figures)
+        assert f"| {row['method']} | {row['given']} | {cells} |" in page
