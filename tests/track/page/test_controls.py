@@ -1,0 +1,129 @@
+"""The page's controls in a real browser: what is clicked arrives at the session, and what holds is shown."""
+
+import asyncio
+
+import numpy as np
+import pytest
+
+from facegen.conventions import BLENDSHAPES
+from tests.browser import needs_chromium
+from tests.track.page.stand import STEPS, standing
+from track.messages import Command, Step
+from track.page import Page
+
+pytestmark = [needs_chromium, pytest.mark.slow]
+
+
+def test_what_is_clicked_is_asked_for_and_what_holds_is_shown(loop, stand):
+    async def click():
+        assert (await stand.asks(1))[0] == Command(verb="picture", value=True)
+        await stand.publish_until("document.querySelector('#cameras canvas')")
+        drawn = """(() => {
+            const canvas = document.querySelector('#cameras canvas'), { width, height } = canvas;
+            const copy = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+            copy.drawImage(canvas, 0, 0);
+            const image = copy.getImageData(0, 0, width, height);
+            return [width, height, image.data.filter((value, at) => at % 4 === 1 && value > 168).length];
+        })()"""  # green of the points, on grey
+        width, height, green = await stand.tab.ask(drawn)
+        assert (width, height) == (160, 120)
+        assert green > 60
+        await stand.tab.ask("points.click()")
+        await stand.publish_until(f"{drawn}[2] === 0")
+        await stand.tab.ask(
+            "step.value = 'jaw_open', document.querySelector('#calibrate button').click(), mirror.click(),"
+            "recentre.click(), picture.click(), gains.click(), 0"
+        )
+        await stand.tab.ask(
+            "(() => { const slider = document.querySelector('[data-shape=jawOpen] input');"
+            "slider.value = 1.5; slider.dispatchEvent(new Event('input')); })()"
+        )
+        expected = [
+            Command(verb="calibrate", value="jaw_open"),
+            Command(verb="mirror", value=True),
+            Command(verb="recentre"),
+            Command(verb="picture", value=False),
+            Command(verb="gain", shape="jawOpen", value=1.5),
+        ]
+        assert await stand.asks(5) == expected
+        assert not await stand.tab.ask("document.querySelector('#cameras canvas')")
+        await stand.tab.ask("document.getElementById('gains-reset').click()")
+        assert await stand.asks(1) == [Command(verb="gain", shape="jawOpen", value=1)]
+        # another tab changes things: this one follows
+        await stand.publish_until(
+            "mirror.ariaPressed === 'false' && document.querySelector('[data-shape=tongueOut] input').value === '2'"
+            "&& document.querySelector('[data-shape=tongueOut] .factor').textContent === '×2'",
+            settings={"mirror": False, "gains": {"tongueOut": 2.0}},
+        )
+        await stand.publish_until(
+            "person.textContent === 'not calibrated yet'", settings={"calibrated": False}
+        )
+        known = {"calibrated": True, "profile": "<i>Ada</i>"}
+        await stand.publish_until("person.textContent === 'as <i>Ada</i>'", settings=known)
+        await stand.tab.ask("record.click()")
+        assert await stand.asks(1) == [Command(verb="record", value=True)]
+
+    loop.run_until_complete(click())
+
+
+def test_calibration_says_what_to_do_and_can_be_cancelled(loop, stand):
+    step = Step(name="jaw_open", state="recording", seconds_left=1.4, text="Open <b>wide</b>")
+
+    async def look():
+        asking = "document.getElementById('asking')"
+        await stand.publish_until(f"!{asking}.hidden", step=step)
+        assert await stand.tab.ask(f"{asking}.innerText.split('\\n').filter(Boolean)") == [
+            "2",
+            "Jaw open · Hold it",
+            "Open <b>wide</b>",
+            "Cancel",
+        ]
+        await stand.tab.ask("document.getElementById('asking-cancel').click()")
+        assert await stand.asks(2) == [Command(verb="picture", value=True), Command(verb="cancel")]
+        await stand.publish_until(f"{asking}.hidden")
+
+    loop.run_until_complete(look())
+
+
+def test_faults_are_named_while_they_last(loop, stand):
+    fault = "The camera <script>alert(1)</script> shows nobody."
+
+    async def look():
+        await stand.publish_until("faults.textContent", faults=(fault,))
+        assert await stand.tab.ask("[...faults.children].map((each) => each.textContent)") == [fault]
+        await stand.publish_until("faults.textContent === ''")
+
+    loop.run_until_complete(look())
+
+
+def test_a_take_is_played_back_while_live_goes_on(loop, stand):
+    async def look():
+        await stand.tab.ask("record.click()")
+        spoken = np.zeros(52)
+        spoken[BLENDSHAPES.index("jawOpen")] = 0.8
+        await stand.show(spoken)
+        await stand.tab.ask("record.click()")
+        await stand.show(np.zeros(52))
+        await stand.tab.ask("play.click()")
+        await stand.publish_until("Math.abs(track.stage.avatar.influences().jawOpen - 0.8) < 0.001")
+        await stand.tab.ask("play.click()")
+        await stand.publish_until("track.stage.avatar.influences().jawOpen < 0.001")
+
+    loop.run_until_complete(look())
+
+
+def test_the_page_comes_back_by_itself(loop, browser, egg):
+    async def look():
+        async with standing(browser, egg, quiet=False) as stand:
+            await stand.publish_until("connection.dataset.state === 'live'")
+            await asyncio.to_thread(stand.page.close)
+            await stand.tab.until("connection.dataset.state === 'lost'")
+            assert (await stand.tab.ask("connection.textContent")).startswith("track has ended")
+            asked = []
+            with Page(asked.append, port=stand.page.port, steps=STEPS, avatar=egg) as again:
+                stand.page = again
+                await stand.publish_until("connection.dataset.state === 'live'")
+                await stand.show(np.full(52, 0.5))
+                await stand.tab.until("connection.textContent === 'Nothing comes from the camera'")
+
+    loop.run_until_complete(look())
