@@ -31,7 +31,7 @@ TESTED  := headset-test headset-slip
 TWO     := --numprocesses 2 --dist loadfile
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lock rig dataset train export headset models samples web room-face room-avatars wheel test test-farm test-headset test-quick docs-test fuzz lint format \
+.PHONY: help setup lock rig dataset train export headset headset-any models samples web room-face room-avatars wheel test test-farm test-headset test-quick docs-test fuzz lint format \
   clean distclean
 .DELETE_ON_ERROR:
 
@@ -63,6 +63,10 @@ export: $(MODEL)/exports/.made  ## Weights for game engines, C programs and othe
 headset: models/headset/report.html  ## Headset pictures, a network of cameras, its rival, report: over an hour on two cores
 	@echo "model:   models/headset"
 	@echo "report:  models/headset/report.html"
+
+headset-any: models/headset-any/report.html  ## A network for any headset, of drawn ones, and its judge: an hour or two on two cores
+	@echo "model:   models/headset-any"
+	@echo "report:  models/headset-any/report.html"
 
 models: $(MODEL)/model.json models/headset/report.html  ## Train the ready-made models again, say whether they are the same; ADOPT=1 takes them
 	$(BIN)/regress models --against landmarks-default=$(MODEL) --against headset-tracking3=models/headset $(if $(ADOPT),--adopt)
@@ -197,6 +201,14 @@ models/headset/report.html: $(TESTED:%=datasets/out/%-arrays/index.json) dataset
 	@$(MAKE) --no-print-directory --jobs 2 models/headset/model.json models/headset-holistic/model.json
 	$(BIN)/regress headset temporal models/headset datasets/out/headset-clips-arrays
 	$(BIN)/regress headset report models/headset --against models/headset-holistic $(TESTED:%=--data datasets/out/%-arrays) --out $@
+
+# a network for any headset: every person of its dataset wears another, drawn one
+models/headset-any/model.json: datasets/out/headset-any-arrays/index.json $(LEARNER)
+	$(BIN)/regress headset train $(<D) --out $(@D) --start headset-tracking3
+
+models/headset-any/report.html: datasets/out/headset-any-test-arrays/index.json models/headset-any/model.json
+	$(BIN)/python benchmarks/any_headset.py models/headset-any headset-tracking3 --data datasets/out/headset-any-test-arrays
+	$(BIN)/regress headset report models/headset-any --data datasets/out/headset-any-test-arrays --out $@
 
 models/headset-tiny/report.html: datasets/out/headset-tiny-arrays/index.json $(LEARNER)
 	$(BIN)/regress headset train $(<D) --out $(@D) --epochs 2

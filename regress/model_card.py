@@ -18,6 +18,8 @@ _CONDITIONS = {
     "uncalibrated": "no neutral picture",
     "same_seat": "a neutral picture of the person",
     "other_seat": "a neutral picture from before the headset was put on again",
+    "uncalibrated_told": "no neutral picture, told where the cameras are",
+    "same_seat_told": "a neutral picture, told where the cameras are",
 }
 """Titles of the conditions of ``regress headset evaluate`` that a card shows, by name."""
 
@@ -84,7 +86,10 @@ def card_markdown(name: str, folder: Path) -> str:
         f"| {file} | `{_sha256(folder / file)}` | {(folder / file).stat().st_size:,} |"
         for file in ("model.json", kind.numbers)
     )
-    template = resources.files("regress") / "data" / "cards" / f"{kind.name}.md"
+    drawn = kind is HEADSET and read_headset_model(folder).camera_terms
+    template = (
+        resources.files("regress") / "data" / "cards" / ("headset-any.md" if drawn else f"{kind.name}.md")
+    )
     return template.read_text(encoding="utf-8").format_map({**texts, "name": name, "files": files})
 
 

@@ -18,6 +18,7 @@ from regress.learning.headset.evaluation import Condition, estimate, evaluate  #
 from regress.learning.headset.recipe import DRAWN_SETTINGS, HeadsetRecipe  # noqa: E402
 from regress.learning.headset.training import train_headset  # noqa: E402
 from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
+from regress.learning.headset.training.loop import Training, answer_to  # noqa: E402
 from regress.runtime.headset import HeadsetGraph  # noqa: E402
 from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
 from regress.runtime.headset.predictor import load_headset_predictor  # noqa: E402
@@ -115,6 +116,25 @@ def test_a_network_of_one_headset_is_told_nothing(arrays: HeadsetArrays, tmp_pat
     predictor = load_headset_predictor(tmp_path / "model")
     with pytest.raises(InputError, match="trained for one headset"):
         predictor.told({})
+
+
+def test_a_network_that_is_told_nothing_may_begin_one_that_listens(
+    arrays: HeadsetArrays, told_arrays: HeadsetArrays, tmp_path: Path
+):
+    deaf = replace(QUICK, camera_terms=False, epochs=1)
+    train_headset(arrays, deaf, tmp_path / "deaf")
+    begun = Training(told_arrays, QUICK, start=tmp_path / "deaf")
+    frames = TrainingFrames(told_arrays, QUICK, told_arrays.rows("train"))
+    rows = told_arrays.rows("test")[:6]
+    with torch.no_grad():
+        said = answer_to(begun.network.eval(), frames.plain_batch(rows)).blended.mean
+    scaled = said.numpy() * begun.targets.std + begun.targets.mean
+    pictures = {name: told_arrays.pictures[name][rows] for name in CAMERAS}
+    graph = load_headset_predictor(tmp_path / "deaf").predict(pictures).weights
+    np.testing.assert_allclose(np.clip(scaled[:, :52], 0, 1), graph, atol=1e-3)
+    mouth_alone = replace(told_arrays, cameras=told_arrays.cameras[2:])
+    with pytest.raises(InputError, match="start from a model of the same cameras"):
+        Training(mouth_alone, QUICK, start=tmp_path / "deaf")
 
 
 def test_a_graph_and_a_description_that_disagree_are_refused(folder: Path, tmp_path: Path):

@@ -1,6 +1,6 @@
 """Draws training batches: frames paired with neutral pictures, displaced at random, now and then without a camera."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import cv2
@@ -59,9 +59,19 @@ class Batch:
 
 
 class TrainingFrames:
-    """Pictures and labels of arrays as batches are made of them, reduced to what the encoders need."""
+    """Pictures and labels of arrays as batches are made of them, reduced to what the encoders need.
 
-    def __init__(self, arrays: HeadsetArrays, recipe: HeadsetRecipe, rows: np.ndarray) -> None:
+    ``traced`` are the points that a network traces already, by the camera that owns its encoder; without, those that
+    pictures show.
+    """
+
+    def __init__(
+        self,
+        arrays: HeadsetArrays,
+        recipe: HeadsetRecipe,
+        rows: np.ndarray,
+        traced: Mapping[str, np.ndarray] | None = None,
+    ) -> None:
         names = tuple(camera.name for camera in arrays.cameras)
         self.rows = rows
         self.outputs = outputs_of(arrays)
@@ -73,7 +83,7 @@ class TrainingFrames:
         self._flipped = np.array([owner is not None for owner in owners.values()])
         self._mirror = recipe.mirror and is_symmetric(names)
         self._partner = np.array([names.index(mirror_partner(name)) if self._mirror else 0 for name in names])
-        self.traced = traced_points(arrays, rows)
+        self.traced = dict(traced or traced_points(arrays, rows))
         if not recipe.points_loss:
             self.traced = {name: traced[:0] for name, traced in self.traced.items()}
         self._traced = [self.traced[owners[name] or name] for name in names]

@@ -71,13 +71,15 @@ class Training:
         self.recipe = recipe
         self.history: list[dict[str, float]] = []
         self._checkpoint = checkpoint
-        self._frames = TrainingFrames(arrays, recipe, rows)
-        self._validation = arrays.rows("validation")
+        names = tuple(camera.name for camera in arrays.cameras)
         learned = None if start is None else LearnedGraph(start)
+        if learned is not None:
+            learned.check_cameras(names)
+        self._frames = TrainingFrames(arrays, recipe, rows, None if learned is None else learned.traced)
+        self._validation = arrays.rows("validation")
         self.targets = target_scale(self._frames.outputs[rows]) if learned is None else learned.targets
         self._mean, self._std = torch.from_numpy(self.targets.mean), torch.from_numpy(self.targets.std)
         self._gram = _scaled_gram(arrays, self.targets, rows)
-        names = tuple(camera.name for camera in arrays.cameras)
         self.network = network_of(recipe.architecture)(names, recipe, self._frames.traced)
         self._set_scales()
         if learned is not None:

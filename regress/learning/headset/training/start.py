@@ -10,12 +10,14 @@ import torch
 from onnx import numpy_helper
 from torch import nn
 
+from facegen.conventions import VIEW_POINTS
 from facegen.documents import read_bytes
 from regress.errors import InputError
 from regress.learning.headset.training.batches import Batch
 from regress.learning.headset.training.networks import Answer, HeadsetNetwork
 from regress.learning.headset.training.targets import Targets
-from regress.runtime.headset.folder import MOST_GRAPH_BYTES
+from regress.runtime.headset.estimates import TERMS_TOLD
+from regress.runtime.headset.folder import MOST_GRAPH_BYTES, read_headset_model
 
 Answering = Callable[[HeadsetNetwork, Batch], Answer]
 """Runs a network on a batch."""
@@ -40,6 +42,14 @@ class LearnedGraph:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        model = read_headset_model(folder)
+        self._cameras = model.camera_names
+        owned = [camera.name for camera in model.cameras if camera.mirrored_of is None]
+        self.traced = {
+            name: np.array([VIEW_POINTS.index(point) for point in model.points.get(name, ())], np.int64)
+            for name in owned
+        }
+        """Which of ``VIEW_POINTS`` it traces, by the camera that owns the encoder."""
         graph = onnx.load_from_string(read_bytes(folder / "network.onnx", most_bytes=MOST_GRAPH_BYTES)).graph
         arrays = {one.name: numpy_helper.to_array(one) for one in graph.initializer}
         # equal tensors are kept once; the other names stand for it
@@ -54,6 +64,20 @@ class LearnedGraph:
             for node in graph.node
             if node.op_type == "Conv" and not node.input[1].startswith(_PREFIX)
         }
+
+    def check_cameras(self, cameras: tuple[str, ...]) -> None:
+        """Refuse arrays of other cameras.
+
+        Raises
+        ------
+        InputError
+            Names both.
+        """
+        if cameras != self._cameras:
+            raise InputError(
+                f"{self.folder} is of the cameras {', '.join(self._cameras)}, and the arrays are of "
+                f"{', '.join(cameras)}; start from a model of the same cameras"
+            )
 
     def give(self, network: HeadsetNetwork, batches: Iterable[Batch], answer: Answering) -> None:
         """Set a network of the same recipe, which then answers as the graph does.
@@ -76,6 +100,7 @@ class LearnedGraph:
         state = network.state_dict()
         with torch.no_grad():
             for name, array in self._named.items():
+                array = _with_room_for_terms(array, state.get(name))
                 self._check(name, state, array.shape)
                 state[name].copy_(_tensor(array))
             pairs = list(_normalised(network))
@@ -95,6 +120,13 @@ class LearnedGraph:
                 f"{self.folder} has {name} of {list(shape)}, and the network to train {has}; start from a model of the "
                 f"same cameras and recipe"
             )
+
+
+def _with_room_for_terms(array: np.ndarray, place: torch.Tensor | None) -> np.ndarray:
+    """A layer's weights with zeros for what is told of cameras, where the graph is told nothing and the network is."""
+    if place is None or array.ndim != 2 or tuple(place.shape) != (len(array), array.shape[1] + TERMS_TOLD):
+        return array
+    return np.pad(array, ((0, 0), (0, TERMS_TOLD)))
 
 
 def _normalised(network: nn.Module) -> Iterable[tuple[str, nn.Conv2d, nn.BatchNorm2d]]:
