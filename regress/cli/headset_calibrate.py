@@ -47,6 +47,12 @@ def calibrate(
             "the middle of all glances lies ahead.",
         ),
     ] = None,
+    distance_m: Annotated[
+        float,
+        typer.Option(
+            "--distance-m", min=0.05, max=1000, help="How far away what was looked at lies; far by default."
+        ),
+    ] = 1000.0,
     camera: Annotated[
         list[str] | None,
         typer.Option(
@@ -91,6 +97,7 @@ def calibrate(
         named,
         paths,
         looked_at=looked_at or [],
+        distance_m=distance_m,
         bits=bits,
         placement={} if placement is None else read_placement(placement, predictor.sizes),
     )

@@ -52,6 +52,7 @@ def read_minute(
     paths: dict[str, Path],
     *,
     looked_at: Sequence[str] = (),
+    distance_m: float = float("inf"),
     bits: int | None = None,
     placement: "Mapping[str, CameraPlacement] | None" = None,
     labels: Path | None = None,
@@ -64,6 +65,8 @@ def read_minute(
         By face what its option says: a folder, or ``FIRST-LAST`` of the take at ``paths``.
     looked_at
         ``FRAME:YAW:PITCH`` of frames of ``look``.
+    distance_m
+        Of what was looked at there.
     labels
         CSV with weights of frames of the take.
 
@@ -131,6 +134,7 @@ def read_minute(
             targets_deg={numbers[LOOK][frame]: angles for frame, angles in targets.items()}
             if face == LOOK
             else {},
+            distance_m=distance_m,
         )
         for face, shown in pictures.items()
     }

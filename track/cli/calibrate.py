@@ -21,7 +21,10 @@ from track.cli.options import (
 def calibrate(
     faces: Annotated[
         str,
-        typer.Argument(help="all, or one: neutral, jaw_open, smile, brows_up, pucker, cheeks, eyes_shut."),
+        typer.Argument(
+            help="all, or one: neutral, jaw_open, smile, brows_up, pucker, cheeks, eyes_shut; of headsets "
+            "eyes_wide, lips_rolled, look_around too."
+        ),
     ] = "all",
     camera: CameraOption = None,
     model: ModelOption = None,

@@ -138,7 +138,6 @@ def _open_page(
     closing: contextlib.ExitStack,
 ) -> "Screen":
     from track.page import Page
-    from track.session.calibration import FACES
 
     if options.avatar is not None:
         from facegen.formats.gltf import read_gltf
@@ -149,7 +148,7 @@ def _open_page(
         options.host,
         options.port,
         cameras=tuple(texts),
-        steps=tuple(FACES),
+        steps=session.pipeline.faces,
         avatar=options.avatar,
     )
     closing.callback(page.close)

@@ -43,6 +43,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_COUNT
 from facegen.documents import load_toml
 from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
+from regress.runtime.headset.person import HIGHEST_REST, OwnEye
 from regress.runtime.headset.placement import CameraPlacement
 from track.errors import InputError
 
@@ -186,6 +187,10 @@ class Profile(_Record):
         None until the person was asked.
     ranges
         Reading of the person's full movement, by shape.
+    rests
+        Reading of the resting face, by shape; of headsets.
+    eyes
+        Own ends of the lids, by camera; of headsets.
     gains
         The person's own factors, by shape.
     gaze : 4 radians
@@ -207,17 +212,29 @@ class Profile(_Record):
     ranges: dict[Shape, Annotated[FiniteFloat, Field(ge=SMALLEST_RANGE, le=1.0)]] = Field(
         default_factory=dict
     )
+    rests: dict[Shape, Annotated[FiniteFloat, Field(ge=0.0, le=HIGHEST_REST)]] = Field(default_factory=dict)
+    eyes: Annotated[dict[Name, OwnEye], Len(0, MOST_CAMERAS)] = Field(default_factory=dict)
     gains: dict[Shape, Annotated[FiniteFloat, Field(ge=0.0, le=LARGEST_GAIN)]] = Field(default_factory=dict)
     placement: Annotated[dict[Name, CameraPlacement], Len(0, MOST_CAMERAS)] = Field(default_factory=dict)
 
     def factors(self) -> np.ndarray:
         """(52,) float64: by what each weight is multiplied, so that a full movement reads 1, times the own gain."""
-        factors = np.ones(len(BLENDSHAPE_INDEX))
+        rest = self.at_rest()
+        factors = 1 / (1 - rest)
         for name, reading in self.ranges.items():
-            factors[BLENDSHAPE_INDEX[name]] = np.clip(1 / reading, 1.0, FULL_GAIN)
+            column = BLENDSHAPE_INDEX[name]
+            span = max(reading - rest[column], SMALLEST_RANGE)
+            factors[column] = np.clip(1 / span, factors[column], FULL_GAIN * factors[column])
         for name, gain in self.gains.items():
             factors[BLENDSHAPE_INDEX[name]] *= gain
         return factors
+
+    def at_rest(self) -> np.ndarray:
+        """(52,) float64: what is taken from each weight before."""
+        rest = np.zeros(len(BLENDSHAPE_INDEX))
+        for name, reading in self.rests.items():
+            rest[BLENDSHAPE_INDEX[name]] = reading
+        return rest
 
 
 def read_profile(path: str | os.PathLike[str]) -> Profile:

@@ -22,9 +22,10 @@ from track.session.steadiness import steadiness
 FIRST_COUNTDOWN_S, COUNTDOWN_S = 3.0, 2.0
 """Before the first face, and before others: who has just read a sentence needs less."""
 
-RECORDING_S = {"neutral": 2.0}
+RECORDING_S = {"neutral": 2.0, "look_around": 5.0}
 OTHERS_RECORDING_S = 1.5
-"""Of the neutral face 60 frames, whose median is good to a tenth of the noise; grimaces are hard to hold."""
+"""Of the neutral face 60 frames, whose median is good to a tenth of the noise; to look all around takes five seconds,
+and grimaces are hard to hold."""
 
 TOLD_S, TOLD_AGAIN_S = 0.7, 2.0
 """How long a result stays, and a reason, which must be read."""
@@ -40,6 +41,9 @@ FEWEST_FRAMES = 12
 
 FAINT = 0.25
 """Reading of a full movement below which it was not made, or the model does not see it: gains end at 2."""
+
+SHUT = 0.4
+"""Openness below which traced lids are shut; those of 60 rendered people read below .3."""
 
 _FULL = 0.6
 """Quantile of a recording that is the full movement: people need a third of the time to get there."""
@@ -76,8 +80,18 @@ FACES: Mapping[str, Face] = {
     "eyes_shut": Face(
         text="Shut both eyes until three seconds are over", shapes=("eyeBlinkLeft", "eyeBlinkRight")
     ),
+    "eyes_wide": Face(text="Open both eyes as wide as they go", shapes=("eyeWideLeft", "eyeWideRight")),
+    "lips_rolled": Face(
+        text="Roll both lips in, over your teeth", shapes=("mouthRollUpper", "mouthRollLower")
+    ),
+    "look_around": Face(text="Look left, right, up and down, as far as is easy, head still"),
 }
 """In the order of asking; names as a command's value has them."""
+
+OF_HEADSETS = ("eyes_wide", "lips_rolled", "look_around")
+"""Faces that networks of landmarks see too little of to be asked for."""
+
+OF_ALL = tuple(name for name in FACES if name not in OF_HEADSETS)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -89,9 +103,9 @@ class Outcome:
     name
         Of the face.
     samples
-        Of the neutral face: the frames.
+        The frames.
     ranges
-        Of another face: readings of its shapes.
+        Of another face than the neutral one: readings of its shapes.
     """
 
     name: str
@@ -99,8 +113,8 @@ class Outcome:
     ranges: Mapping[str, float] | None = None
 
 
-def faces_of(asked: str) -> tuple[str, ...]:
-    """Names of the faces that a command's value asks for: one, or ``all``.
+def faces_of(asked: str, known: Sequence[str] = OF_ALL) -> tuple[str, ...]:
+    """Names of the faces that a command's value asks for: one of `FACES`, or ``all`` of those that a model knows.
 
     Raises
     ------
@@ -108,7 +122,7 @@ def faces_of(asked: str) -> tuple[str, ...]:
         Where there is no such face.
     """
     if asked == "all":
-        return tuple(FACES)
+        return tuple(known)
     if asked not in FACES:
         raise InputError(
             f"there is no face {str(asked)[:40]!r} to calibrate; all, {', '.join(FACES)} are known"
@@ -233,9 +247,14 @@ class Calibration:
                 None if seen.still else f"You moved, by {seen.moved / seen.allowed:.1f} times what is allowed"
             )
         faint = [name for name, reading in self._readings().items() if reading < FAINT]
-        if len(faint) == len(FACES[self.name].shapes):
+        if faint and len(faint) == len(FACES[self.name].shapes) and not self._lids_shut():
             return f"Nothing was seen of it ({', '.join(faint)} {self._readings()[faint[0]]:.2f})"
         return None
+
+    def _lids_shut(self) -> bool:
+        """Whether traced lids say that eyes were shut, of which the network's own weight says nothing."""
+        eyes = [sample.eyes.openness for sample, _ in self._frames if sample.eyes is not None]
+        return self.name == "eyes_shut" and bool(eyes) and bool((np.nanmedian(eyes, axis=0) < SHUT).all())
 
     def _readings(self) -> dict[str, float]:
         weights = np.array([sample.weights for sample, _ in self._frames])
@@ -243,7 +262,8 @@ class Calibration:
         return {name: float(full[BLENDSHAPE_INDEX[name]]) for name in FACES[self.name].shapes}
 
     def _outcome(self) -> Outcome:
+        samples = tuple(sample for sample, _ in self._frames)
         if self.name == "neutral":
-            return Outcome(name=self.name, samples=tuple(sample for sample, _ in self._frames))
+            return Outcome(name=self.name, samples=samples)
         readings = {name: reading for name, reading in self._readings().items() if reading >= FAINT}
-        return Outcome(name=self.name, ranges=readings)
+        return Outcome(name=self.name, samples=samples, ranges=readings)

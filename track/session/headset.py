@@ -8,10 +8,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from facegen.conventions import BLENDSHAPES
 from facegen.formats.picture_size import picture_size
+from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
+from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.headset.soundness import PictureSoundness
@@ -19,6 +22,7 @@ from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 from track.errors import InputError
 from track.profile.profile import ModelMark, NeutralFace, base64_of
+from track.session.calibration import FACES
 from track.session.exchange import ExchangeWatch
 from track.session.pipeline import Pipeline, filter_of
 
@@ -44,11 +48,13 @@ class HeadsetPipeline(Pipeline):
     """
 
     least_movement = LEAST_MOVEMENT
+    faces = tuple(FACES)
 
     def __init__(self, folder: str | Path, *, fps: float, filter_name: str) -> None:
         self._predictor = load_headset_predictor(folder)
         self.mark = ModelMark(kind="headset", sha256=self._predictor.model.network_sha256)
         self._fps = fps
+        self._reader = EyeReader(self._predictor)
         self._traced: dict[str, np.ndarray] = {}
         self._traced_s = np.inf
         self.stages = {"grey": _Grey()}
@@ -79,6 +85,35 @@ class HeadsetPipeline(Pipeline):
                 for name, picture in nearest.pictures.items()
             }
         )
+
+    def rests_of(self, samples: Sequence[Sample]) -> dict[str, float]:
+        """Medians of the weights, compared with the neutral pictures in use; gaze is centred by itself."""
+        weights = [self._networks.step(replace(sample, weights=None)).weights for sample in samples[::4]]
+        middle = np.median(weights, axis=0)
+        return {
+            name: float(min(value, HIGHEST_REST))
+            for name, value in zip(BLENDSHAPES, middle, strict=True)
+            if value > 0 and not name.startswith("eyeLook")
+        }
+
+    def use_eyes(self, eyes: Mapping[str, OwnEye]) -> None:
+        """Measure openness between the person's own ends."""
+        self._reader.use_person(Person(eyes=dict(eyes)))
+
+    def eyes_with(
+        self, eyes: Mapping[str, OwnEye], face: str, samples: Sequence[Sample]
+    ) -> dict[str, OwnEye]:
+        """Own ends of the lids: at rest, shut and wide."""
+        field = {"neutral": "rest_mm", "eyes_shut": "shut_mm", "eyes_wide": "wide_mm"}.get(face)
+        seen = [sample.eyes.openness_mm for sample in samples if sample.eyes is not None]
+        if field is None or not seen:
+            return dict(eyes)
+        found = {name: eyes.get(name, OwnEye()) for name in self._reader.sides}
+        for name, side in self._reader.sides.items():
+            openness_mm = np.nanmedian([one[side] for one in seen])
+            if np.isfinite(openness_mm):
+                found[name] = replace(found[name], **{field: round(float(openness_mm), 3)})
+        return found
 
     def use_neutral(self, neutral: NeutralFace) -> None:
         """Compare pictures with these."""
@@ -123,13 +158,16 @@ class HeadsetPipeline(Pipeline):
         """Faults by camera, and a seat that changed."""
         found = super().sentences(sample)
         if self._networks.reseated:
-            found["seat"] = "the headset has moved since it was calibrated; calibrate again"
+            found["seat"] = "the headset has moved since it was calibrated; a new neutral face sets it right"
         return found
 
     def use_placement(self, placement: Mapping[str, CameraPlacement]) -> None:
         """See this of each camera's pictures, at these levels; all of it, at its own levels, of those left out."""
         levels = Levels(self._predictor.model.looks, placement)
-        self._networks = HeadsetNetworks(self._predictor, fps=self._fps, levels=levels)
+        # a profile is its person's: another seat's neutral picture is worth more than none
+        self._networks = HeadsetNetworks(
+            self._predictor, fps=self._fps, levels=levels, keep_neutral=True, reader=self._reader
+        )
         self.stages["soundness"] = _Soundness(self._predictor.sizes, placement)
         if "networks" in self.stages:
             self.stages["networks"] = self._networks

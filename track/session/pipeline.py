@@ -5,6 +5,7 @@ from enum import Enum
 
 import numpy as np
 
+from regress.runtime.headset.person import OwnEye
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.sample import Sample
 from regress.runtime.stages.filters import FILTERS
@@ -14,6 +15,7 @@ from regress.runtime.stages.smoothing import OneEuroSmoothing
 from regress.runtime.stages.stage import Stage
 from track.errors import InputError
 from track.profile.profile import ModelMark, NeutralFace
+from track.session.calibration import OF_ALL
 
 GROUPS = "groups"
 """The filter of live faces: One-Euro, with `FASTER`."""
@@ -34,11 +36,14 @@ class Pipeline:
         Of the model.
     least_movement
         Of a signature, in its unit, that counts as a movement (`track.session.steadiness`).
+    faces
+        Names of `track.session.calibration.FACES` that it sees enough of.
     """
 
     stages: dict[str, Stage]
     mark: ModelMark
     least_movement: float
+    faces: tuple[str, ...] = OF_ALL
 
     def signature(self, sample: Sample) -> np.ndarray | None:
         """What of a frame must keep still while a neutral face is recorded; None where there is no face."""
@@ -47,6 +52,19 @@ class Pipeline:
     def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
         """The neutral face of frames that show it."""
         raise NotImplementedError
+
+    def rests_of(self, samples: Sequence[Sample]) -> dict[str, float]:
+        """What the weights of a neutral face read behind it, by shape; nothing where they are 0."""
+        return {}
+
+    def use_eyes(self, eyes: Mapping[str, OwnEye]) -> None:
+        """Count with a person's own lids from now on, by camera; without cameras of eyes there is nothing to do."""
+
+    def eyes_with(
+        self, eyes: Mapping[str, OwnEye], face: str, samples: Sequence[Sample]
+    ) -> dict[str, OwnEye]:
+        """A person's own eyes, by camera, with what frames of a face say of them."""
+        return dict(eyes)
 
     def use_neutral(self, neutral: NeutralFace) -> None:
         """Compare frames with this neutral face from now on.

@@ -1,29 +1,42 @@
 """What a person's profile says of the answers: own full movements read as 1, and eyes that look ahead read as 0."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
 from regress.runtime.stages.stage import Stage
+from track.profile.profile import Profile
+from track.session.calibration import SHUT
+
+BLINKS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
 
 class Ranges(Stage):
-    """Stretches each weight by its factor.
+    """Takes what each weight reads at rest away, and stretches it by its factor.
 
     Attributes
     ----------
-    factors : (52,) float64
+    factors, rests : (52,) float64
         May be changed between two frames.
+    by_lids : (2,) bool
+        Of which eyes the blink is what traced lids say, the left one first.
     """
 
-    def __init__(self, factors: np.ndarray) -> None:
-        self.factors = factors
+    def __init__(self, factors: np.ndarray, rests: np.ndarray, by_lids: np.ndarray) -> None:
+        self.factors, self.rests, self.by_lids = factors, rests, by_lids
 
     def step(self, sample: Sample) -> Sample:
         """The sample with weights in [0, 1]; NaN stays."""
-        return replace(sample, weights=np.clip(sample.weights * self.factors, 0.0, 1.0))
+        weights = np.clip((sample.weights - self.rests) * self.factors, 0.0, 1.0)
+        if sample.eyes is not None and self.by_lids.any():
+            shut = np.clip(1 - sample.eyes.openness, 0, 1)
+            said = self.by_lids & np.isfinite(shut) & np.isfinite(weights[BLINKS])
+            weights[BLINKS] = np.where(said, shut, weights[BLINKS])
+        return replace(sample, weights=weights)
 
 
 class GazeCentre(Stage):
@@ -46,3 +59,21 @@ class GazeCentre(Stage):
         weights = sample.weights.copy()
         weights[LOOKS] = look_weights(gaze)
         return replace(sample, gaze=gaze, weights=weights)
+
+
+def by_lids(profile: Profile) -> np.ndarray:
+    """(2,) bool: eyes whose blink the network does not read when they are shut, while traced lids do."""
+    found = np.zeros(2, dtype=bool)
+    for camera, eye in profile.eyes.items():
+        side = 0 if camera.startswith("left") else 1
+        shut = eye.shut_mm is not None and eye.rest_mm is not None and eye.shut_mm < SHUT * eye.rest_mm
+        found[side] = shut and ("eyeBlinkLeft", "eyeBlinkRight")[side] not in profile.ranges
+    return found
+
+
+def middle_of(gazes: Sequence[np.ndarray | None]) -> tuple[float, ...] | None:
+    """Middle (4 radians) between the ends of what was looked at: it lies ahead; None where no gaze is known."""
+    known = [gaze for gaze in gazes if gaze is not None and np.isfinite(gaze).all()]
+    if not known:
+        return None
+    return tuple(float(angle) for angle in np.quantile(known, [0.1, 0.9], axis=0).mean(axis=0))

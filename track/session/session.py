@@ -20,7 +20,7 @@ from track.session.fading import Fading
 from track.session.fault_telling import FaultTelling
 from track.session.measures import Measures
 from track.session.pipeline import Pipeline
-from track.session.ranges import GazeCentre, Ranges
+from track.session.ranges import GazeCentre, Ranges, by_lids, middle_of
 from track.session.undisturbed import undisturbed
 from track.sinks.sink import Sink
 
@@ -117,7 +117,7 @@ class Session:
     ) -> None:
         self.pipeline, self.sinks, self.profile = pipeline, list(sinks), profile
         self._say, self._keep = say, keep
-        self._ranges = Ranges(profile.factors())
+        self._ranges = Ranges(profile.factors(), profile.at_rest(), by_lids(profile))
         self._centre = GazeCentre(np.zeros(4) if profile.gaze is None else np.array(profile.gaze))
         self._mirror, self._mirrored = Mirror(), profile.mirror if mirror is None else mirror
         self._fading = Fading()
@@ -132,6 +132,7 @@ class Session:
         self._faces, self._first_s, self._last_s = 0, None, 0.0
         if profile.placement:
             pipeline.use_placement(profile.placement)
+        pipeline.use_eyes(profile.eyes)
         if profile.neutral is not None:
             pipeline.use_neutral(profile.neutral)
 
@@ -257,17 +258,37 @@ class Session:
         if outcome.ranges is None:
             neutral = self.pipeline.neutral_of(outcome.samples)
             self.pipeline.use_neutral(neutral)
-            # what was read without this neutral face, or with another, is no range of it
-            self._change(neutral=neutral, ranges={}, model=self.pipeline.mark, gaze=None)
+            # what was read without this neutral face is no range of it, but of the same person in another seat
+            kept = (
+                self.profile.ranges
+                if self.profile.neutral and self.profile.model == self.pipeline.mark
+                else {}
+            )
+            self._change(
+                neutral=neutral,
+                ranges=kept if neutral.pictures else {},
+                rests=self.pipeline.rests_of(outcome.samples),
+                eyes=self.pipeline.eyes_with(self.profile.eyes, outcome.name, outcome.samples),
+                model=self.pipeline.mark,
+                gaze=None,
+            )
+        elif outcome.name == "look_around":
+            self._change(gaze=middle_of([sample.gaze for sample in outcome.samples]))
         else:
             readings = {
                 name: min(max(reading, SMALLEST_RANGE), 1.0) for name, reading in outcome.ranges.items()
             }
-            self._change(ranges={**self.profile.ranges, **readings}, model=self.pipeline.mark)
+            self._change(
+                ranges={**self.profile.ranges, **readings},
+                eyes=self.pipeline.eyes_with(self.profile.eyes, outcome.name, outcome.samples),
+                model=self.pipeline.mark,
+            )
 
     def _change(self, **changes: object) -> None:
         self.profile = self.profile.model_copy(update=changes)
-        self._ranges.factors = self.profile.factors()
+        self._ranges.factors, self._ranges.rests = self.profile.factors(), self.profile.at_rest()
+        self._ranges.by_lids = by_lids(self.profile)
+        self.pipeline.use_eyes(self.profile.eyes)
         self._centre.centre = np.zeros(4) if self.profile.gaze is None else np.array(self.profile.gaze)
         self._keep(self.profile)
 
@@ -325,8 +346,9 @@ class Session:
         verb, value = command.verb, command.value
         if verb == "calibrate":
             asked = "all" if value is None or value is True else str(value)
-            self._calibration = Calibration(faces_of(asked), least=self.pipeline.least_movement)
-            if "neutral" in faces_of(asked):
+            names = faces_of(asked, self.pipeline.faces)
+            self._calibration = Calibration(names, least=self.pipeline.least_movement)
+            if "neutral" in names:
                 self.pipeline.forget_neutral()
         elif verb == "cancel" and self._calibration is not None:
             self._step, self._calibration = self._calibration.cancel(), None

@@ -28,6 +28,9 @@ from track.sinks.udp import UdpSink
 PORT = 9000
 FULL_GAZE_RAD = np.pi / 4
 
+PUPIL_ENDS = (0.2, 0.65)
+"""Pupil over iris, of an adult's pupil of 2.3 and of 7.6 mm."""
+
 _ALL_AFTER = 30
 """Samples after which everything is sent again, changed or not: datagrams are lost, and avatars are changed."""
 
@@ -89,6 +92,8 @@ class VrChat:
             yield from self._parameter(f"EyeOpen{side}", 1 - shut)
             yield from self._parameter(f"EyeLid{side}", 0.75 * (1 - shut) + 0.25 * open_wide)
         yield message("/tracking/eye/EyesClosedAmount", float(closed.mean()))
+        if sample.eyes is not None:
+            yield from self._pupils(sample.eyes.pupil)
         if sample.gaze is None or np.isnan(sample.gaze).any():
             return
         # right and up are positive in parameters, right and down in VRChat's own eyes
@@ -98,6 +103,17 @@ class VrChat:
             yield from self._parameter(f"Eye{side}Y", float(y))
         degrees = -np.degrees(sample.gaze[[1, 0, 3, 2]])
         yield message("/tracking/eye/LeftRightPitchYaw", *degrees.tolist())
+
+    def _pupils(self, shares: np.ndarray) -> Iterator[bytes]:
+        """Pupils' diameters as shares of the widest, and how far they are dilated between their ends."""
+        narrow, wide = PUPIL_ENDS
+        dilated = np.clip((shares - narrow) / (wide - narrow), 0, 1)
+        for side, share in zip(("Left", "Right"), shares.tolist(), strict=True):
+            if np.isfinite(share):
+                yield from self._parameter(f"PupilDiameter{side}", round(min(share / wide, 1.0), 2))
+        if np.isfinite(dilated).any():
+            # hundredths: a parameter that trembles would be sent in every frame
+            yield from self._parameter("PupilDilation", round(float(np.nanmean(dilated)), 2))
 
     def _parameter(self, name: str, value: float) -> Iterator[bytes]:
         """A parameter's messages, where it is not what was sent last."""

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from regress.runtime.headset.person import HIGHEST_REST, OwnEye
 from track.cli import app
 from track.errors import InputError
 from track.profile import places
@@ -51,6 +52,10 @@ PROFILES = st.builds(
     neutral=st.none() | neutrals(),
     ranges=st.dictionaries(SHAPES, st.floats(SMALLEST_RANGE, 1), max_size=5),
     gains=st.dictionaries(SHAPES, st.floats(0, LARGEST_GAIN), max_size=5),
+    eyes=st.dictionaries(
+        st.sampled_from(["left_eye", "right_eye"]),
+        st.builds(OwnEye, shut_mm=st.none() | st.floats(0, 40), rest_mm=st.none() | st.floats(0, 40)),
+    ),
 )
 
 
@@ -68,6 +73,23 @@ def test_a_full_movement_reads_one_unless_the_gain_ends(profile):
         assert full == pytest.approx(min(1.0, FULL_GAIN * reading))
     unnamed = [index for name, index in BLENDSHAPE_INDEX.items() if name not in plain.ranges]
     assert np.all(plain.factors()[unnamed] == 1)
+
+
+@given(
+    st.dictionaries(SHAPES, st.floats(0, HIGHEST_REST), max_size=5),
+    st.dictionaries(SHAPES, st.floats(0.1, 0.5), max_size=5),
+)
+def test_a_rest_reads_nothing_and_a_full_movement_above_it_one(rests, spans):
+    ranges = {name: min(1.0, rests.get(name, 0.0) + span) for name, span in spans.items()}
+    profile = Profile(person="a", camera="b", rests=rests, ranges=ranges)
+    rest = profile.at_rest()
+    for name, reading in ranges.items():
+        column = BLENDSHAPE_INDEX[name]
+        read = (reading - rest[column]) * profile.factors()[column]
+        assert read == pytest.approx(
+            min(1.0, FULL_GAIN * (reading - rest[column]) / (1 - rest[column])), abs=1e-9
+        )
+    np.testing.assert_allclose((1 - rest)[rest > 0] * profile.factors()[rest > 0] >= 1 - 1e-9, True)
 
 
 GOOD = 'format = "track-profile"\nversion = 1\nperson = "a"\ncamera = "b"\n'

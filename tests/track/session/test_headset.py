@@ -1,16 +1,23 @@
 """A headset's session: neutral pictures through the profile, and what the network traces, for the page."""
 
 import base64
+import itertools
 import struct
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from tests.track.session.test_chaos import HEADSET, headset_frames, headset_session
+from facegen.conventions import BLENDSHAPES
+from regress.runtime.headset.person import OwnEye
+from regress.runtime.sample import EyeMeasures, Sample
+from tests.track.session.test_chaos import FPS, HEADSET, headset_frames, headset_session
 from track.errors import InputError
 from track.messages import Command
-from track.profile.profile import NeutralFace, read_profile, write_profile
+from track.profile.profile import NeutralFace, Profile, read_profile, write_profile
+from track.session.calibration import Outcome
+from track.session.ranges import Ranges, by_lids
 
 
 def _chunk(name: bytes, content: bytes) -> bytes:
@@ -70,3 +77,58 @@ def test_points_are_traced_where_somebody_looks():
 def test_a_neutral_face_of_something_else_is_refused(neutral, words):
     with pytest.raises(InputError, match=words):
         headset_session().pipeline.use_neutral(neutral)
+
+
+def test_a_guided_minute_gives_rest_ends_lids_and_a_new_seat_keeps_them(tmp_path):
+    session = headset_session()
+    frames = headset_frames()
+    shut = [frames[row] for row in (90, 91, 92, 93)]
+    rest = list(frames[:10])
+
+    clock = itertools.count()
+
+    def later(samples):
+        return [replace(sample, time_s=next(clock) / FPS) for sample in samples]
+
+    def answered(samples):
+        found = []
+        for sample in later(samples):
+            for stage in session.pipeline.stages.values():
+                sample = stage.step(sample)
+            found.append(sample)
+        return tuple(found)
+
+    session._take(Outcome(name="neutral", samples=answered(rest)))
+    session._take(
+        Outcome(name="eyes_shut", samples=answered(shut), ranges={"eyeBlinkLeft": 0.9, "eyeBlinkRight": 0.9})
+    )
+    session._take(Outcome(name="look_around", samples=answered(rest), ranges={}))
+    profile = read_profile(write_profile(tmp_path / "anna.toml", session.profile))
+    assert profile == session.profile
+    assert set(profile.eyes) == {"left_eye", "right_eye"}
+    assert all(0 < eye.shut_mm < 0.5 * eye.rest_mm for eye in profile.eyes.values())
+    assert profile.gaze is not None
+    assert not any(name.startswith("eyeLook") for name in profile.rests)
+    at_rest = [session.answer(sample)[0] for sample in later(rest)]
+    looks = np.array([name.startswith("eyeLook") for name in BLENDSHAPES])
+    assert np.median([each.weights for each in at_rest], axis=0)[~looks].max() <= 0.05
+    assert np.median([each.eyes.openness for each in at_rest]) == pytest.approx(1, abs=0.1)
+    closed = [session.answer(sample)[0] for sample in later(shut)]
+    assert np.max([each.eyes.openness for each in closed[1:]]) < 0.3
+    # the same person in another seat: the neutral face is new, own full movements stay
+    session._take(Outcome(name="neutral", samples=answered(rest)))
+    assert session.profile.ranges == profile.ranges
+
+
+def test_a_blink_that_the_network_does_not_read_is_what_lids_say():
+    eyes = {"left_eye": OwnEye(rest_mm=9.0, shut_mm=1.0), "right_eye": OwnEye(rest_mm=9.0, shut_mm=8.0)}
+    profile = Profile(person="anna", camera="three", eyes=eyes)
+    np.testing.assert_array_equal(by_lids(profile), [True, False])
+    seen = Sample(
+        weights=np.zeros(52),
+        eyes=EyeMeasures(openness_mm=np.ones(2), openness=np.array([0.1, 0.1]), pupil=np.full(2, 0.4)),
+    )
+    said = Ranges(profile.factors(), profile.at_rest(), by_lids(profile)).step(seen).weights
+    assert said[BLENDSHAPES.index("eyeBlinkLeft")] == pytest.approx(0.9)
+    assert said[BLENDSHAPES.index("eyeBlinkRight")] == 0
+    assert not by_lids(profile.model_copy(update={"ranges": {"eyeBlinkLeft": 0.8}})).any()

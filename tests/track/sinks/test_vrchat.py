@@ -6,7 +6,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPE_INDEX
-from regress.runtime.sample import Sample
+from regress.runtime.sample import EyeMeasures, Sample
 from regress.runtime.stages.retargeting.target_file import read_retargeting
 from tests.track.sinks.receivers import ANY_SAMPLE, acted, lost, received, receiver
 from tests.track.sinks.test_vmc import messages
@@ -53,6 +53,21 @@ def test_a_receiver_reads_all_of_it():
     np.testing.assert_allclose(eyes, [-left_pitch, -left_yaw, -right_pitch, -right_yaw], atol=1e-4)
     (closed,) = (each.params for each in got if each.address == "/tracking/eye/EyesClosedAmount")
     assert closed == [pytest.approx((weight["eyeBlinkLeft"] + weight["eyeBlinkRight"]) / 2, abs=1e-6)]
+
+
+def test_pupils_and_their_dilation_go_where_they_are_known():
+    from dataclasses import replace
+
+    def sent(left: float, right: float) -> dict[str, object]:
+        eyes = EyeMeasures(openness_mm=np.ones(2), openness=np.ones(2), pupil=np.array([left, right]))
+        return parameters(VrChat()(replace(acted(), eyes=eyes)))
+
+    said = sent(0.65, np.nan)
+    assert (said["PupilDiameterLeft"], said["PupilDilation"]) == (1.0, 1.0)
+    assert "PupilDiameterRight" not in said
+    assert sent(0.2, 0.65)["PupilDilation"] == 0.5
+    assert "PupilDilation" not in sent(np.nan, np.nan)
+    assert "PupilDilation" not in parameters(VrChat()(acted()))
 
 
 def test_sums_are_those_of_the_unified_expressions_that_they_are_made_of():
