@@ -8,6 +8,7 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from PIL import Image
 from typer.main import get_command
 
 ROOT = Path(__file__).parents[1]
@@ -27,6 +28,25 @@ FENCE = re.compile(r"^```.*?^```", re.M | re.S)
 
 def _text(page: Path) -> str:
     return page.read_text(encoding="utf-8")
+
+
+MOST_BYTES = {"still": 400_000, "moving": 500_000}
+"""Of a picture: a page of four opens in a second by a slow line."""
+
+
+def test_pictures_are_small_and_shown():
+    shown = {
+        (page.parent / link.partition("#")[0]).resolve()
+        for page in PAGES
+        for link in LINK.findall(_text(page))
+    }
+    pictures = [path for path in (ROOT / "docs" / "pictures").iterdir() if path.suffix != ".txt"]
+    assert len(pictures) > 30
+    for path in pictures:
+        with Image.open(path) as picture:
+            kind = "moving" if getattr(picture, "n_frames", 1) > 1 else "still"
+        assert path.stat().st_size <= MOST_BYTES[kind], f"{path.name} is larger than {MOST_BYTES[kind]} bytes"
+        assert path in shown, f"no page shows {path.name}"
 
 
 @cache

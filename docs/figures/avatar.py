@@ -33,7 +33,7 @@ def main() -> None:
     what, *files = sys.argv[1:]
     sheet = _shapes(files[0]) if what == "shapes" else _people(files)
     out = PICTURES / f"avatar-{what}.jpg"
-    cv2.imwrite(str(out), sheet, [cv2.IMWRITE_JPEG_QUALITY, 88])
+    cv2.imwrite(str(out), sheet, [cv2.IMWRITE_JPEG_QUALITY, 80])
     print(out)
 
 

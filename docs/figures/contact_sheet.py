@@ -2,7 +2,7 @@
 
 facegen generate datasets/gallery.toml --out datasets/out/gallery
 facegen preview datasets/out/gallery --samples 1,2,6,9,10,11 --out sheet.png
-python docs/figures/contact_sheet.py sheet.png [paper.jpg]
+python docs/figures/contact_sheet.py sheet.png [paper.webp]
 """
 
 import sys
@@ -20,8 +20,8 @@ def main() -> None:
     name = sys.argv[2] if len(sys.argv) > 2 else "contact-sheet.png"
     sheet = Image.open(sys.argv[1]).convert("RGB")
     sheet = sheet.resize((WIDTH, round(WIDTH * sheet.height / sheet.width)), Image.LANCZOS)
-    if name.endswith(".jpg"):
-        sheet.save(OUT / name, quality=85, optimize=True)
+    if name.endswith(".webp"):
+        sheet.save(OUT / name, quality=78, method=6)
         return
     pixels = np.asarray(sheet).reshape(-1, 3)
     coloured = pixels[np.ptp(pixels, axis=1) > 24]

@@ -1,6 +1,6 @@
 """Draws docs/pictures/room.png: a meeting as one of the people in it sees it, in a real browser without a camera.
 
-And docs/pictures/room-studies.png: what the page asks before a recorded meeting, beside the replay of that meeting.
+And docs/pictures/room-studies.webp: what the page asks before a recorded meeting, beside the replay of that meeting.
 
     python docs/figures/room.py
 
@@ -27,7 +27,7 @@ from tests.browser import chromium  # noqa: E402
 from tests.room.guests import Guest, Place, open_room  # noqa: E402
 
 OUT = ROOT / "docs/pictures/room.png"
-STUDIES = ROOT / "docs/pictures/room-studies.png"
+STUDIES = ROOT / "docs/pictures/room-studies.webp"
 SIZE = {"width": 1280, "height": 800}
 
 SMILE = {"mouthSmileLeft": 0.8, "mouthSmileRight": 0.8, "cheekSquintLeft": 0.5, "cheekSquintRight": 0.5}
@@ -150,7 +150,8 @@ async def replayed() -> None:
                 await tab.ask(f"void Object.assign(meeting.walk, {looking})")
                 await asyncio.sleep(8)
                 await tab.picture(Path(shown))
-        cv2.imwrite(str(STUDIES), cv2.hconcat([cv2.imread(asked), cv2.imread(shown)]))
+        both = cv2.hconcat([cv2.imread(asked), cv2.imread(shown)])
+        cv2.imwrite(str(STUDIES), both, [cv2.IMWRITE_WEBP_QUALITY, 88])
         print(STUDIES.relative_to(ROOT))
 
 
