@@ -128,7 +128,7 @@ def test_engines_that_cannot_be_used_are_refused_before_anything_is_written(case
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--redis", "redis://127.0.0.1:9/0", "--keys", "{folder}/k"), "redis is gone"),
+        (("--redis", "redis://127.0.0.1:9/0", "--keys", "{folder}/k"), "redis is away"),
         (("--janus", "ws://127.0.0.1:9"), "is away"),
     ],
 )
