@@ -23,11 +23,11 @@ def replay(
     from room.recording import check_recording
     from room.server import Address, Limits, Relays, Rooms, new_keys, serve
 
-    room, keys = check_recording(recording).room, new_keys()
+    survey, keys = check_recording(recording), new_keys()
     address = Address(host=host, port=port, certificate=cert, private_key=key)
 
     def started(where: str) -> None:
-        print_links(keys, (room,), where)
+        print_links(keys, (survey.heading.room,), where)
         say("room: a replay; Ctrl-C stops it, and its links end with it")
 
-    serve(Rooms(keys, limits=Limits(), relays=Relays(), replayed=recording), address, started=started)
+    serve(Rooms(keys, limits=Limits(), relays=Relays(), replayed=survey), address, started=started)

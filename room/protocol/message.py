@@ -203,6 +203,20 @@ def check(content: bytes) -> None:
         raise FormatError(f"rotation: has length {length:.3f}, and must have 1")
 
 
+_TIME = struct.Struct("<I")
+_TIME_AT = 4
+
+
+def time_of(content: bytes) -> int:
+    """The sender's time in a message, without reading the rest; ms, of a message that was checked."""
+    return _TIME.unpack_from(content, _TIME_AT)[0]
+
+
+def retimed(content: bytes, time_ms: int) -> bytes:
+    """The same message at another time of the sender's clock."""
+    return content[:_TIME_AT] + _TIME.pack(time_ms % 2**32) + content[_TIME_AT + _TIME.size :]
+
+
 def _nearest(value: float) -> int:
     """Nearest whole number, halves up: the same in every language, unlike Python's own to the even one."""
     return math.floor(value + 0.5)

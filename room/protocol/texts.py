@@ -137,6 +137,15 @@ class Consent(_Text):
     recorded: bool
 
 
+class Play(_Text):
+    """What somebody who looks at a replay asks of it; None leaves as it is. Seconds from its beginning."""
+
+    kind: Literal["play"] = "play"
+    paused: bool | None = None
+    time_s: Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)] | None = None
+    speed: Annotated[float, Field(ge=0.1, le=8)] | None = None
+
+
 class Undress(_Text):
     """Takes the avatar off that one brought: the one of the server's is worn again."""
 
@@ -149,7 +158,7 @@ class Leave(_Text):
     kind: Literal["leave"] = "leave"
 
 
-Said = Chat | Voice | Description | Candidate | Moderate | Consent | Undress | Leave
+Said = Chat | Voice | Description | Candidate | Moderate | Consent | Play | Undress | Leave
 """What a person may say once they are in."""
 
 
@@ -243,6 +252,16 @@ class Door(_Text):
     locked: bool
 
 
+class Playing(_Text):
+    """Where a replay is now, how long it is, and how it goes on."""
+
+    kind: Literal["playing"] = "playing"
+    time_s: float
+    length_s: float
+    paused: bool
+    speed: float
+
+
 class Signal(_Text):
     """A description or a candidate that came from somebody, or of one's own line."""
 
@@ -280,7 +299,7 @@ class Refused(_Text):
     again: bool
 
 
-Answer = Welcome | Changed | Left | Line | Door | Signal | Engine | Heard | Notice | Refused
+Answer = Welcome | Changed | Left | Line | Door | Playing | Signal | Engine | Heard | Notice | Refused
 
 _JOIN = TypeAdapter(Join)
 _SAID = TypeAdapter(Annotated[Said, Field(discriminator="kind")])

@@ -1,6 +1,6 @@
 """What a room keeps of a meeting where people agreed to it: a file of states, its writer and its reader."""
 
-from room.recording.reader import check_recording, read_recording
+from room.recording.reader import Survey, check_recording, follow_recording, read_recording
 from room.recording.writer import Recorder
 
-__all__ = ["Recorder", "check_recording", "read_recording"]
+__all__ = ["Recorder", "Survey", "check_recording", "follow_recording", "read_recording"]

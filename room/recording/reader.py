@@ -1,7 +1,8 @@
 """Reads a recording line by line; a last line that a killed server did not finish is left out."""
 
 import itertools
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -26,8 +27,60 @@ _HEADING = TypeAdapter(Heading)
 _EVENT: TypeAdapter[Event] = TypeAdapter(Annotated[Event, Field(discriminator="kind")])
 
 
+MARKS_MS = 1000
+"""Between two places from which a recording can be followed: 36,000 in ten hours."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mark:
+    """A place in the file from which it can be followed: the line there, its time, and who is there before it."""
+
+    time_ms: int
+    offset: int
+    line: int
+    cast: Mapping[int, Came]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Survey:
+    """What a recording has, once it was read whole."""
+
+    path: Path
+    heading: Heading
+    begins_ms: int
+    ends_ms: int
+    marks: tuple[Mark, ...]
+
+
 def read_recording(path: Path) -> Generator[Heading | Event, None, None]:
     """Give the heading, then what happened, in its order.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it cannot be read.
+    FormatError
+        If it is too large, or a line is none: also one that goes back in time, or a state of nobody.
+    """
+    for _, _, line in _read(path):
+        yield line
+
+
+def follow_recording(path: Path, mark: Mark) -> Generator[Event, None, None]:
+    """Give what happened from a mark on.
+
+    Raises
+    ------
+    InputError, FormatError
+        As `read_recording`.
+    """
+    for _, _, line in _read(path, mark):
+        assert not isinstance(line, Heading)
+        yield line
+
+
+def _read(path: Path, mark: Mark | None = None) -> Generator[tuple[int, int, Heading | Event], None, None]:
+    """Give each line with its place and number.
 
     Raises
     ------
@@ -44,9 +97,11 @@ def read_recording(path: Path) -> Generator[Heading | Event, None, None]:
                 f"{path}: has {path.stat().st_size:,} bytes, and at most {MOST_RECORDING_BYTES:,}"
             )
         with path.open("rb") as file:
-            people: set[int] = set()
-            before = 0
-            for number in itertools.count(1):
+            people: set[int] = set(mark.cast) if mark else set()
+            before = mark.time_ms if mark else 0
+            file.seek(mark.offset if mark else 0)
+            for number in itertools.count(mark.line if mark else 1):
+                offset = file.tell()
                 content = file.readline(MOST_LINE_BYTES + 1)
                 if len(content) > MOST_LINE_BYTES:
                     raise FormatError(f"{path}, line {number}: is longer than {MOST_LINE_BYTES:,} bytes")
@@ -67,25 +122,43 @@ def read_recording(path: Path) -> Generator[Heading | Event, None, None]:
                         raise FormatError(f"{path}, line {number}: is earlier than the line before it")
                     before = line.time_ms
                     _follow(people, line, f"{path}, line {number}")
-                yield line
+                yield offset, number, line
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error})") from None
 
 
-def check_recording(path: Path) -> Heading:
-    """Read a recording whole, and give its heading.
+def check_recording(path: Path) -> Survey:
+    """Read a recording whole, and say what it has.
 
     Raises
     ------
     InputError, FormatError
         As `read_recording`; also if nobody is in it.
     """
-    lines = read_recording(path)
-    heading = next(lines)
+    lines = _read(path)
+    _, _, heading = next(lines)
     assert isinstance(heading, Heading)
-    if not sum(isinstance(line, Tick) for line in lines):
+    marks: list[Mark] = []
+    cast: dict[int, Came] = {}
+    ticks = ends = 0
+    for offset, number, line in lines:
+        assert not isinstance(line, Heading)
+        if not marks or line.time_ms >= marks[-1].time_ms + MARKS_MS:
+            # marks share what did not change between them
+            same = marks and marks[-1].cast == cast
+            known = marks[-1].cast if same else dict(cast)
+            marks.append(Mark(time_ms=line.time_ms, offset=offset, line=number, cast=known))
+        match line:
+            case Came():
+                cast[line.number] = line
+            case Gone():
+                cast.pop(line.number, None)
+            case Tick():
+                ticks += 1
+                ends = line.time_ms
+    if not ticks:
         raise FormatError(f"{path}: nobody moves in it; nobody agreed to be recorded")
-    return heading
+    return Survey(path=path, heading=heading, begins_ms=marks[0].time_ms, ends_ms=ends, marks=tuple(marks))
 
 
 def _follow(people: set[int], event: Event, where: str) -> None:

@@ -14,7 +14,7 @@ from room.avatars import Wardrobe
 from room.errors import FormatError, NotAllowed
 from room.protocol.accounts import Part
 from room.protocol.texts import MOST_TEXT_BYTES, About, Chat, Notice, read_join, read_said
-from room.recording import Recorder
+from room.recording import Recorder, Survey
 from room.server.connection import PARTING_S, Connection
 from room.server.door import Door
 from room.server.dressing import Dressing
@@ -83,7 +83,7 @@ class Rooms:
         relays: Relays,
         origins: frozenset[str] = frozenset(),
         recorder: Recorder | None = None,
-        replayed: Path | None = None,
+        replayed: Survey | None = None,
         telegraph: "Telegraph | None" = None,
         engines: Sequence[Janus] = (),
     ) -> None:

@@ -21,6 +21,7 @@ from room.protocol.texts import (
     Line,
     Moderate,
     Notice,
+    Play,
     Said,
     Signal,
     Undress,
@@ -29,7 +30,7 @@ from room.protocol.texts import (
 )
 from room.recording import Recorder
 from room.server.connection import Connection
-from room.server.limits import BURST_S, NEWCOMERS_PER_S, RETURNS_PER_S, Bucket
+from room.server.limits import BURST_S, NEWCOMERS_PER_S, PLAYS_PER_S, RETURNS_PER_S, Bucket
 from room.server.neighbours import Neighbours
 from room.server.replay import Replay
 from room.server.switchboard import Switchboard
@@ -95,6 +96,7 @@ class Hall:
         self._switchboard = switchboard
         self._newcomers = Bucket(NEWCOMERS_PER_S, burst=2 * most_people)
         self._returns: dict[str, Bucket] = {}
+        self._plays = Bucket(PLAYS_PER_S, burst=2 * PLAYS_PER_S)
 
     @property
     def empty(self) -> bool:
@@ -148,6 +150,8 @@ class Hall:
         )
         if page:
             connection.tick(self.meeting.whole(now=time.monotonic()))
+            if self._replay:
+                connection.say(self._replay.playing(now=time.monotonic()))
             self._tell(Changed(person=seat.person), but=seat)
             if self._switchboard:
                 self._switchboard.begin(seat.id, connection.say)
@@ -218,16 +222,29 @@ class Hall:
             case Moderate():
                 self._moderate(seat, said)
             case Consent():
-                if self._recorder is None:
-                    raise NotAllowed("this room is not recorded")
-                seat.recorded = said.recorded
-                self._record_roster()
-                self._tell(Changed(person=seat.person))
+                self._consent(seat, said.recorded)
+            case Play():
+                self._play(said)
             case Undress():
                 self._undress(seat)
                 self._tell(Changed(person=seat.person))
             case Leave():
                 self._free(seat)
+
+    def _consent(self, seat: Seat, recorded: bool) -> None:
+        if self._recorder is None:
+            raise NotAllowed("this room is not recorded")
+        seat.recorded = recorded
+        self._record_roster()
+        self._tell(Changed(person=seat.person))
+
+    def _play(self, said: Play) -> None:
+        if self._replay is None:
+            raise NotAllowed("people meet here; there is nothing to play")
+        if not self._plays.take(now=time.monotonic()):
+            raise NotAllowed("that was too fast; the replay goes on as it was", again=True)
+        for answer in self._replay.play(said, self.meeting, now=time.monotonic()):
+            self._tell(answer)
 
     def dress(self, seat: Seat, content: bytes) -> str:
         """Let somebody wear an avatar that was checked, and tell all; gives its digest.

@@ -29,6 +29,9 @@ NEWCOMERS_PER_S = 10
 RETURNS_PER_S = 1
 """Times that one person comes in again, with a burst of ten: a network that comes and goes, a page loaded anew."""
 
+PLAYS_PER_S = 5
+"""What those who look at a replay ask of it, with a burst of ten: a jump reads two seconds of the recording."""
+
 MOST_UPLOADS = 4
 """Own avatars that come in at one time: each is held whole in memory until it was checked."""
 

@@ -12,7 +12,7 @@ from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, web
 from room.protocol import Message, decode, encode
 from room.protocol.texts import Answer, Join, Left, Refused, Welcome, read_answer
 from room.protocol.tick import unpack
-from room.recording import Recorder
+from room.recording import Recorder, check_recording
 from room.server import Keys, Limits, Relays, Rooms, new_keys
 from room.server.janus import Janus
 
@@ -143,7 +143,7 @@ async def open_room(
         relays=relays or Relays(),
         origins=origins,
         recorder=recorder,
-        replayed=replayed,
+        replayed=check_recording(replayed) if replayed else None,
         telegraph=telegraph,
         engines=engines,
     )

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import aiohttp
@@ -19,9 +20,9 @@ from hypothesis import strategies as st
 from facegen.conventions import BLENDSHAPES
 from room.errors import FormatError, InputError
 from room.protocol import Message, decode, encode
-from room.protocol.texts import Changed, Left, Notice, Person
+from room.protocol.texts import Changed, Left, Notice, Person, Playing
 from room.protocol.tick import pack
-from room.recording import Recorder, check_recording, read_recording
+from room.recording import Recorder, check_recording, follow_recording, read_recording
 from room.recording.lines import Came, Gone, Heading, Tick
 from room.recording.writer import MOST_WAITING
 from room.server.hall import HERTZ
@@ -262,6 +263,93 @@ def test_a_replay_sends_the_same_states_at_the_same_pace_and_begins_again(tmp_pa
             await viewer.until(lambda: len(viewer.sequences) > 35)
 
     asyncio.run(run())
+
+
+def test_a_replay_halts_jumps_and_goes_faster_for_all_who_look(tmp_path):
+    path = recorded(tmp_path / "meeting.jsonl")
+    ticks = [line for line in read_recording(path) if isinstance(line, Tick)]
+    survey = check_recording(path)
+    ada = [(tick.time_ms, decode(state)) for tick in ticks for number, state in tick.states if number == 0]
+    length_s = (survey.ends_ms - survey.begins_ms) / 1000
+
+    def cast(guest: Guest) -> set[int]:
+        """Numbers of the recorded Ada."""
+        people = {person.number: person for person in guest.welcome.people}
+        people |= {changed.person.number: changed.person for changed in guest.all(Changed)}
+        return {number for number, person in people.items() if person.replayed and person.name == "Ada"}
+
+    def known(state: Message) -> tuple[int, int]:
+        return state.sequence, state.animation
+
+    def shown(guest: Guest) -> list[tuple[int, int]]:
+        return [known(guest.states[number]) for number in guest.states.keys() & cast(guest)]
+
+    async def run() -> None:
+        async with open_room(replayed=path) as place:
+            viewer, other = await place.guest(name="Viewer"), await place.guest(name="Other")
+            assert (await other.told(Playing)).length_s == pytest.approx(length_s)
+            for time_s in (0.3, length_s, 0.0, 0.5):
+                await viewer.say(kind="play", time_s=time_s, paused=True)
+                told = await other.told(
+                    Playing, lambda answer, at=time_s: answer.paused and abs(answer.time_s - at) < 1e-6
+                )
+                assert told.speed == 1
+                due = [known(state) for at, state in ada if at <= survey.begins_ms + time_s * 1000]
+                await other.until(lambda due=due: shown(other) == due[-1:])
+            (number,) = other.states.keys() & cast(other)
+            # halted: the same state again and again, at times that go on, so that no page lets the face sink
+            first = other.states[number]
+            await other.until(lambda: other.states[number].time_ms >= first.time_ms + 700)
+            assert replace(other.states[number], time_ms=0) == replace(first, time_ms=0)
+            begun = asyncio.get_running_loop().time()
+            await viewer.say(kind="play", time_s=0.0, paused=False, speed=0.5)
+            await other.until(lambda: shown(other) == [known(ada[-1][1])])
+            took = asyncio.get_running_loop().time() - begun
+            assert took == pytest.approx(length_s / 0.5, abs=0.4)
+            (number,) = other.states.keys() & cast(other)
+            slow = other.states[number].time_ms - ada[0][1].time_ms
+            assert slow == pytest.approx(2 * (ada[-1][1].time_ms - ada[0][1].time_ms), abs=150)
+            await viewer.say(kind="play", speed=9)
+            end = await viewer.end()
+            assert "speed" in end[1][0].text, "no such pace"
+            await other.say(kind="play", time_s=0.0, speed=8)
+            begun = asyncio.get_running_loop().time()
+            await other.told(Playing, lambda answer: answer.speed == 8)
+            seen = len(other.all(Left))
+            await other.until(lambda: len(other.all(Left)) > seen)
+            assert asyncio.get_running_loop().time() - begun < length_s / 2
+
+    asyncio.run(run())
+
+
+def test_where_people_meet_nothing_is_played():
+    async def run() -> None:
+        async with open_room() as place:
+            guest = await place.guest()
+            await guest.say(kind="play", paused=True)
+            assert "nothing to play" in (await guest.told(Notice)).text
+
+    asyncio.run(run())
+
+
+def test_a_recording_can_be_followed_from_every_mark(tmp_path, monkeypatch):
+    path = recorded(tmp_path / "meeting.jsonl")
+    monkeypatch.setattr("room.recording.reader.MARKS_MS", 50)
+    lines = list(read_recording(path))[1:]
+    survey = check_recording(path)
+    assert len(survey.marks) > 5
+    for mark in survey.marks:
+        rest = list(follow_recording(path, mark))
+        before = lines[: len(lines) - len(rest)]
+        assert [*before, *rest] == lines
+        assert rest[0].time_ms == mark.time_ms
+        there: dict[int, Came] = {}
+        for line in before:
+            if isinstance(line, Came):
+                there[line.number] = line
+            if isinstance(line, Gone):
+                del there[line.number]
+        assert mark.cast == there
 
 
 def test_nobody_can_be_somebody_of_a_replay_and_a_moderator_may_remove_them(tmp_path):

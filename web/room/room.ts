@@ -8,12 +8,14 @@ import { EYES_M, SEATED_M } from "./body.js";
 import { Brought } from "./brought.js";
 import { FaceCamera } from "./face.js";
 import { Figure } from "./figure.js";
+import { Headset } from "./headset.js";
 import { about, ask, randomText, readLink, secretOf, sentence } from "./join.js";
 import { Line } from "./line.js";
 import { Idle, type OwnFace } from "./own.js";
 import { freePlace } from "./place.js";
 import { Playback } from "./playback.js";
 import { ANIMATIONS, FLAG, type Message } from "./protocol.js";
+import { Replaying } from "./replaying.js";
 import { Sidebar } from "./sidebar.js";
 import type { Answer, Person, Welcome } from "./texts.js";
 import { View } from "./view.js";
@@ -50,9 +52,11 @@ class Meeting {
   drawing = true;
   private readonly view = new View(find("view"), find("mirror"));
   private readonly walk = new Walk(find("view"));
+  private readonly headset = new Headset(this.view.renderer, this.view.rig, this.walk, find("headset"), (text) => this.tell(text));
   private readonly wardrobe = new Wardrobe();
   private readonly idle = new Idle();
   private readonly brought: Brought;
+  private readonly replaying = new Replaying((said) => this.line.say(said));
   private readonly sidebar: Sidebar;
   private readonly line: Line;
   private camera: FaceCamera | undefined;
@@ -92,7 +96,7 @@ class Meeting {
     find("meeting").hidden = false;
     find("view").hidden = false;
     find("mirror").hidden = false;
-    requestAnimationFrame(() => this.draw());
+    this.view.start(() => this.draw());
     // a timer, not the picture: a hidden tab still speaks and stands somewhere, if more slowly
     setInterval(() => this.move(), 1000 / HERTZ);
   }
@@ -150,6 +154,9 @@ class Meeting {
         if (from) void this.voice.hear(from, signal);
         return;
       }
+      case "playing":
+        this.replaying.hear(answer);
+        return;
       case "engine":
       case "heard":
         this.voice.engine(answer);
@@ -230,11 +237,11 @@ class Meeting {
     if (!this.own || !this.stand(now)) return;
     const seconds = Math.min(0.2, (now - this.moved) / 1000);
     this.moved = now;
-    this.walk.update(this.seated ? 0 : seconds);
+    if (!this.headset.worn) this.walk.update(this.seated ? 0 : seconds);
     if (now / 1000 > this.animationEnds) this.gesture(0);
     const speaking = this.microphone?.speaking ?? false;
     const idle = this.idle.update(seconds, speaking ? this.microphone!.level : 0);
-    const message = this.state(this.camera?.face(now) ?? idle, speaking);
+    const message = { ...this.state(this.camera?.face(now) ?? idle, speaking), ...this.headset.update(seconds) };
     this.sent = { ...message, sequence: 0, time_ms: 0, weights: Float64Array.from(message.weights) };
     this.line.move(message);
     this.place(now);
@@ -261,7 +268,8 @@ class Meeting {
       this.voice.place(person.id, { x: shown.floor_m[0]!, y: height, z: shown.floor_m[1]! });
     }
     const { x, z, heading } = this.walk;
-    this.voice.listen({ x, y: this.standing, z }, heading);
+    const { at, heading: turned } = this.headset.ears() ?? { at: { x, y: this.standing, z }, heading };
+    this.voice.listen(at, turned);
   }
 
   private state(face: OwnFace, speaking: boolean): Omit<Message, "sequence" | "time_ms"> {
@@ -280,11 +288,11 @@ class Meeting {
   }
 
   private draw(): void {
-    requestAnimationFrame(() => this.draw());
     const now = performance.now();
     const seconds = Math.min(0.1, (now - this.drawn) / 1000);
     this.drawn = now;
     this.standing += ((this.seated ? SEATED_M : EYES_M) - this.standing) * (1 - Math.exp(-8 * seconds));
+    this.headset.look();
     this.view.look(this.walk.x, this.walk.z, this.standing, this.walk.heading, this.walk.pitch);
     for (const [number, { person, playback, figure }] of this.known) {
       const shown = playback.at(now);
@@ -297,6 +305,7 @@ class Meeting {
       if (self) continue;
       figure.call(person, (shown.flags & FLAG.tracked) !== 0);
     }
+    this.replaying.show();
     if (this.drawing) this.view.draw();
   }
 

@@ -48,6 +48,7 @@ export type Said =
   | Candidate
   | { kind: "moderate"; action: Act; number?: number }
   | { kind: "consent"; recorded: boolean }
+  | { kind: "play"; paused?: boolean; time_s?: number; speed?: number }
   | { kind: "undress" }
   | { kind: "leave" };
 
@@ -81,6 +82,7 @@ export type Answer =
   | { kind: "left"; number: number }
   | { kind: "line"; number: number; name: string; text: string; time_s: number }
   | { kind: "door"; locked: boolean }
+  | { kind: "playing"; time_s: number; length_s: number; paused: boolean; speed: number }
   | { kind: "signal"; sender: number | EngineLine; signal: Description | Candidate }
   | { kind: "engine"; state: "ready" | "away" }
   | { kind: "heard"; voices: Record<string, string> }

@@ -1,13 +1,13 @@
 /** Draws the room as one person sees it, and that person in a small mirror. */
 
-import { PCFShadowMap, PerspectiveCamera, Quaternion, Scene, SRGBColorSpace, Vector3, WebGLRenderer, NeutralToneMapping, type Object3D } from "three";
+import { Group, PCFShadowMap, PerspectiveCamera, Quaternion, Scene, SRGBColorSpace, Vector3, WebGLRenderer, NeutralToneMapping, type Object3D } from "three";
 
 import { BACKGROUND, makePlace } from "./place.js";
 
 const FIELD_DEG = 50;
 const MOST_PIXEL_RATIO = 2;
-/** The own body is on this layer, which the own eyes do not see. */
-const SELF = 1;
+/** The own body is on this layer, which the own eyes do not see; 1 and 2 are those of a headset's two eyes. */
+const SELF = 3;
 /** The mirror hangs so far before the face, in metres. */
 const MIRROR_M = 0.62;
 
@@ -15,8 +15,10 @@ export class View {
   readonly scene = new Scene();
   readonly camera = new PerspectiveCamera(FIELD_DEG, 1, 0.05, 40);
   readonly eye = new Vector3();
+  /** Carries the camera of a headset. */
+  readonly rig = new Group();
   private readonly mirror = new PerspectiveCamera(32, 150 / 170, 0.05, 20);
-  private readonly renderer: WebGLRenderer;
+  readonly renderer: WebGLRenderer;
   private readonly small: CanvasRenderingContext2D;
 
   /** Throws where the browser gives no WebGL. */
@@ -27,6 +29,8 @@ export class View {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.toneMapping = NeutralToneMapping;
+    this.renderer.xr.enabled = true;
+    this.scene.add(this.rig.add(this.camera));
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.scene.background = BACKGROUND;
@@ -46,6 +50,10 @@ export class View {
   /** Look from where one stands, turned by heading and pitch. */
   look(x: number, z: number, height: number, heading: number, pitch: number): void {
     this.eye.set(x, height, z);
+    if (this.renderer.xr.isPresenting) {
+      this.camera.getWorldPosition(this.eye);
+      return;
+    }
     this.camera.position.copy(this.eye);
     // a camera looks along -z, a body along +z
     this.camera.quaternion.copy(turned(heading + Math.PI, pitch));
@@ -54,7 +62,16 @@ export class View {
     this.mirror.lookAt(x, height - 0.06, z);
   }
 
+  /** Call this whenever a picture is due, of the page or of a headset. */
+  start(due: () => void): void {
+    this.renderer.setAnimationLoop(due);
+  }
+
   draw(): void {
+    if (this.renderer.xr.isPresenting) {
+      this.renderer.render(this.scene, this.camera);
+      return;
+    }
     const ratio = Math.min(devicePixelRatio, MOST_PIXEL_RATIO);
     const [width, height] = [Math.round(innerWidth * ratio), Math.round(innerHeight * ratio)];
     if (!this.glass.hidden) this.reflect();

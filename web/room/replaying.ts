@@ -1,0 +1,106 @@
+/** The bar of a replay: where it is, halt and go on, a jump, a pace; by mouse and by keys. All who look see the same. */
+
+import type { Said } from "./texts.js";
+
+export type Playing = { kind: "playing"; time_s: number; length_s: number; paused: boolean; speed: number };
+type Ask = Omit<Extract<Said, { kind: "play" }>, "kind">;
+
+const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
+/** A key jumps so far. */
+const JUMP_S = 5;
+/** While the slider is dragged, so often a second; the server takes five. */
+const DRAG_MS = 250;
+
+const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
+
+export class Replaying {
+  private playing: Playing | undefined;
+  private heardAt = 0;
+  private draggedAt = -Infinity;
+  private dragging = false;
+  private readonly bar = find("replay");
+  private readonly halt = find<HTMLButtonElement>("halt");
+  private readonly slider = find<HTMLInputElement>("moment");
+  private readonly pace = find<HTMLSelectElement>("pace");
+
+  constructor(private readonly say: (said: Extract<Said, { kind: "play" }>) => void) {
+    this.pace.replaceChildren(...SPEEDS.map((speed) => new Option(`${speed} ×`, String(speed))));
+    this.halt.addEventListener("click", () => this.toggle());
+    this.slider.addEventListener("input", () => {
+      this.dragging = true;
+      const now = performance.now();
+      if (now - this.draggedAt < DRAG_MS) return;
+      this.draggedAt = now;
+      this.ask({ time_s: this.slider.valueAsNumber });
+    });
+    this.slider.addEventListener("change", () => {
+      this.dragging = false;
+      this.ask({ time_s: this.slider.valueAsNumber });
+      this.slider.blur(); // arrows walk again
+    });
+    this.pace.addEventListener("change", () => {
+      this.ask({ speed: Number(this.pace.value) });
+      this.pace.blur();
+    });
+    addEventListener("keydown", (event) => this.key(event));
+  }
+
+  /** What the room says; the first word shows the bar. */
+  hear(playing: Playing): void {
+    this.playing = playing;
+    this.heardAt = performance.now();
+    this.bar.hidden = false;
+    this.halt.textContent = playing.paused ? "Play" : "Pause";
+    this.slider.max = String(playing.length_s);
+    this.pace.value = String(playing.speed);
+    this.show();
+  }
+
+  /** Seconds from the beginning, by the last word and the time since. */
+  get time(): number {
+    if (!this.playing) return 0;
+    const { time_s, length_s, paused, speed } = this.playing;
+    return Math.min(length_s, time_s + (paused ? 0 : (speed * (performance.now() - this.heardAt)) / 1000));
+  }
+
+  /** Once a picture. */
+  show(): void {
+    if (!this.playing) return;
+    if (!this.dragging) this.slider.value = String(this.time);
+    const text = `${clock(this.dragging ? this.slider.valueAsNumber : this.time)} / ${clock(this.playing.length_s)}`;
+    const shown = find("clock");
+    if (shown.textContent !== text) {
+      shown.textContent = text;
+      this.slider.setAttribute("aria-valuetext", text);
+    }
+  }
+
+  private toggle(): void {
+    this.ask({ paused: !this.playing!.paused });
+  }
+
+  private key(event: KeyboardEvent): void {
+    const { key, target, ctrlKey, metaKey, altKey } = event;
+    const typing = target instanceof HTMLElement && target.closest("input, textarea, select, button");
+    if (!this.playing || typing || ctrlKey || metaKey || altKey) return;
+    const faster = SPEEDS.find((speed) => speed > this.playing!.speed);
+    const slower = SPEEDS.filter((speed) => speed < this.playing!.speed).at(-1);
+    if (key === " " || key === "k") this.toggle();
+    else if (key === "j") this.ask({ time_s: Math.max(0, this.time - JUMP_S) });
+    else if (key === "l") this.ask({ time_s: Math.min(this.playing.length_s, this.time + JUMP_S) });
+    else if (key === "Home") this.ask({ time_s: 0 });
+    else if (key === ">" && faster) this.ask({ speed: faster });
+    else if (key === "<" && slower) this.ask({ speed: slower });
+    else return;
+    event.preventDefault();
+  }
+
+  private ask(said: Ask): void {
+    this.say({ kind: "play", ...said });
+  }
+}
+
+function clock(seconds: number): string {
+  const whole = Math.floor(seconds);
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+}
