@@ -25,6 +25,9 @@ HIDDEN_DEG = 20.0
 _MEMORY = 300
 """Frames whose median is the iris's diameter: a half-hidden iris is traced too small."""
 
+_SETTLED = 30
+"""Frames of which a median changes little by one more."""
+
 _USUAL_OPENNESS = 0.85
 """Lids of the mean of training's frames, over those of the resting eye: some of these frames are shut. Neutral frames
 of 60 other people read 1.00 in the median."""
@@ -63,6 +66,7 @@ class EyeReader:
             name: int(any(point.startswith("right_pupil") for point in predictor.model.points[name]))
             for name in self._eyes
         }
+        self._medians = dict.fromkeys(self._eyes, float("nan"))
         self._pupils = dict.fromkeys(self._eyes, float("nan"))
         self._frame = 0
         self._diameters = {name: deque(maxlen=_MEMORY) for name in self._eyes}
@@ -100,8 +104,7 @@ class EyeReader:
             if name not in points or name not in pictures:
                 continue
             side, seen = self.sides[name], points[name].astype(np.float64)
-            self._diameters[name].append(diameter_of(seen, eye))
-            diameter = float(np.median(self._diameters[name]))
+            diameter = self._diameter(name, seen)
             own = self._own.get(name, OwnEye())
             openness_mm[side] = IRIS_MM * _apart(seen, eye) / diameter
             known = own if own.rest_mm is not None and own.shut_mm is not None else self._usual[name]
@@ -126,10 +129,18 @@ class EyeReader:
         corners = points[[eye.upper[0], eye.upper[-1]]].mean(axis=0)
         return self._maps[camera] @ np.append((points[eye.pupil] - corners) / diameter, 1.0)
 
+    def _diameter(self, camera: str, points: np.ndarray) -> float:
+        """Median of the iris's diameter, which changes with the seat alone: counted anew now and then."""
+        seen = self._diameters[camera]
+        seen.append(diameter_of(points, self._eyes[camera]))
+        if len(seen) < _SETTLED or self._frame % _SETTLED == 0:
+            self._medians[camera] = float(np.median(seen))
+        return self._medians[camera]
+
     def _pupil(self, camera: str, picture: np.ndarray, points: np.ndarray) -> float:
         """The pupil of now, or of just now: the eyes' turns do not fall on one frame."""
         due = (self._frame + 2 * self.sides[camera]) % _PUPIL_EVERY == 0
-        if due or np.isnan(self._pupils[camera]):
+        if due or self._frame == 1:
             self._pupils[camera] = pupil_share(picture, points, self._eyes[camera])
         return self._pupils[camera]
 
