@@ -195,7 +195,9 @@ class Telegraph:
     def _tell_gone(self) -> None:
         if not self._told_gone:
             self._told_gone = True
-            self._said("redis is away: open rooms go on in each server by itself, others open when it is back")
+            self._said(
+                "redis is away: open rooms go on in each server by itself, others open when it is back"
+            )
 
     def _tell_back(self) -> None:
         if self._told_gone:
