@@ -13,7 +13,7 @@ import argparse
 import json
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import cv2
@@ -30,7 +30,7 @@ from regress.runtime.headset.model import HeadsetTraining
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.timing import time_headset
 
-SHOWN_PX = 240
+SHOWN_PX, WINDOW_M = 240, (-0.115, 0.115, 0.115, -0.145)
 """Height of the drawn faces."""
 
 Figures = dict[str, dict]
@@ -302,7 +302,8 @@ def print_drawn(
 
     def drawn(weights: np.ndarray) -> list[np.ndarray]:
         played = play_weights(rig, weights.astype(np.float64), np.arange(len(weights)) / 30, title="frames")
-        return list(pictures(played, height_px=SHOWN_PX, landmarks=False))
+        plain = replace(played, look=None)  # as when the figures of docs/measurements were made
+        return list(pictures(plain, height_px=SHOWN_PX, landmarks=False, window_m=WINDOW_M))
 
     true = drawn(arrays.weights[rows])
     result, table = {}, []

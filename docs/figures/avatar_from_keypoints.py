@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from facegen.conventions import LANDMARK_GROUPS
 from facegen.formats.weight_table import read_weight_table
 from facegen.preview import pictures, play_weights
+from facegen.preview.performance import FACE_M
 from facegen.rigs import load_rig
 from regress.runtime.inputs import read_frames
 
@@ -38,12 +39,12 @@ def main() -> None:
         points = read_frames(Path(recording)).points
         avatar = play_weights(rig, *read_weight_table(table), title=table)
         chosen = _different(avatar.weights)
-        faces = pictures(avatar.rows(chosen), height_px=600, landmarks=False)
+        faces = pictures(avatar.rows(chosen), height_px=420, landmarks=False, window_m=FACE_M)
         columns = grid.T[number * COLUMNS : (number + 1) * COLUMNS]
         for (above, below), row, face in zip(columns, chosen, faces, strict=True):
             _draw_points(above, points[row])
             above.set_title(f"clip {number + 1}, row {row + 1}", fontsize=8)
-            below.imshow(face[155:565, 60:470], interpolation="lanczos")
+            below.imshow(face, interpolation="lanczos")
             for axes in (above, below):
                 axes.set_axis_off()
     figure.savefig(OUT)

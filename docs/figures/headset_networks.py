@@ -24,6 +24,7 @@ from PIL import Image
 
 from facegen.conventions import BLENDSHAPES, VIEW_POINTS
 from facegen.preview import pictures, play_weights
+from facegen.preview.performance import FACE_M
 from facegen.rigs import load_rig
 from regress.learning.headset.arrays import read_arrays
 from regress.learning.headset.evaluation import Condition, estimate, evaluate
@@ -181,8 +182,8 @@ def draw_faces(predictor, frames) -> None:
         grid[0, column].set_title(f"{errors[place]:.2f} mm", fontsize=9)
     for number, weights in enumerate(strips):
         played = play_weights(rig, weights.astype(np.float64), np.arange(FACES) / 30, title="faces")
-        for column, picture in enumerate(pictures(played, height_px=260, landmarks=False)):
-            grid[len(ORDER) + number, column].imshow(picture[45:235, 20:210])  # brows to chin
+        for column, picture in enumerate(pictures(played, height_px=190, landmarks=False, window_m=FACE_M)):
+            grid[len(ORDER) + number, column].imshow(picture)
     for row, words in enumerate(
         ("right eye", "left eye", "mouth", "true", "predicted", "with neutral\npicture")
     ):

@@ -17,9 +17,9 @@ from facegen.store import Dataset, column_array
 
 WINDOW_M = (-0.150, 0.165, 0.150, -0.150)
 """Left, top, right and bottom of the pictures: room for a head with hair that turns."""
-FACE_M = (-0.088, 0.072, 0.088, -0.114)
+FACE_M = (-0.094, 0.066, 0.094, -0.130)
 """The same of pictures in which a mouth is large enough to be read."""
-SOMEBODY = draw_look(3, female=True, ancestry=np.array([0.0, 0.0, 1.0]))
+SOMEBODY = draw_look(8, female=True, ancestry=np.array([0.0, 0.0, 1.0]))
 """Who plays weights of nobody that a dataset knows."""
 _SEEN, _HIDDEN = (0, 190, 255), (255, 255, 255)
 
@@ -45,7 +45,7 @@ class Performance:
     title
         What it is.
     look
-        Whose colours and hair.
+        Whose colours and hair; None for the plain colours of figures.
     """
 
     rig: Rig
@@ -55,7 +55,7 @@ class Performance:
     rotation: np.ndarray
     time_s: np.ndarray
     title: str
-    look: Look = SOMEBODY
+    look: Look | None = SOMEBODY
 
     @property
     def fps(self) -> float:
@@ -163,7 +163,8 @@ def pictures(
 ) -> Iterator[np.ndarray]:
     """RGB pictures (height, width, 3) uint8 of every frame, width and height even."""
     step_m = (window_m[1] - window_m[3]) / height_px
-    person = dressed_person(performance.rig, performance.identity, performance.look)
+    look = performance.look
+    person = None if look is None else dressed_person(performance.rig, performance.identity, look)
     for row in range(len(performance.weights)):
         one = slice(row, row + 1)
         face = evaluate(

@@ -50,7 +50,7 @@ def test_a_picture_holds_the_whole_head(anny, seed):
 
 
 def test_hair_covers_the_head_and_no_eye(anny):
-    look = draw_look(3, female=True)
+    look = draw_look(8, female=True)
     changed = np.abs(drawn(anny, look) - drawn(anny, replace(look, hair="bald"))).max(axis=2) > 12
     top, eyes = changed[: len(changed) // 3], changed[len(changed) // 2 : len(changed) * 3 // 5]
     assert top.mean() > 0.15
@@ -58,7 +58,7 @@ def test_hair_covers_the_head_and_no_eye(anny):
 
 
 def test_a_strip_shows_a_mouth_twice_as_large(anny):
-    look = draw_look(3, female=True)
+    look = draw_look(8, female=True)
 
     def moved(window_m) -> int:
         still, spoken = (drawn(anny, look, window_m, jawOpen=weight) for weight in (0.0, 0.6))
