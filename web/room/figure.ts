@@ -64,8 +64,10 @@ export class Figure {
     [canvas.width, canvas.height] = [512, 128];
     const pen = canvas.getContext("2d")!;
     pen.textAlign = "center";
+    pen.font = "30px system-ui, sans-serif";
+    const wordWidth = pen.measureText(word).width;
     pen.font = "600 44px system-ui, sans-serif";
-    const width = Math.min(500, Math.max(pen.measureText(person.name).width, 120) + 56);
+    const width = Math.min(500, Math.max(pen.measureText(person.name).width, wordWidth, 120) + 56);
     pen.fillStyle = "rgba(22, 26, 30, 0.72)";
     pen.beginPath();
     pen.roundRect((512 - width) / 2, word ? 8 : 30, width, word ? 112 : 72, 24);
