@@ -23,7 +23,7 @@ def learning_curves(curve: LearningCurve) -> str:
     """Training, validation and test error against steps, logarithmic, with the chosen step marked."""
     width, height, left, bottom = 560, 300, 52, 46
     low, high = error_range([curve])
-    parts = _curve_parts(curve, (left, 14, width - 88, height - bottom), large=True, low=low, high=high)
+    parts = _curve_parts(curve, (left, 14, width - 112, height - bottom), large=True, low=low, high=high)
     return picture(width, height, parts, f"Learning curves, {curve.name}")
 
 
