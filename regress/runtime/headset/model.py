@@ -165,7 +165,8 @@ class HeadsetModel:
         For each camera that traces any, which of ``VIEW_POINTS`` ``points_<camera>`` has; none in older models.
     typical
         For each camera the mean picture of its training (24 x 24 grey levels), by which ``predict`` knows pictures
-        that are turned or of another camera (``regress.runtime.headset.typical``); none in older models.
+        that are turned or of another camera (``regress.runtime.headset.typical``); none in older models and in those of
+        drawn headsets.
     looks
         For each camera how its training pictures looked, by which `predict` levels others and `check` judges them;
         none in older models.

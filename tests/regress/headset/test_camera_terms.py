@@ -51,6 +51,7 @@ def test_what_is_told_changes_the_answer_and_may_be_left_out(folder: Path, told_
     np.testing.assert_array_equal(plain, nothing)
     assert np.abs(plain - told).max() > 1e-4
     assert np.abs(of_one - told).max() > 1e-5
+    assert not predictor.typical  # of many headsets there is no typical picture
     assert interface_of(predictor.model, graph="n.onnx")["inputs"]["cameras"]["shape"] == [3, 15]
 
 

@@ -87,7 +87,10 @@ def train_headset(
         architecture=recipe.architecture,
         calibration="optional" if recipe.calibration else "none",
         points=points,
-        typical={name: _typical(pictures, training.rows) for name, pictures in arrays.pictures.items()},
+        # the mean of many headsets' pictures looks like none of them
+        typical={}
+        if arrays.drawn
+        else {name: _typical(pictures, training.rows) for name, pictures in arrays.pictures.items()},
         looks={
             name: camera_looks(arrays, name, training.rows, points.get(name, ())) for name in arrays.pictures
         },
