@@ -21,7 +21,7 @@ from facegen.errors import InputError, InvalidData, OutputError
 from facegen.program import program, run
 import typer
 
-app = program("masks", version="1", about="Masks.", libraries=())
+app = program("masks", about="Masks.", libraries=())
 
 @app.command()
 def make(count: int = 1, out: Path = Path("x")) -> None:
