@@ -6,14 +6,16 @@ import numpy as np
 
 from facegen.avatars.shapes import FaceShapes
 from facegen.avatars.skin import part_of_face
-from facegen.avatars.surface import Material, Surface, cut, vertex_normals
+from facegen.avatars.surface import Material, Surface, vertex_normals
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.mouth.crowns import AROUND, CAP, LEVELS
 from facegen.mouth.interior import has_own_teeth, mouth_meshes
 from facegen.mouth.tongue import AROUND as AROUND_TONGUE
 from facegen.mouth.traits import MouthTraits
 from facegen.raster import triangles_of
+from facegen.rigs import eye_geometry
 from facegen.scene import Mesh
+from facegen.scene.lid_edges import lid_edge_meshes
 
 MATERIAL = Material(name="mouth", roughness=0.6)  # shinier teeth glare white from the side
 COLOURS = {
@@ -33,15 +35,17 @@ TOOTH_COLUMNS = (0, 2, 4, 6, 8, 10, 13, 15, 17)
 TOOTH_RINGS = (1, 4, 6, 8, 10, 12)
 GUM_ROWS = (3, 6, 7, 8, 10, 13, 15, 19, 27)
 TEETH = 14
-SOCKET_M = 10e-3
-"""Linings of the lids this far behind their front are left out."""
+EDGE_INTO_M = 1.0e-3
+"""The lids' edges end so deep in the eye of the rig: the drawn one is smaller (`facegen.avatars.eyeballs`)."""
+EDGE_STILL_M = 0.25e-3
+"""What shapes move the edges by less is left out of the file."""
 
 
 def mouth_surfaces(shapes: FaceShapes, traits: MouthTraits) -> list[Surface]:
     """What is inside the mouth and behind the lids, of the mesh ``"Head"``."""
-    lining = [
-        _own(shapes, part) for part in (Part.MOUTH_CAVITY, Part.EYE_CAVITY) if (shapes.part == part).any()
-    ]
+    lining = [_lid_edges(shapes)]
+    if (shapes.part == Part.MOUTH_CAVITY).any():
+        lining.append(_own(shapes, Part.MOUTH_CAVITY))
     if has_own_teeth(shapes.rig):
         own = [part for part in (Part.TEETH, Part.GUMS, Part.TONGUE) if (shapes.part == part).any()]
         return [_joined(lining + [_own(shapes, part) for part in own])]
@@ -50,19 +54,42 @@ def mouth_surfaces(shapes: FaceShapes, traits: MouthTraits) -> list[Surface]:
 
 def _own(shapes: FaceShapes, part: Part) -> Surface:
     surface, used = part_of_face(shapes, (part,), mesh="Head", material=MATERIAL)
-    if part not in (Part.MOUTH_CAVITY, Part.EYE_CAVITY):
+    if part != Part.MOUTH_CAVITY:
         normals = vertex_normals(surface.positions, surface.triangles)
         surface = replace(surface, normals=normals, turned=_turned(surface))
     colours = np.tile([*COLOURS[part], 1.0], (len(used), 1))
-    if part == Part.EYE_CAVITY:
-        # lids are pink at their margins and dark where nobody should look; the socket's bottom nobody sees
-        depth = shapes.rig.eye_center[:, 2].mean() + 5.5e-3 - surface.positions[:, 2]
-        colours[:, :3] *= 1.0 - 0.85 * np.clip(depth / 8e-3, 0.0, 1.0)[:, None]
-        surface = replace(surface, colours=colours)
-        return cut(surface, (depth[surface.triangles] < SOCKET_M).any(axis=1))
-    else:
-        colours[:, :3] *= _light(shapes, surface.positions)[:, None]
+    colours[:, :3] *= _light(shapes, surface.positions)[:, None]
     return replace(surface, colours=colours)
+
+
+def _lid_edges(shapes: FaceShapes) -> Surface:
+    """The wet edges of the lids, from their margins into the drawn eyes."""
+    rig, ahead = shapes.rig, np.array([0.0, 0.0, 1.0])
+    eyes = [eye_geometry(c, r, ahead) for c, r in zip(rig.eye_center, rig.eye_radius, strict=True)]
+
+    def edges(vertices: np.ndarray) -> tuple[Mesh, ...]:
+        return lid_edge_meshes(rig, vertices, eyes, rows=2, into_m=EDGE_INTO_M)
+
+    def positions(vertices: np.ndarray) -> np.ndarray:
+        return np.concatenate([mesh.vertices for mesh in edges(vertices)])
+
+    left, right = edges(shapes.neutral)
+    rest = positions(shapes.neutral)
+    triangles = triangles_of(np.concatenate([left.faces, right.faces + len(left.vertices)]))
+    moved = np.stack([positions(shapes.neutral + one) - rest for one in shapes.moved])
+    moved[np.linalg.norm(moved, axis=-1) < EDGE_STILL_M] = 0.0
+    return Surface(
+        mesh="Head",
+        material=MATERIAL,
+        positions=rest,
+        normals=vertex_normals(rest, triangles),
+        triangles=triangles,
+        colours=np.tile([*COLOURS[Part.EYE_CAVITY], 1.0], (len(rest), 1)),
+        moved=moved,
+        turned=np.zeros_like(moved),  # so narrow that nobody sees its shading turn
+        bones=("Head", "Neck"),
+        shares=np.tile([1.0, 0.0], (len(rest), 1)),
+    )
 
 
 def _made(shapes: FaceShapes, traits: MouthTraits) -> list[Surface]:

@@ -4,6 +4,8 @@ Rigs' margins are lines, some way before the eye; at the corners they leave it b
 lining of the lids, the plica and the caruncle fill the room.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from facegen.conventions import SIDES, Part
@@ -22,18 +24,37 @@ ROWS = 6
 
 
 def lid_edge_meshes(
-    rig: Rig, vertices: np.ndarray, eyes: tuple[EyeGeometry, EyeGeometry]
+    rig: Rig,
+    vertices: np.ndarray,
+    eyes: Sequence[EyeGeometry],
+    *,
+    rows: int = ROWS,
+    into_m: float = INTO_M,
 ) -> tuple[Mesh, ...]:
-    """The edges of both eyes' lids on an evaluated head (V, 3), head frame, metres."""
+    """The edges of both eyes' lids on an evaluated head.
+
+    Parameters
+    ----------
+    rig
+        The rig.
+    vertices
+        (V, 3) head frame, metres.
+    eyes
+        The subject's left and right eye.
+    rows, into_m
+        Of vertices from the margin to the foot, and how deep in the eye this is.
+    """
     return tuple(
-        _edge(vertices[upper], vertices[lower], eye, name)
+        _edge(vertices[upper], vertices[lower], eye, name, rows, into_m)
         for eye, name, (upper, lower) in zip(
             eyes, SIDES, (lid_margins(rig, side) for side in range(len(SIDES))), strict=True
         )
     )
 
 
-def _edge(upper: np.ndarray, lower: np.ndarray, eye: EyeGeometry, side: str) -> Mesh:
+def _edge(
+    upper: np.ndarray, lower: np.ndarray, eye: EyeGeometry, side: str, rows: int, into_m: float
+) -> Mesh:
     loop = np.concatenate([upper, lower[-2:0:-1]])
     away = loop - eye.center
     length = np.linalg.norm(away, axis=-1, keepdims=True)
@@ -45,11 +66,11 @@ def _edge(upper: np.ndarray, lower: np.ndarray, eye: EyeGeometry, side: str) -> 
     way = np.linalg.norm(towards, axis=-1, keepdims=True)
     foot = away + np.minimum(slope / np.maximum(way, 1e-6), 0.5) * towards
     foot /= np.linalg.norm(foot, axis=-1, keepdims=True)
-    foot *= _surface(foot, eye) - INTO_M
-    share = np.linspace(0.0, 1.0, ROWS)[:, None, None]
+    foot *= _surface(foot, eye) - into_m
+    share = np.linspace(0.0, 1.0, rows)[:, None, None]
     points = eye.center + away + share * (foot - away)
     count = len(loop)
-    i, j = np.meshgrid(np.arange(ROWS - 1), np.arange(count), indexing="ij")
+    i, j = np.meshgrid(np.arange(rows - 1), np.arange(count), indexing="ij")
     k = (j + 1) % count
     quads = np.stack([i * count + j, i * count + k, (i + 1) * count + k, (i + 1) * count + j], axis=-1)
     faces = quads.reshape(-1, 4).astype(np.int32)
