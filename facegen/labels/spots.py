@@ -15,13 +15,29 @@ DISC = np.array(
     + [[0.87 * np.cos(a), 0.87 * np.sin(a), 1.0 / 19.0] for a in (np.arange(12) + 0.5) * np.pi / 6.0]
 )
 """The same of an LED that a lens mirrors: large enough to show as a disc, whose radius ``clump_px`` then is."""
+_RAYS = np.array([[a, d] for a in (0.3, 1.5, 2.2, 3.5, 4.55, 5.4) for d in np.linspace(1.6, 11.0, 20)])
+STAR_SHARE = 0.06
+STAR = np.concatenate(
+    [
+        DISC * [1.0, 1.0, 1.0 - STAR_SHARE],
+        np.stack(
+            [
+                _RAYS[:, 1] * np.cos(_RAYS[:, 0]),
+                _RAYS[:, 1] * np.sin(_RAYS[:, 0]),
+                STAR_SHARE * _RAYS[:, 1] ** -1.5 / (_RAYS[:, 1] ** -1.5).sum(),
+            ],
+            axis=-1,
+        ),
+    ]
+)
+"""The disc with rays: scratches and smears of worn lenses spread a small share of the light across them."""
 CLUMP_BLUR = 0.5
 """Further standard deviation of each spot of a clump in units of ``clump_px``: they run into each other."""
 
 
 DISC_BLUR = 0.22
 """Likewise of a disc: its spots make an even face."""
-_PATTERNS = {"cornea": np.array([[0.0, 0.0, 1.0]]), "sclera": CLUMP, "tears": CLUMP, "lens": DISC}
+_PATTERNS = {"cornea": np.array([[0.0, 0.0, 1.0]]), "sclera": CLUMP, "tears": CLUMP, "lens": STAR}
 
 
 def with_glints(radiance: np.ndarray, glints: Glints) -> np.ndarray:

@@ -24,8 +24,8 @@ TILT_RAD = np.radians(6.0)
 """Pantoscopic tilt: the lower rim is nearer to the cheek."""
 CLEAR_M = 0.6e-3
 """Least distance between frame and skin."""
-CORNEA_M = 12.5e-3
-"""From an eyeball's centre to its cornea's apex."""
+CORNEA_M = 13.5e-3
+"""From an eye's centre of rotation to its cornea's apex."""
 TUBE_SIDES = 8
 """Of a tube's cross-section."""
 

@@ -17,11 +17,13 @@ STRANDS = {"upper": 105, "lower": 60}
 """Of a lid, at a density of 1; people have 90 to 160 above and 75 to 80 below [1]_, some hidden behind others."""
 CLUMP = (2, 5)
 """Fewest and most strands that close towards a common tip."""
+LENGTH_M = {"upper": 9.5e-3, "lower": 6.0e-3}
+"""Of the longest lashes of a lid at a length of 1; people's upper ones are 8 to 12 mm long, the lower 6 to 8 [1]_."""
 BARE = 0.12
 """Share of a lid, from the inner corner to the lacrimal point, that has no lashes."""
 CLOSING = 0.7
 """Share of the way to its clump's middle that a tip goes."""
-ROOT_RADIUS_M, TIP_RADIUS_M = 0.08e-3, 0.02e-3
+ROOT_RADIUS_M, TIP_RADIUS_M = 0.1e-3, 0.035e-3
 SCATTER_M = 0.9e-3
 """Standard deviation by which tips leave the strip: lashes grow in two to three rows."""
 
@@ -43,7 +45,8 @@ class Lashes:
     strips
         The rig's, in its order.
     place
-        For each, (s, `POINTS`, 2) places on the grid: along the lid and from root to tip, both 0 to 1.
+        For each, (s, `POINTS`, 2) places: along the lid, 0 to 1, and from the root, in depths of the grid. Beyond 1
+        a strand goes straight on.
     aside_m
         For each, (s, `POINTS`) distances from the strip, along its normal.
     radius_m
@@ -64,10 +67,13 @@ def draw_lashes(rng: np.random.Generator, rig: Rig, *, density: float = 1.0, len
     rng
         The person's stream.
     density, length
-        Relative to `STRANDS` and to the strips' depth.
+        Relative to `STRANDS` and `LENGTH_M`.
     """
     strips = lash_strips(rig)
-    drawn = [_draw_strip(rng, strip, strips, density, length) for strip in strips]
+    drawn = [
+        _draw_strip(rng, strip, strips, density, length * LENGTH_M[strip.lid] / _depth_m(strip, rig))
+        for strip in strips
+    ]
     return Lashes(
         strips=strips, **{key: tuple(one[key] for one in drawn) for key in ("place", "aside_m", "radius_m")}
     )
@@ -86,11 +92,11 @@ def _draw_strip(
     middle = middle + rng.normal(0.0, 0.3 / count, count)[clump]
     # shorter towards the inner corner and the outer end; hairs of a clump are of one age, more or less
     longest = np.sin(np.pi * np.clip(root, 0.05, 0.93)) ** 0.5
-    reach = length * longest * (0.62 + 0.38 * rng.random(count)[clump]) * rng.uniform(0.75, 1.0, count)
+    reach = length * longest * (0.75 + 0.25 * rng.random(count)[clump]) * rng.uniform(0.8, 1.0, count)
     t = np.linspace(0.0, 1.0, POINTS)
     u = root[:, None] + ((middle - root) * CLOSING)[:, None] * t**1.5
     u = u + (rng.normal(0.0, 0.6 / count, count)[:, None]) * t**2
-    v = np.minimum(reach[:, None], 1.0) * t
+    v = reach[:, None] * t
     row = rng.normal(0.0, SCATTER_M, count)[clump] * 0.7 + rng.normal(0.0, SCATTER_M, count) * 0.4
     taper = ROOT_RADIUS_M + (TIP_RADIUS_M - ROOT_RADIUS_M) * t**1.3
     thickness = rng.uniform(0.75, 1.1, count) * (1.0 if strip.lid == "upper" else 0.75)
@@ -99,6 +105,12 @@ def _draw_strip(
         aside_m=row[:, None] * t * (reach / max(length, 1e-6))[:, None],
         radius_m=thickness[:, None] * taper,
     )
+
+
+def _depth_m(strip: LashStrip, rig: Rig) -> float:
+    """From the roots to the border of the mean head's strip."""
+    steps = np.linalg.norm(np.diff(rig.vertices[strip.grid], axis=1), axis=-1)
+    return float(steps.sum(axis=1).mean())
 
 
 def lash_tubes(lashes: Lashes, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -111,7 +123,11 @@ def lash_tubes(lashes: Lashes, vertices: np.ndarray) -> tuple[np.ndarray, np.nda
         normal = np.cross(np.gradient(surface, axis=0), np.gradient(surface, axis=1))
         normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
         at = place * (np.array(strip.grid.shape) - 1.0)
-        centres.append(_sampled(surface, at) + aside[..., None] * _sampled(normal, at))
+        beyond = np.maximum(at[..., 1] - (strip.grid.shape[1] - 1.0), 0.0)
+        onwards = _sampled(np.gradient(surface, axis=1), at)
+        centres.append(
+            _sampled(surface, at) + aside[..., None] * _sampled(normal, at) + beyond[..., None] * onwards
+        )
         radii.append(radius)
     return strand_tubes(np.concatenate(centres), np.concatenate(radii))
 

@@ -84,7 +84,7 @@ _RANGE = {
     "pattern": (0.0, 1.0),
     "lashes": (0.05, 0.12),
     "lash_density": (0.75, 1.3),
-    "lash_length": (0.7, 1.0),
+    "lash_length": (0.76, 1.14),
     "hair": (0.08, 0.3),
     "brow_density": (0.5, 1.4),
     "brow_width": (0.75, 1.25),

@@ -7,6 +7,9 @@ import numpy as np
 from facegen.scene.looks import Look
 from facegen.scene.materials import MATERIALS
 
+BUNCH = 5
+"""Neighbouring lashes that mascara sticks together."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class MakeUp:
@@ -15,7 +18,7 @@ class MakeUp:
     Attributes
     ----------
     mascara
-        0 to 1: how much thicker and darker lashes are.
+        0 to 1: how much thicker and darker lashes are, and how far neighbours stick together.
     liner
         0 to 1: share of the light that the line along the upper lashes absorbs.
     lipstick
@@ -52,5 +55,18 @@ def made_up(look: Look, make_up: MakeUp) -> Look:
         values[key] = values.get(key, MATERIALS[name][key]) * factor
     materials.setdefault("skin", {})["liner"] = make_up.liner
     thicker = 1.0 + 0.5 * make_up.mascara
-    lashes = replace(look.lashes, radius_m=tuple(radius * thicker for radius in look.lashes.radius_m))
+    lashes = replace(
+        look.lashes,
+        radius_m=tuple(radius * thicker for radius in look.lashes.radius_m),
+        place=tuple(_stuck(place, make_up.mascara) for place in look.lashes.place),
+        aside_m=tuple(_stuck(aside[..., None], make_up.mascara)[..., 0] for aside in look.lashes.aside_m),
+    )
     return replace(look, lashes=lashes, materials=materials)
+
+
+def _stuck(strands: np.ndarray, share: float) -> np.ndarray:
+    """Strands (s, p, d), roots first and in their order along the lid, whose tips go to those of their bunches."""
+    bunch = np.arange(len(strands)) // BUNCH
+    middle = np.stack([strands[bunch == b].mean(axis=0) for b in range(bunch.max(initial=-1) + 1)])[bunch]
+    way = share * np.linspace(0.0, 1.0, strands.shape[1])[:, None]
+    return strands + way * (middle - strands)

@@ -19,7 +19,7 @@ from facegen.errors import InputError
 
 MATERIALS: dict[str, dict[str, float]] = {
     "skin": {
-        "albedo": 0.572,
+        "albedo": 0.6,
         "roughness": 0.48,
         "specular": 0.35,
         "scatter_m": 3.0e-3,
@@ -51,8 +51,8 @@ MATERIALS: dict[str, dict[str, float]] = {
         "vessels": 0.12,
         "limbus": 0.35,
     },
-    "iris": {"albedo": 0.322, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
-    "pupil": {"albedo": 0.145},
+    "iris": {"albedo": 0.245, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
+    "pupil": {"albedo": 0.1},
     "cornea": {"index": 1.336},
     "teeth": {"albedo": 0.62, "roughness": 0.2, "scatter_m": 1.0e-3},
     "gums": {"albedo": 0.45, "roughness": 0.3, "scatter_m": 2.0e-3},

@@ -24,7 +24,7 @@ from facegen.validation.ranges import impossible
 DEPTH_M = 1e-3
 """A visible landmark's depth must be this near to the best of the 3x3 pixels around it."""
 
-STRANDS_M = {Part.LASHES: 12e-3, Part.HAIR: max(high for _, high in LENGTH_M.values()) + 2e-3}
+STRANDS_M = {Part.LASHES: 15e-3, Part.HAIR: max(high for _, high in LENGTH_M.values()) + 2e-3}
 """Strands hide no landmark (docs/conventions.md), and stand no further than this before their skin: a lash's length,
 and the longest beard's."""
 
