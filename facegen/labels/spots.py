@@ -71,6 +71,8 @@ def _add_spot(image: np.ndarray, middle_px: np.ndarray, sigma_px: float, volume:
     for middle, size in zip(middle_px, image.shape[::-1], strict=True):
         reach = REACH * sigma_px + 1.0
         first, last = max(round(middle - reach), 0), min(round(middle + reach), size - 1)
+        if first > last:  # rays of a star leave the picture
+            return
         edges = np.arange(first, last + 2) - 0.5
         profile.append(np.diff(0.5 * erf((edges - middle) / (sigma_px * np.sqrt(2.0)))))
         window.append(slice(first, last + 1))

@@ -208,7 +208,7 @@ def test_edges_makes_the_shipped_reference_shape_again(run, tmp_path: Path):
 def test_version_and_help(run):
     code, out, _ = run("--version")
     assert code == 0
-    assert out.startswith("regress 0.")
+    assert out.startswith("regress 1.")
     for command in ("train", "evaluate", "predict", "bench", "edges"):
         code, out, _ = run(command, "--help")
         assert code == 0

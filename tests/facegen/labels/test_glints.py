@@ -78,6 +78,21 @@ def test_a_lid_or_a_lash_before_the_cornea_hides_its_glint_from_the_camera_or_fr
     assert not with_glints(np.zeros((96, 96), np.float32), hidden).any()
 
 
+@pytest.mark.parametrize("x", [-40.0, 0.0, 3.0, 95.0, 140.0])
+def test_rays_of_a_lens_leave_the_picture(x):
+    glints = _glints(_scene())
+    on_lens = dataclasses.replace(
+        glints,
+        surfaces=("lens",) * 2,
+        points_2d=np.array([[x, 48.0]] * 2),
+        clump_px=np.full(2, 3.0),
+        seen=np.array([True, False]),
+    )
+    added = with_glints(np.zeros((96, 96), np.float32), on_lens)
+    assert bool(added.any()) == (-33.0 <= x <= 128.0)
+    assert added.sum() <= glints.volume[0] * 1.001
+
+
 def test_a_lamp_beside_the_eye_has_its_image_on_the_sclera_only():
     scene = _scene(200)
     lamp = dataclasses.replace(

@@ -95,15 +95,19 @@ def test_places_are_standardised_by_what_training_saw():
     assert tracer.standardised(known).square().mean() == pytest.approx(1, abs=0.05)
 
 
+UNTOLD = torch.zeros(5, 0)
+"""Terms of the camera, for encoders that are told none."""
+
+
 def test_what_moved_since_the_neutral_picture_counts():
     torch.manual_seed(0)
     encoder = Encoder(HeadsetRecipe(input_size=16, code=12), range(4)).eval()
     encoder.set_scale(100.0, 60.0)
     seen, *neutral = torch.rand(3, 5, 24, 24) * 255
-    (one, places), (other, same) = (encoder(seen, rest, torch.ones(5)) for rest in neutral)
+    (one, places), (other, same) = (encoder(seen, rest, torch.ones(5), UNTOLD) for rest in neutral)
     torch.testing.assert_close(places, same, atol=1e-5, rtol=0)
     assert (one - other).abs().max() > 1e-3
-    (one, _), (other, _) = (encoder(seen, rest, torch.zeros(5)) for rest in neutral)
+    (one, _), (other, _) = (encoder(seen, rest, torch.zeros(5), UNTOLD) for rest in neutral)
     assert torch.equal(one, other)
 
 
@@ -112,12 +116,14 @@ def test_what_looks_otherwise_than_in_the_neutral_picture_counts_without_points_
     encoder = Encoder(HeadsetRecipe(input_size=16, code=12), ()).eval()
     encoder.set_scale(100.0, 60.0)
     seen, *neutral = torch.rand(3, 5, 24, 24) * 255
-    (one, _), (other, _) = (encoder(seen, rest, torch.ones(5)) for rest in neutral)
+    (one, _), (other, _) = (encoder(seen, rest, torch.ones(5), UNTOLD) for rest in neutral)
     assert (one - other).abs().max() > 1e-3
     # a frame that is its own neutral picture differs from one without by the switch alone
     layer = encoder.looks[0]
     layer.weight.data[:, -1] = 0
-    torch.testing.assert_close(encoder(seen, seen, torch.ones(5))[0], encoder(seen, seen, torch.zeros(5))[0])
+    torch.testing.assert_close(
+        encoder(seen, seen, torch.ones(5), UNTOLD)[0], encoder(seen, seen, torch.zeros(5), UNTOLD)[0]
+    )
 
 
 def test_a_cameras_own_part_counts_in_millimetres_too():
