@@ -7,6 +7,7 @@ import typer
 
 from facegen.console import say
 from room.cli.links import RoomNames, print_links
+from room.cli.places import read_places
 
 if TYPE_CHECKING:
     from room.recording import Recorder
@@ -50,6 +51,12 @@ def serve(
         ),
     ] = None,
     janus_secret: Annotated[Path | None, typer.Option(help="File of its api_secret.")] = None,
+    place: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Where people meet: meeting, operating or FILE.glb, for all rooms; ROOM=PLACE for one of them."
+        ),
+    ] = None,
     record: Annotated[
         Path | None,
         typer.Option(
@@ -65,6 +72,7 @@ def serve(
     from room.server import Address, Limits, Relays, Rooms, load_keys, new_keys
     from room.server import serve as run
 
+    places = read_places(place or ())
     held = load_keys(keys) if keys else new_keys()
     if bool(turn) != bool(turn_secret):
         raise InputError("a relay needs both --turn and --turn-secret")
@@ -80,6 +88,7 @@ def serve(
         relays=relays,
         origins=frozenset(origin or ()),
         recorder=recorder,
+        places=places,
         telegraph=telegraph,
         engines=engines,
     )

@@ -68,6 +68,8 @@ class Account(_Word):
     removed: Annotated[tuple[Id, ...], Field(max_length=MOST_RESIDENTS)] = ()
     locked: bool = False
     locks: Count = 0
+    sharer: Annotated[str, StringConstraints(pattern=r"^([0-9a-f]{16})?$")] = ""
+    shares: Count = 0
 
 
 class Spoken(_Word):

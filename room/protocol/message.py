@@ -68,6 +68,8 @@ class Animation(IntEnum):
     POINT = 4
     RAISE_HAND = 5
     CLAP = 6
+    POINTER = 7
+    """A dot that all see, where this person looks: heading and head's rotation together, from the eyes."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -103,10 +103,15 @@ class Voice(_Text):
     open: bool
 
 
+Plane = Literal["voice", "screen"]
+"""Which of two connections between two people a signal is for; only who shares has the second one."""
+
+
 class Description(_Text):
     """A session description of WebRTC, for one person, or for one's own line to or from an engine of voices."""
 
     kind: Literal["description"] = "description"
+    plane: Plane = "voice"
     to: Number | EngineLine
     type: Literal["offer", "answer", "rollback"]
     sdp: str
@@ -116,6 +121,7 @@ class Candidate(_Text):
     """An address at which a person may be reached, for one person or a line; empty where there are no more."""
 
     kind: Literal["candidate"] = "candidate"
+    plane: Plane = "voice"
     to: Number | EngineLine
     candidate: Annotated[str, StringConstraints(max_length=1024)]
     mid: Annotated[str, StringConstraints(max_length=64)] | None = None
@@ -126,7 +132,7 @@ class Moderate(_Text):
     """What a moderator does; ``number`` is whom, but for the door."""
 
     kind: Literal["moderate"] = "moderate"
-    action: Literal["mute", "unmute", "undress", "remove", "lock", "unlock"]
+    action: Literal["mute", "unmute", "undress", "unshare", "remove", "lock", "unlock"]
     number: Number | None = None
 
 
@@ -152,13 +158,20 @@ class Undress(_Text):
     kind: Literal["undress"] = "undress"
 
 
+class Share(_Text):
+    """Shows a window or a picture on the room's screens from now on, or no longer."""
+
+    kind: Literal["share"] = "share"
+    on: bool
+
+
 class Leave(_Text):
     """Goes for good: the place is not kept."""
 
     kind: Literal["leave"] = "leave"
 
 
-Said = Chat | Voice | Description | Candidate | Moderate | Consent | Play | Undress | Leave
+Said = Chat | Voice | Description | Candidate | Moderate | Consent | Play | Undress | Share | Leave
 """What a person may say once they are in."""
 
 
@@ -166,9 +179,9 @@ class Person(_Text):
     """One line of the roster.
 
     ``number`` stands before each state of a tick; ``id`` is the same person's whenever they come back. ``recorded`` are
-    those whose states go to the room's file, ``replayed`` those who come out of one. ``own`` is the
-    SHA-256 of an avatar that they brought, which the room's key fetches (`room.server.dressing`); ``avatar`` stands in
-    for it until it is there.
+    those whose states go to the room's file, ``replayed`` those who come out of one; at most one ``shares``. ``own``
+    is the SHA-256 of an avatar that they brought, which the room's key fetches (`room.server.dressing`); ``avatar``
+    stands in for it until it is there.
     """
 
     number: Number
@@ -184,6 +197,7 @@ class Person(_Text):
     recorded: bool
     replayed: bool
     own: Annotated[str, StringConstraints(pattern=r"^([0-9a-f]{64})?$")] = ""
+    shares: bool = False
 
 
 class IceServer(_Text):

@@ -10,7 +10,7 @@ import math
 from dataclasses import asdict, replace
 
 from facegen.conventions import BLENDSHAPES
-from room.protocol.message import GAZE_STEPS, UNIT_STEPS, Message, decode, encode
+from room.protocol.message import GAZE_STEPS, UNIT_STEPS, Animation, Message, decode, encode
 from room.protocol.tick import pack
 
 _HALF = math.sqrt(0.5)
@@ -73,6 +73,14 @@ def _states() -> dict[str, Message]:
             head_m=(-0.0005, -0.0015, 0.0005),
             floor_m=(-0.005, 0.005),
             rotation=(0.0, 0.0, _HALF, _HALF),
+        ),
+        "points at a screen while seated": replace(
+            rest,
+            flags=6,
+            rotation=(-math.sin(0.05), 0.0, 0.0, math.cos(0.05)),
+            floor_m=(0.05, 0.78),
+            heading=3.1,
+            animation=Animation.POINTER,
         ),
         "gaze by quarter degrees": replace(
             rest, gaze=tuple(math.radians(degrees) for degrees in (0.24, 0.26, -0.24, -0.26))

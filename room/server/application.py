@@ -3,7 +3,7 @@
 import asyncio
 import re
 import time
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import AsyncExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,13 +12,14 @@ from aiohttp import WSMessage, WSMsgType, web
 
 from room.avatars import Wardrobe
 from room.errors import FormatError, NotAllowed
+from room.places import PLAIN, Place
 from room.protocol.accounts import Part
 from room.protocol.texts import MOST_TEXT_BYTES, About, Chat, Notice, read_join, read_said
 from room.recording import Recorder, Survey
 from room.server.connection import PARTING_S, Connection
 from room.server.door import Door
 from room.server.dressing import Dressing
-from room.server.files import Files
+from room.server.files import Files, answer, hold
 from room.server.hall import HERTZ, Hall
 from room.server.headers import protect, same_origin
 from room.server.janus import Janus
@@ -71,6 +72,8 @@ class Rooms:
         Reaches the other processes that carry the same rooms; None where this is the only one.
     engines
         Janus instances that share the rooms' voices; none where these go from page to page.
+    places
+        Where people meet, by the name of the room; an empty name stands for all others.
     replayed
         Recording that every room of this server plays; None where people meet each other alone.
     """
@@ -84,6 +87,7 @@ class Rooms:
         origins: frozenset[str] = frozenset(),
         recorder: Recorder | None = None,
         replayed: Survey | None = None,
+        places: Mapping[str, Place] | None = None,
         telegraph: "Telegraph | None" = None,
         engines: Sequence[Janus] = (),
     ) -> None:
@@ -97,6 +101,7 @@ class Rooms:
         self._files = Files(STATIC)
         self._wardrobe = Wardrobe()
         self._dressing = Dressing(keys, self._wardrobe, self._halls.get, origins)
+        self._places = {room: hold(place.content, ".glb") for room, place in (places or {}).items()}
         self.metrics = Metrics()
 
     def application(self) -> web.Application:
@@ -108,6 +113,7 @@ class Rooms:
         application.router.add_get("/metrics", self._count)
         application.router.add_get("/room/{name}", self._page)
         application.router.add_get("/room/{name}/about.json", self._about)
+        application.router.add_get("/room/{name}/place.glb", self._place)
         application.router.add_get("/room/{name}/socket", self._socket)
         application.router.add_post("/room/{name}/avatar", self._dressing.take)
         application.router.add_get("/room/{name}/avatar/{digest}", self._dressing.give)
@@ -143,6 +149,11 @@ class Rooms:
         if not ROOM_NAME.fullmatch(request.match_info["name"]):
             raise web.HTTPNotFound(text="no room has such a name\n")
         return await self._files.answer(request, "room.html")
+
+    async def _place(self, request: web.Request) -> web.Response:
+        """The room's floor, walls and chairs; without a key, as the page loads them while its person types."""
+        own = self._places.get(request.match_info["name"]) or self._places.get("")
+        return await (answer(request, own) if own else self._files.answer(request, f"places/{PLAIN}.glb"))
 
     async def _about(self, request: web.Request) -> web.Response:
         """What the page asks its person about before it comes in; needs no key, and says nothing of people."""

@@ -17,7 +17,9 @@ WORTH_BYTES = 1024
 
 
 @dataclass
-class _Held:
+class Held:
+    """A file in memory: its bytes, its kind, what tells this version from others, and the bytes as they were packed."""
+
     content: bytes
     kind: str
     tag: str
@@ -35,7 +37,7 @@ class Files:
 
     def __init__(self, folder: Path) -> None:
         self._held = {
-            path.relative_to(folder).as_posix(): _read(path)
+            path.relative_to(folder).as_posix(): hold(path.read_bytes(), path.suffix)
             for path in sorted(folder.rglob("*"))
             if path.is_file() and not path.name.startswith(".")
         }
@@ -59,21 +61,24 @@ class Files:
         held = self._held.get(path)
         if held is None:
             raise web.HTTPNotFound(text="no such file\n")
-        headers = {"ETag": held.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
-        if request.headers.get("If-None-Match") == held.tag:
-            return web.Response(status=304, headers=headers)
-        body = held.content
-        if len(body) > WORTH_BYTES and "gzip" in request.headers.get("Accept-Encoding", ""):
-            if (
-                held.packed is None
-            ):  # in a thread: WebAssembly takes a second, and nobody who meets waits for it
-                held.packed = asyncio.ensure_future(asyncio.to_thread(gzip.compress, body, 6))
-            body = await asyncio.shield(held.packed)
-            headers["Content-Encoding"] = "gzip"
-        return web.Response(body=body, content_type=held.kind, headers=headers)
+        return await answer(request, held)
 
 
-def _read(path: Path) -> _Held:
-    content = path.read_bytes()
-    kind = _TYPES.get(path.suffix) or mimetypes.guess_type(path.name)[0] or "application/octet-stream"
-    return _Held(content=content, kind=kind, tag=f'"{hashlib.sha256(content).hexdigest()[:32]}"')
+async def answer(request: web.Request, held: Held) -> web.Response:
+    """A file, or nothing where the browser has it already."""
+    headers = {"ETag": held.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
+    if request.headers.get("If-None-Match") == held.tag:
+        return web.Response(status=304, headers=headers)
+    body = held.content
+    if len(body) > WORTH_BYTES and "gzip" in request.headers.get("Accept-Encoding", ""):
+        if held.packed is None:  # in a thread: WebAssembly takes a second, and nobody who meets waits for it
+            held.packed = asyncio.ensure_future(asyncio.to_thread(gzip.compress, body, 6))
+        body = await asyncio.shield(held.packed)
+        headers["Content-Encoding"] = "gzip"
+    return web.Response(body=body, content_type=held.kind, headers=headers)
+
+
+def hold(content: bytes, suffix: str) -> Held:
+    """Keep bytes in memory, of the kind that a file's suffix says."""
+    kind = _TYPES.get(suffix) or mimetypes.guess_type(f"a{suffix}")[0] or "application/octet-stream"
+    return Held(content=content, kind=kind, tag=f'"{hashlib.sha256(content).hexdigest()[:32]}"')

@@ -23,6 +23,7 @@ from room.protocol.texts import (
     Notice,
     Play,
     Said,
+    Share,
     Signal,
     Undress,
     Voice,
@@ -207,13 +208,7 @@ class Hall:
         """
         match said:
             case Chat():
-                if seat.muted:
-                    raise NotAllowed("a moderator has muted you", again=True)
-                if said.text:
-                    line = Line(number=seat.number, name=seat.name, text=said.text, time_s=time.time())
-                    self._tell(line)
-                    if self._neighbours:
-                        self._neighbours.spoken(line)
+                self._write(seat, said.text)
             case Voice():
                 seat.voice = said.open
                 self._tell(Changed(person=seat.person))
@@ -228,6 +223,9 @@ class Hall:
             case Undress():
                 self._undress(seat)
                 self._tell(Changed(person=seat.person))
+            case Share():
+                for changed in self.meeting.share(seat, on=said.on):
+                    self._tell(Changed(person=changed.person))
             case Leave():
                 self._free(seat)
 
@@ -264,6 +262,15 @@ class Hall:
     def _undress(self, seat: Seat) -> None:
         seat.own = ""
         self._wardrobe.drop((self.name, seat.id))
+
+    def _write(self, seat: Seat, text: str) -> None:
+        if seat.muted:
+            raise NotAllowed("a moderator has muted you", again=True)
+        if text:
+            line = Line(number=seat.number, name=seat.name, text=text, time_s=time.time())
+            self._tell(line)
+            if self._neighbours:
+                self._neighbours.spoken(line)
 
     def tick(self, *, now: float) -> None:
         """Send what moved, and free places that nobody came back to."""
@@ -329,6 +336,8 @@ class Hall:
         called, signal = self.meeting.numbered(said.to), Signal(sender=seat.number, signal=said)
         if called is None:
             return  # they have just left: the caller hears of that by the roster
+        if said.plane == "screen" and not (seat.shares or called.shares):
+            return  # sharing has just ended
         if called.id in self._pages:
             self._pages[called.id].say(signal)
         elif self._neighbours and called.home != self.meeting.process:

@@ -63,6 +63,8 @@ def account(meeting: Meeting, *, asks: bool = False) -> Account:
         removed=meeting.removed,
         locked=meeting.locked,
         locks=meeting.lock_acts,
+        sharer=meeting.sharer,
+        shares=meeting.share_acts,
     )
 
 
@@ -83,6 +85,8 @@ def merge(meeting: Meeting, said: Account, *, now: float) -> Merged:
             _drop(meeting, seat.id, merged)
     for resident in said.people:
         _settle(meeting, resident, said.process, merged, now=now)
+    if (said.shares, said.sharer) > (meeting.share_acts, meeting.sharer):
+        merged.told += [Changed(person=seat.person) for seat in meeting.screen(said.sharer, acts=said.shares)]
     for mute in said.mutes:
         seat = meeting.seat(mute.id)
         if seat and (mute.acts, mute.muted) > (seat.mute_acts, seat.muted):

@@ -48,11 +48,16 @@ class Meeting:
         Whether only those who have a place may come in.
     lock_acts
         How often moderators locked or unlocked.
+    sharer
+        Id of whoever shows something on the screens; empty where nobody does.
+    share_acts
+        How often that changed.
     """
 
     def __init__(self, *, most_people: int, process: str = "", first_number: int = 0) -> None:
         self.most_people, self.process, self._first_number = most_people, process, first_number
         self.locked, self.lock_acts = False, 0
+        self.sharer, self.share_acts = "", 0
         self._seats: dict[str, Seat] = {}
         self._removed: dict[str, None] = {}
 
@@ -102,7 +107,7 @@ class Meeting:
         if seat is None:
             seat = Seat(number=number, id=id, name="", avatar="", visit="", moderator=False)
             self._seats[id] = seat
-        seat.number = number
+        seat.number, seat.shares = number, id == self.sharer
         return seat
 
     def enter(self, join: Join, *, moderator: bool) -> Seat:
@@ -138,6 +143,8 @@ class Meeting:
                 moderator=moderator,
             )
             self._seats[id] = seat
+        if seat.shares and seat.visit != join.visit:  # the page that showed something is gone
+            self.screen("")
         seat.name, seat.avatar, seat.visit, seat.moderator = join.name, join.avatar, join.visit, moderator
         seat.gone_at, seat.voice = None, False
         seat.home, seat.entry = self.process, seat.entry + 1
@@ -193,10 +200,13 @@ class Meeting:
         seat = None if act.number is None else self.numbered(act.number)
         if seat is None:
             raise NotAllowed(f"nobody here has number {act.number}")
-        if act.action == "remove":
+        if act.action == "unshare":
+            if seat.shares:
+                self.screen("")
+        elif act.action == "remove":
             if seat is by:
                 raise NotAllowed("a moderator cannot remove themselves; leave instead")
-            self._seats.pop(seat.id)
+            self.leave(seat)
             self.keep_out(seat.id)
         elif act.action == "undress":
             seat.own, seat.undressed = "", True
@@ -205,8 +215,35 @@ class Meeting:
             seat.mute(act.action == "mute")
         return seat
 
+    def share(self, seat: Seat, *, on: bool) -> list[Seat]:
+        """Give the screens to somebody, or take what they show away; gives all who are otherwise now.
+
+        Raises
+        ------
+        NotAllowed
+            If another shares already, or a moderator has muted them.
+        """
+        if not on:
+            return self.screen("") if seat.shares else []
+        if seat.muted:
+            raise NotAllowed("a moderator has muted you; nothing is shared", again=True)
+        other = self._seats.get(self.sharer)
+        if other and other is not seat:
+            raise NotAllowed(f"{other.name} shares already; they or a moderator can end it", again=True)
+        return self.screen(seat.id)
+
+    def screen(self, id: str, *, acts: int | None = None) -> list[Seat]:
+        """Let whoever has this id share, and nobody else; ``acts`` where another process counted."""
+        self.sharer, self.share_acts = id, self.share_acts + 1 if acts is None else acts
+        changed = [seat for seat in self._seats.values() if seat.shares != (seat.id == id)]
+        for seat in changed:
+            seat.shares = not seat.shares
+        return changed
+
     def leave(self, seat: Seat) -> None:
         """Free somebody's place at once."""
+        if seat.shares:
+            self.screen("")
         self._seats.pop(seat.id, None)
 
     def expire(self, *, now: float) -> list[Seat]:

@@ -33,6 +33,8 @@ class Seat:
         Whether they agreed to be, in a room that is.
     replayed
         Whether they come out of a recording: nobody's page or voice is behind them.
+    shares
+        Whether their window or picture is on the room's screens.
     home
         Process at which their page is.
     entry
@@ -56,6 +58,7 @@ class Seat:
     muted: bool = False
     recorded: bool = False
     replayed: bool = False
+    shares: bool = False
     home: str = ""
     entry: int = 0
     mute_acts: int = 0
@@ -88,6 +91,7 @@ class Seat:
             recorded=self.recorded,
             replayed=self.replayed,
             own=self.own,
+            shares=self.shares,
         )
 
     def take(self, message: bytes, *, program: bool, now: float) -> bool:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, web
 
+from room.places import Place as Scenery
 from room.protocol import Message, decode, encode
 from room.protocol.texts import Answer, Join, Left, Refused, Welcome, read_answer
 from room.protocol.tick import unpack
@@ -134,6 +135,7 @@ async def open_room(
     replayed: Path | None = None,
     telegraph: "Telegraph | None" = None,
     engines: Sequence[Janus] = (),
+    places: dict[str, Scenery] | None = None,
 ) -> AsyncIterator[Place]:
     """A server in this process, on a free port unless one is named."""
     keys = keys or new_keys()
@@ -146,6 +148,7 @@ async def open_room(
         replayed=check_recording(replayed) if replayed else None,
         telegraph=telegraph,
         engines=engines,
+        places=places,
     )
     runner = web.AppRunner(rooms.application(), access_log=None, shutdown_timeout=0.1)
     await runner.setup()

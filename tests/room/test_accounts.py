@@ -16,7 +16,21 @@ PROCESSES = ["1" * 16, "2" * 16, "3" * 16]
 
 steps = st.lists(
     st.tuples(
-        st.sampled_from(["enter", "away", "leave", "mute", "unmute", "remove", "lock", "unlock", "hear"]),
+        st.sampled_from(
+            [
+                "enter",
+                "away",
+                "leave",
+                "mute",
+                "unmute",
+                "remove",
+                "lock",
+                "unlock",
+                "share",
+                "unshare",
+                "hear",
+            ]
+        ),
         st.integers(0, 2),
         st.integers(0, 3),
         st.integers(0, 2),
@@ -41,7 +55,12 @@ def _do(meetings: list[Meeting], act: str, at: int, whom: int, by: int) -> None:
             meeting.leave(seat)
         else:
             seat.gone_at = 0.0
-    elif act in ("lock", "unlock", "mute", "unmute", "remove") and seat:
+    elif act == "share" and seat and seat.home == meeting.process:
+        try:
+            meeting.share(seat, on=True)
+        except NotAllowed:
+            return
+    elif act in ("lock", "unlock", "unshare", "mute", "unmute", "remove") and seat:
         chair = next((other for other in meeting.seats if other is not seat), None)
         if chair:
             meeting.moderate(chair, Moderate(action=act, number=seat.number))
@@ -49,7 +68,17 @@ def _do(meetings: list[Meeting], act: str, at: int, whom: int, by: int) -> None:
 
 def _known(meeting: Meeting) -> tuple:
     people = sorted(
-        (seat.id, seat.number, seat.name, seat.visit, seat.gone_at is None, seat.muted, seat.home, seat.entry)
+        (
+            seat.id,
+            seat.number,
+            seat.name,
+            seat.visit,
+            seat.gone_at is None,
+            seat.muted,
+            seat.home,
+            seat.entry,
+            seat.shares,
+        )
         for seat in meeting.seats
     )
     return meeting.locked, set(meeting.removed), people

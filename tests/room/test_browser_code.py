@@ -21,7 +21,11 @@ def test_in_typescript(test: str, tmp_path: Path):
     made = tmp_path / "test.mjs"
     bundle = ("--bundle", "--platform=node", "--format=esm", "--log-level=warning", f"--outfile={made}")
     subprocess.run([ESBUILD, WEB / "room" / "tests" / test, *bundle], check=True, cwd=WEB)
-    environment = {**os.environ, "VECTORS": str(ROOT / "room" / "protocol" / "vectors.json")}
+    environment = {
+        **os.environ,
+        "VECTORS": str(ROOT / "room" / "protocol" / "vectors.json"),
+        "PLACES": str(ROOT / "room" / "server" / "static" / "places"),
+    }
     done = subprocess.run(
         ["node", "--test", made], capture_output=True, text=True, env=environment, timeout=60
     )

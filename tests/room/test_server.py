@@ -173,7 +173,7 @@ async def test_a_moderator_mutes_removes_and_locks(place):
     )
 
 
-@pytest.mark.parametrize("action", ["mute", "unmute", "remove", "lock", "unlock"])
+@pytest.mark.parametrize("action", ["mute", "unmute", "unshare", "remove", "lock", "unlock"])
 def test_a_guest_moderates_nobody(action):
     async def run() -> None:
         async with open_room() as place:

@@ -1,6 +1,6 @@
 /** One person as others see them: avatar and body where they stand, a name, and a sign while they speak. */
 
-import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3 } from "three";
+import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3, type Object3D } from "three";
 
 import type { Avatar } from "../avatar/index.js";
 import { EYES_M, makeBody, SEATED_M } from "./body.js";
@@ -23,6 +23,7 @@ export class Figure {
   readonly root = new Group();
   private readonly upper = new Group();
   private readonly limbs: Limbs;
+  private right: Object3D | undefined;
   private lowered = 0;
   private readonly before = new Vector3();
   private readonly label = new Sprite(new SpriteMaterial({ transparent: true, depthWrite: false }));
@@ -43,6 +44,9 @@ export class Figure {
     const body = whole ? avatar.root : height > BUST_M ? new Group() : makeBody(number);
     this.limbs = new Limbs(body, whole ? avatar.vrm : undefined);
     this.standing = whole ? 0 : EYES_M;
+    body.traverse((node) => {
+      if (/^(mixamorig:?)?RightHand$/.test(node.name)) this.right = node;
+    });
     this.upper.add(avatar.root, body);
     avatar.root.traverse((node) => void (node.castShadow = true));
     const top = whole ? height + NAME_M / 2 : NAME_M;
@@ -127,6 +131,12 @@ export class Figure {
       this.sign.lookAt(eye);
       this.sign.scale.setScalar(far * (1.1 + 0.15 * Math.sin(8 * this.time)));
     }
+  }
+
+  /** Put where the right hand is into `at`; of a body without hands, before its chest. */
+  hand(at: Vector3): void {
+    if (this.right) this.right.getWorldPosition(at);
+    else this.root.localToWorld(at.set(-0.15, EYES_M - 0.35 - this.lowered, 0.25));
   }
 
   /** How fast the body walks forward, in metres a second. */

@@ -2,7 +2,6 @@
 
 import { Quaternion, Vector3, type Group, type WebGLRenderer } from "three";
 
-import { allowed } from "./place.js";
 import type { Message } from "./protocol.js";
 import type { Place } from "./sound.js";
 import type { Walk } from "./walk.js";
@@ -153,7 +152,7 @@ export class Headset {
     const [sin, cos] = [Math.sin(heading), Math.cos(heading)];
     const step = PACE * seconds;
     const [headX, headZ] = this.floor();
-    const [toX, toZ] = allowed(headX + (-y * sin - x * cos) * step, headZ + (-y * cos + x * sin) * step);
+    const [toX, toZ] = this.walk.layout.allowed(headX + (-y * sin - x * cos) * step, headZ + (-y * cos + x * sin) * step);
     this.walk.x += toX - headX;
     this.walk.z += toZ - headZ;
   }

@@ -1,10 +1,8 @@
-/** Makes the meeting room by code: floor, walls, a window, a round table, light; and says where people may stand. */
+/** Loads the place in which people meet, a .glb of the room's server, and lights the people in it. */
 
 import {
   AmbientLight,
-  BoxGeometry,
   Color,
-  CylinderGeometry,
   DirectionalLight,
   Group,
   HemisphereLight,
@@ -12,107 +10,127 @@ import {
   MeshBasicMaterial,
   MeshStandardMaterial,
   PlaneGeometry,
-  type Material,
+  PMREMGenerator,
+  Quaternion,
+  Scene,
+  ShadowMaterial,
+  Vector3,
+  type Object3D,
+  type WebGLRenderer,
 } from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
-/** Metres; the origin is the middle of the floor, under the table. */
-const WIDTH = 9;
-const DEPTH = 8;
-const HEIGHT = 2.9;
-const TABLE_RADIUS = 0.95;
-const TABLE_HEIGHT = 0.74;
-/** A body's half width: this far people keep from walls and the table. */
-const BODY = 0.35;
-/** Where newcomers stand. */
-const CIRCLE = 1.75;
-/** Beyond them the walls are near, and people stand closer. */
-const RINGS = 3;
-/** First across the table from each other, then between those who are there. */
-const ORDER = [0, 4, 2, 6, 1, 5, 3, 7];
+import { Layout, type NamedNode } from "./layout.js";
+import { Rays } from "./rays.js";
 
-export function makePlace(): Group {
-  const place = new Group();
-  const add = (mesh: Mesh, x: number, y: number, z: number, turn = 0): Mesh => {
-    mesh.position.set(x, y, z);
-    mesh.rotation.y = turn;
-    mesh.receiveShadow = true;
-    place.add(mesh);
-    return mesh;
-  };
-  const plain = (colour: number, roughness = 0.9): Material => new MeshStandardMaterial({ color: colour, roughness });
+export const BACKGROUND = new Color(0xd3dad7);
+/** Shadows of people lie so far above the floor, in metres: less would flicker. */
+const ABOVE = 0.006;
+/** Of the light that people take away. */
+const SHADE = 0.4;
+/** Steel mirrors the room as it is seen from here. */
+const MIDDLE = new Vector3(0, 1.5, 0);
 
-  const floor = add(new Mesh(new PlaneGeometry(WIDTH, DEPTH), plain(0x9a7b5c, 0.75)), 0, 0, 0);
-  floor.rotation.x = -Math.PI / 2;
-  for (let x = -WIDTH / 2 + 0.5; x < WIDTH / 2; x += 0.5) {
-    const gap = add(new Mesh(new PlaneGeometry(0.012, DEPTH), plain(0x7d6248)), x, 0.002, 0);
-    gap.rotation.x = -Math.PI / 2;
+export class Place {
+  readonly root = new Group();
+  readonly layout: Layout;
+  /** Meshes on which somebody's picture may be shown. */
+  readonly screens: readonly Mesh[];
+  private readonly rays: Rays;
+
+  private constructor(
+    model: Object3D,
+    /** What was wrong with the file; empty where nothing was. */
+    readonly word = "",
+  ) {
+    model.updateMatrixWorld(true);
+    this.layout = new Layout(namedNodes(model));
+    const meshes: Mesh[] = [];
+    model.traverse((node) => void (node instanceof Mesh && meshes.push(node)));
+    this.screens = meshes.filter((mesh) => nameOf(mesh).startsWith("screen") || nameOf(mesh.parent).startsWith("screen"));
+    this.rays = new Rays(meshes);
+    for (const mesh of meshes) mesh.receiveShadow = !(mesh.material instanceof MeshBasicMaterial);
+    this.root.add(model, shade(), ...lights());
   }
-  const rug = add(new Mesh(new CylinderGeometry(2.5, 2.5, 0.012, 64), plain(0x4f5d66, 1)), 0, 0.006, 0);
-  rug.receiveShadow = true;
-  const ceiling = add(new Mesh(new PlaneGeometry(WIDTH, DEPTH), new MeshBasicMaterial({ color: 0xd8d3ca })), 0, HEIGHT, 0);
-  ceiling.rotation.x = Math.PI / 2;
 
-  const wall = plain(0xe9e4da);
-  const skirting = plain(0xf2efe8);
-  for (const [x, z, turn, length] of [
-    [0, -DEPTH / 2, 0, WIDTH],
-    [0, DEPTH / 2, Math.PI, WIDTH],
-    [-WIDTH / 2, 0, Math.PI / 2, DEPTH],
-    [WIDTH / 2, 0, -Math.PI / 2, DEPTH],
-  ] as const) {
-    add(new Mesh(new PlaneGeometry(length, HEIGHT), wall), x, HEIGHT / 2, z, turn);
-    add(new Mesh(new BoxGeometry(length, 0.12, 0.03), skirting), x, 0.06, z, turn);
-  }
-  // a window with an evening behind it, a board, and a door
-  add(new Mesh(new BoxGeometry(3.2, 1.5, 0.06), plain(0xf2efe8)), 0, 1.65, -DEPTH / 2 + 0.02);
-  add(new Mesh(new PlaneGeometry(1.48, 1.34), new MeshBasicMaterial({ color: 0xbfd6e6 })), -0.78, 1.65, -DEPTH / 2 + 0.06);
-  add(new Mesh(new PlaneGeometry(1.48, 1.34), new MeshBasicMaterial({ color: 0xbfd6e6 })), 0.78, 1.65, -DEPTH / 2 + 0.06);
-  add(new Mesh(new BoxGeometry(2.6, 1.4, 0.04), plain(0x39424a, 0.6)), -WIDTH / 2 + 0.02, 1.6, 0, Math.PI / 2);
-  add(new Mesh(new BoxGeometry(0.95, 2.1, 0.05), plain(0x75563c, 0.6)), WIDTH / 2 - 0.02, 1.05, 2.2, -Math.PI / 2);
-
-  const top = add(new Mesh(new CylinderGeometry(TABLE_RADIUS, TABLE_RADIUS, 0.04, 64), plain(0xb78b5e, 0.5)), 0, TABLE_HEIGHT, 0);
-  const foot = add(new Mesh(new CylinderGeometry(0.07, 0.3, TABLE_HEIGHT, 32), plain(0x3a3f44, 0.5)), 0, TABLE_HEIGHT / 2, 0);
-  for (const mesh of [top, foot]) mesh.castShadow = true;
-
-  place.add(new AmbientLight(0xffffff, 0.35));
-  place.add(new HemisphereLight(0xfdf6ea, 0xb0a08a, 2.1));
-  const sun = new DirectionalLight(0xfff0dc, 1.5);
-  sun.position.set(1.8, 2.8, 2.4);
-  sun.castShadow = true;
-  sun.shadow.mapSize.set(1024, 1024);
-  Object.assign(sun.shadow.camera, { left: -4, right: 4, top: 4, bottom: -4, far: 10 });
-  sun.shadow.bias = -0.002;
-  place.add(sun);
-  const window_ = new DirectionalLight(0xdfeaff, 0.9);
-  window_.position.set(0, 1.7, -4);
-  place.add(window_);
-  return place;
-}
-
-export const BACKGROUND = new Color(0xd9d4c9);
-
-/**
- * Where a newcomer stands: the first place around the table, then around those, that is free; looking at its middle.
- *
- * Who looks at a replay begins with the second `ring`: people of a recording come to the first whoever stands there.
- */
-export function freePlace(taken: readonly (readonly [number, number])[], ring = 0): { x: number; z: number; heading: number } {
-  for (; ; ring++) {
-    for (const order of ORDER) {
-      const turn = ((order + ring / 2) / ORDER.length) * 2 * Math.PI;
-      const radius = CIRCLE + ring * 2 * BODY;
-      const [x, z] = allowed(radius * Math.sin(turn), radius * Math.cos(turn));
-      const free = taken.every(([otherX, otherZ]) => Math.hypot(x - otherX, z - otherZ) >= 2 * BODY);
-      if (free || ring === RINGS) return { x, z, heading: Math.atan2(-x, -z) };
+  /** The place of a room; a plain floor where there is none that can be read. */
+  static async load(room: string): Promise<Place> {
+    try {
+      const answer = await fetch(`/room/${room}/place.glb`);
+      if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
+      const { scene } = await new GLTFLoader().parseAsync(await answer.arrayBuffer(), "");
+      return new Place(scene);
+    } catch (error) {
+      console.warn("place:", error);
+      return new Place(floor(), "The place could not be loaded; you meet on a plain floor.");
     }
   }
+
+  /** Let steel mirror what is around it; without this it is black. */
+  reflect(renderer: WebGLRenderer): void {
+    const metals = new Set<MeshStandardMaterial>();
+    this.root.traverse((node) => {
+      if (node instanceof Mesh && node.material instanceof MeshStandardMaterial && node.material.metalness > 0.5) metals.add(node.material);
+    });
+    if (!metals.size) return;
+    const scene = new Scene();
+    scene.background = BACKGROUND;
+    scene.add(this.root);
+    const generator = new PMREMGenerator(renderer);
+    const { texture } = generator.fromScene(scene, 0.02, 0.1, 40, { position: MIDDLE });
+    generator.dispose();
+    this.root.removeFromParent();
+    for (const metal of metals) metal.envMap = texture;
+  }
+
+  /** Where a ray meets the place first. */
+  hit(from: Vector3, direction: Vector3): Vector3 | undefined {
+    return this.rays.hit(from, direction);
+  }
 }
 
-/** The nearest place where a body may stand. */
-export function allowed(x: number, z: number): [number, number] {
-  x = Math.min(Math.max(x, BODY - WIDTH / 2), WIDTH / 2 - BODY);
-  z = Math.min(Math.max(z, BODY - DEPTH / 2), DEPTH / 2 - BODY);
-  const [distance, least] = [Math.hypot(x, z), TABLE_RADIUS + BODY];
-  if (distance >= least) return [x, z];
-  return distance > 0 ? [(x / distance) * least, (z / distance) * least] : [0, least];
+function nameOf(node: Object3D | null): string {
+  // the loader takes the dots out of names, and keeps them as they were here
+  return String(node?.userData["name"] ?? node?.name ?? "");
+}
+
+function namedNodes(model: Object3D): NamedNode[] {
+  const nodes: NamedNode[] = [];
+  const [at, turn, scale] = [new Vector3(), new Quaternion(), new Vector3()];
+  model.traverse((node) => {
+    if (!nameOf(node)) return;
+    node.matrixWorld.decompose(at, turn, scale);
+    const ahead = new Vector3(0, 0, 1).applyQuaternion(turn);
+    nodes.push({ name: nameOf(node), x: at.x, z: at.z, heading: Math.atan2(ahead.x, ahead.z), scale: [scale.x, scale.z] });
+  });
+  return nodes;
+}
+
+/** Darkens the floor where people stand between it and the lamp: baked light knows nothing of them. */
+function shade(): Mesh {
+  const mesh = new Mesh(new PlaneGeometry(40, 40), new ShadowMaterial({ opacity: SHADE }));
+  mesh.rotation.x = -Math.PI / 2;
+  mesh.position.y = ABOVE;
+  mesh.receiveShadow = true;
+  return mesh;
+}
+
+function floor(): Object3D {
+  const mesh = new Mesh(new PlaneGeometry(40, 40), new MeshStandardMaterial({ color: 0x8d9a97, roughness: 0.9 }));
+  mesh.rotation.x = -Math.PI / 2;
+  return mesh;
+}
+
+/** For people, and for whatever a place has that is not baked. */
+function lights(): Object3D[] {
+  const sun = new DirectionalLight(0xfff4e6, 1.5);
+  sun.position.set(1.4, 5, 1.8);
+  sun.castShadow = true;
+  sun.shadow.mapSize.set(1024, 1024);
+  Object.assign(sun.shadow.camera, { left: -5, right: 5, top: 5, bottom: -5, far: 12 });
+  sun.shadow.bias = -0.002;
+  sun.shadow.radius = 5;
+  const back = new DirectionalLight(0xdfeaff, 0.9);
+  back.position.set(0, 1.7, -4);
+  return [new AmbientLight(0xffffff, 0.35), new HemisphereLight(0xfdf8f0, 0xa9b0a6, 2.1), sun, back];
 }

@@ -22,7 +22,9 @@ export const FLAG = { speaking: 1, tracked: 2, seated: 4, hands: 8 } as const;
 const ALL_FLAGS = 15;
 
 /** By their numbers on the wire; one that is not known is none. */
-export const ANIMATIONS = ["none", "wave", "nod", "shake", "point", "raise hand", "clap"] as const;
+export const ANIMATIONS = ["none", "wave", "nod", "shake", "point", "raise hand", "clap", "pointer"] as const;
+/** Shows where its person looks to all, as a dot. */
+export const POINTER = ANIMATIONS.indexOf("pointer");
 
 /** Units, frames and bounds as in Python's `Message`. */
 export interface Message {

@@ -12,10 +12,13 @@ import { Headset } from "./headset.js";
 import { about, ask, randomText, readLink, secretOf, sentence } from "./join.js";
 import { Line } from "./line.js";
 import { Idle, type OwnFace } from "./own.js";
-import { freePlace } from "./place.js";
+import { Board } from "./board.js";
+import { Place } from "./place.js";
 import { Playback } from "./playback.js";
-import { ANIMATIONS, FLAG, type Message } from "./protocol.js";
+import { Pointers } from "./pointers.js";
+import { ANIMATIONS, FLAG, POINTER, type Message } from "./protocol.js";
 import { Replaying } from "./replaying.js";
+import { Sharing } from "./sharing.js";
 import { Sidebar } from "./sidebar.js";
 import type { Answer, Person, Welcome } from "./texts.js";
 import { View } from "./view.js";
@@ -27,7 +30,7 @@ const HERTZ = 30;
 const FIRST_TICK_MS = 150;
 /** A gesture lasts so long; a raised hand and pointing stay until they are ended. */
 const GESTURE_S = 2.2;
-const STAYS = new Set(["point", "raise hand"]);
+const STAYS = new Set(["point", "raise hand", "pointer"]);
 
 const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
 
@@ -50,9 +53,12 @@ class Meeting {
   sent: Message | undefined;
   /** Whether pictures are drawn; tests without a graphics card leave the processor to the rest. */
   drawing = true;
-  private readonly view = new View(find("view"), find("mirror"));
-  private readonly walk = new Walk(find("view"));
-  private readonly headset = new Headset(this.view.renderer, this.view.rig, this.walk, find("headset"), (text) => this.tell(text));
+  readonly board: Board;
+  readonly sharing: Sharing;
+  private readonly view: View;
+  private readonly pointers: Pointers;
+  private readonly walk: Walk;
+  private readonly headset: Headset;
   private readonly wardrobe = new Wardrobe();
   private readonly idle = new Idle();
   private readonly brought: Brought;
@@ -76,7 +82,18 @@ class Meeting {
     private readonly microphone: Awaited<ReturnType<typeof ask>>["microphone"],
     private readonly faceLink: string,
     echoes: boolean,
+    private readonly meetingPlace: Place,
   ) {
+    this.view = new View(find("view"), find("mirror"), meetingPlace);
+    this.walk = new Walk(find("view"), meetingPlace.layout);
+    this.headset = new Headset(this.view.renderer, this.view.rig, this.walk, find("headset"), (text) => this.tell(text));
+    this.pointers = new Pointers(this.view.scene, meetingPlace);
+    this.board = new Board(meetingPlace.screens);
+    this.sharing = new Sharing(
+      (signal) => this.line.say(signal),
+      (stream) => this.board.show(stream),
+      () => this.shareNothing(),
+    );
     this.voice = new Voice((signal) => this.line.say(signal), { echoes });
     this.voice.speakInto(microphone?.stream);
     this.sidebar = new Sidebar(
@@ -119,12 +136,14 @@ class Meeting {
     this.own = welcome;
     this.placedBy = performance.now() + FIRST_TICK_MS;
     this.voice.configure(welcome.ice, welcome.engine);
+    this.sharing.configure(welcome.ice);
     for (const known of this.known.values()) undress(known);
     this.known.clear();
     for (const person of welcome.people) this.meet(person);
     this.brought.again();
     this.locked = welcome.locked;
-    this.tell("");
+    this.tell(this.meetingPlace.word);
+    if (this.sharing.shares) this.line.say({ kind: "share", on: true }); // a server that started anew forgot it
     this.line.say({ kind: "voice", open: this.microphone?.isOpen ?? false });
     this.show();
   }
@@ -137,6 +156,7 @@ class Meeting {
       case "left": {
         const known = this.known.get(answer.number);
         this.voice.part(known?.person.id ?? "");
+        this.pointers.drop(answer.number);
         if (known) undress(known);
         this.known.delete(answer.number);
         break;
@@ -150,8 +170,10 @@ class Meeting {
         break;
       case "signal": {
         const { sender, signal } = answer;
-        const from = typeof sender === "string" ? sender : this.known.get(sender)?.person.id;
-        if (from) void this.voice.hear(from, signal);
+        const person = typeof sender === "string" ? undefined : this.known.get(sender)?.person;
+        const from = typeof sender === "string" ? sender : person?.id;
+        if (signal.plane === "screen") person && void this.sharing.hear(person, signal);
+        else if (from) void this.voice.hear(from, signal);
         return;
       }
       case "playing":
@@ -252,11 +274,16 @@ class Meeting {
   /** Find a place that is free, once it is known where the others are; says whether one stands. */
   private stand(now: number): boolean {
     if (!this.placed && now > this.placedBy) {
-      const places = [...this.known.values()].flatMap(({ newest }) => (newest ? [newest.floor_m] : []));
-      Object.assign(this.walk, freePlace(places.map((place) => [place[0]!, place[1]!]), this.own?.replay ? 1 : 0));
+      Object.assign(this.walk, this.meetingPlace.layout.freePlace(this.taken(), this.own?.replay));
       this.placed = true;
     }
     return this.placed;
+  }
+
+  /** Where the others stand. */
+  private taken(): [number, number][] {
+    const others = [...this.known.values()].filter(({ person }) => person.number !== this.own?.number);
+    return others.flatMap(({ newest }): [number, number][] => (newest ? [[newest.floor_m[0]!, newest.floor_m[1]!]] : []));
   }
 
   /** Put voices and ears where heads are; with the timer, as voices of a hidden tab go on. */
@@ -273,7 +300,8 @@ class Meeting {
   }
 
   private state(face: OwnFace, speaking: boolean): Omit<Message, "sequence" | "time_ms"> {
-    const [yaw, pitch, roll] = face.head;
+    // who points turns the head along the ray: what others see pointed at is where the own dot is
+    const [yaw, pitch, roll] = this.animation === POINTER ? [0, 0, 0] : face.head;
     const turn: Quaternion = rotation(yaw, pitch + this.walk.pitch, roll);
     return {
       flags: (speaking ? FLAG.speaking : 0) | (face.tracked ? FLAG.tracked : 0) | (this.seated ? FLAG.seated : 0),
@@ -302,6 +330,7 @@ class Meeting {
       // one's own picture shows what is sent, as a mirror that lags is worse than none; but a program's face only comes back
       const mine = self && person.face === "page" ? this.sent : undefined;
       figure.show(mine ?? shown, seconds, this.view.eye);
+      this.pointers.show(number, mine ?? shown, figure, this.view.eye, self);
       if (self) continue;
       figure.call(person, (shown.flags & FLAG.tracked) !== 0);
     }
@@ -314,6 +343,11 @@ class Meeting {
     const people = [...this.known.values()].map(({ person }) => person);
     this.sidebar.list(people, this.own.number, this.own.moderator);
     this.voice.meet(people, this.own.id);
+    this.sharing.meet(people, this.own.id);
+    const sharer = people.find(({ shares }) => shares);
+    const shared = find("shared");
+    shared.hidden = !sharer;
+    shared.textContent = sharer ? (sharer.id === this.own.id ? "You share the screen" : `${sharer.name} shares the screen`) : "";
     const lock = find<HTMLButtonElement>("lock");
     lock.hidden = !this.own.moderator;
     const own = this.known.get(this.own.number)?.person;
@@ -340,11 +374,8 @@ class Meeting {
       muted();
     });
     find("neutral").addEventListener("click", () => this.camera?.neutral());
-    const seat = find("seat");
-    seat.addEventListener("click", () => {
-      this.seated = !this.seated;
-      seat.textContent = this.seated ? "Stand up" : "Sit";
-    });
+    find("seat").addEventListener("click", () => this.sit());
+    this.shareControls();
     const gesture = find<HTMLSelectElement>("gesture");
     gesture.replaceChildren(
       ...ANIMATIONS.map((name, number) => new Option(number ? `${number} ${name}` : "Gesture …", String(number))),
@@ -377,6 +408,53 @@ class Meeting {
     });
   }
 
+  /** Sit on the nearest free seat, or stand up. */
+  private sit(): void {
+    const seat = this.seated ? undefined : this.meetingPlace.layout.freeSeat(this.walk.x, this.walk.z, this.taken());
+    if (!this.seated && !seat) return this.tell("No free seat is near; walk to one.");
+    if (seat) Object.assign(this.walk, seat);
+    this.seated = !this.seated;
+    find("seat").textContent = this.seated ? "Stand up" : "Sit";
+    this.tell("");
+  }
+
+  private shareControls(): void {
+    const share = find<HTMLSelectElement>("share");
+    const file = find<HTMLInputElement>("file");
+    // telephones have no windows to give
+    if (!("getDisplayMedia" in (navigator.mediaDevices ?? {}))) share.querySelector("[value=window]")!.remove();
+    share.hidden = !this.meetingPlace.screens.length;
+    const begin = async (take: () => Promise<void>): Promise<void> => {
+      const other = [...this.known.values()].find(({ person }) => person.shares && person.number !== this.own?.number);
+      if (other) return this.tell(`${other.person.name} shares already; they or a moderator can end it.`);
+      try {
+        await take();
+        this.line.say({ kind: "share", on: true });
+      } catch (error) {
+        this.tell(error instanceof DOMException && error.name === "NotAllowedError" ? "" : `Nothing is shared: ${error instanceof Error ? error.message : error}`);
+      }
+    };
+    share.addEventListener("change", () => {
+      const wish = share.value;
+      share.value = "";
+      share.blur();
+      if (wish === "window") void begin(() => this.sharing.window());
+      if (wish === "picture") file.click();
+      if (wish === "nothing") this.shareNothing();
+    });
+    file.addEventListener("change", () => {
+      const [picture] = file.files ?? [];
+      if (picture) void begin(() => this.sharing.picture(picture));
+      file.value = "";
+    });
+  }
+
+  private shareNothing(): void {
+    if (!this.sharing.shares) return;
+    this.sharing.end();
+    this.line.say({ kind: "share", on: false });
+  }
+
   private gesture(number: number): void {
     this.animation = number;
     this.animationEnds = number && !STAYS.has(ANIMATIONS[number]!) ? performance.now() / 1000 + GESTURE_S : Infinity;
@@ -389,6 +467,7 @@ class Meeting {
 
   private end(text: string): void {
     this.voice.close();
+    this.sharing.close();
     this.microphone?.close();
     this.camera?.close();
     this.own = undefined;
@@ -412,6 +491,7 @@ async function main(): Promise<void> {
     find("join").querySelector("button")!.disabled = true;
     return;
   }
+  const place = Place.load(link.room); // while the person fills in the form
   const choice = await ask(await Wardrobe.names(), await about(link));
   const secret = secretOf(link);
   const visit = randomText(9);
@@ -422,6 +502,7 @@ async function main(): Promise<void> {
     choice.microphone,
     `${origin}/room/${link.room}#${link.key}.${secret}`,
     choice.echoes,
+    await place,
   );
   if (choice.camera) await meeting.watch();
   if (choice.own) void meeting.bring(choice.own);

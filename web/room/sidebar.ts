@@ -63,16 +63,22 @@ export class Sidebar {
       person.replayed ? "replay" : person.muted ? "muted by a moderator" : person.voice ? "" : "microphone off",
       person.face === "program" ? "face by a program" : "",
       person.recorded ? "recorded" : "",
+      person.shares ? "shares the screen" : "",
     ].filter(Boolean);
     const small = document.createElement("small");
     small.textContent = words.join(" · ");
     if (chair && !self) {
       small.append(words.length ? " " : "");
-      const acts = [person.muted ? "unmute" : "mute", ...(person.own ? (["undress"] as const) : []), "remove"] as const;
+      const acts: Act[] = [
+        person.muted ? "unmute" : "mute",
+        ...(person.own ? (["undress"] as const) : []),
+        ...(person.shares ? (["unshare"] as const) : []),
+        "remove",
+      ];
       for (const action of acts) {
         const button = document.createElement("button");
         button.type = "button";
-        button.textContent = action === "undress" ? "take avatar off" : action;
+        button.textContent = action === "undress" ? "take avatar off" : action === "unshare" ? "stop sharing" : action;
         button.addEventListener("click", () => this.moderate(action, person.number));
         small.append(button);
       }

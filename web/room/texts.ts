@@ -14,6 +14,8 @@ export interface Person {
   face: "page" | "program";
   /** Whether their states go to the room's file. */
   recorded: boolean;
+  /** Whether their window or picture is on the screens. */
+  shares: boolean;
   /** Whether they come out of one: no page and no voice is behind them. */
   replayed: boolean;
   /** SHA-256 of an avatar that they brought; `avatar` stands in for it. */
@@ -23,8 +25,12 @@ export interface Person {
 /** One's own voice to an engine in the middle, and the others' voices from it. */
 export type EngineLine = "up" | "down";
 
+/** Which of two connections between two people a signal is for. */
+export type Plane = "voice" | "screen";
+
 export interface Description {
   kind: "description";
+  plane?: Plane;
   to: number | EngineLine;
   type: "offer" | "answer" | "rollback";
   sdp: string;
@@ -32,13 +38,14 @@ export interface Description {
 
 export interface Candidate {
   kind: "candidate";
+  plane?: Plane;
   to: number | EngineLine;
   candidate: string;
   mid?: string;
   line?: number;
 }
 
-export type Act = "mute" | "unmute" | "undress" | "remove" | "lock" | "unlock";
+export type Act = "mute" | "unmute" | "undress" | "unshare" | "remove" | "lock" | "unlock";
 
 export type Said =
   | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page"; recorded: boolean }
@@ -50,6 +57,7 @@ export type Said =
   | { kind: "consent"; recorded: boolean }
   | { kind: "play"; paused?: boolean; time_s?: number; speed?: number }
   | { kind: "undress" }
+  | { kind: "share"; on: boolean }
   | { kind: "leave" };
 
 /** What a page asks before it comes in. */

@@ -2,7 +2,7 @@
 
 import { Group, PCFShadowMap, PerspectiveCamera, Quaternion, Scene, SRGBColorSpace, Vector3, WebGLRenderer, NeutralToneMapping, type Object3D } from "three";
 
-import { BACKGROUND, makePlace } from "./place.js";
+import { BACKGROUND, type Place } from "./place.js";
 
 const FIELD_DEG = 50;
 const MOST_PIXEL_RATIO = 2;
@@ -25,6 +25,7 @@ export class View {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly glass: HTMLCanvasElement,
+    place: Place,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
     this.renderer.outputColorSpace = SRGBColorSpace;
@@ -34,9 +35,9 @@ export class View {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.scene.background = BACKGROUND;
-    const place = makePlace();
-    place.traverse((node) => node.layers.enable(SELF));
-    this.scene.add(place);
+    place.reflect(this.renderer);
+    place.root.traverse((node) => node.layers.enable(SELF));
+    this.scene.add(place.root);
     this.mirror.layers.set(SELF); // nobody else stands between a face and its mirror
     [glass.width, glass.height] = [300, 340];
     this.small = glass.getContext("2d")!;

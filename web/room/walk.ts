@@ -1,6 +1,6 @@
 /** Moves one's own body: keys or a thumb on the floor to walk, mouse or finger to look around. */
 
-import { allowed } from "./place.js";
+import type { Layout } from "./layout.js";
 
 /** Metres and radians a second; an unhurried walk. */
 const PACE = 1.4;
@@ -33,7 +33,10 @@ export class Walk {
   private drag: { id: number; x: number; y: number; walks: boolean } | undefined;
   private pushed = 0;
 
-  constructor(canvas: HTMLElement) {
+  constructor(
+    canvas: HTMLElement,
+    readonly layout: Layout,
+  ) {
     addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey || typing(event)) return;
       if (event.code in KEYS) {
@@ -69,6 +72,7 @@ export class Walk {
   }
 
   update(seconds: number): void {
+    if (!seconds) return;
     let [forward, left, turn] = [this.pushed, 0, 0];
     for (const code of this.held) {
       const [f, l, t] = KEYS[code]!;
@@ -80,7 +84,7 @@ export class Walk {
     const length = Math.max(1, Math.hypot(forward, left));
     const step = (PACE * seconds) / length;
     const [sin, cos] = [Math.sin(this.heading), Math.cos(this.heading)];
-    [this.x, this.z] = allowed(this.x + (forward * sin + left * cos) * step, this.z + (forward * cos - left * sin) * step);
+    [this.x, this.z] = this.layout.allowed(this.x + (forward * sin + left * cos) * step, this.z + (forward * cos - left * sin) * step);
   }
 }
 

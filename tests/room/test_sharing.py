@@ -1,0 +1,176 @@
+"""One person at a time shows something on the room's screens: by the rules, and in two tabs of a real browser."""
+
+import asyncio
+import functools
+from collections.abc import Awaitable, Callable
+
+import pytest
+
+from room.protocol.texts import Changed, Notice, Signal
+from tests.browser import chromium, needs_chromium
+from tests.room.guests import Place, open_room
+from tests.room.test_page import AWAKE, come_in
+
+
+def meeting(test: Callable[[Place], Awaitable[None]]) -> Callable[[], None]:
+    @functools.wraps(test)
+    def run() -> None:
+        async def held() -> None:
+            async with open_room() as place:
+                await test(place)
+
+        asyncio.run(held())
+
+    del run.__wrapped__  # pytest would ask for the place
+    return run
+
+
+def _shares(number: int, on: bool = True) -> Callable[[Changed], bool]:
+    return lambda changed: changed.person.number == number and changed.person.shares is on
+
+
+@meeting
+async def test_one_shares_and_all_are_told_who(place):
+    ada, ben = await place.guest(), await place.guest(name="Ben")
+    await ada.say(kind="share", on=True)
+    await ben.told(Changed, _shares(ada.number))
+    await ben.say(kind="share", on=True)
+    assert "Ada shares already" in (await ben.told(Notice)).text
+    late = await place.guest(name="Cy")
+    assert [person.number for person in late.welcome.people if person.shares] == [ada.number]
+    await ada.say(kind="share", on=False)
+    await ben.told(Changed, _shares(ada.number, on=False))
+    await ben.say(kind="share", on=True)
+    await ada.told(Changed, _shares(ben.number))
+
+
+@meeting
+async def test_a_moderator_ends_it_and_a_mute_keeps_from_it(place):
+    chair, ada = await place.guest(moderator=True, name="Chair"), await place.guest()
+    await ada.say(kind="share", on=True)
+    await chair.told(Changed, _shares(ada.number))
+    await chair.say(kind="moderate", action="unshare", number=ada.number)
+    await ada.told(Changed, _shares(ada.number, on=False))
+    await chair.say(kind="moderate", action="mute", number=ada.number)
+    await ada.say(kind="share", on=True)
+    assert "muted" in (await ada.told(Notice)).text
+
+
+@meeting
+async def test_a_page_that_is_loaded_anew_shares_no_longer(place):
+    ada, ben = await place.guest(visit="first"), await place.guest(name="Ben")
+    await ada.say(kind="share", on=True)
+    await ben.told(Changed, _shares(ada.number))
+    again = await place.guest(secret=ada.secret, visit="first")
+    assert any(person.shares for person in again.welcome.people), "a connection that broke changes nothing"
+    again = await place.guest(secret=ada.secret, visit="second")
+    assert not any(person.shares for person in again.welcome.people)
+
+
+@meeting
+async def test_who_leaves_frees_the_screen(place):
+    ada, ben = await place.guest(), await place.guest(name="Ben")
+    await ada.say(kind="share", on=True)
+    await ben.told(Changed, _shares(ada.number))
+    await ada.say(kind="leave")
+    await ben.say(kind="share", on=True)
+    await ben.told(Changed, _shares(ben.number))
+
+
+@meeting
+async def test_signals_of_the_screen_pass_only_to_and_from_who_shares(place):
+    ada, ben, cy = await place.guest(), await place.guest(name="Ben"), await place.guest(name="Cy")
+    offer = {"kind": "description", "plane": "screen", "type": "offer", "sdp": "v=0"}
+    await ben.say(**offer, to=cy.number)
+    await ada.say(kind="share", on=True)
+    await ben.told(Changed, _shares(ada.number))
+    await ada.say(**offer, to=cy.number)
+    await ben.say(**offer | {"type": "answer"}, to=ada.number)
+    heard = await cy.told(Signal)
+    assert (heard.sender, heard.signal.plane) == (ada.number, "screen")
+    assert (await ada.told(Signal)).sender == ben.number
+    assert len(cy.all(Signal)) == 1, "Ben, who shares nothing, shows Cy nothing"
+
+
+PICTURE = """(async () => {
+  const canvas = new OffscreenCanvas(640, 360), pen = canvas.getContext('2d');
+  pen.fillStyle = '#e02020'; pen.fillRect(0, 0, 640, 360);
+  const file = new File([await canvas.convertToBlob({ type: 'image/png' })], 'red.png', { type: 'image/png' });
+  const carried = new DataTransfer(); carried.items.add(file);
+  const input = document.querySelector('#file');
+  input.files = carried.files; input.dispatchEvent(new Event('change'));
+})()"""
+SEEN = """(() => {
+  const pen = new OffscreenCanvas(8, 8).getContext('2d');
+  pen.drawImage(meeting.board.film, 0, 0, 8, 8);
+  return [...pen.getImageData(4, 4, 1, 1).data];
+})()"""
+WISH = """(() => {{
+  const share = document.querySelector('#share');
+  share.value = '{}';
+  share.dispatchEvent(new Event('change'));
+}})()"""
+STOP = "[...document.querySelectorAll('#people button')].find((each) => each.textContent === 'stop sharing').click()"
+SHARED = "document.querySelector('#shared')"
+
+
+@pytest.mark.slow
+@needs_chromium
+def test_a_picture_and_a_window_reach_the_other_and_a_moderator_ends_them():
+    async def run() -> dict[str, object]:
+        found = {}
+        async with open_room() as place, chromium(*AWAKE, "--auto-accept-this-tab-capture") as browser:
+            address = f"{place.address}/room/meeting#"
+            async with (
+                browser.open(address + place.keys.key("meeting", "moderator")) as ada,
+                browser.open(address + place.keys.key("meeting", "guest")) as ben,
+            ):
+                for tab, name in ((ada, "Ada"), (ben, "Ben")):
+                    await tab.look(width=480, height=360)
+                    await come_in(tab, name)
+                await ben.ask(f"void {PICTURE}")
+                await ada.until("meeting.board.shown", 30)
+                found["size"] = await ada.ask("meeting.board.size")
+                await asyncio.sleep(1.0)
+                found["colour"] = await ada.ask(SEEN)
+                found["told"] = await ada.ask(f"{SHARED}.textContent")
+                found["told self"] = await ben.ask(f"{SHARED}.textContent")
+                await ada.ask(STOP)
+                await ben.until(f"!meeting.sharing.shares && {SHARED}.hidden")
+                await ada.until(f"!meeting.board.shown && {SHARED}.hidden")
+                await ada.ask(WISH.format("window"))
+                await ben.until("meeting.board.shown", 30)
+                found["window"] = await ben.ask("meeting.board.size")
+                await ada.ask(WISH.format("nothing"))
+                await ben.until("!meeting.board.shown")
+                # the pointer: on a key, seen by the other where the own view looks
+                await ada.ask(
+                    "void Object.assign(meeting.walk, { x: 0, z: 2.4, heading: Math.PI, pitch: 0.1 })"
+                )
+                await ada.ask("dispatchEvent(new KeyboardEvent('keydown', { key: '7', code: 'Digit7' }))")
+                await ben.ask("void (meeting.drawing = true)")
+                number = await ada.ask("meeting.own.number")
+                await ben.until(f"meeting.pointers.beams.get({number})", 30)
+                await asyncio.sleep(1.5)
+                found["dot"] = await ben.ask(f"meeting.pointers.beams.get({number}).dot.position.toArray()")
+                await ada.ask("dispatchEvent(new KeyboardEvent('keydown', { key: '7', code: 'Digit7' }))")
+                await ben.until(f"!meeting.pointers.beams.get({number})", 30)
+                found["complaints"] = ada.complaints + ben.complaints
+        return found
+
+    found = asyncio.run(run())
+    print(found)
+    assert found["size"] == [640, 360]
+    red, green, blue, _ = found["colour"]
+    assert red > 190
+    assert green < 70
+    assert blue < 70
+    assert found["told"] == "Ben shares the screen"
+    assert found["told self"] == "You share the screen"
+    assert min(found["window"]) > 0
+    x, y, z = found["dot"]
+    # the wall with the window is 6.4 metres ahead; its glass and frame a few centimetres before it
+    assert abs(x) < 0.02
+    assert -4.05 < z < -3.85
+    assert abs(y - (1.6 + (2.4 - z) * 0.1003)) < 0.02
+    assert not found["complaints"]

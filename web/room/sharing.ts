@@ -1,0 +1,183 @@
+/**
+ * Shares a window or a picture with all: straight from browser to browser, a connection for each who looks.
+ *
+ * Who shares calls, and the others answer; the room's server says who may. Voices go their own way.
+ */
+
+import type { Candidate, Description, Person } from "./texts.js";
+
+/** A still picture is sent so many times a second, for those who come later. */
+const STILL_HERTZ = 3;
+/** Longer sides of a picture are made smaller: a wall in a page has no more pixels. */
+const MOST_PIXELS = 1920;
+/** Of a shared window: text stays sharp, and a film stutters a little. */
+const WINDOW_HERTZ = 12;
+
+type Send = (said: Description | Candidate) => void;
+
+export class Sharing {
+  private own: MediaStream | undefined;
+  /** Whether the room knows that this page shares. */
+  private granted = false;
+  private readonly viewers = new Map<string, { connection: RTCPeerConnection; visit: string; number: number }>();
+  private sharer: { id: string; visit: string; connection?: RTCPeerConnection } | undefined;
+  private ice: RTCIceServer[] = [];
+
+  constructor(
+    private readonly send: Send,
+    /** Called with what is to be seen on the screens now. */
+    private readonly show: (stream: MediaStream | undefined) => void,
+    /** Called when the browser's own button ends a window's sharing. */
+    private readonly ended: () => void,
+  ) {}
+
+  configure(ice: RTCIceServer[]): void {
+    this.ice = ice;
+  }
+
+  get shares(): boolean {
+    return this.own !== undefined;
+  }
+
+  /** Ask for a window; throws what the browser says, or where it has none to give. */
+  async window(): Promise<void> {
+    this.take(await navigator.mediaDevices.getDisplayMedia({ video: { frameRate: WINDOW_HERTZ }, audio: false }));
+  }
+
+  /** Show a picture of a file; throws where the browser cannot read it. */
+  async picture(file: Blob): Promise<void> {
+    const bitmap = await createImageBitmap(file);
+    const scale = Math.min(1, MOST_PIXELS / Math.max(bitmap.width, bitmap.height));
+    const canvas = document.createElement("canvas");
+    // codecs want even numbers
+    [canvas.width, canvas.height] = [2 * Math.ceil((bitmap.width * scale) / 2), 2 * Math.ceil((bitmap.height * scale) / 2)];
+    const pen = canvas.getContext("2d")!;
+    const draw = (): void => pen.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
+    draw();
+    const stream = canvas.captureStream(STILL_HERTZ);
+    const timer = setInterval(() => (stream.active && this.own === stream ? draw() : this.own === stream || clearInterval(timer)), 1000 / STILL_HERTZ);
+    this.take(stream);
+  }
+
+  /** Show nothing more. */
+  end(): void {
+    for (const track of this.own?.getTracks() ?? []) track.stop();
+    this.own = undefined;
+    this.granted = false;
+    for (const id of [...this.viewers.keys()]) this.hangUp(id);
+    this.show(undefined);
+  }
+
+  close(): void {
+    this.end();
+    this.drop();
+  }
+
+  /** Call everybody who is here, or let go of who shares no longer; `own` is this person's id. */
+  meet(people: readonly Person[], own: string): void {
+    const sharer = people.find(({ shares }) => shares);
+    if (this.own && sharer?.id !== own && (this.granted || sharer)) this.end(); // a moderator's word, or somebody was faster
+    this.granted = this.own !== undefined && sharer?.id === own;
+    if (this.sharer && (sharer?.id !== this.sharer.id || sharer.visit !== this.sharer.visit)) this.drop();
+    if (sharer && sharer.id !== own) this.sharer ??= { id: sharer.id, visit: sharer.visit };
+    for (const [id, { visit }] of [...this.viewers]) {
+      const person = people.find((each) => each.id === id);
+      if (!person?.present || person.visit !== visit) this.hangUp(id);
+    }
+    if (!this.own || sharer?.id !== own) return;
+    for (const person of people) {
+      const viewer = this.viewers.get(person.id);
+      if (viewer) viewer.number = person.number;
+      else if (person.id !== own && person.present && !person.replayed) this.call(person);
+    }
+  }
+
+  async hear(from: Person, signal: Description | Candidate): Promise<void> {
+    try {
+      const connection = signal.kind === "description" && signal.type === "offer" ? this.answerer(from) : this.of(from.id);
+      if (!connection) return;
+      if (signal.kind === "candidate") {
+        await connection.addIceCandidate({ candidate: signal.candidate, sdpMid: signal.mid ?? null, sdpMLineIndex: signal.line ?? null });
+        return;
+      }
+      await connection.setRemoteDescription(signal);
+      if (signal.type !== "offer") return;
+      await connection.setLocalDescription();
+      this.describe(connection, from.number);
+    } catch (error) {
+      console.warn("screen:", error); // a word of a connection that has ended meanwhile
+    }
+  }
+
+  private take(stream: MediaStream): void {
+    const [track] = stream.getVideoTracks();
+    track!.contentHint = "detail";
+    track!.addEventListener("ended", () => this.own === stream && this.ended());
+    this.own = stream;
+    this.show(stream);
+  }
+
+  private of(id: string): RTCPeerConnection | undefined {
+    return this.viewers.get(id)?.connection ?? (this.sharer?.id === id ? this.sharer.connection : undefined);
+  }
+
+  private call({ id, number, visit }: Person): void {
+    const connection = this.connect(() => this.viewers.get(id)?.number ?? number);
+    this.viewers.set(id, { connection, visit, number });
+    connection.onnegotiationneeded = async () => {
+      await connection.setLocalDescription();
+      this.describe(connection, this.viewers.get(id)?.number ?? number);
+    };
+    connection.addTransceiver(this.own!.getVideoTracks()[0]!, { direction: "sendonly", streams: [this.own!] });
+  }
+
+  /** The connection by which the one who shares is seen; nobody else may show anything. */
+  private answerer({ id, number }: Person): RTCPeerConnection | undefined {
+    if (this.sharer?.id !== id) return undefined;
+    if (this.sharer.connection?.signalingState === "stable" && this.sharer.connection.connectionState === "connected") return this.sharer.connection;
+    this.sharer.connection?.close();
+    const connection = this.connect(() => number);
+    connection.ontrack = ({ track }) => this.show(new MediaStream([track]));
+    this.sharer.connection = connection;
+    return connection;
+  }
+
+  private connect(number: () => number): RTCPeerConnection {
+    const connection = new RTCPeerConnection({ iceServers: this.ice });
+    connection.onicecandidate = ({ candidate }) => {
+      if (!candidate) return;
+      const { sdpMid, sdpMLineIndex } = candidate;
+      this.send({
+        kind: "candidate",
+        plane: "screen",
+        to: number(),
+        candidate: candidate.candidate,
+        ...(sdpMid === null ? {} : { mid: sdpMid }),
+        ...(sdpMLineIndex === null ? {} : { line: sdpMLineIndex }),
+      });
+    };
+    connection.oniceconnectionstatechange = () => {
+      if (connection.iceConnectionState === "failed") connection.restartIce();
+    };
+    return connection;
+  }
+
+  private describe({ localDescription }: RTCPeerConnection, to: number): void {
+    const { type, sdp } = localDescription!;
+    if (type !== "pranswer") this.send({ kind: "description", plane: "screen", to, type, sdp });
+  }
+
+  private hangUp(id: string): void {
+    const viewer = this.viewers.get(id);
+    this.viewers.delete(id);
+    if (viewer) viewer.connection.onnegotiationneeded = viewer.connection.onicecandidate = null;
+    viewer?.connection.close();
+  }
+
+  /** Somebody's screen is over. */
+  private drop(): void {
+    this.sharer?.connection?.close();
+    this.sharer = undefined;
+    if (!this.own) this.show(undefined);
+  }
+}
