@@ -16,6 +16,7 @@ TESTER  := $(VENV)/.tester
 PARTS   := web/node_modules/.package-lock.json
 FACE    := room/server/static/face
 AVATARS := room/server/static/avatars
+PLACES := room/server/static/places
 LEARNER := $(VENV)/.learner
 MADE    := $(OUT)/.made
 PIP     := $(BIN)/python -m pip install --quiet --disable-pip-version-check
@@ -86,6 +87,9 @@ room-face: $(FACE)/.made  ## What the room's page needs to see faces by a camera
 room-avatars: $(READY) $(RIG)  ## Build the people of the room again
 	$(BIN)/facegen rig export anny --body --sex female --hair long --age 34 --seed 3 --out $(AVATARS)/nora.glb
 	$(BIN)/facegen rig export anny --body --sex male --hair cropped --ancestry african --age 41 --seed 4 --out $(AVATARS)/omar.glb
+
+room-places: $(READY)  ## Build the places of the room again: model, light, bake (minutes of two cores)
+	$(BIN)/python -m blender_assets.rooms --out $(PLACES)
 
 wheel: | $(BIN)/python  ## Wheel and sdist in dist
 	$(INSTALL) build
