@@ -126,9 +126,18 @@ SAY = """(() => {
 })()"""
 
 
+DRAWN = """new Promise((done) => {
+    let left = 30;
+    const next = () => (--left ? requestAnimationFrame(next) : done(true));
+    next();
+})"""
+"""A place's first pictures take a software renderer seconds, in which no face moves."""
+
+
 async def faces(ada: Tab, ben: Tab) -> tuple[int, float]:
     """How many shapes one has on the other's page, and how far they are at most from what was sent."""
     await ben.until(f"{other('Ada')}.figure?.avatar.name === 'nora'")
+    await ben.ask(DRAWN)
     errors = []
     for step in (0, 20):
         weights = [((7 * index + step) % 53) / 52 for index in range(52)]
@@ -242,6 +251,7 @@ async def moved_by_track(folder: Path) -> tuple[dict[str, float], np.ndarray, li
     sample = Sample(time_s=1.0, weights=weights, gaze=np.zeros(4), head=np.array([0, 0, 0.5, 0.1, 0.0, 0.0]))
     async with meet(folder, "Ada") as (place, (ada,)):
         await ada.until(f"{other('Ada')}.figure?.avatar.name === 'nora'")
+        await ada.ask(DRAWN)
         secret = await ada.ask("sessionStorage.getItem('secret of meeting')")
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}.{secret}"
         told: list[str] = []
