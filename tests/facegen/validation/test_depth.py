@@ -32,4 +32,4 @@ def test_a_hair_before_the_skin_is_no_contradiction_but_anything_else_is():
     assert depth_difference(layers(0.047, Part.SKIN), point, 0.05) > 1e-3
     assert depth_difference(layers(0.053, Part.HAIR), point, 0.05) > 1e-3, "behind the point"
     assert depth_difference(layers(0.027, Part.HAIR), point, 0.05) > 1e-3, "further off than beards grow"
-    assert depth_difference(layers(0.037, Part.LASHES), point, 0.05) > 1e-3, "further off than lashes grow"
+    assert depth_difference(layers(0.034, Part.LASHES), point, 0.05) > 1e-3, "further off than lashes grow"
