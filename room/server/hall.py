@@ -154,6 +154,8 @@ class Hall:
             if self._replay:
                 connection.say(self._replay.playing(now=time.monotonic()))
             self._tell(Changed(person=seat.person), but=seat)
+            if self._neighbours:
+                self._neighbours.entered()
             if self._switchboard:
                 self._switchboard.begin(seat.id, connection.say)
         return seat

@@ -18,7 +18,7 @@ AGAIN_S = 2.0
 """An account is said again after this time though nothing changed, so that one that was lost is made good."""
 
 SOON_S = 0.1
-"""Shortest time between two accounts: a crowd that comes in is told as a crowd."""
+"""Shortest time between two accounts of what changes while people are in."""
 
 ANSWERS_S = 0.5
 """Time for the other processes to say who is there; one that is silent for so long is not waited for."""
@@ -88,6 +88,11 @@ class Neighbours:
     def changed(self) -> None:
         """Somebody of this process is otherwise than before."""
         self._changed = True
+
+    def entered(self) -> None:
+        """Somebody has come in here: it is told at once, so that who goes on to another process is newer there."""
+        self._changed, self._said_at = False, time.monotonic()
+        self._say(account(self._meeting))
 
     def took(self, number: int, message: bytes, part: Part) -> None:
         """Somebody of this process has moved."""
