@@ -218,7 +218,8 @@ class Voices:
             if mid is not None and len(self._wanted) < MOST_VOICES:
                 self._wanted[publisher.id] = mid
         for gone in (word.leaving, word.unpublished):
-            self._wanted.pop(gone, None) if isinstance(gone, int) else None
+            if isinstance(gone, int):
+                self._wanted.pop(gone, None)
 
     async def _follow(self) -> None:
         """Have Janus bring what is wanted; the page answers one change before the next is offered."""
