@@ -63,6 +63,6 @@ def neutrals_of(
     pictures = {}
     for name in used:
         width, height = predictor.sizes[name]
-        picture = unpacked_picture(person.neutral[name], width=width, height=height, of=name)
+        picture = unpacked_picture(person.neutral[name], width=width, height=height, of=f"{name} of --person")
         pictures[name] = tables[name][picture] if name in tables else picture
     return [Neutral(row=0, pictures=pictures)]

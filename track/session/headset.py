@@ -1,6 +1,5 @@
 """From the pictures of a headset's cameras to weights."""
 
-import base64
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -9,12 +8,11 @@ import cv2
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
-from facegen.formats.picture_size import picture_size
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
-from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person
+from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, unpacked_picture
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.headset.soundness import PictureSoundness
@@ -128,21 +126,9 @@ class HeadsetPipeline(Pipeline):
         width, height = self._predictor.sizes[name]
         if name not in neutral.pictures:
             raise InputError(f"the profile has no neutral picture of {name}; calibrate again")
-        try:
-            content = base64.b64decode(neutral.pictures[name])
-        except ValueError:  # no base64
-            content = b""
-        # by its head, before a decoder allocates what that claims
-        claimed, picture = picture_size(content), None
-        if claimed == (width, height):
-            picture = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), cv2.IMREAD_GRAYSCALE)
-        if picture is None or picture.shape != (height, width):
-            size = "none" if claimed in (None, (width, height)) else f"{claimed[0]} x {claimed[1]}"
-            raise InputError(
-                f"the profile's neutral picture of {name} is {size}, and the model takes {width} x {height}; calibrate "
-                f"again"
-            )
-        return picture
+        return unpacked_picture(
+            neutral.pictures[name], width=width, height=height, of=f"{name} of the profile"
+        )
 
     def points(self, sample: Sample) -> Mapping[str, np.ndarray]:
         """What the network traces in each picture, as often as anybody could look at it."""

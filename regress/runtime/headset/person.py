@@ -216,6 +216,6 @@ def unpacked_picture(text: str, *, width: int, height: int, of: str) -> np.ndarr
     if picture is None or picture.shape != (height, width):
         size = "none" if claimed in (None, (width, height)) else f"{claimed[0]} x {claimed[1]}"
         raise InputError(
-            f"the neutral picture of {of} of --person is {size}, and the model takes {width} x {height}"
+            f"the neutral picture of {of} is {size}, and the model takes {width} x {height}; calibrate again"
         )
     return picture

@@ -65,12 +65,18 @@ def test_points_are_traced_where_somebody_looks():
     [
         (NeutralFace(detector="mediapipe"), "takes a headset's pictures"),
         (NeutralFace(pictures={"mouth": "AAAA"}), "no neutral picture of left_eye"),
-        (NeutralFace(pictures=dict.fromkeys(HEADSET, "AAAAA")), "left_eye is none, and the model"),
-        (NeutralFace(pictures=dict.fromkeys(HEADSET, "é")), "left_eye is none, and the model"),
-        (NeutralFace(pictures=dict.fromkeys(HEADSET, HUGE)), "left_eye is 20000 x 20000, and the model"),
+        (
+            NeutralFace(pictures=dict.fromkeys(HEADSET, "AAAAA")),
+            "left_eye of the profile is none, and the model",
+        ),
+        (NeutralFace(pictures=dict.fromkeys(HEADSET, "é")), "left_eye of the profile is none, and the model"),
+        (
+            NeutralFace(pictures=dict.fromkeys(HEADSET, HUGE)),
+            "left_eye of the profile is 20000 x 20000, and the model",
+        ),
         (
             NeutralFace(pictures=dict.fromkeys(HEADSET, "AAAA")),
-            "left_eye is none, and the model takes 96 x 96",
+            "left_eye of the profile is none, and the model takes 96 x 96",
         ),
     ],
 )
