@@ -16,9 +16,6 @@ ROOT = Path(__file__).resolve().parents[3]
 SIZE_PX = 128
 """Half of the gallery's; with less still, pixels that pupil and iris share make pupils lighter than real ones."""
 
-NEARER = {("eye", "iris across, % of width"), ("mouth", "mean level")}
-"""30.5 % in place of 28 to 29, and 46.3 in place of 46 at most, since eyes stand where people's do (labels 5)."""
-
 pytestmark = [pytest.mark.slow, pytest.mark.blender, pytest.mark.usefixtures("anny")]
 
 
@@ -49,12 +46,4 @@ def outside(bench_look, tmp_path_factory) -> set[tuple[str, str]]:
 
 
 def test_means_over_people_lie_in_the_ranges_of_real_frames(outside):
-    assert outside <= NEARER
-
-
-@pytest.mark.xfail(
-    reason="lenses and lamps of tracking3 were fitted to larger eyes, 5 mm further away", strict=True
-)
-@pytest.mark.parametrize("figure", sorted(NEARER), ids=" ".join)
-def test_eyes_of_human_size_fit_the_lenses(outside, figure):
-    assert figure not in outside
+    assert not outside
