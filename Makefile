@@ -28,8 +28,11 @@ SELF    := $(PIP) --no-deps --no-build-isolation --editable .
 LOCK    := $(BIN)/python -m uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes --no-annotate \
   --custom-compile-command 'make lock' --constraint constraints.txt pyproject.toml -
 TESTED  := headset-test headset-slip
-# a file's tests stay together, and share what they made
-TWO     := --numprocesses 2 --dist loadfile
+# a file's tests stay together, and share what they made; tests/conftest.py says which files come first
+SHARED  := --dist loadfile --no-loadscope-reorder
+TWO     := --numprocesses 2 $(SHARED)
+# the others have been run without PyTorch
+TORCHED  = $(shell grep --recursive --files-with-matches --fixed-strings 'importorskip("torch")' tests) tests/test_layers.py
 
 .DEFAULT_GOAL := help
 .PHONY: help setup lock rig dataset train export headset headset-any models samples web room-face room-avatars wheel test test-farm test-headset test-quick docs-test fuzz lint format \
@@ -101,9 +104,9 @@ test: $(TESTER) $(RIG)  ## All tests but those of farms
 test-farm: $(TESTER) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
 	$(BIN)/python -m pytest tests/real_tools
 
-test-headset: $(TESTER) models/headset-tiny/report.html  ## Headset networks: their tests with PyTorch, and make headset in small
+test-headset: $(TESTER) models/headset-tiny/report.html  ## Headset networks: what asks for PyTorch, and make headset in small
 	$(BIN)/regress headset predict models/headset-tiny datasets/out/headset-tiny --out models/headset-tiny.csv
-	$(BIN)/python -m pytest tests/regress/headset tests/test_layers.py
+	$(BIN)/python -m pytest $(TWO) $(TORCHED)
 
 test-quick: $(TESTER) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)
 	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not slow and not blender"

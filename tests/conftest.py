@@ -2,6 +2,7 @@
 
 import os
 import signal
+from collections import Counter
 
 import pytest
 from hypothesis import settings
@@ -29,6 +30,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="fail where a Python that the wheel is tried on is missing",
     )
     parser.addoption("--update-golden", action="store_true", help="write golden files anew, to be read over")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Long files come first, which processes share: at the end of a run none is left alone with a minute's work."""
+    slow = {item.path for item in items if item.get_closest_marker("slow")}
+    count = Counter(item.path for item in items)
+    items.sort(key=lambda item: (item.path not in slow, item.path not in slow and -count[item.path]))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
