@@ -11,6 +11,7 @@ from facegen.headsets.headset import (
 )
 from facegen.headsets.loading import headset_path, list_headsets, load_headset, parse_headset
 from facegen.headsets.occluders import HeadsetOccluder
+from facegen.headsets.told_cameras import told_cameras
 from facegen.headsets.units import draw_unit
 
 __all__ = [
@@ -28,4 +29,5 @@ __all__ = [
     "list_headsets",
     "load_headset",
     "parse_headset",
+    "told_cameras",
 ]

@@ -87,21 +87,9 @@ def told_of(predictor: "HeadsetPredictor", headset: str | None) -> "HeadsetPredi
     """
     if headset is None:
         return predictor
-    from facegen.geometry import camera_terms
-    from facegen.headsets import load_headset
+    from facegen.headsets import told_cameras
 
-    described = load_headset(headset)
-    terms = {
-        camera.name: camera_terms(camera.camera, camera.headset_from_camera)
-        for camera in described.cameras
-        if camera.name in predictor.sizes
-    }
-    if not terms:
-        raise InputError(
-            f"--headset {headset} has the cameras {', '.join(described.camera_names)}; the model has "
-            f"{', '.join(predictor.sizes)}"
-        )
-    return predictor.told(terms)
+    return predictor.told(told_cameras(headset, predictor.sizes))
 
 
 def targets_of(named: Sequence[str]) -> dict[int, tuple[float, float]]:

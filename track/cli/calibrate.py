@@ -12,6 +12,7 @@ from track.cli.options import (
     FastOption,
     FilterOption,
     FpsOption,
+    HeadsetOption,
     ModelOption,
     PlacementOption,
     ProfileOption,
@@ -33,6 +34,7 @@ def calibrate(
     profile: ProfileOption = None,
     filter_name: FilterOption = "groups",
     placement: PlacementOption = None,
+    headset: HeadsetOption = None,
     fast: FastOption = False,
     fps: FpsOption = 30.0,
 ) -> None:
@@ -55,6 +57,7 @@ def calibrate(
         profile=profile,
         filter_name=filter_name,
         placement=placement,
+        headset=headset,
         fast=fast,
         fps=fps,
     )

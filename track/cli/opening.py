@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from track.errors import InputError
 from track.profile.places import person_of, profile_path
 from track.profile.profile import NeutralFace, Profile, read_profile
@@ -29,7 +31,7 @@ class Wishes:
     ----------
     cameras
         As they were written.
-    model, detector, detector_file, profile, filter_name, neutral, placement
+    model, detector, detector_file, profile, filter_name, neutral, placement, headset
         Options' values.
     fast, fps
         Pace of kept pictures.
@@ -43,6 +45,7 @@ class Wishes:
     filter_name: str = "groups"
     neutral: str | None = None
     placement: Path | None = None
+    headset: str | None = None
     fast: bool = False
     fps: float = 30.0
 
@@ -159,6 +162,7 @@ def open_profile(
         say(f"{path} does not exist yet; calibrating makes it")
     if wishes.placement is not None:
         profile = profile.model_copy(update={"placement": _placement(wishes.placement, pipeline)})
+    profile = _told(wishes.headset, profile, pipeline, say)
     if wishes.neutral in ("auto", "none"):
         profile = profile.model_copy(update={"neutral": None, "ranges": {}})
     elif wishes.neutral is not None:
@@ -199,6 +203,31 @@ def _placement(path: Path, pipeline: "Pipeline") -> "dict[str, CameraPlacement]"
     if pipeline.mark.kind != "headset":
         raise InputError(f"--placement {path} is for a headset's cameras, and the model takes points")
     return read_placement(path, dict.fromkeys(pipeline.cameras))
+
+
+def _told(headset: str | None, profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:
+    """The profile with the headset's cameras, where one is named; it is said where what is known stays untold."""
+    from facegen.headsets import told_cameras
+
+    if headset is None:
+        if profile.told_cameras and not pipeline.listens:
+            say("the profile knows where your cameras are, and this model is not told: headset-any is")
+        return profile
+    if headset == "none":
+        return profile.model_copy(update={"told_cameras": {}})
+    if pipeline.mark.kind != "headset":
+        raise InputError(f"--headset {headset} is for a headset's cameras, and the model takes points")
+    if not pipeline.listens:
+        raise InputError(
+            f"--headset {headset}: this model was trained for one place of the cameras and is not told where they are; "
+            f"leave it out, or take --model headset-any"
+        )
+    terms = told_cameras(headset, pipeline.cameras)
+    unknown = [name for name in pipeline.cameras if name not in terms]
+    if unknown:
+        say(f"--headset {headset} does not have {', '.join(unknown)}: of that the model is told nothing")
+    told = {name: tuple(np.round(values, 6).tolist()) for name, values in terms.items()}
+    return profile.model_copy(update={"told_cameras": told})
 
 
 def _neutral_file(name: str, pipeline: "Pipeline") -> NeutralFace:

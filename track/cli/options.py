@@ -69,6 +69,16 @@ PlacementOption = Annotated[
     typer.Option("--placement", help="Of a headset: where its cameras see the face."),
 ]
 
+HeadsetOption = Annotated[
+    str | None,
+    typer.Option(
+        "--headset",
+        metavar="NAME|FILE.toml|none",
+        help="Headset file of facegen: where your cameras are, told to a model of drawn headsets (headset-any). "
+        "Calibrating keeps it in the profile; none forgets it.",
+    ),
+]
+
 FastOption = Annotated[
     bool,
     typer.Option(

@@ -50,6 +50,8 @@ def show(name: NameArgument) -> None:
             f"{frames} frames of {profile.neutral.detector}" if frames else f"pictures of {pictures} cameras"
         )
         typer.echo(one_line(f"neutral face: {what}"))
+    if profile.told_cameras:
+        typer.echo(one_line(f"places known of: {', '.join(profile.told_cameras)}"))
     for shape, reading in profile.ranges.items():
         typer.echo(f"range  {shape:<20} {reading:.2f}")
     for shape, gain in profile.gains.items():

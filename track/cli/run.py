@@ -14,6 +14,7 @@ from track.cli.options import (
     FastOption,
     FilterOption,
     FpsOption,
+    HeadsetOption,
     ModelOption,
     NeutralOption,
     PlacementOption,
@@ -66,6 +67,7 @@ def run(
         int, typer.Option("--port", min=0, max=65535, help="Of the page; 0 for any free one.")
     ] = PORT,
     placement: PlacementOption = None,
+    headset: HeadsetOption = None,
     fast: FastOption = False,
     fps: FpsOption = 30.0,
     seconds: Annotated[
@@ -92,6 +94,7 @@ def run(
         filter_name=filter_name,
         neutral=neutral,
         placement=placement,
+        headset=headset,
         fast=fast,
         fps=fps,
     )

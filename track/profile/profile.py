@@ -39,7 +39,7 @@ from pydantic import (
     model_validator,
 )
 
-from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_COUNT
+from facegen.conventions import BLENDSHAPE_INDEX, CAMERA_TERMS, LANDMARK_COUNT
 from facegen.documents import load_toml
 from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
@@ -74,6 +74,7 @@ SMALLEST_RANGE = 0.05
 Name = Annotated[str, Field(min_length=1, max_length=MOST_NAME_CHARACTERS)]
 Hash = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 Side = Annotated[int, Field(ge=8, le=65535)]
+CameraTerms = Annotated[tuple[FiniteFloat, ...], Len(len(CAMERA_TERMS), len(CAMERA_TERMS))]
 Picture = Annotated[str, Field(max_length=MOST_PICTURE_CHARACTERS)]
 
 
@@ -199,6 +200,8 @@ class Profile(_Record):
         Whether left and right are exchanged.
     placement
         What of a headset camera's pictures the network is to see, by camera.
+    told_cameras
+        Where a headset's cameras are, by camera: `facegen.conventions.CAMERA_TERMS`, for networks that are told.
     """
 
     format: Literal["track-profile"] = "track-profile"
@@ -216,6 +219,7 @@ class Profile(_Record):
     eyes: Annotated[dict[Name, OwnEye], Len(0, MOST_CAMERAS)] = Field(default_factory=dict)
     gains: dict[Shape, Annotated[FiniteFloat, Field(ge=0.0, le=LARGEST_GAIN)]] = Field(default_factory=dict)
     placement: Annotated[dict[Name, CameraPlacement], Len(0, MOST_CAMERAS)] = Field(default_factory=dict)
+    told_cameras: Annotated[dict[Name, CameraTerms], Len(0, MOST_CAMERAS)] = Field(default_factory=dict)
 
     def factors(self) -> np.ndarray:
         """(52,) float64: by what each weight is multiplied, so that a full movement reads 1, times the own gain."""

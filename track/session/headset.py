@@ -158,6 +158,16 @@ class HeadsetPipeline(Pipeline):
         if "networks" in self.stages:
             self.stages["networks"] = self._networks
 
+    @property
+    def listens(self) -> bool:
+        """Whether the network is one of drawn headsets."""
+        return bool(self._predictor.model.camera_terms)
+
+    def use_cameras(self, terms: Mapping[str, Sequence[float]]) -> None:
+        """Tell the network where its cameras are; before a placement and a neutral face are given."""
+        self._predictor = self._predictor.told({name: np.array(values) for name, values in terms.items()})
+        self.use_placement({})
+
     def forget_neutral(self) -> None:
         """Take frames by themselves, and any seat for the right one."""
         self._networks.use_neutral(None)

@@ -38,12 +38,15 @@ class Pipeline:
         Of a signature, in its unit, that counts as a movement (`track.session.steadiness`).
     faces
         Names of `track.session.calibration.FACES` that it sees enough of.
+    listens
+        Whether it can be told where cameras are.
     """
 
     stages: dict[str, Stage]
     mark: ModelMark
     least_movement: float
     faces: tuple[str, ...] = OF_ALL
+    listens: bool = False
 
     def signature(self, sample: Sample) -> np.ndarray | None:
         """What of a frame must keep still while a neutral face is recorded; None where there is no face."""
@@ -78,6 +81,12 @@ class Pipeline:
 
     def use_placement(self, placement: Mapping[str, CameraPlacement]) -> None:
         """See this of each camera's pictures from now on; a landmark model's detector looks for the face itself."""
+
+    def use_cameras(self, terms: Mapping[str, Sequence[float]]) -> None:
+        """Count with cameras at these places from now on: `facegen.conventions.CAMERA_TERMS` (14,) by camera.
+
+        Only a model that `listens` is told.
+        """
 
     def forget_neutral(self) -> None:
         """Take frames by themselves while a neutral face is recorded."""

@@ -130,6 +130,8 @@ class Session:
         self._finishing = ThreadPoolExecutor(max_workers=1, thread_name_prefix="recording")
         self._pictures_wanted, self._timed, self._stopped = False, timed, False
         self._faces, self._first_s, self._last_s = 0, None, 0.0
+        if profile.told_cameras and pipeline.listens:
+            pipeline.use_cameras(profile.told_cameras)
         if profile.placement:
             pipeline.use_placement(profile.placement)
         pipeline.use_eyes(profile.eyes)

@@ -3,6 +3,7 @@
 import os
 import socket
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -12,6 +13,7 @@ from track.profile.profile import ModelMark, write_profile
 
 MOUTH = f"mouth={SAMPLES / 'headset' / 'mouth'}"
 POINTS_PROFILE, BROKEN_PROFILE, BROKEN_VRM, TEXT = "points.toml", "broken.toml", "broken.vrm", "text.txt"
+OTHER_HEADSET = "other.toml"
 
 
 @pytest.fixture
@@ -27,6 +29,10 @@ def place(tmp_path, monkeypatch):
     (tmp_path / BROKEN_PROFILE).write_text("person = [")
     (tmp_path / BROKEN_VRM).write_bytes(b"glTF no more")
     (tmp_path / TEXT).write_text("hello")
+    headset = (Path(__file__).parents[1] / "drawn_layout" / "headset.toml").read_text()
+    for name in ("left_eye", "right_eye", "mouth"):
+        headset = headset.replace(f'"{name}"', f'"my_{name}"')
+    (tmp_path / OTHER_HEADSET).write_text(headset)
     with open(os.devnull, encoding="utf-8") as nothing:
         monkeypatch.setattr(sys, "stdin", nothing)
         yield tmp_path
@@ -92,6 +98,26 @@ CASES = {
     "a placement for points": (
         ["--camera", "-", "--placement", TEXT, "--no-page"],
         "for a headset's cameras",
+    ),
+    "a headset's places for points": (
+        ["--camera", "-", "--headset", "tracking3", "--no-page"],
+        "for a headset's cameras",
+    ),
+    "a headset's places for a model of one headset": (
+        ["--camera", MOUTH, "--headset", "tracking3", "--no-page"],
+        "take --model headset-any",
+    ),
+    "a headset that there is not": (
+        ["--model", "headset-any", "--camera", MOUTH, "--headset", "mine.toml", "--no-page"],
+        "there is no such file",
+    ),
+    "a headset of another kind of file": (
+        ["calibrate", "--model", "headset-any", "--camera", MOUTH, "--headset", BROKEN_PROFILE],
+        "not valid TOML",
+    ),
+    "a headset of other cameras": (
+        ["--model", "headset-any", "--camera", MOUTH, "--headset", OTHER_HEADSET, "--no-page"],
+        "the model has left_eye, right_eye, mouth",
     ),
     "a face that there is not": (["calibrate", "ears", "--camera", "-"], "no face 'ears'"),
     "another truth": (["compare", "--truth", "mirror"], "livelink or livelink:PORT"),
