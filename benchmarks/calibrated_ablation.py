@@ -5,7 +5,7 @@
 Each row changes one thing of the default recipe; only networks that compare are trained. Two takes of an iPhone's 52
 weights are played by people of another rig (`facegen rig build ict --path CLONE`), with a detector's bias and jitter of
 1 px at 100 px between the outer eye corners, and given a neutral face. In-rig figures mislead here
-(docs/measurements/landmark-networks.md).
+(docs/measurements/landmark-networks.md); they stand beside, with those of ridge regression on the very same rows.
 """
 
 import argparse
@@ -23,9 +23,15 @@ from small_movements import small_movements
 from facegen.rigs import Rig, load_rig
 from regress import Model
 from regress.learning.training import read_dataset
+from regress.learning.training.baseline import fit_baseline
+from regress.learning.training.dataset import KeypointDataset
+from regress.learning.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of
 from regress.learning.training.recipes import RECIPES, Recipe
-from regress.targets import VISIBLE_SHAPES
+from regress.learning.training.record import DETECTOR
+from regress.learning.training.scores import predicted_outputs, score
+from regress.targets import OUTPUTS, VISIBLE_SHAPES
 
+_NOISE_SEED = 68
 DEFAULT = RECIPES["default"]
 NOISE = DEFAULT.calibrated_noise
 ROWS: dict[str, Recipe] = {
@@ -45,7 +51,7 @@ ROWS: dict[str, Recipe] = {
         f"jitter of {100 * least:g} to {100 * most:g} %": replace(
             DEFAULT, calibrated_noise=replace(NOISE, jitter=least, jitter_most=most)
         )
-        for least, most in ((0.005, 0.03), (0.01, 0.03), (0.005, 0.02), (0.005, 0.04))
+        for least, most in ((0.001, 0.03), (0.005, 0.03), (0.01, 0.03), (0.005, 0.02), (0.005, 0.04))
     },
     "jitter of 0.5 to 3 %, not stretched": replace(
         DEFAULT, calibrated_gain=False, calibrated_noise=replace(NOISE, jitter=0.005, jitter_most=0.03)
@@ -57,11 +63,31 @@ ROWS: dict[str, Recipe] = {
     "eyes half": replace(DEFAULT, calibrated_noise=replace(NOISE, eyes=0.5)),
     "a third clean": replace(DEFAULT, calibrated_noise=replace(NOISE, clean=0.35)),
     "no bias": replace(DEFAULT, calibrated_noise=replace(NOISE, bias=0.0)),
+    "undisplaced rows, not stretched": replace(DEFAULT, calibrated_noise=None, calibrated_gain=False),
 }
 
 
+def own_figures(model: Model, dataset: KeypointDataset, recipe: Recipe) -> dict[str, float]:
+    """R2 of the visible shapes on the dataset's own test people: of a model, and of ridge on the very same rows."""
+    faces = faces_of(dataset, "test", calibrated=True)
+    seen = as_detected(faces, DETECTOR, np.random.default_rng(_NOISE_SEED))
+    columns, true = [OUTPUTS.index(name) for name in VISIBLE_SHAPES], seen.weights[:, OUTPUT_COLUMNS]
+    beside = model.calibrated.features
+    ridge = fit_baseline(
+        dataset, beside, mirror=recipe.mirror, noise=recipe.calibrated_noise, calibrated=True
+    )
+    answers = {
+        "own": predicted_outputs(model, seen.points, seen.neutral),
+        "own ridge": ridge.predict(seen.features(beside)),
+    }
+    return {
+        name: float(np.mean([one.r2 for one in score(answer[:, columns], true[:, columns])]))
+        for name, answer in answers.items()
+    }
+
+
 def figures_of(model: Model, played: list[Played], rig: Rig, people: int) -> dict[str, float]:
-    """What stands in a row of the table."""
+    """What heads of the other rig say of a row of the table."""
     judged = replay(model, {}, played, noises=(1.0,), biased=(True,))
     rows = [row["model"] for row in judged]
     small = small_movements(model, rig, people=people)
@@ -87,6 +113,7 @@ def main() -> None:
     parser.add_argument("--step", type=int, default=2, help="take every so many frames of a take")
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--only", help="rows, separated by ;")
+    parser.add_argument("--learners", type=int, help="learn from the dataset's first so many people alone")
     parser.add_argument("--json", type=Path, help="write all figures here")
     arguments = parser.parse_args()
     names = arguments.only.split(";") if arguments.only else list(ROWS)
@@ -94,20 +121,25 @@ def main() -> None:
     if unknown:
         parser.error(f"no row is called {min(unknown)!r}; there are {'; '.join(ROWS)}")
     dataset, rig, figures = read_dataset(arguments.dataset), load_rig(arguments.rig), {}
+    if arguments.learners:
+        dataset = dataset.take(
+            np.flatnonzero((dataset.person < arguments.learners) | (dataset.split == "test"))
+        )
     played = play(arguments.real, rig, arguments.people, arguments.step)
     for seed in range(arguments.seeds):
         for name in names:
             began = time.process_time()
-            row = figures_of(train_calibrated(dataset, ROWS[name], seed), played, rig, arguments.people)
+            model = train_calibrated(dataset, ROWS[name], seed)
+            row = figures_of(model, played, rig, arguments.people) | own_figures(model, dataset, ROWS[name])
             figures.setdefault(name, []).append({**row, "s": time.process_time() - began})
             print(f"{name}, seed {seed}:", json.dumps(figures[name][-1]), file=sys.stderr, flush=True)
             if arguments.json:
                 arguments.json.write_text(json.dumps(figures))
     print(
         "| row | MAE | over all shapes | median r | lowest r | wink: own / other eye | still, a px "
-        "| slight: slope | s |"
+        "| slight: slope | own rig: R2, ridge on the same rows | s |"
     )
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     for name, rows in figures.items():
         mean = {key: np.mean([row[key] for row in rows]) for key in rows[0]}
         spread = {key: np.ptp([row[key] for row in rows]) / 2 for key in mean}
@@ -115,7 +147,7 @@ def main() -> None:
             f"| {name} | {mean['mae']:.4f} ± {spread['mae']:.4f} | {mean['all']:.4f} "
             f"| {mean['r']:.3f} ± {spread['r']:.3f} | {mean['lowest r']:.2f} "
             f"| {mean['own eye']:.2f} / {mean['other eye']:.2f} | {mean['still']:.4f} | {mean['slope']:.2f} "
-            f"| {mean['s']:.0f} |"
+            f"| {mean['own']:.3f} ± {spread['own']:.3f}, {mean['own ridge']:.3f} | {mean['s']:.0f} |"
         )
 
 
