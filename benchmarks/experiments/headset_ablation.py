@@ -24,6 +24,7 @@ from regress.runtime.headset.figures import evaluation_to_json
 from regress.runtime.headset.predictor import load_headset_predictor
 
 HOLISTIC = {"architecture": "holistic"}
+NARROW = {"randomise": 0, "shift": 0.03, "scale": 0.04, "rotation_deg": 3, "plain": 0}
 VARIANTS: dict[str, dict[str, object]] = {
     "default": {},
     "holistic": HOLISTIC,
@@ -38,7 +39,7 @@ VARIANTS: dict[str, dict[str, object]] = {
     "no second look": {"second_look": False},
     "no points traced": {"points_loss": 0},
     "no neutral pictures": {"calibration": False},
-    "randomised pictures": {"randomise": 1},
+    "as rendered, little displaced": NARROW,
     "pictures as they are": {"shift": 0, "scale": 0, "rotation_deg": 0, "jitter_neutral": 0},
     "combinations withheld": {"withhold": "combined"},
     "holistic, combinations withheld": {**HOLISTIC, "withhold": "combined"},

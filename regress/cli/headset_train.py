@@ -46,13 +46,11 @@ def train(
         float, typer.Option("--camera-dropout", help="Share of frames that a camera is absent from.")
     ] = _PLAIN.camera_dropout,
     randomise: Annotated[
-        float | None,
+        float,
         typer.Option(
-            "--randomise",
-            help="Strength of photometric randomisation, for other cameras; try 1. Default: 1 where headsets are "
-            "drawn, else 0.",
+            "--randomise", help="Strength of photometric randomisation, for real cameras; 0 leaves it out."
         ),
-    ] = None,
+    ] = _PLAIN.randomise,
     withhold: Annotated[
         Literal[WITHHOLDINGS],
         typer.Option("--withhold", help="Frames to train without, to see what is learned from others."),
@@ -79,8 +77,8 @@ def train(
 ) -> None:
     """Train a network on pictures with exact labels, on one core; a second run goes on where the first was stopped.
 
-    Where each person of the arrays wears another, drawn headset, the network is told of the cameras, and pictures are
-    displaced and randomised more.
+    Half of the pictures are displaced and lit as in other cameras, for real ones are. Where each person of the arrays
+    wears another, drawn headset, all of them are, and the network is told of the cameras.
 
     Example: regress headset train datasets/out/headset-arrays --out models/headset
     """
@@ -93,7 +91,7 @@ def train(
             "modulation": modulation,
             "part_loss": part_loss,
             "camera_dropout": camera_dropout,
-            **({} if randomise is None else {"randomise": randomise}),
+            "randomise": randomise,
             "withhold": withhold,
             "people": people,
         },
@@ -142,7 +140,7 @@ def side_notes(cameras: tuple[str, ...]) -> list[str]:
 
 def _settings(chosen: dict[str, object], pairs: Sequence[str]) -> dict[str, object]:
     """The settings of the options and of ``NAME=VALUE`` pairs, checked; others are left out."""
-    others = [name for name in _PLAIN.settings() if name not in (*chosen, "randomise")]
+    others = [name for name in _PLAIN.settings() if name not in chosen]
     for pair in pairs:
         name, sign, text = pair.partition("=")
         if not sign or name not in others:

@@ -30,7 +30,8 @@ from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
 from regress.runtime.headset.parts import part_of  # noqa: E402
 from tests.regress.headset.takes import write_pictures  # noqa: E402
 
-QUICK = HeadsetRecipe(input_size=16, code=48, hidden=64, epochs=20, batch=16, learning_rate=4e-3)
+LITTLE = {"randomise": 0.0, "shift": 0.03, "scale": 0.04, "rotation_deg": 3.0, "plain": 0.0}
+QUICK = HeadsetRecipe(input_size=16, code=48, hidden=64, epochs=20, batch=16, learning_rate=4e-3, **LITTLE)
 
 
 @pytest.fixture(scope="module", params=ARCHITECTURES)
@@ -168,7 +169,7 @@ def test_a_state_that_cannot_be_written_is_said(arrays: HeadsetArrays, tmp_path:
     "settings",
     [
         {"calibration": False},
-        {"randomise": 1.0},
+        {"randomise": 1.0, "shift": 0.06, "scale": 0.12, "rotation_deg": 8.0},
         {"randomise": 1.0, "plain": 0.5, "shift": 0.06, "scale": 0.12, "rotation_deg": 8.0},
         {"part_loss": 0.0, "geometry_loss": 0.0, "mirror": False, "gaze_loss": 5.0},
     ],
@@ -234,7 +235,14 @@ def test_plain_frames_keep_their_light_and_are_displaced_little(arrays: HeadsetA
 
 
 def test_batches_pair_frames_with_neutral_pictures_of_the_same_person(arrays: HeadsetArrays):
-    still = {"shift": 0.0, "scale": 0.0, "rotation_deg": 0.0, "mirror": False, "camera_dropout": 0.0}
+    still = {
+        "plain": 0.0,
+        "shift": 0.0,
+        "scale": 0.0,
+        "rotation_deg": 0.0,
+        "mirror": False,
+        "camera_dropout": 0.0,
+    }
     recipe = HeadsetRecipe(
         input_size=16, batch=len(arrays.rows("train")), other_seat=0.5, jitter_neutral=0, **still
     )
@@ -256,7 +264,7 @@ def test_batches_pair_frames_with_neutral_pictures_of_the_same_person(arrays: He
 
 
 def test_a_mirrored_frame_is_the_frame_of_the_mirrored_face(arrays: HeadsetArrays):
-    still = {"shift": 0.0, "scale": 0.0, "rotation_deg": 0.0, "camera_dropout": 0.0}
+    still = {"plain": 0.0, "shift": 0.0, "scale": 0.0, "rotation_deg": 0.0, "camera_dropout": 0.0}
     recipe = HeadsetRecipe(input_size=16, batch=len(arrays.rows("train")), **still)
     frames = TrainingFrames(arrays, recipe, arrays.rows("train"))
     (batch,) = frames.draw_epoch(np.random.default_rng(0))
@@ -371,7 +379,7 @@ def test_an_epoch_shows_frames_with_shut_eyes_again(arrays: HeadsetArrays):
     blink = arrays.weights[:, [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]].max(
         axis=1
     )
-    recipe = HeadsetRecipe(input_size=16, batch=1, mirror=False, shut_eyes=2)
+    recipe = HeadsetRecipe(input_size=16, batch=1, mirror=False, shut_eyes=2, **LITTLE)
     frames = TrainingFrames(arrays, recipe, rows)
     shown = np.concatenate([batch.outputs for batch in frames.draw_epoch(np.random.default_rng(0))])
     assert len(shown) == frames.batches == len(rows) + 2 * np.sum(blink[rows] > 0.5)
