@@ -1,6 +1,7 @@
 """Makes a program of commands and runs it: every end has an exit code, and every fault is one sentence."""
 
 import errno
+import functools
 import math
 import os
 import platform
@@ -134,14 +135,13 @@ def end_on_stops(name: str) -> None:
 def _called(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
     """Exit code of the command that was asked for; its error has been said."""
     import typer
-    from typer.main import get_command
 
     name, usage_error = (
         app.info.name,
         typer.BadParameter.__mro__[2],
     )  # click's, of which Typer has its own copy
     try:
-        code = _finite_numbers(get_command(app))(standalone_mode=False)
+        code = commands(app)(standalone_mode=False)
     except FacegenError as error:
         say(f"{name}: {error}")
         return error.exit_code
@@ -169,6 +169,14 @@ def _called(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
         say(f"{name}: {_STOPPED}")
         return ExitCode.DRAINED
     return code if isinstance(code, int) else ExitCode.OK
+
+
+@functools.cache
+def commands(app: "typer.Typer") -> Any:
+    """Commands of a program, made once a process: that takes as long as the shortest of them."""
+    from typer.main import get_command
+
+    return _finite_numbers(get_command(app))
 
 
 def _finite_numbers(command: Any) -> Any:
@@ -245,9 +253,7 @@ def _fault(app: "typer.Typer", error: Exception) -> int:
 
 def _command(app: "typer.Typer") -> str:
     """Program and sub-command that were called, ``facegen farm submit``."""
-    from typer.main import get_command
-
-    command, words = get_command(app), [app.info.name]
+    command, words = commands(app), [app.info.name]
     for argument in sys.argv[1:]:
         command = getattr(command, "commands", {}).get(argument)
         if command is None:

@@ -20,7 +20,11 @@ import traceback
 from collections.abc import Iterator
 from pathlib import Path
 
+from facegen.program import commands
+
 ROOT = Path(__file__).resolve().parents[2]
+
+PROGRAMS = ("facegen", "regress")
 
 LIBRARIES = (
     *("numpy", "pydantic", "onnxruntime", "cv2", "pyarrow.parquet", "OpenEXR", "pygltflib", "jinja2", "onnx"),
@@ -53,6 +57,8 @@ def main() -> None:
     os.dup2(2, 1)  # what a library prints while it is imported is no answer
     for name in (*LIBRARIES, *_modules()):
         importlib.import_module(name)
+    for name in PROGRAMS:
+        commands(importlib.import_module(f"{name}.cli").app)
     gc.collect()
     gc.freeze()  # a child's collector would touch, and so copy, every page of the imports: 0.2 s a case instead of 0.05
     _greet(answers)
@@ -63,7 +69,7 @@ def main() -> None:
 
 
 def _modules() -> Iterator[str]:
-    for program in ("facegen", "regress"):
+    for program in PROGRAMS:
         for path in sorted((ROOT / program).rglob("*.py")):
             name = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
             if not name.startswith(APART) and path.stem != "__main__":

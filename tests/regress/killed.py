@@ -5,6 +5,7 @@ load every library 60 times. A *step* is what changes names in a folder: a file 
 name changed, exchanged or removed.
 """
 
+import contextlib
 import functools
 import json
 import os
@@ -27,7 +28,11 @@ import regress.learning.training as training
 import regress.learning.training.run
 import regress.model_card
 import regress.report
+from facegen.program import commands
 from regress.learning.training import Recipe
+
+with contextlib.suppress(ImportError):
+    import pandas  # noqa: F401 (PyArrow takes it in with the first table: half of a short child's time)
 
 RECIPE = Recipe(name="default", alphas=(3.0,), steps=2, search_steps=1, search_rows=40, hidden=3)
 """Instead of every recipe: what is tried is how a model is written, not how it is trained."""
@@ -73,6 +78,8 @@ def _run(program: str, words: list[str], step: int | None, report: int) -> None:
 def main() -> None:
     """Answer requests of ``words``, ``step``, ``after_s`` and ``signal`` with the code, steps and seconds they took."""
     training.RECIPES.update({name: RECIPE for name in training.RECIPES})
+    for program in (regress.cli, facegen.cli):
+        commands(program.app)
     for line in sys.stdin:
         request = json.loads(line)
         read, write = os.pipe()
