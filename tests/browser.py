@@ -68,7 +68,7 @@ class Tab:
         assert "exceptionDetails" not in answer, answer["exceptionDetails"]
         return answer["result"].get("value")
 
-    async def until(self, script: str, seconds: float = 15.0) -> None:
+    async def until(self, script: str, seconds: float = 45.0) -> None:
         """Wait for an expression to become true."""
         end = time.monotonic() + seconds
         while not await self.ask(f"Boolean({script})"):
@@ -144,7 +144,7 @@ class Browser:
 
     @asynccontextmanager
     async def open(self, address: str) -> AsyncIterator[Tab]:
-        """A tab at an address, with all that it says and asks for from the first byte on."""
+        """A tab at an address, with all that it says and asks for from the first byte on; it is closed at the end."""
         async with self._session.put(f"{self._address}/json/new?about:blank") as answer:
             target = await answer.json()
         async with self._session.ws_connect(target["webSocketDebuggerUrl"], max_msg_size=0) as socket:
@@ -157,3 +157,6 @@ class Browser:
                 yield tab
             finally:
                 listening.cancel()
+                # left open it draws on, and looks for its server at a port that another test's may get
+                async with self._session.put(f"{self._address}/json/close/{target['id']}"):
+                    pass

@@ -20,7 +20,7 @@ from room.server.janus import Janus
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.telegraph import Telegraph
 
-SOON_S = 5.0
+SOON_S = 20.0
 """What is awaited comes in milliseconds; a loaded machine is given time."""
 
 

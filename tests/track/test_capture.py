@@ -17,7 +17,7 @@ from tests.track.virtual import Switches, VirtualCamera, noise, told
 from track.errors import CameraError, InputError
 from track.sources import CameraFault, Capture, Pace, open_capture
 from track.sources.camera import PAUSES_S, SILENT_S, RisingClock
-from track.sources.capture import WAIT_S
+from track.sources.capture import LATE_S, WAIT_S
 from track.sources.webcams import WebcamSource
 
 PAUSES = (0.05, 0.1, 0.2)
@@ -35,7 +35,7 @@ def _capture(**cameras: Switches) -> Capture:
     return Capture(openers, pauses_s=PAUSES)
 
 
-def _until(capture: Capture, wanted: Callable[[Sample], bool], *, within_s: float = 5.0) -> list[Sample]:
+def _until(capture: Capture, wanted: Callable[[Sample], bool], *, within_s: float = 30.0) -> list[Sample]:
     """Samples up to the first wanted one."""
     samples, until_s = [], time.monotonic() + within_s
     while time.monotonic() < until_s:
@@ -218,7 +218,11 @@ def test_a_camera_that_lags_is_left_out_and_told_once():
         assert len(samples) > 20, "the slow one gives four, and the other one is not held up by it"
         switches["mouth"].fps = 60
         samples += _until(capture, lambda sample: len(sample.pictures) == 2 and not sample.faults)
-    assert told(samples) == ["mouth: LATE"]
+    # a busy machine holds up the quick one as well: then, and only then, it may be told
+    held_up = np.diff([*switches["left"].given_s, time.monotonic()]).max() > LATE_S
+    assert told(samples) == ["mouth: LATE"] or (
+        held_up and set(told(samples)) == {"mouth: LATE", "left: LATE"}
+    )
 
 
 def test_one_unplugged_camera_does_not_hold_up_the_others():
@@ -227,12 +231,21 @@ def test_one_unplugged_camera_does_not_hold_up_the_others():
         _until(capture, lambda sample: len(sample.pictures) == 2)
         switches["mouth"].plugged = False
         _until(capture, lambda sample: sample.faults.get("mouth") is CameraFault.UNPLUGGED)
-        ages = []
-        for _ in range(20):
-            sample = capture.read()
-            assert set(sample.pictures) == {"left"}
+        ages = _ages(capture, 20)
+    with _capture(left=Switches(fps=20)) as capture:  # as the machine is, it takes so long by itself
+        alone = _ages(capture, 20)
+    assert np.median(ages) < np.median(alone) + 0.8 * WAIT_S, "nobody waits for the one that is away"
+
+
+def _ages(capture: Capture, count: int) -> list[float]:
+    """How old the left camera's pictures are that are read next; no other's are there."""
+    ages: list[float] = []
+    while len(ages) < count:
+        sample = capture.read()
+        assert "mouth" not in sample.pictures
+        if sample.pictures:  # a busy machine lets a camera sleep for so long that a moment without a picture comes
             ages.append(capture.now_s() - sample.time_s)
-        assert np.median(ages) < 0.8 * WAIT_S, "nobody waits for the one that is away"
+    return ages
 
 
 def test_cameras_that_were_exchanged_are_found_by_their_names(

@@ -39,6 +39,7 @@ class Switches:
     fps: float = 60.0
     tries_s: list[float] = field(default_factory=list)
     given: int = 0
+    given_s: list[float] = field(default_factory=list)
 
 
 class VirtualCamera(Source):
@@ -69,8 +70,8 @@ class VirtualCamera(Source):
         self._switches.given += not self._switches.frozen
         pixels = np.clip(self._picture(self._switches.given) * self._switches.light, 0, 255).astype(np.uint8)
         pixels = np.zeros_like(pixels) if self._switches.dark else pixels
-        taken_s = time.monotonic() + self._switches.clock_s
-        return Picture(time_s=taken_s, pixels=pixels)
+        self._switches.given_s.append(time.monotonic())
+        return Picture(time_s=self._switches.given_s[-1] + self._switches.clock_s, pixels=pixels)
 
     def close(self) -> None:
         self.closed = True

@@ -17,6 +17,9 @@ from track.page import Page
 
 STEPS = ("neutral", "jaw_open", "smile")
 
+SOON_S = 30.0
+"""What is awaited comes in a tenth of a second; a loaded machine is given time."""
+
 
 class Stand:
     """A page's server and what it was asked for, a tab that looks at it, and words for both."""
@@ -28,7 +31,7 @@ class Stand:
     async def show(self, weights: np.ndarray, **changes: object) -> dict[str, float]:
         """Publish until the avatar stands at these weights, and give what it stands at."""
         moment = moment_of(weights, **changes)
-        end = time.monotonic() + 10
+        end = time.monotonic() + SOON_S
         while True:
             self.page.publish(moment)
             await asyncio.sleep(0.05)
@@ -39,7 +42,7 @@ class Stand:
 
     async def publish_until(self, script: str, **changes: object) -> None:
         """Publish a face at rest until an expression in the page is true."""
-        end = time.monotonic() + 10
+        end = time.monotonic() + SOON_S
         while not await self.tab.ask(f"Boolean({script})"):
             self.page.publish(moment_of(np.zeros(52), **changes))
             await asyncio.sleep(0.05)
@@ -53,7 +56,7 @@ class Stand:
 
     async def asks(self, count: int) -> list[Command]:
         """The next so many commands to the session, once they are there."""
-        end = time.monotonic() + 5
+        end = time.monotonic() + SOON_S
         while len(self.asked) < self._read + count:
             await asyncio.sleep(0.01)
             assert time.monotonic() < end, self.asked[self._read :]
