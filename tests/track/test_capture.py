@@ -243,7 +243,7 @@ def _ages(capture: Capture, count: int) -> list[float]:
     while len(ages) < count:
         sample = capture.read()
         assert "mouth" not in sample.pictures
-        if sample.pictures:  # a busy machine lets a camera sleep for so long that a moment without a picture comes
+        if sample.pictures:  # a busy machine has moments without
             ages.append(capture.now_s() - sample.time_s)
     return ages
 
