@@ -18,7 +18,10 @@ from regress.runtime.model import load_model
 from tests.regress.conftest import write_dataset
 from tests.regress.drawn import drawn_dataset
 
-pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="children are forks")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not hasattr(os, "fork"), reason="children are forks"),
+]
 
 KILLS = 20
 """Of each command at random moments, and as many at steps on the disk, evenly chosen among all."""

@@ -82,6 +82,7 @@ def test_three_failures_quarantine_a_sample_with_all_its_logs_and_the_rest_goes_
     assert quarantined_tasks(dataset, wanted_tasks(dataset, "0-4")) == set(summary.quarantined)
 
 
+@pytest.mark.slow
 def test_a_sample_whose_worker_dies_or_hangs_is_made_by_the_next_one(make):
     for number, (target, limits) in enumerate(
         [

@@ -31,6 +31,8 @@ from regress.runtime.headset.parts import part_of  # noqa: E402
 from tests.regress.headset.takes import write_pictures  # noqa: E402
 
 LITTLE = {"randomise": 0.0, "shift": 0.03, "scale": 0.04, "rotation_deg": 3.0, "plain": 0.0}
+pytestmark = pytest.mark.slow
+
 QUICK = HeadsetRecipe(input_size=16, code=48, hidden=64, epochs=20, batch=16, learning_rate=4e-3, **LITTLE)
 
 

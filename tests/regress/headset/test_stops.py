@@ -22,6 +22,7 @@ def names(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_a_stopped_headset_training_goes_on_from_its_last_epoch(tmp_path: Path, number: signal.Signals):
     arrays = write_drawn_arrays(tmp_path / "arrays", people=8)

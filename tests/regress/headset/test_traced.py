@@ -170,6 +170,7 @@ def test_points_that_are_not_shown_cost_nothing():
     assert positions_loss([wanted[:, ::2]], [wanted[:, ::2]]) == 0
 
 
+@pytest.mark.slow
 def test_networks_learn_where_things_are(arrays: HeadsetArrays):
     little = {"randomise": 0.0, "shift": 0.03, "scale": 0.04, "rotation_deg": 3.0, "plain": 0.0}
     recipe = HeadsetRecipe(input_size=24, code=24, epochs=12, batch=16, **little)
