@@ -2,17 +2,10 @@
 
 import math
 
-from blender_assets.rooms.equipment import (
-    put_anaesthesia,
-    put_boom,
-    put_bucket,
-    put_cabinet,
-    put_infusion,
-    put_instrument_table,
-    put_mayo_stand,
-    put_operating_lamp,
-    put_stool,
-)
+from blender_assets.rooms.anaesthesia import put_anaesthesia
+from blender_assets.rooms.ceiling import put_boom, put_operating_lamp
+from blender_assets.rooms.furniture import put_bucket, put_cabinet, put_infusion, put_stool
+from blender_assets.rooms.instruments import put_instrument_table, put_mayo_stand
 from blender_assets.rooms.kit import GLOW, Named, Room, Screen, rgb
 from blender_assets.rooms.patient import put_patient, put_table
 from blender_assets.rooms.pictures import clock, empty_screen
