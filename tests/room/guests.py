@@ -2,8 +2,9 @@
 
 import asyncio
 import secrets
-from collections.abc import AsyncIterator, Callable, Sequence
+from collections.abc import AsyncIterator, Callable, Coroutine, Sequence
 from contextlib import asynccontextmanager, suppress
+from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -161,3 +162,18 @@ async def open_room(
         await runner.cleanup()
         if recorder:
             recorder.close()
+
+
+def meeting(scenario: Callable[[Place], Coroutine]) -> Callable[[], None]:
+    """Run a scenario in a room of its own."""
+
+    @wraps(scenario)
+    def test() -> None:
+        async def run() -> None:
+            async with open_room() as place:
+                await scenario(place)
+
+        asyncio.run(run())
+
+    del test.__wrapped__  # pytest reads arguments through it, and would look for a fixture
+    return test

@@ -10,8 +10,8 @@ from room.recording import read_recording
 from room.recording.lines import Tick
 from tests.browser import Tab, chromium, needs_chromium
 from tests.room.guests import open_room
+from tests.room.recordings import make_recorder
 from tests.room.test_page import AWAKE, come_in
-from tests.room.test_recording import make_recorder
 
 pytestmark = [needs_chromium, pytest.mark.slow]
 

@@ -1,0 +1,143 @@
+"""A recording that is played in a room: the same states at the same pace, for all who look; halts, jumps and paces."""
+
+import asyncio
+from dataclasses import replace
+
+import pytest
+
+from room.protocol import Message, decode
+from room.protocol.texts import Changed, Left, Notice, Playing
+from room.recording import check_recording, read_recording
+from room.recording.lines import Tick
+from tests.room.guests import Guest, open_room
+from tests.room.recordings import recorded
+
+
+def test_a_replay_sends_the_same_states_at_the_same_pace_and_begins_again(tmp_path):
+    path = recorded(tmp_path / "meeting.jsonl")
+    ticks = [line for line in read_recording(path) if isinstance(line, Tick)]
+    before = {
+        name: [decode(content) for tick in ticks for number, content in tick.states if number == at]
+        for at, name in ((0, "Ada"), (1, "Ben"))
+    }
+
+    async def run() -> None:
+        async with open_room(replayed=path) as place:
+            viewer = await place.guest(name="Viewer")
+            assert viewer.welcome.replay
+            await viewer.until(lambda: viewer.sequences)
+            begun = asyncio.get_running_loop().time()
+            told: dict[str, list[int]] = {"Ada": [], "Ben": []}
+            numbers: dict[int, str] = {}
+            replaying = viewer.told(Changed, lambda changed: changed.person.name == "Ben")
+            ben = (await replaying).person
+            assert (ben.replayed, ben.recorded, ben.voice) == (True, False, False)
+            assert ben.id.startswith("replay-")
+            assert (await viewer.told(Left)).number == ben.number
+            await viewer.until(lambda: len(viewer.sequences) == 30)
+            took = asyncio.get_running_loop().time() - begun
+            assert took == pytest.approx((ticks[-1].time_ms - ticks[0].time_ms) / 1000, abs=0.2)
+            numbers |= {
+                changed.person.number: changed.person.name
+                for changed in viewer.all(Changed)
+                if changed.person.replayed
+            }
+            for number, sequence in viewer.sequences:
+                told[numbers[number]].append(sequence)
+            assert told == {name: [state.sequence for state in those] for name, those in before.items()}
+            ada = next(number for number, name in numbers.items() if name == "Ada")
+            assert viewer.states[ada] == before["Ada"][-1]
+            seen = len(viewer.all(Left))
+            await viewer.until(lambda: len(viewer.all(Left)) > seen)  # the end of the first round
+            await viewer.until(lambda: len(viewer.sequences) > 35)
+
+    asyncio.run(run())
+
+
+def test_a_replay_halts_jumps_and_goes_faster_for_all_who_look(tmp_path):
+    path = recorded(tmp_path / "meeting.jsonl")
+    ticks = [line for line in read_recording(path) if isinstance(line, Tick)]
+    survey = check_recording(path)
+    ada = [(tick.time_ms, decode(state)) for tick in ticks for number, state in tick.states if number == 0]
+    length_s = (survey.ends_ms - survey.begins_ms) / 1000
+
+    def cast(guest: Guest) -> set[int]:
+        """Numbers of the recorded Ada."""
+        people = {person.number: person for person in guest.welcome.people}
+        people |= {changed.person.number: changed.person for changed in guest.all(Changed)}
+        return {number for number, person in people.items() if person.replayed and person.name == "Ada"}
+
+    def known(state: Message) -> tuple[int, int]:
+        return state.sequence, state.animation
+
+    def shown(guest: Guest) -> list[tuple[int, int]]:
+        return [known(guest.states[number]) for number in guest.states.keys() & cast(guest)]
+
+    async def run() -> None:
+        async with open_room(replayed=path) as place:
+            viewer, other = await place.guest(name="Viewer"), await place.guest(name="Other")
+            assert (await other.told(Playing)).length_s == pytest.approx(length_s)
+            for time_s in (0.3, length_s, 0.0, 0.5):
+                await viewer.say(kind="play", time_s=time_s, paused=True)
+                told = await other.told(
+                    Playing, lambda answer, at=time_s: answer.paused and abs(answer.time_s - at) < 1e-6
+                )
+                assert told.speed == 1
+                due = [known(state) for at, state in ada if at <= survey.begins_ms + time_s * 1000]
+                await other.until(lambda due=due: shown(other) == due[-1:])
+            (number,) = other.states.keys() & cast(other)
+            # halted: the same state again and again, at times that go on, so that no page lets the face sink
+            first = other.states[number]
+            await other.until(lambda: other.states[number].time_ms >= first.time_ms + 700)
+            assert replace(other.states[number], time_ms=0) == replace(first, time_ms=0)
+            begun = asyncio.get_running_loop().time()
+            await viewer.say(kind="play", time_s=0.0, paused=False, speed=0.5)
+            await other.until(lambda: shown(other) == [known(ada[-1][1])])
+            took = asyncio.get_running_loop().time() - begun
+            assert took == pytest.approx(length_s / 0.5, abs=0.4)
+            (number,) = other.states.keys() & cast(other)
+            slow = other.states[number].time_ms - ada[0][1].time_ms
+            assert slow == pytest.approx(2 * (ada[-1][1].time_ms - ada[0][1].time_ms), abs=150)
+            await viewer.say(kind="play", speed=9)
+            end = await viewer.end()
+            assert "speed" in end[1][0].text, "no such pace"
+            await other.say(kind="play", time_s=0.0, speed=8)
+            begun = asyncio.get_running_loop().time()
+            await other.told(Playing, lambda answer: answer.speed == 8)
+            seen = len(other.all(Left))
+            await other.until(lambda: len(other.all(Left)) > seen)
+            assert asyncio.get_running_loop().time() - begun < length_s / 2
+
+    asyncio.run(run())
+
+
+def test_where_people_meet_nothing_is_played():
+    async def run() -> None:
+        async with open_room() as place:
+            guest = await place.guest()
+            await guest.say(kind="play", paused=True)
+            assert "nothing to play" in (await guest.told(Notice)).text
+
+    asyncio.run(run())
+
+
+def test_nobody_can_be_somebody_of_a_replay_and_a_moderator_may_remove_them(tmp_path):
+    path = recorded(tmp_path / "meeting.jsonl")
+
+    async def run() -> None:
+        async with open_room(replayed=path) as place:
+            chair = await place.guest(moderator=True)
+            await chair.told(Changed, lambda changed: changed.person.name == "Ben")
+            ada = (await chair.told(Changed, lambda changed: changed.person.id.endswith("-0"))).person
+            await chair.say(kind="moderate", action="remove", number=ada.number)
+            await chair.told(Left, lambda left: left.number == ada.number)
+            await chair.until(lambda: len(chair.sequences) > 3)
+            late = await place.guest(name="Late")
+            assert {person.replayed for person in late.welcome.people} == {True, False}
+            assert len({person.number for person in late.welcome.people}) == len(late.welcome.people)
+            assert late.number == ada.number, "free again"
+            before = len(chair.all(Left))
+            await chair.until(lambda: len(chair.all(Left)) > before + 1 or len(chair.sequences) > 30)
+            assert late.number not in {left.number for left in chair.all(Left)[before:]}
+
+    asyncio.run(run())
