@@ -1,16 +1,21 @@
 """``regress export``: a trained model as a file that runs elsewhere."""
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
 
+from facegen.console import say
 from regress.exporters import EXPORTERS
 
 
 def export(
     model: Annotated[Path, typer.Argument(help="Model folder, as `regress train` writes it")],
-    chosen: Annotated[Literal[("all", *EXPORTERS)], typer.Option("--format", help="What to write")] = "all",
+    chosen: Annotated[
+        Literal[("all", *EXPORTERS)],
+        typer.Option("--format", help="What to write; ONNX needs the learn extra"),
+    ] = "all",
     out: Annotated[Path, typer.Option(help="Folder for the files")] = Path(),
     name: Annotated[str, typer.Option(help="What the files, and C functions, are called")] = "face",
     neutral: Annotated[
@@ -30,9 +35,17 @@ def export(
     from regress.runtime.inputs import read_frames
     from regress.runtime.model import load_model, symmetrised
 
-    formats = list(EXPORTERS) if chosen == "all" else [chosen]
+    formats = _possible() if chosen == "all" else [chosen]
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     if neutral is not None:
         loaded = loaded.calibrate(sound_rows(read_frames(neutral)).points)
     for path in export_model(loaded, out, name=name, formats=formats):
         typer.echo(f"{path} ({path.stat().st_size:,} bytes)")
+
+
+def _possible() -> list[str]:
+    """All formats, but ONNX's where its package is not installed."""
+    if find_spec("onnx") is not None:
+        return list(EXPORTERS)
+    say("ONNX is left out, as it needs the learn extra: pip install 'facegen[learn]'")
+    return [name for name, place in EXPORTERS.items() if not place.startswith("onnx_graph.")]

@@ -56,7 +56,7 @@ def predict_file(
     landmarks: Path,
     output: Output,
     *,
-    neutral: str,
+    neutral: str | None,
     auto_filter: bool,
     fps: float | None,
     strict: bool,
@@ -77,7 +77,12 @@ def predict_file(
         say(f"{landmarks}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
     timed = output.needs_times or needs_times(table_format, gltf)
     frames = sound_rows(frames, needs_times=timed, strict=strict)
-    calm = _neutral_frames(model, frames, neutral)
+    if neutral is None and len(frames.labels) > 1:
+        say(
+            f"{landmarks}: no neutral face is given, so weights are guesses; --neutral names frames at rest, as in "
+            f"{frames.labels[0]}, or looks for them by auto"
+        )
+    calm = _neutral_frames(model, frames, neutral or "none")
     calibrated = model if calm is None else model.calibrate(calm.points)
     prediction = predict_frames(
         calibrated,

@@ -47,14 +47,14 @@ def predict(
     gltf: AvatarOption = None,
     trust: TrustOption = None,
     neutral: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--neutral",
             metavar="FRAME|FILE|auto|none",
             help="The person's neutral face: a frame of INPUT by its label, frames FIRST-LAST, another "
-            "file of landmarks, or auto, which looks for it.",
+            "file of landmarks, auto, which looks for it, or none, as without this option.",
         ),
-    ] = "none",
+    ] = None,
     strict: Annotated[
         bool, typer.Option("--strict", help="Fail where a frame has no face, or none that can be right.")
     ] = False,
@@ -151,7 +151,7 @@ def predict(
     elif out is gltf is trust is None and table_format is TableFormat.csv:
         predict_pipe(
             loaded,
-            neutral,
+            neutral or "none",
             output,
             camera=camera,
             keep_guessed_gaze=keep_guessed_gaze,

@@ -54,8 +54,13 @@ def write_prediction(
             return
         write_whole(out, text)
         played = prediction.names == BLENDSHAPES and len(prediction.weights) > 1
-        look = f"; facegen preview --weights {out} --out face.webp plays it on a head" if played else ""
-        say(f"{out}: {len(prediction.weights)} frames of {len(prediction.names)} weights{look}")
+        look = (
+            f"; facegen preview --weights {out} --out face.webp plays it on a head (factory extra)"
+            if played
+            else ""
+        )
+        frames = len(prediction.weights)
+        say(f"{out}: {frames} frame{'s' * (frames > 1)} of {len(prediction.names)} weights{look}")
         return
     avatar = animated_avatar(prediction, gltf)
     if avatar.missing:

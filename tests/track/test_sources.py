@@ -233,6 +233,39 @@ def test_a_folder_that_grows_is_followed_until_it_stops(tmp_path: Path):
     assert since_last_s >= FOLLOWED_S
 
 
+@pytest.mark.parametrize("fast", [True, False])
+@pytest.mark.parametrize("kind", ["film", "folder"])
+def test_what_is_kept_can_come_again_and_again_while_time_goes_on(kind: str, fast: bool, tmp_path: Path):
+    """Five pictures come two and a half times, each a step behind the one before, and live at the clock's pace."""
+    place = _folder(tmp_path / "takes", [f"{number}.png" for number in range(5)])
+    if kind == "film":
+        place = film_of(
+            tmp_path / "film.avi", [np.full((48, 64, 3), 40 * number, np.uint8) for number in range(5)]
+        )
+    source = open_source(str(place), Pace(fast=fast, fps=30, again=True))
+    pictures = [source.read() for _ in range(13)]
+    late_s = source.now_s() - pictures[-1].time_s
+    source.close()
+    levels = np.array([picture.pixels.mean() for picture in pictures])
+    assert np.array_equal(levels[5:], levels[:-5])
+    assert (np.diff(levels[:5]) > 5).all()
+    steps = np.diff([picture.time_s for picture in pictures])
+    if fast:
+        assert steps == pytest.approx(np.full(12, 1 / 30), abs=1e-3)
+    else:
+        assert (steps > 0).all()
+        assert pictures[-1].time_s >= 12 / 30 - 1e-3
+        assert 0 <= late_s < 1
+
+
+def test_a_film_that_is_gone_does_not_come_again(tmp_path: Path):
+    film = film_of(tmp_path / "film.avi", [_numbered(number) for number in range(3)])
+    source = open_source(str(film), Pace(fast=True, again=True))
+    first = source.read()
+    film.unlink()
+    assert [first.pixels is None, *(picture.pixels is None for picture in _all(source))] == [False] * 3
+
+
 def test_a_file_that_is_no_picture_costs_no_more_than_itself(tmp_path: Path):
     folder = _folder(tmp_path / "takes", ["0.png", "1.png", "2.png"])
     (folder / "1.png").write_bytes(b"no picture")

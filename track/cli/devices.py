@@ -23,7 +23,9 @@ def devices(
 
     seen = look_at_webcams(pictures)
     if not seen and not as_json:
-        say("track devices: this machine has no camera that its system tells of; plug one in, or name a film")
+        say(
+            "track devices: this machine has no camera that its system tells of; plug one in, or say --camera FILM"
+        )
     if as_json:
         print(json.dumps([each.record() for each in seen], indent=2, ensure_ascii=False))
         return

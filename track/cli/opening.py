@@ -33,8 +33,8 @@ class Wishes:
         As they were written.
     model, detector, detector_file, profile, filter_name, neutral, placement, headset
         Options' values.
-    fast, fps
-        Pace of kept pictures.
+    fast, loop, fps
+        Pace of kept pictures, and whether they come again and again.
     """
 
     cameras: Sequence[str] = ()
@@ -47,6 +47,7 @@ class Wishes:
     placement: Path | None = None
     headset: str | None = None
     fast: bool = False
+    loop: bool = False
     fps: float = 30.0
 
 
@@ -140,7 +141,7 @@ def open_cameras(wishes: Wishes, texts: dict[str, str]) -> "Capture":
     """
     from track.sources import Pace, open_capture
 
-    return open_capture(texts, Pace(fast=wishes.fast, fps=wishes.fps))
+    return open_capture(texts, Pace(fast=wishes.fast, fps=wishes.fps, again=wishes.loop))
 
 
 def open_profile(

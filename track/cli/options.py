@@ -86,6 +86,11 @@ FastOption = Annotated[
     ),
 ]
 
+LoopOption = Annotated[
+    bool,
+    typer.Option("--loop", help="Films and folders again and again, until Ctrl-C."),
+]
+
 FpsOption = Annotated[
     float,
     typer.Option(

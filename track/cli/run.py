@@ -15,6 +15,7 @@ from track.cli.options import (
     FilterOption,
     FpsOption,
     HeadsetOption,
+    LoopOption,
     ModelOption,
     NeutralOption,
     PlacementOption,
@@ -69,6 +70,7 @@ def run(
     placement: PlacementOption = None,
     headset: HeadsetOption = None,
     fast: FastOption = False,
+    loop: LoopOption = False,
     fps: FpsOption = 30.0,
     seconds: Annotated[
         float | None, typer.Option("--seconds", min=0.0, max=1e7, help="Stop by itself after so long.")
@@ -96,6 +98,7 @@ def run(
         placement=placement,
         headset=headset,
         fast=fast,
+        loop=loop,
         fps=fps,
     )
     summary = run_session(

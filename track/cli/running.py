@@ -51,7 +51,12 @@ def run_session(wishes: Wishes, options: RunOptions, say: Callable[[str], None])
         session, capture = open_session(wishes, texts, sinks, say, closing, options=options, must_keep=False)
         screen = _open_page(options, session, texts, say, closing) if options.page else None
         with ended_by_signals(session, capture):
-            return session.run(capture, screen, seconds=options.seconds)
+            summary = session.run(capture, screen, seconds=options.seconds)
+        if screen is not None and capture.over:
+            *others, last = capture.titles.values()
+            told = f"{', '.join(others)} and {last} are" if others else f"{last} is"
+            say(f"{told} over, and so is the page; --loop plays again and again")
+        return summary
 
 
 def open_session(
@@ -114,15 +119,25 @@ def open_sinks(
         written = [f"{each},names={options.retarget}" if each.startswith(NAMED) else each for each in written]
     sinks = []
     for each in written:
-        sinks.append(_open(each, say))
+        sinks.append(_open(each, say, closing))
         say(f"sending {sinks[-1].title}")
     return sinks
 
 
-def _open(written: str, say: Callable[[str], None]) -> "Sink":
+def _open(written: str, say: Callable[[str], None], closing: contextlib.ExitStack | None = None) -> "Sink":
+    """A sink; where it is a file, ``closing`` says at its end that the file is there."""
     from track.sinks.targets import open_sink, parse_target
 
-    return open_sink(parse_target(written), say)
+    target = parse_target(written)
+    sink = open_sink(target, say)
+
+    def tell_whole(error: type[BaseException] | None, *_: object) -> None:
+        if error is None and target.path.is_file():
+            say(f"recorded {target.title}")
+
+    if closing is not None:
+        closing.push(tell_whole)
+    return sink
 
 
 def _free_name() -> Path:

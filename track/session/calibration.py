@@ -144,7 +144,7 @@ class Calibration:
     def __init__(self, names: Sequence[str], *, least: float) -> None:
         self._names, self._least = tuple(names), least
         self._number, self._tries, self._over = 0, 0, False
-        self._state, self._until_s, self._text = "", 0.0, ""
+        self._state, self._until_s, self._text, self._last_reason = "", 0.0, "", ""
         self._frames: list[tuple[Sample, np.ndarray]] = []
         self._missed = 0
         self._outcomes: list[Outcome] = []
@@ -221,7 +221,8 @@ class Calibration:
         if self.kept:
             self._state, self._text = "done", "All done" if len(self._names) > 1 else "Done"
         else:
-            self._state, self._text = "cancelled", "Nothing was calibrated; everything stays as it was"
+            self._state = "cancelled"
+            self._text = f"{self._last_reason}, so nothing was calibrated; everything stays as it was"
 
     def _judge(self, time_s: float) -> None:
         self._tries += 1
@@ -232,7 +233,7 @@ class Calibration:
             self._outcomes.append(self._outcome())
             self.kept.append(self.name)
             return
-        self._state, self._until_s = "again", time_s + TOLD_AGAIN_S
+        self._state, self._until_s, self._last_reason = "again", time_s + TOLD_AGAIN_S, reason
         last = self._tries >= TRIES
         self._text = f"{reason}; it stays as it was" if last else f"{reason}; once more"
 

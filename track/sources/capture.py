@@ -105,9 +105,7 @@ class Capture:
         with self._news:
             while True:
                 self._raise_errors()
-                if self._stopped or all(
-                    camera.ended and camera.newest is None for camera in self._cameras.values()
-                ):
+                if self._stopped or self.over:
                     return None
                 wait_s = self._wait_s(until_s) if self.live else self._wait_for_all_s()
                 if wait_s is not None and wait_s <= 0:
@@ -117,6 +115,11 @@ class Capture:
     def now_s(self) -> float:
         """What the clock of the samples' times shows now: less a sample's time, how old it is."""
         return max(camera.now_s() for camera in self._cameras.values()) - self._start_s
+
+    @property
+    def over(self) -> bool:
+        """Whether every picture of all cameras was taken, and no other one can come."""
+        return all(camera.ended and camera.newest is None for camera in self._cameras.values())
 
     def stop(self) -> None:
         """Let `read` give nothing more; from any thread or signal, which may not wait for a lock."""

@@ -21,7 +21,7 @@ _LOOK_EVERY_S = 0.02
 
 
 class Folder(Source):
-    """A folder of pictures, once from the first to the last.
+    """A folder of pictures from the first to the last, once or over and over.
 
     Parameters
     ----------
@@ -31,6 +31,8 @@ class Folder(Source):
         Pictures a second.
     fast
         Whether every picture is wanted, as soon as the one before has been taken; such a folder is not followed.
+    again
+        Whether it begins again behind its last picture, at once: new ones are not waited for, but found.
 
     Raises
     ------
@@ -40,9 +42,9 @@ class Folder(Source):
 
     endless = False
 
-    def __init__(self, folder: Path, *, fps: float, fast: bool = False) -> None:
+    def __init__(self, folder: Path, *, fps: float, fast: bool = False, again: bool = False) -> None:
         self.title, self.live = folder.name or str(folder), not fast
-        self._folder, self._step_s = folder, 1 / fps
+        self._folder, self._step_s, self._again = folder, 1 / fps, again
         self._given: _Natural = []
         self._waiting = self._listed()
         if not self._waiting:
@@ -80,6 +82,9 @@ class Folder(Source):
     def _found(self, *, last_try: bool) -> tuple[np.ndarray | None] | None:
         """The next file's picture, None within for a file that is none; None where there is no file yet."""
         self._waiting = self._waiting or self._listed()
+        if not self._waiting and self._again:
+            self._given = []
+            self._waiting = self._listed()
         if not self._waiting:
             return None
         file = self._waiting[0]

@@ -24,10 +24,13 @@ class Pace:
         Every picture, as fast as they are taken; else at their own pace, as a camera would.
     fps
         Pictures a second, of a folder and of lines without times.
+    again
+        Whether films and folders begin again when they are over.
     """
 
     fast: bool = False
     fps: float = 30.0
+    again: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,12 +66,12 @@ SOURCES: dict[str, SourceKind] = {
     "folder": SourceKind(
         description="a folder of pictures",
         matches=lambda text: _there(text, Path.is_dir),
-        open=lambda text, pace: Folder(Path(text), fast=pace.fast, fps=pace.fps),
+        open=lambda text, pace: Folder(Path(text), fast=pace.fast, fps=pace.fps, again=pace.again),
     ),
     "film": SourceKind(
         description="a film's file",
         matches=lambda text: _there(text, Path.is_file),
-        open=lambda text, pace: Film(Path(text), fast=pace.fast),
+        open=lambda text, pace: Film(Path(text), fast=pace.fast, again=pace.again),
     ),
     "webcam": SourceKind(
         description="a webcam's number, or a part of its name",

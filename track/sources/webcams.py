@@ -107,7 +107,7 @@ def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
 
 def _why_not(wanted: str, webcams: list[Webcam]) -> str:
     if not webcams:
-        return f"there is no camera {wanted} on this machine, nor a file of this name; plug one in, or name a film"
+        return f"there is no camera {wanted} here, nor a file of this name; plug one in, or say --camera FILM"
     listed = ", ".join(f"{webcam.number} ({webcam.name})" for webcam in webcams)
     if any(wanted == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams):
         return f"camera {wanted} gives no picture: another program may be using it; cameras here: {listed}"

@@ -68,3 +68,12 @@ def test_report_writes_one_page(run, folder, tmp_path, capsys):
     assert run("report", folder, "--out", tmp_path / "report.html") == 0
     assert capsys.readouterr().out.strip() == str(tmp_path / "report.html")
     assert [path.name for path in tmp_path.iterdir()] == ["report.html"]
+
+
+def test_export_without_the_learn_extra_leaves_onnx_out_and_says_so(
+    run, folder, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setattr("regress.cli.export.find_spec", lambda name: None)
+    assert run("export", folder, "--out", tmp_path / "out") == 0
+    assert {path.suffix for path in (tmp_path / "out").iterdir()} == {".h", ".c", ".json", ".npz", ".js", ".ts"}
+    assert "pip install 'facegen[learn]'" in capsys.readouterr().err

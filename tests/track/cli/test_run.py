@@ -52,6 +52,27 @@ def test_a_film_moves_a_face_into_a_table(home, capsys, monkeypatch):
     assert max(float(row["jawOpen"]) for row in table) > 0.2
 
 
+def test_a_film_that_is_over_takes_the_page_along_and_says_so(home, capsys, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["track", *CAMERAS, "--fast", "--no-browser", "--port", "0"])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 0
+    assert "left_eye, right_eye and mouth are over, and so is the page; --loop" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("looped", [True, False])
+def test_a_loop_ends_by_the_clock_alone(looped, home, capsys, monkeypatch):
+    """A hundred pictures are over in a second when read fast; the same ones again and again are not."""
+    words = [*CAMERAS, "--fast", "--no-page", "--json", "--seconds", "6", *(["--loop"] if looped else [])]
+    monkeypatch.setattr(sys, "argv", ["track", *words])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    told = capsys.readouterr()
+    assert ended.value.code == 0
+    assert (json.loads(told.out)["frames"] > 100) is looped
+    assert "over" not in told.err
+
+
 def test_a_retargeted_table_has_the_other_names(home, capsys, monkeypatch):
     words = [*CAMERAS, "--fast", "--no-page", "--record", "take.csv", "--retarget", "vrm1"]
     monkeypatch.setattr(sys, "argv", ["track", "run", *words])
