@@ -66,6 +66,13 @@ class Wardrobe:
         worn = kept is not None and any(place == room for place, _ in kept.wearers)
         return kept.content if kept and worn else None
 
+    def settle(self, room: str, worn: dict[str, str]) -> None:
+        """Forget what nobody of a room wears any more; ``worn`` has the digest that each person does, by id."""
+        for digest, kept in list(self._kept.items()):
+            for place, id in list(kept.wearers):
+                if place == room and worn.get(id) != digest:
+                    self.drop((room, id))
+
     def drop(self, wearer: Wearer) -> None:
         """Forget what somebody wears, and its bytes if nobody else does."""
         for digest, kept in list(self._kept.items()):

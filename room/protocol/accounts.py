@@ -24,6 +24,7 @@ Process = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{16}$")]
 """Made anew by each process when it starts."""
 Id = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{16}$")]
 Count = Annotated[int, Field(ge=0, le=2**53)]
+Digest = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
 
 Part = Literal["page", "face"]
 _PARTS: dict[Part, bytes] = {"page": b"\1", "face": b"\2"}
@@ -36,7 +37,10 @@ class _Word(BaseModel):
 
 
 class Resident(_Word):
-    """Somebody whose place is kept by the process that speaks; ``entry`` counts their comings, wherever they came."""
+    """Somebody whose place is kept by the process that speaks.
+
+    ``entry`` counts their comings, wherever they came; ``own`` is the SHA-256 of the avatar they brought, or nothing.
+    """
 
     number: Number
     id: Id
@@ -47,6 +51,7 @@ class Resident(_Word):
     present: bool
     voice: bool
     entry: Count
+    own: Digest | Literal[""] = ""
 
 
 class Mute(_Word):
@@ -89,6 +94,23 @@ class Called(_Word):
     signal: Signal
 
 
+class Wanted(_Word):
+    """A process has people who look at an avatar that another one took; ``at`` says from which byte on."""
+
+    kind: Literal["wanted"] = "wanted"
+    process: Process
+    digest: Digest
+    at: Count
+
+
+class Undressed(_Word):
+    """A moderator has taken an avatar off that somebody brought to another process."""
+
+    kind: Literal["undressed"] = "undressed"
+    process: Process
+    id: Id
+
+
 class Moves(BaseModel):
     """States as they came in since the last tick, each behind the person's number, sent by pages or by programs."""
 
@@ -99,7 +121,7 @@ class Moves(BaseModel):
     states: tuple[tuple[int, bytes], ...]
 
 
-Word = Account | Spoken | Called
+Word = Account | Spoken | Called | Wanted | Undressed
 _WORD = TypeAdapter(Annotated[Word, Field(discriminator="kind")])
 _MOVER = TypeAdapter(Process)
 

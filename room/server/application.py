@@ -16,6 +16,7 @@ from room.places import PLAIN, Place
 from room.protocol.accounts import Part
 from room.protocol.texts import MOST_TEXT_BYTES, About, Chat, Notice, read_join, read_said
 from room.recording import Recorder, Survey
+from room.server.carrier import Carrier
 from room.server.connection import PARTING_S, Connection
 from room.server.door import Door
 from room.server.dressing import Dressing
@@ -100,6 +101,7 @@ class Rooms:
         self._door = Door()
         self._files = Files(STATIC)
         self._wardrobe = Wardrobe()
+        self._carrier = Carrier(telegraph, self._wardrobe) if telegraph else None
         self._dressing = Dressing(keys, self._wardrobe, self._halls.get, origins)
         self._places = {room: hold(place.content, ".glb") for room, place in (places or {}).items()}
         self.metrics = Metrics()
@@ -250,6 +252,7 @@ class Rooms:
             recorder=self._recorder_of(name),
             replay=Replay(self._replayed) if self._replayed else None,
             telegraph=self._telegraph,
+            carrier=self._carrier,
             switchboard=self._switchboard(name),
         )
         await hall.open()

@@ -86,11 +86,27 @@ class Dressing:
         """A download; the page asks once for each avatar."""
         name, digest = request.match_info["name"], request.match_info["digest"]
         self._secret_of(request)
-        content = self._wardrobe.get(digest, name) if DIGEST.fullmatch(digest) else None
+        content = None
+        if DIGEST.fullmatch(digest):
+            content = self._wardrobe.get(digest, name) or await self._carried(digest, self._hall_of(name))
         if content is None:
             raise web.HTTPNotFound(text="nobody wears this avatar any more\n")
         headers = {"Cache-Control": "no-store"}  # it is somebody's; the page holds it while they are there
         return web.Response(body=content, content_type="model/gltf-binary", headers=headers)
+
+    async def _carried(self, digest: str, hall: Hall | None) -> bytes | None:
+        """From another server of the room, checked as if it had been brought here; None where that cannot be."""
+        content = await hall.carried(digest) if hall else None
+        if hall is None or content is None:
+            return None
+        try:
+            async with self._checking:
+                if self._wardrobe.get(digest, hall.name) is None:  # who waited for the same may have kept it
+                    await asyncio.to_thread(check_avatar, content)
+                    hall.keep(digest, content)
+        except (FormatError, NotAllowed):
+            return None
+        return self._wardrobe.get(digest, hall.name)
 
     def _who(self, request: web.Request) -> tuple[Hall, Seat]:
         secret = self._secret_of(request)

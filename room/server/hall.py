@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from facegen.conventions import BLENDSHAPES
 from room.avatars import Wardrobe
 from room.errors import NotAllowed
-from room.protocol.accounts import Part
+from room.protocol.accounts import Part, Wanted
 from room.protocol.texts import (
     Answer,
     Candidate,
@@ -30,6 +30,7 @@ from room.protocol.texts import (
     Welcome,
 )
 from room.recording import Recorder
+from room.server.carrier import Carrier
 from room.server.connection import Connection
 from room.server.limits import BURST_S, NEWCOMERS_PER_S, PLAYS_PER_S, RETURNS_PER_S, Bucket
 from room.server.neighbours import Neighbours
@@ -65,6 +66,8 @@ class Hall:
         Brings people of a recording in; None for a room of the living alone.
     telegraph
         Reaches the other processes that carry this room; None where there is one alone.
+    carrier
+        Brings own avatars from those processes, and to them; None where there is one alone.
     switchboard
         Has an engine pass voices on; None where they go from page to page.
     """
@@ -79,6 +82,7 @@ class Hall:
         recorder: Recorder | None = None,
         replay: Replay | None = None,
         telegraph: "Telegraph | None" = None,
+        carrier: Carrier | None = None,
         switchboard: Switchboard | None = None,
     ) -> None:
         self.name = name
@@ -88,8 +92,16 @@ class Hall:
             most_people=most_people, process=process, first_number=int(process[:4] or "0", 16)
         )
         self._neighbours = telegraph and Neighbours(
-            self.meeting, telegraph, name, tell=self._tell_here, call=self._call, oust=self._oust
+            self.meeting,
+            telegraph,
+            name,
+            tell=self._tell_here,
+            call=self._call,
+            oust=self._oust,
+            undress=self._undressed,
+            send=self._send,
         )
+        self._carrier = carrier
         self._relays, self._wardrobe = relays, wardrobe
         self.uploads: dict[str, Bucket] = {}
         self._pages: dict[str, Connection] = {}
@@ -130,6 +142,8 @@ class Hall:
             older.refuse("you came in from another window", again=False)
         connections[seat.id] = connection
         page = join.role == "page"
+        if page and self._wardrobe.get(seat.own, self.name) is None:
+            seat.own = ""  # it stayed with the process that they came by before; their page brings it again
         if page:  # a program that moves a face has no say in this
             seat.recorded = join.recorded and self._recorder is not None
             self._record_roster()
@@ -265,6 +279,37 @@ class Hall:
         seat.own = ""
         self._wardrobe.drop((self.name, seat.id))
 
+    async def carried(self, digest: str) -> bytes | None:
+        """An own avatar that another process of this room took; it was not checked here."""
+        worn = any(seat.own == digest and seat.home != self.meeting.process for seat in self.meeting.seats)
+        return await self._carrier.fetch(self.name, digest) if self._carrier and worn else None
+
+    def keep(self, digest: str, content: bytes) -> None:
+        """Keep an avatar of another process that was checked, for as long as its people wear it.
+
+        Raises
+        ------
+        NotAllowed
+            If the server has no room for it.
+        """
+        for seat in self.meeting.seats:
+            if seat.own == digest and seat.home != self.meeting.process:
+                self._wardrobe.put(content, (self.name, seat.id))
+
+    def _send(self, wanted: Wanted) -> None:
+        mine = any(
+            seat.own == wanted.digest and seat.home == self.meeting.process for seat in self.meeting.seats
+        )
+        if self._carrier and mine:
+            self._carrier.send(self.name, wanted)
+
+    def _undressed(self, id: str) -> None:
+        seat = self.meeting.seat(id)
+        if seat and seat.home == self.meeting.process:
+            seat.undressed = True
+            self._undress(seat)
+            self._tell(Changed(person=seat.person))
+
     def _write(self, seat: Seat, text: str) -> None:
         if seat.muted:
             raise NotAllowed("a moderator has muted you", again=True)
@@ -302,6 +347,7 @@ class Hall:
         if self._replay:
             self._replay.close()
         if self._neighbours:
+            self._wardrobe.settle(self.name, {})
             self._neighbours.close()
 
     def _record_roster(self) -> None:
@@ -352,8 +398,6 @@ class Hall:
     def _oust(self, ousted: Ousted) -> None:
         self._returns.pop(ousted.id, None)
         self._wardrobe.drop((self.name, ousted.id))
-        if seat := self.meeting.seat(ousted.id):
-            seat.own = ""
         if self._switchboard:
             self._switchboard.end(ousted.id)
         if connection := self._pages.pop(ousted.id, None):
@@ -363,6 +407,7 @@ class Hall:
         """Let go of programs whose person has left by another process."""
         for id in [id for id in self._programs if self.meeting.seat(id) is None]:
             self._programs.pop(id).refuse("whose face this moves has left", again=True)
+        self._wardrobe.settle(self.name, {seat.id: seat.own for seat in self.meeting.seats})
 
     def _moderate(self, by: Seat, act: Moderate) -> None:
         seat = self.meeting.moderate(by, act)
@@ -371,6 +416,8 @@ class Hall:
         elif act.action == "undress":
             self._undress(seat)
             self._tell(Changed(person=seat.person))
+            if self._neighbours and seat.home != self.meeting.process:
+                self._neighbours.undressed(seat.id)
         elif act.action == "remove":
             self._free(seat, word="a moderator has removed you from this room")
         else:

@@ -6,7 +6,18 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from room.errors import FormatError
-from room.protocol.accounts import Account, Called, Moves, Part, Spoken, Word, pack_moves, read_word
+from room.protocol.accounts import (
+    Account,
+    Called,
+    Moves,
+    Part,
+    Spoken,
+    Undressed,
+    Wanted,
+    Word,
+    pack_moves,
+    read_word,
+)
 from room.protocol.texts import Answer, Changed, Line, Signal
 from room.state import Meeting
 from room.state.accounts import SILENT_S, Ousted, account, merge, silent
@@ -41,6 +52,10 @@ class Neighbours:
         Called with a signal for one of them, by id.
     oust
         Called with those of them who have to go.
+    undress
+        Called with the id of somebody of this process whose own avatar a moderator of another one has taken off.
+    send
+        Called with a piece of an avatar that another process wants.
     """
 
     def __init__(
@@ -52,9 +67,12 @@ class Neighbours:
         tell: Callable[[Answer], None],
         call: Callable[[str, Signal], None],
         oust: Callable[[Ousted], None],
+        undress: Callable[[str], None],
+        send: Callable[[Wanted], None],
     ) -> None:
         self._meeting, self._telegraph, self._room = meeting, telegraph, room
         self._tell, self._call, self._oust = tell, call, oust
+        self._undress, self._send = undress, send
         self._heard_at: dict[str, float] = {}
         self._came: dict[Part, list[tuple[int, bytes]]] = {"page": [], "face": []}
         self._changed, self._said_at = True, float("-inf")
@@ -107,6 +125,10 @@ class Neighbours:
         """Somebody of this process calls somebody of another one."""
         self._say(Called(process=self._meeting.process, to=to, signal=signal))
 
+    def undressed(self, id: str) -> None:
+        """A moderator of this process has taken an avatar off that was brought to another one."""
+        self._say(Undressed(process=self._meeting.process, id=id))
+
     def tick(self, *, now: float) -> None:
         """Say what has come since the last tick, and what has changed."""
         back = self._telegraph.connected and not self._connected
@@ -141,6 +163,10 @@ class Neighbours:
                 self._tell(word.line)
             case Called():
                 self._call(word.to, word.signal)
+            case Wanted():
+                self._send(word)
+            case Undressed():
+                self._undress(word.id)
 
     def _merge(self, said: Account) -> None:
         now = time.monotonic()

@@ -105,6 +105,10 @@ class Telegraph:
             self.leave(room)
             raise NotAllowed("this room cannot be reached for a moment; coming back …", again=True) from None
 
+    def listen(self, heard: Heard) -> None:
+        """Hear what is said to this process alone, as of a room named ``/`` and `process`; call it before `running`."""
+        self._heard[self._beat] = heard
+
     def leave(self, room: str) -> None:
         """Hear of a room no longer."""
         channel = self._channel(room)

@@ -118,6 +118,7 @@ def _resident(seat: Seat) -> Resident:
         present=seat.gone_at is None,
         voice=seat.voice,
         entry=seat.entry,
+        own=seat.own,
     )
 
 
@@ -142,6 +143,7 @@ def _settle(meeting: Meeting, resident: Resident, process: str, merged: Merged, 
     seat = meeting.settle(seat, resident.number, resident.id)
     seat.home, seat.entry = process, resident.entry
     seat.name, seat.avatar, seat.visit = resident.name, resident.avatar, resident.visit
+    seat.own = resident.own
     seat.moderator, seat.voice, seat.recorded = resident.moderator, resident.voice, False
     if resident.present:
         seat.gone_at = None

@@ -1,6 +1,7 @@
 """One room at several servers, over a real Redis: people notice nothing of it, and Redis may go and come."""
 
 import asyncio
+import json
 import time
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import AsyncExitStack, asynccontextmanager
@@ -8,12 +9,15 @@ from functools import wraps
 
 import pytest
 
+from room.avatars.pieces import PIECE_BYTES
 from room.protocol.texts import Changed, Door, Left, Line, Notice, Signal
 from room.server import Keys, Limits, new_keys
 from room.server.connection import CLOSED_BY_RULE
+from room.server.neighbours import AGAIN_S
 from room.server.telegraph import Telegraph
+from tests.room.avatars import avatar
 from tests.room.engines import free_port, needs_redis, redis
-from tests.room.guests import Place, open_room
+from tests.room.guests import Guest, Place, open_room
 
 pytestmark = needs_redis
 
@@ -272,3 +276,86 @@ def test_a_message_that_is_none_is_let_alone(port):
             await ada.until(lambda: (ada.number, 5) in ada.sequences)
 
     asyncio.run(run())
+
+
+async def avatar_at(place: Place, digest: str) -> tuple[int, bytes]:
+    """What a page gets that asks its own server for somebody's avatar."""
+    address = f"{place.address}/room/{place.name}/avatar/{digest}"
+    bearer = {"Authorization": f"Bearer {place.keys.key(place.name, 'guest')}"}
+    async with place.session.get(address, headers=bearer) as answer:
+        return answer.status, await answer.read()
+
+
+async def bring(place: Place, guest: Guest, content: bytes) -> str:
+    bearer = {"Authorization": f"Bearer {place.keys.key(place.name, 'guest')}.{guest.secret}"}
+    address = f"{place.address}/room/{place.name}/avatar"
+    async with place.session.post(address, data=content, headers=bearer) as answer:
+        assert answer.status == 200, await answer.text()
+        return (await answer.json())["own"]
+
+
+def wears(name: str, digest: str) -> Callable[[Changed], bool]:
+    return lambda changed: (changed.person.name, changed.person.own) == (name, digest)
+
+
+LARGE = avatar(lambda made: made.update(extras="x" * 600_000))
+"""Of three pieces."""
+
+
+@two_servers
+async def test_an_avatar_is_carried_once_to_who_looks_from_another_server(north, south):
+    ada, ben = await north.guest(), await south.guest(name="Ben")
+    digest = await bring(north, ada, LARGE)
+    await ben.told(Changed, wears("Ada", digest))
+    asked: list[tuple[str, bytes]] = []
+    say = south.telegraph.say
+    south.telegraph.say = lambda room, content: (asked.append((room, content)), say(room, content))
+    both = await asyncio.gather(avatar_at(south, digest), avatar_at(south, digest))
+    assert both == [(200, LARGE)] * 2
+    assert await avatar_at(south, digest) == (200, LARGE)
+    wanted = [json.loads(content)["at"] for _, content in asked if b'"wanted"' in content]
+    assert wanted == [0, PIECE_BYTES, 2 * PIECE_BYTES], "each piece once, for all who ask"
+    assert (await avatar_at(south, "0" * 64))[0] == 404
+    await ada.say(kind="leave")
+    await ben.told(Left)
+    await asyncio.sleep(0.1)
+    assert [(await avatar_at(place, digest))[0] for place in (north, south)] == [404, 404], "it is forgotten"
+
+
+@two_servers
+async def test_a_moderator_of_another_server_takes_an_avatar_off(north, south):
+    ada, chair = await north.guest(), await south.guest(name="Chair", moderator=True)
+    digest = await bring(north, ada, avatar())
+    await chair.told(Changed, wears("Ada", digest))
+    await chair.say(kind="moderate", action="undress", number=ada.number)
+    await ada.told(Changed, lambda changed: changed.person.number == ada.number and not changed.person.own)
+    await asyncio.sleep(2 * AGAIN_S)
+    assert chair.all(Changed)[-1].person.own == ""
+    assert (await avatar_at(south, digest))[0] == 404
+
+
+@two_servers
+async def test_who_goes_on_to_another_server_brings_the_avatar_again(north, south):
+    ada, ben = await north.guest(), await south.guest(name="Ben")
+    digest = await bring(north, ada, avatar())
+    await ben.told(Changed, wears("Ada", digest))
+    again = await south.guest(secret=ada.secret)
+    (own,) = {person.own for person in again.welcome.people if person.number == again.number}
+    assert own == "", "their page hears that this server has it not"
+    assert await bring(south, again, avatar()) == digest
+    await ben.told(Changed, wears("Ada", digest))
+    assert await avatar_at(south, digest) == (200, avatar())
+
+
+@two_servers
+async def test_what_is_no_avatar_is_carried_to_nobody(north, south):
+    ada, ben = await north.guest(), await south.guest(name="Ben")
+    digest = await bring(north, ada, avatar())
+    await ben.told(Changed, wears("Ada", digest))
+    say = north.telegraph.say
+
+    def forge(room: str, content: bytes) -> None:
+        say(room, content[:-1] + b"?" if room.startswith("/") and content[:1] == b"\3" else content)
+
+    north.telegraph.say = forge
+    assert (await avatar_at(south, digest))[0] == 404

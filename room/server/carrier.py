@@ -1,0 +1,87 @@
+"""Carries own avatars to a server from the one that took them: on asking, once, in pieces, from memory to memory."""
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from room.avatars import Wardrobe
+from room.avatars.pieces import Piece, pack_piece, read_piece
+from room.avatars.wardrobe import digest_of
+from room.errors import FormatError
+from room.protocol.accounts import Wanted
+
+if TYPE_CHECKING:  # needs an extra of its own
+    from room.server.telegraph import Telegraph
+
+MOST_CARRIED = 4
+"""Avatars that come from other servers at one time: each is held whole until it is checked."""
+
+PIECE_S = 2.0
+TRIES = 3
+"""Time for one piece, and how often it is asked for; then nobody has the avatar."""
+
+
+class Carrier:
+    """Asks the other processes for avatars, and takes in what they send.
+
+    Parameters
+    ----------
+    telegraph
+        Reaches them.
+    wardrobe
+        What this process has taken itself.
+    """
+
+    def __init__(self, telegraph: "Telegraph", wardrobe: Wardrobe) -> None:
+        self._telegraph, self._wardrobe = telegraph, wardrobe
+        self._carrying: dict[str, asyncio.Task[bytes | None]] = {}
+        self._awaited: dict[tuple[str, int], asyncio.Future[Piece]] = {}
+        self._few = asyncio.Semaphore(MOST_CARRIED)
+        telegraph.listen(self._hear)
+
+    async def fetch(self, room: str, digest: str) -> bytes | None:
+        """An avatar that somebody wears in a room by another process; None where none of them sends it.
+
+        Whoever asks while it is on its way waits for the same.
+        """
+        if digest not in self._carrying:
+            task = self._carrying[digest] = asyncio.create_task(self._carry(room, digest))
+            task.add_done_callback(lambda _: self._carrying.pop(digest))
+        return await asyncio.shield(self._carrying[digest])
+
+    def send(self, room: str, wanted: Wanted) -> None:
+        """Send the piece that another process wants, to it alone."""
+        avatar = self._wardrobe.get(wanted.digest, room)
+        if avatar is not None and wanted.at < len(avatar):
+            self._telegraph.say(f"/{wanted.process}", pack_piece(wanted.digest, avatar, wanted.at))
+
+    async def _carry(self, room: str, digest: str) -> bytes | None:
+        avatar, total = bytearray(), 1
+        async with self._few:
+            while len(avatar) < total:
+                piece = await self._piece(room, digest, len(avatar))
+                if piece is None or (avatar and piece.total != total):
+                    return None
+                avatar, total = avatar + piece.content, piece.total
+        return bytes(avatar) if digest_of(avatar) == digest else None
+
+    async def _piece(self, room: str, digest: str, at: int) -> Piece | None:
+        wanted = Wanted(process=self._telegraph.process, digest=digest, at=at)
+        for _ in range(TRIES):
+            came = self._awaited[digest, at] = asyncio.get_running_loop().create_future()
+            self._telegraph.say(room, wanted.model_dump_json().encode())
+            try:
+                return await asyncio.wait_for(came, PIECE_S)
+            except asyncio.TimeoutError:
+                continue
+            finally:
+                del self._awaited[digest, at]
+        return None
+
+    def _hear(self, content: bytes) -> None:
+        try:
+            piece = read_piece(content)
+        except FormatError:
+            return
+        came = self._awaited.get((piece.digest, piece.at))
+        if came and not came.done():
+            came.set_result(piece)
