@@ -1,4 +1,4 @@
-"""Writes and reads the state of one person: 85 bytes, thirty times a second.
+"""Writes and reads the state of one person: 85 bytes, or 113 with hands, thirty times a second.
 
 Little endian, without gaps (DESIGN.md, "The room")::
 
@@ -14,10 +14,19 @@ Little endian, without gaps (DESIGN.md, "The room")::
     78  i16 [2]   body position, x z           1 cm
     82  i16       heading                      pi/32768, wraps
     84  u8        animation, `Animation`
+                  and where flags say `Flag.HANDS`, the left hand, then the right one:
+    85  i16 [3]   wrist's position                1 mm
+    91  i16 [4]   hand's rotation, x y z w        1/32767
+    99            the right hand, as the left one
 
 Frames are glTF's: metres, right-handed, y up, x to the person's left, z out of the face; angles turn to the left and
 upwards. The body stands in the room's frame. Head position and rotation are in the body's frame: how far the head is
-from where it rests, so that zeros and (0, 0, 0, 1) are a head at rest on a body of any height.
+from where it rests, so that zeros and (0, 0, 0, 1) are a head at rest on a body of any height. Hands are in the body's
+frame as well, from the point of the floor where it stands: a hand on a table is on that table for all. A hand's z axis
+lies along its fingers and y comes out of its back, so that (0, 0, 0, 1) is either hand held out flat. A hand that is
+not seen is 14 zeros; both are never.
+
+Hands came later, without another version: `Flag.HANDS` was kept for them, and nothing of ours had set it.
 """
 
 import math
@@ -27,24 +36,23 @@ from enum import IntEnum, IntFlag
 
 from facegen.conventions import BLENDSHAPES
 from room.errors import FormatError
+from room.protocol.hands import HANDS_BYTES, NUMBERS, Hand, check_hands, decode_hand, encode_hand, split
+from room.protocol.steps import METRE_STEPS, UNIT_STEPS, check_unit, held, nearest
 
 VERSION = 1
 
 _LAYOUT = struct.Struct(f"<BBHI{len(BLENDSHAPES)}B3h4h4b2hhB")
 MESSAGE_BYTES = _LAYOUT.size
-"""Of every message: 20.4 kbit/s at 30 a second."""
+"""Of a message without hands: 20.4 kbit/s at 30 a second."""
+MOST_MESSAGE_BYTES = MESSAGE_BYTES + HANDS_BYTES
+"""Of any message, with hands (6.7 kbit/s more); what is longer is refused before it is read."""
 
 WEIGHT_STEPS = 255
-METRE_STEPS = 1000
-UNIT_STEPS = 32767
 GAZE_STEPS = 360 / math.pi
 """Half degrees to a radian; the i8 reaches 63.5 degrees, and an eye turns 55 at most."""
 FLOOR_STEPS = 100
 TURN_STEPS = 65536
 """Steps of a whole turn of the body."""
-
-_UNIT_TOLERANCE = 0.01
-"""How far a rotation's length may be from 1: rounding moves it by .00003, and a sender's own floats by less."""
 
 
 class Flag(IntFlag):
@@ -55,7 +63,7 @@ class Flag(IntFlag):
     """A camera sees this face; without, it is moved by the voice alone and marked as such."""
     SEATED = 4
     HANDS = 8
-    """Hands are tracked as well; kept for headsets."""
+    """A headset sees a hand or holds its controller: two hands stand behind the state."""
 
 
 class Animation(IntEnum):
@@ -98,6 +106,9 @@ class Message:
         Turn of the body about y in radians; 0 looks along the room's z. Comes back as -pi..pi.
     animation
         `Animation`, or a number that is not known yet.
+    left_hand, right_hand
+        x, y, z of the wrist in metres, held to +-32.767, and unit quaternion x, y, z, w; None where it is not seen.
+        `Flag.HANDS` says that there is one at the least.
     """
 
     flags: int = 0
@@ -110,21 +121,26 @@ class Message:
     floor_m: tuple[float, ...] = (0.0, 0.0)
     heading: float = 0.0
     animation: int = 0
+    left_hand: Hand | None = None
+    right_hand: Hand | None = None
 
 
 _LENGTHS = {"weights": len(BLENDSHAPES), "head_m": 3, "rotation": 4, "gaze": 4, "floor_m": 2}
 
 
 def encode(message: Message) -> bytes:
-    """Make the 85 bytes of a state.
+    """Make the bytes of a state.
 
     Raises
     ------
     FormatError
-        If a tuple has another length, a number is NaN or infinite, the rotation is no unit quaternion, or flags or
-        animation do not fit. What lies beyond a range is held to it.
+        If a tuple has another length, a number is NaN or infinite, a rotation is no unit quaternion, flags or
+        animation do not fit, or `Flag.HANDS` and the hands disagree. What lies beyond a range is held to it.
     """
-    for name, length in _LENGTHS.items():
+    hands = {name: getattr(message, name) for name in ("left_hand", "right_hand")}
+    seen = {name: hand for name, hand in hands.items() if hand is not None}
+    lengths = _LENGTHS | dict.fromkeys(seen, NUMBERS)
+    for name, length in lengths.items():
         numbers = getattr(message, name)
         if len(numbers) != length:
             raise FormatError(f"{name}: has {len(numbers)} numbers, and must have {length}")
@@ -132,39 +148,44 @@ def encode(message: Message) -> bytes:
             raise FormatError(f"{name}: holds a number that is not finite; send the last good one, or rest")
     if not math.isfinite(message.heading):
         raise FormatError("heading: is not finite; send the last good one, or rest")
-    if abs(math.hypot(*message.rotation) - 1) > _UNIT_TOLERANCE:
-        raise FormatError(f"rotation: has length {math.hypot(*message.rotation):.3f}, and must have 1")
+    check_unit("rotation", math.hypot(*message.rotation))
+    for name, hand in seen.items():
+        check_unit(name, math.hypot(*hand[3:]))
     if not 0 <= message.flags <= sum(Flag):
         raise FormatError(f"flags: is {message.flags}, and must be from 0 to {sum(Flag)}")
     if not 0 <= message.animation <= 255:
         raise FormatError(f"animation: is {message.animation}, and must be from 0 to 255")
-    turn = _nearest(math.fmod(message.heading, 2 * math.pi) / (2 * math.pi) * TURN_STEPS)
-    return _LAYOUT.pack(
+    if bool(message.flags & Flag.HANDS) != bool(seen):
+        raise FormatError(f"flags: say {message.flags & Flag.HANDS} of hands, and {len(seen)} are given")
+    turn = nearest(math.fmod(message.heading, 2 * math.pi) / (2 * math.pi) * TURN_STEPS)
+    state = _LAYOUT.pack(
         VERSION,
         message.flags,
         message.sequence % 2**16,
         message.time_ms % 2**32,
-        *(_held(weight, WEIGHT_STEPS, 0, 255) for weight in message.weights),
-        *(_held(metres, METRE_STEPS, -32767, 32767) for metres in message.head_m),
-        *(_held(part, UNIT_STEPS, -32767, 32767) for part in message.rotation),
-        *(_held(angle, GAZE_STEPS, -127, 127) for angle in message.gaze),
-        *(_held(metres, FLOOR_STEPS, -32767, 32767) for metres in message.floor_m),
+        *(held(weight, WEIGHT_STEPS, 0, 255) for weight in message.weights),
+        *(held(metres, METRE_STEPS, -32767, 32767) for metres in message.head_m),
+        *(held(part, UNIT_STEPS, -32767, 32767) for part in message.rotation),
+        *(held(angle, GAZE_STEPS, -127, 127) for angle in message.gaze),
+        *(held(metres, FLOOR_STEPS, -32767, 32767) for metres in message.floor_m),
         (turn + 32768) % TURN_STEPS - 32768,
         message.animation,
     )
+    return state + b"".join(map(encode_hand, hands.values())) if seen else state
 
 
 def decode(content: bytes) -> Message:
-    """Read the 85 bytes of a state.
+    """Read the bytes of a state.
 
     Raises
     ------
     FormatError
-        If there are more or fewer bytes, the version is another one, flags are unknown, or the rotation is no unit
-        quaternion.
+        If there are more or fewer bytes than its flags say, the version is another one, flags are unknown, a rotation
+        is no unit quaternion, or hands are said and none is there.
     """
     check(content)
-    _, flags, sequence, time_ms, *numbers, heading, animation = _LAYOUT.unpack(content)
+    _, flags, sequence, time_ms, *numbers, heading, animation = _LAYOUT.unpack_from(content)
+    left, right = map(decode_hand, split(content[MESSAGE_BYTES:]))
     weights, head, rotation, gaze, floor = (
         tuple(numbers[start : start + length])
         for start, length in zip((0, 52, 55, 59, 63), _LENGTHS.values(), strict=True)
@@ -180,10 +201,17 @@ def decode(content: bytes) -> Message:
         floor_m=tuple(step / FLOOR_STEPS for step in floor),
         heading=heading * (2 * math.pi / TURN_STEPS),
         animation=animation,
+        left_hand=left,
+        right_hand=right,
     )
 
 
 _ROTATION = struct.Struct("<4h")
+
+
+def size(flags: int) -> int:
+    """Bytes of a message with these flags."""
+    return MOST_MESSAGE_BYTES if flags & Flag.HANDS else MESSAGE_BYTES
 
 
 def check(content: bytes) -> None:
@@ -194,15 +222,21 @@ def check(content: bytes) -> None:
     FormatError
         As in `decode`.
     """
-    if len(content) != MESSAGE_BYTES:
-        raise FormatError(f"a state has {MESSAGE_BYTES} bytes, and this one has {len(content)}")
+    if not MESSAGE_BYTES <= len(content) <= MOST_MESSAGE_BYTES:
+        raise FormatError(
+            f"a state has {MESSAGE_BYTES} or {MOST_MESSAGE_BYTES} bytes, and this one has {len(content)}"
+        )
     if content[0] != VERSION:
         raise FormatError(f"this room speaks version {VERSION} of the state, and this one is {content[0]}")
     if content[1] > sum(Flag):
         raise FormatError(f"flags: is {content[1]}, and must be from 0 to {sum(Flag)}")
-    length = math.hypot(*_ROTATION.unpack_from(content, 66)) / UNIT_STEPS
-    if abs(length - 1) > _UNIT_TOLERANCE:
-        raise FormatError(f"rotation: has length {length:.3f}, and must have 1")
+    if len(content) != size(content[1]):
+        raise FormatError(
+            f"a state of these flags has {size(content[1])} bytes, and this one has {len(content)}"
+        )
+    check_unit("rotation", math.hypot(*_ROTATION.unpack_from(content, 66)) / UNIT_STEPS)
+    if content[1] & Flag.HANDS:
+        check_hands(content[MESSAGE_BYTES:])
 
 
 _TIME = struct.Struct("<I")
@@ -217,13 +251,3 @@ def time_of(content: bytes) -> int:
 def retimed(content: bytes, time_ms: int) -> bytes:
     """The same message at another time of the sender's clock."""
     return content[:_TIME_AT] + _TIME.pack(time_ms % 2**32) + content[_TIME_AT + _TIME.size :]
-
-
-def _nearest(value: float) -> int:
-    """Nearest whole number, halves up: the same in every language, unlike Python's own to the even one."""
-    return math.floor(value + 0.5)
-
-
-def _held(value: float, steps: float, least: int, most: int) -> int:
-    # held before it is rounded, so that no float is too large to become a whole number
-    return _nearest(min(max(value * steps, least), most))

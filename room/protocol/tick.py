@@ -7,7 +7,8 @@ Little endian::
      1  u8    kind, 1
      2  u16   number of states
      4  u32   time of the server's clock, 1 ms, wraps
-     8        for each: u16 number of the person (the roster says who), and 85 bytes of `room.protocol.message`
+     8        for each: u16 number of the person (the roster says who), and a `room.protocol.message`,
+           whose flags say how long it is
 
 A person may stand in it more than once, oldest first: two messages of one tick are both passed on.
 """
@@ -16,13 +17,14 @@ import struct
 from collections.abc import Sequence
 
 from room.errors import FormatError
-from room.protocol.message import MESSAGE_BYTES, VERSION, check
+from room.protocol.message import MESSAGE_BYTES, VERSION, check, size
 
 KIND = 1
 _HEAD = struct.Struct("<BBHI")
 _NUMBER = struct.Struct("<H")
 HEAD_BYTES = _HEAD.size
 ENTRY_BYTES = _NUMBER.size + MESSAGE_BYTES
+"""Of a state without hands; the least that stands for a person."""
 
 
 def pack(states: Sequence[tuple[int, bytes]], *, time_ms: int) -> bytes:
@@ -56,11 +58,15 @@ def unpack(content: bytes) -> tuple[int, list[tuple[int, bytes]]]:
         raise FormatError(
             f"a tick of version {VERSION} and kind {KIND} is expected, and this is {version}, {kind}"
         )
-    if len(content) != HEAD_BYTES + count * ENTRY_BYTES:
-        raise FormatError(f"a tick of {count} states has another length than {len(content)} bytes")
-    states = []
-    for start in range(HEAD_BYTES, len(content), ENTRY_BYTES):
-        state = content[start + _NUMBER.size : start + ENTRY_BYTES]
+    states, at = [], HEAD_BYTES
+    for _ in range(count):
+        if len(content) < at + ENTRY_BYTES:
+            raise FormatError(f"a tick of {count} states ends behind {len(states)}")
+        start = at + _NUMBER.size
+        at = start + size(content[start + 1])
+        state = content[start:at]
         check(state)
-        states.append((_NUMBER.unpack_from(content, start)[0], state))
+        states.append((_NUMBER.unpack_from(content, start - _NUMBER.size)[0], state))
+    if at != len(content):
+        raise FormatError(f"a tick of {count} states has {at} bytes, and this one has {len(content)}")
     return time_ms, states

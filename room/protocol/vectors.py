@@ -10,10 +10,12 @@ import math
 from dataclasses import asdict, replace
 
 from facegen.conventions import BLENDSHAPES
-from room.protocol.message import GAZE_STEPS, UNIT_STEPS, Animation, Message, decode, encode
+from room.protocol.message import GAZE_STEPS, Animation, Message, decode, encode
+from room.protocol.steps import UNIT_STEPS
 from room.protocol.tick import pack
 
 _HALF = math.sqrt(0.5)
+_TURNED = (0.1, 0.2, -0.3, math.sqrt(1 - 0.14))
 _COUNT = len(BLENDSHAPES)
 
 
@@ -23,11 +25,13 @@ def _states() -> dict[str, Message]:
         "rest": rest,
         "everything": Message(
             flags=15,
+            left_hand=(0.3, 1.1, 0.45, *_TURNED),
+            right_hand=(-0.25, 1.4, 0.5, 0.0, _HALF, 0.0, -_HALF),
             sequence=4660,
             time_ms=305419896,
             weights=tuple(index / (_COUNT - 1) for index in range(_COUNT)),
             head_m=(0.0123, -0.0456, 0.0789),
-            rotation=(0.1, 0.2, -0.3, math.sqrt(1 - 0.14)),
+            rotation=_TURNED,
             gaze=(0.1, -0.2, 0.3, -0.4),
             floor_m=(-1.234, 5.678),
             heading=-2.5,
@@ -35,6 +39,8 @@ def _states() -> dict[str, Message]:
         ),
         "all at their most": Message(
             flags=15,
+            left_hand=(32.767,) * 3 + (1.0, 0.0, 0.0, 0.0),
+            right_hand=(32.767,) * 3 + (0.0, 0.0, 0.0, 1.0),
             sequence=65535,
             time_ms=2**32 - 1,
             weights=(1.0,) * _COUNT,
@@ -60,6 +66,16 @@ def _states() -> dict[str, Message]:
             rotation=(0.0, 1.004, 0.0, 0.0),
             gaze=(math.pi, -math.pi, 1.2, -1.2),
             floor_m=(1e300, -1e300),
+        ),
+        "a left hand alone": replace(rest, flags=8, left_hand=(0.2, 1.2345, 0.4, *_TURNED)),
+        "a right hand alone, where its person stands": replace(
+            rest, flags=10, right_hand=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0)
+        ),
+        "hands at their least and beyond": replace(
+            rest,
+            flags=8,
+            left_hand=(-32.767,) * 3 + (-1.0, 0.0, 0.0, 0.0),
+            right_hand=(1e300, -1e300, -0.0005, 0.0, 1.004, 0.0, 0.0),
         ),
         "counters wrap": replace(rest, sequence=65536, time_ms=2**32 + 7),
         "heading wraps": replace(rest, heading=math.pi),
@@ -102,13 +118,24 @@ _REFUSED_STATES = {
     "a place at minus infinity": {"floor_m": ["-inf", 0]},
     "a heading that is no number": {"heading": "nan"},
     "an unknown flag": {"flags": 16},
+    "hands that are said, and none": {"flags": 8},
+    "a hand that is not said": {"left_hand": [0, 1, 0, 0, 0, 0, 1]},
+    "a hand without a rotation": {"flags": 8, "left_hand": [0, 1, 0]},
+    "a hand that is no number": {"flags": 8, "right_hand": [0, "nan", 0, 0, 0, 0, 1]},
+    "a hand at infinity": {"flags": 8, "right_hand": ["inf", 0, 0, 0, 0, 0, 1]},
+    "a hand that is turned by nothing": {"flags": 8, "left_hand": [0, 1, 0, 0, 0, 0, 0]},
+    "a hand whose rotation is too long": {"flags": 8, "right_hand": [0, 1, 0, 0, 0, 0, 1.02]},
     "a negative animation": {"animation": -1},
     "an animation beyond a byte": {"animation": 256},
 }
 
 
+_HELD_OUT = (0.0, 1.2, 0.4, 0.0, 0.0, 0.0, 1.0)
+
+
 def _refused_messages() -> dict[str, bytes]:
     rest = encode(Message())
+    both = encode(Message(flags=8, left_hand=_HELD_OUT, right_hand=_HELD_OUT))
     return {
         "nothing": b"",
         "a byte too few": rest[:-1],
@@ -118,6 +145,13 @@ def _refused_messages() -> dict[str, bytes]:
         "an unknown flag": rest[:1] + b"\x10" + rest[2:],
         "a rotation of zeros": rest[:66] + bytes(8) + rest[74:],
         "a rotation that is too long": rest[:66] + b"\xff\x7f" * 4 + rest[74:],
+        "hands that are said, and the state ends": b"\1\x08" + rest[2:],
+        "hands that nobody said": b"\1\0" + both[2:],
+        "hands that are said, and neither is seen": both[:85] + bytes(28),
+        "one hand of two": both[:-14],
+        "a byte behind the hands": both + b"\0",
+        "a hand that is turned by nothing": both[:91] + bytes(8) + both[99:],
+        "a right hand whose rotation is too long": both[:-8] + b"\xff\x7f" * 4,
     }
 
 
@@ -127,6 +161,15 @@ def _ticks() -> dict[str, tuple[int, list[tuple[int, Message]]]]:
         "nobody": (0, []),
         "one": (5, [(1, states["rest"])]),
         "one person twice": (6, [(1, states["everything"]), (1, states["rest"])]),
+        "hands between others": (
+            7,
+            [
+                (1, states["rest"]),
+                (2, states["a left hand alone"]),
+                (3, states["everything"]),
+                (4, states["rest"]),
+            ],
+        ),
         "two": (2**32 - 1, [(65535, states["everything"]), (2, states["all at their least"])]),
     }
 

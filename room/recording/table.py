@@ -25,6 +25,14 @@ _BODY = {
     "weights": BLENDSHAPES,
 }
 """Columns of each field of `room.protocol.message.Message` that holds several numbers."""
+_HANDS = {
+    f"{side}_hand": tuple(
+        f"{side}_hand_{axis}"
+        for axis in ("x", "y", "z", "rotation_x", "rotation_y", "rotation_z", "rotation_w")
+    )
+    for side in ("left", "right")
+}
+"""Columns of each hand; empty where it was not seen, as in recordings of before there were hands."""
 
 SCHEMA = pa.schema(
     [
@@ -35,7 +43,7 @@ SCHEMA = pa.schema(
         *((flag.name.lower(), pa.bool_()) for flag in Flag),
         ("animation", pa.uint8()),
         ("heading", pa.float32()),
-        *((column, pa.float32()) for columns in _BODY.values() for column in columns),
+        *((column, pa.float32()) for columns in (_BODY | _HANDS).values() for column in columns),
     ]
 )
 """Seconds since the recording began, metres and radians."""
@@ -94,5 +102,11 @@ def _rows(lines: Iterator[Heading | Event]) -> Iterator[dict[str, object]]:
                     column: value
                     for field, columns in _BODY.items()
                     for column, value in zip(columns, getattr(message, field), strict=True)
+                },
+                **{
+                    column: value
+                    for field, columns in _HANDS.items()
+                    if (hand := getattr(message, field))
+                    for column, value in zip(columns, hand, strict=True)
                 },
             }

@@ -49,7 +49,7 @@ async def enter(tab: Tab, address: str, script: str) -> None:
     await tab.until("!document.querySelector('#headset').hidden")
     await tab.ask("void device.position.set(0, 1.6, 0)")
     await tab.ask("document.querySelector('#headset').click()")
-    await tab.until("meeting.headset.worn && meeting.headset.update(0)", 40)
+    await tab.until("meeting.headset.worn && meeting.headset.update(0)", 90)
 
 
 async def worn(folder: Path) -> dict[str, object]:

@@ -59,7 +59,7 @@ async def come_in(tab: Tab, name: str) -> None:
         f"(() => {{ const form = document.querySelector('#join'); form.elements.name.value = {json.dumps(name)};"
         " form.requestSubmit(); })()"
     )
-    await tab.until("globalThis.meeting?.own", 30)
+    await tab.until("globalThis.meeting?.own", 60)  # with the first shaders, on a busy machine
     await tab.ask(
         "void (meeting.drawing = false)"
     )  # software draws two rooms no faster than it detects voices

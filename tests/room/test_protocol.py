@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 import room.protocol.vectors
 from room.errors import FormatError
-from room.protocol import MESSAGE_BYTES, Message, check, decode, encode
-from room.protocol.message import FLOOR_STEPS, GAZE_STEPS, METRE_STEPS, TURN_STEPS, UNIT_STEPS, WEIGHT_STEPS
+from room.protocol import MESSAGE_BYTES, Flag, Message, check, decode, encode
+from room.protocol.message import FLOOR_STEPS, GAZE_STEPS, MOST_MESSAGE_BYTES, TURN_STEPS, WEIGHT_STEPS
+from room.protocol.steps import METRE_STEPS, UNIT_STEPS
 from room.protocol.tick import pack, unpack
 
 FILE = Path(room.protocol.vectors.__file__).with_name("vectors.json")
@@ -46,7 +47,8 @@ def test_a_state_has_these_bytes_and_reads_back(vector):
     content = bytes.fromhex(vector["hex"])
     assert encode(Message(**_numbers(vector["state"]))) == content
     assert decode(content) == Message(**_numbers(vector["read"]))
-    assert len(content) == MESSAGE_BYTES == 85
+    assert len(content) == (MOST_MESSAGE_BYTES if content[1] & 8 else MESSAGE_BYTES)
+    assert (MESSAGE_BYTES, MOST_MESSAGE_BYTES) == (85, 113)
 
 
 @pytest.mark.parametrize("vector", _named(VECTORS["refused_states"]))
@@ -82,9 +84,17 @@ def _unit(parts: tuple[float, ...]) -> tuple[float, ...]:
 
 
 quaternions = floats(1, 4).filter(lambda parts: math.hypot(*parts) > 1e-3).map(_unit)
-messages = st.builds(
+hands = st.none() | st.builds(lambda at, turned: at + turned, floats(32.767, 3), quaternions)
+
+
+def _with_hands(message: Message, left: tuple | None, right: tuple | None) -> Message:
+    said = Flag.HANDS if left or right else 0
+    return replace(message, flags=message.flags | said, left_hand=left, right_hand=right)
+
+
+states = st.builds(
     Message,
-    flags=st.integers(0, 15),
+    flags=st.integers(0, 7),
     sequence=st.integers(0, 2**16 - 1),
     time_ms=st.integers(0, 2**32 - 1),
     weights=st.tuples(*[st.floats(0, 1)] * 52),
@@ -95,6 +105,7 @@ messages = st.builds(
     heading=st.floats(-math.pi, math.pi),
     animation=st.integers(0, 255),
 )
+messages = st.builds(_with_hands, states, hands, hands)
 STEPS = {
     "weights": WEIGHT_STEPS,
     "head_m": METRE_STEPS,
@@ -110,6 +121,11 @@ def test_a_round_trip_loses_half_a_step_at_most(message):
     for name, steps in STEPS.items():
         for sent, read in zip(getattr(message, name), getattr(back, name), strict=True):
             assert abs(sent - read) <= 0.5 / steps + ROUNDING, name
+    for name in ("left_hand", "right_hand"):
+        hand, read = getattr(message, name), getattr(back, name)
+        assert (hand is None) == (read is None)
+        for index, (sent, came) in enumerate(zip(hand or (), read or (), strict=True)):
+            assert abs(sent - came) <= 0.5 / (METRE_STEPS if index < 3 else UNIT_STEPS) + ROUNDING, name
     turned = math.remainder(message.heading - back.heading, 2 * math.pi)
     assert abs(turned) <= math.pi / TURN_STEPS + ROUNDING
     for name in ("flags", "sequence", "time_ms", "animation"):
@@ -117,7 +133,21 @@ def test_a_round_trip_loses_half_a_step_at_most(message):
     assert encode(back) == encode(message), "what was read once is sent on unchanged"
 
 
-@given(st.binary(max_size=2 * MESSAGE_BYTES) | st.binary(min_size=MESSAGE_BYTES, max_size=MESSAGE_BYTES))
+def _bytes(length: int) -> st.SearchStrategy[bytes]:
+    return st.binary(min_size=length, max_size=length)
+
+
+HANDS_SAID = st.builds(
+    lambda state, hands: state[:1] + bytes((state[1] | 8,)) + state[2:] + hands,
+    messages.map(encode),
+    _bytes(28),
+)
+"""A good state that says hands, and any bytes as those."""
+
+
+@given(
+    st.binary(max_size=2 * MESSAGE_BYTES) | _bytes(MESSAGE_BYTES) | _bytes(MOST_MESSAGE_BYTES) | HANDS_SAID
+)
 def test_any_bytes_are_read_or_refused_by_a_sentence(content):
     try:
         check(content)

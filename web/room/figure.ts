@@ -6,6 +6,7 @@ import type { Avatar } from "../avatar/index.js";
 import { EYES_M, makeBody, SEATED_M } from "./body.js";
 import { headGesture, Limbs } from "./limbs.js";
 import { FLAG, type Message } from "./protocol.js";
+import type { Hand } from "./reach.js";
 import type { Person } from "./texts.js";
 
 /** Above the eyes: clear of hair. */
@@ -122,7 +123,8 @@ export class Figure {
       head: [this.angles.y + gesture.yaw, -this.angles.x + gesture.pitch, -this.angles.z],
     });
     this.avatar.update(seconds);
-    this.limbs.update(message.animation, seated, this.pace(message, seconds), seconds);
+    const hands = [this.reached(message.left_hand), this.reached(message.right_hand)];
+    this.limbs.update(message.animation, seated, this.pace(message, seconds), seconds, hands);
     // names are read across the room as well: from two metres on they keep their size in the picture
     const far = Math.max(1, eye.distanceTo(this.root.position) / 2);
     this.label.scale.set(0.4 * far, 0.1 * far, 1);
@@ -137,6 +139,13 @@ export class Figure {
   hand(at: Vector3): void {
     if (this.right) this.right.getWorldPosition(at);
     else this.root.localToWorld(at.set(-0.15, EYES_M - 0.35 - this.lowered, 0.25));
+  }
+
+  /** A hand of a message in the frame of the body that hangs on `upper`. */
+  private reached(hand: Message["left_hand"]): Hand | undefined {
+    if (!hand) return undefined;
+    const [x, y, z, ...turn] = Array.from(hand) as [number, number, number, number, number, number, number];
+    return { at: new Vector3(x, y - this.upper.position.y, z), turn: new Quaternion(...turn).normalize() };
   }
 
   /** How fast the body walks forward, in metres a second. */

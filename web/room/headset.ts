@@ -1,7 +1,8 @@
 /** A headset in the page (WebXR): the head moves the body, its ears hear, sticks walk and turn in steps that spare the stomach. */
 
-import { Quaternion, Vector3, type Group, type WebGLRenderer } from "three";
+import { Matrix4, Quaternion, Vector3, type Group, type WebGLRenderer } from "three";
 
+import { wristOf } from "./hands.js";
 import type { Message } from "./protocol.js";
 import type { Place } from "./sound.js";
 import type { Walk } from "./walk.js";
@@ -21,7 +22,7 @@ const STICK = { x: 2, y: 3 } as const;
 
 const UP = new Vector3(0, 1, 0);
 
-type Worn = Pick<Message, "floor_m" | "heading" | "rotation" | "head_m">;
+type Worn = Pick<Message, "floor_m" | "heading" | "rotation" | "head_m" | "left_hand" | "right_hand">;
 
 export class Headset {
   private session: XRSession | undefined;
@@ -32,6 +33,8 @@ export class Headset {
   /** Of the head between the eyes, as the headset told last. */
   private readonly head = new Vector3();
   private readonly headTurn = new Quaternion();
+  /** Of both wrists, as the headset told last. */
+  private hands: Partial<Record<XRHandedness, Matrix4 | undefined>> = {};
   private readonly ahead = new Vector3();
   private readonly turn = new Quaternion();
 
@@ -59,11 +62,14 @@ export class Headset {
     return { at: { x, y: this.head.y, z }, heading: this.walk.heading + this.yaw() };
   }
 
-  /** Take over where the head is; in each picture, as a headset tells it then alone. */
+  /** Take over where head and hands are; in each picture, as a headset tells it then alone. */
   look(): void {
     const space = this.renderer.xr.getReferenceSpace();
-    const pose = space && this.session && this.renderer.xr.getFrame()?.getViewerPose?.(space);
+    const frame = this.renderer.xr.getFrame();
+    const pose = space && this.session && frame?.getViewerPose?.(space);
     if (!pose) return;
+    this.hands = {};
+    for (const source of this.session!.inputSources) this.hands[source.handedness] ??= wristOf(source, frame, space);
     const { position, orientation } = pose.transform;
     this.head.set(position.x, position.y, position.z);
     this.headTurn.set(orientation.x, orientation.y, orientation.z, orientation.w);
@@ -88,7 +94,21 @@ export class Headset {
       // WebXR looks along -z, a body along +z: half a turn about y lies between their frames
       rotation: [-this.turn.x, this.turn.y, -this.turn.z, this.turn.w],
       head_m: [0, this.head.y - this.rest, 0],
+      left_hand: this.hand("left"),
+      right_hand: this.hand("right"),
     };
+  }
+
+  /** A hand in the body's frame, whose origin is the floor below the head. */
+  private hand(side: "left" | "right"): Message["left_hand"] {
+    const wrist = this.hands[side];
+    // a headset that has been laid down shows no pictures, and tells of no hands
+    if (!wrist || this.session!.visibilityState === "hidden") return null;
+    const [at, turn] = [new Vector3(), new Quaternion()];
+    wrist.decompose(at, turn, new Vector3());
+    at.sub(this.head).setY(at.y + this.head.y).applyAxisAngle(UP, -this.body);
+    turn.premultiply(this.turn.setFromAxisAngle(UP, -this.body));
+    return [-at.x, at.y, -at.z, -turn.x, turn.y, -turn.z, turn.w];
   }
 
   private async enter(): Promise<void> {

@@ -1,9 +1,11 @@
-/** Moves arms and legs, of a skeleton or of the simple body, towards what a gesture, a seat or a step asks of them. */
+/** Moves arms and legs, of a skeleton or of the simple body, towards what hands, a gesture, a seat or a step ask of them. */
 
 import { Quaternion, Vector3, type Object3D } from "three";
 import type { VRM, VRMHumanBoneName } from "@pixiv/three-vrm";
 
 import { Turn } from "../avatar/bones.js";
+import { Arm, type Palm } from "./arm.js";
+import type { Hand } from "./reach.js";
 
 /** Directions of a limb's two parts in the body's frame: x to the left, y up, z forward; of the left side, mirrored for the right. */
 type Directions = readonly [upper: readonly [number, number, number], lower: readonly [number, number, number]];
@@ -51,12 +53,17 @@ const SWING = 0.42;
 
 /** Of the way to a new pose each second, as a rate: a limb is there in a third of a second. */
 const PACE = 9;
+/** A hand that comes is met in a quarter of a second; from then on the arm follows it without delay. */
+const MEETS_S = 0.25;
 
 class Limb {
   private readonly upper: Turn;
   private readonly lower: Turn;
+  private readonly end: Turn;
   private readonly rests: [Vector3, Vector3];
-  private readonly stands: [Quaternion, Quaternion] = [new Quaternion(), new Quaternion()];
+  private readonly stands = [new Quaternion(), new Quaternion(), new Quaternion()] as const;
+  private readonly arm: Arm | undefined;
+  private met = 0;
   private readonly wanted = new Quaternion();
   private readonly direction = new Vector3();
 
@@ -64,8 +71,10 @@ class Limb {
     [upper, lower, end]: readonly [Object3D, Object3D, Object3D],
     root: Object3D,
     private readonly side: 1 | -1,
+    palm?: Palm,
   ) {
-    [this.upper, this.lower] = [new Turn(upper, root), new Turn(lower, root)];
+    [this.upper, this.lower, this.end] = [new Turn(upper, root), new Turn(lower, root), new Turn(end, root)];
+    this.arm = palm && new Arm([upper, lower, end], palm, root, side);
     const at = (node: Object3D): Vector3 => root.worldToLocal(node.getWorldPosition(new Vector3()));
     this.rests = [at(lower).sub(at(upper)).normalize(), at(end).sub(at(lower)).normalize()];
   }
@@ -77,8 +86,24 @@ class Limb {
     // the lower part hangs on the upper one, and is turned with it
     const lower = directions ? this.towards(1, directions, before) : this.wanted.identity();
     this.stands[1].slerp(lower, share);
-    this.upper.set(before);
+    this.stands[2].slerp(this.wanted.identity(), share);
+    this.met = 0;
+    this.set();
+  }
+
+  /** Follow a hand; says whether this limb can. */
+  follow(hand: Hand, seconds: number): boolean {
+    if (!this.arm) return false;
+    this.met = Math.min(1, this.met + seconds / MEETS_S);
+    for (const [part, wanted] of this.arm.towards(hand).entries()) this.stands[part]!.slerp(wanted, this.met);
+    this.set();
+    return true;
+  }
+
+  private set(): void {
+    this.upper.set(this.stands[0]);
     this.lower.set(this.stands[1]);
+    if (this.arm) this.end.set(this.stands[2]);
   }
 
   private towards(part: 0 | 1, directions: Directions | undefined, carried?: Quaternion): Quaternion {
@@ -95,6 +120,9 @@ const OF_VRM: Record<string, string> = {
   Arm: "UpperArm",
   ForeArm: "LowerArm",
   Hand: "Hand",
+  HandIndex1: "IndexProximal",
+  HandMiddle1: "MiddleProximal",
+  HandPinky1: "LittleProximal",
   UpLeg: "UpperLeg",
   Leg: "LowerLeg",
   Foot: "Foot",
@@ -127,15 +155,17 @@ export class Limbs {
     const bones = skeleton(root, vrm);
     const limb = (names: readonly string[], prefix: string, side: 1 | -1): Limb | undefined => {
       const [upper, lower, end] = names.map((name) => bones.get(prefix + name));
-      return upper && lower && end ? new Limb([upper, lower, end], root, side) : undefined;
+      const finger = (name: string): Object3D | undefined => bones.get(`${prefix}Hand${name}1`);
+      const palm = names[0] === "Arm" ? { middle: finger("Middle"), index: finger("Index"), little: finger("Pinky") } : undefined;
+      return upper && lower && end ? new Limb([upper, lower, end], root, side, palm) : undefined;
     };
     const pair = (...names: string[]): [Limb | undefined, Limb | undefined] => [limb(names, "Left", 1), limb(names, "Right", -1)];
     this.arms = pair("Arm", "ForeArm", "Hand");
     this.legs = pair("UpLeg", "Leg", "Foot");
   }
 
-  /** Move on by so many seconds; `pace` is how fast the body walks forward, in metres a second. */
-  update(animation: number, seated: boolean, pace: number, seconds: number): void {
+  /** Move on by so many seconds; `pace` is how fast the body walks forward, in metres a second. A hand goes before a gesture. */
+  update(animation: number, seated: boolean, pace: number, seconds: number, hands: readonly (Hand | undefined)[] = []): void {
     this.time += seconds;
     this.walked += pace * seconds;
     const share = 1 - Math.exp(-PACE * seconds);
@@ -145,7 +175,9 @@ export class Limbs {
       const pose = ARMS[animation] ?? HANGING;
       const [upper, lower] = pose(this.time, side);
       const arm = side * swing * -0.6 * Math.sin(phase);
-      this.arms[index]?.move(animation in ARMS ? [upper, lower] : [[upper[0], upper[1], upper[2] + arm], [lower[0], lower[1], lower[2] + arm]], share);
+      const hand = hands[index];
+      const follows = hand && this.arms[index]?.follow(hand, seconds);
+      if (!follows) this.arms[index]?.move(animation in ARMS ? [upper, lower] : [[upper[0], upper[1], upper[2] + arm], [lower[0], lower[1], lower[2] + arm]], share);
       const leg = side * swing * Math.sin(phase);
       const bent = -swing * Math.max(0, side * Math.cos(phase));
       const walking: Directions = [

@@ -108,23 +108,34 @@ export class Playback {
 export function blend(from: Message, to: Message, share: number): Message {
   const mix = (a: ArrayLike<number>, b: ArrayLike<number>): number[] => Array.from(a, (value, i) => value + (b[i]! - value) * share);
   // the shorter way round, and back to length 1: two messages are at most some degrees apart
-  const dot = Array.from(from.rotation).reduce((sum, value, i) => sum + value * to.rotation[i]!, 0);
-  const rotation = mix(from.rotation, dot < 0 ? Array.from(to.rotation, (value) => -value) : to.rotation);
-  const length = Math.hypot(...rotation) || 1;
+  const mixTurn = (a: ArrayLike<number>, b: ArrayLike<number>): number[] => {
+    const dot = Array.from(a).reduce((sum, value, i) => sum + value * b[i]!, 0);
+    const mixed = mix(a, dot < 0 ? Array.from(b, (value) => -value) : b);
+    const length = Math.hypot(...mixed) || 1;
+    return mixed.map((value) => value / length);
+  };
+  const near = share < 1 ? from : to;
+  // a hand that one of the two does not know comes or goes at once: the figure makes that smooth
+  const hand = (name: "left_hand" | "right_hand"): Message["left_hand"] => {
+    const [a, b] = [from[name] && Array.from(from[name]), to[name] && Array.from(to[name])];
+    return a && b ? [...mix(a.slice(0, 3), b.slice(0, 3)), ...mixTurn(a.slice(3), b.slice(3))] : near[name];
+  };
   const turn = Math.atan2(Math.sin(to.heading - from.heading), Math.cos(to.heading - from.heading));
   return {
-    ...(share < 1 ? from : to),
+    ...near,
     weights: mix(from.weights, to.weights),
     head_m: mix(from.head_m, to.head_m),
-    rotation: rotation.map((value) => value / length),
+    rotation: mixTurn(from.rotation, to.rotation),
     gaze: mix(from.gaze, to.gaze),
     floor_m: mix(from.floor_m, to.floor_m),
     heading: from.heading + turn * share,
+    left_hand: hand("left_hand"),
+    right_hand: hand("right_hand"),
   };
 }
 
 /** A face on its way to rest; the body stays where it stood. */
 function aged(message: Message, share: number): Message {
   const rest = { ...REST, floor_m: message.floor_m, heading: message.heading, flags: message.flags & FLAG.seated };
-  return { ...blend(message, rest, share), flags: rest.flags, animation: 0 };
+  return { ...blend(message, rest, share), flags: rest.flags, animation: 0, left_hand: null, right_hand: null };
 }

@@ -9,7 +9,10 @@ import { SHAPES } from "../avatar/shapes.js";
 export const VERSION = 1;
 export const MESSAGE_BYTES = 85;
 const HEAD_BYTES = 8;
-const ENTRY_BYTES = 2 + MESSAGE_BYTES;
+/** Of a hand: its wrist's position and its rotation. */
+const HAND_BYTES = 14;
+/** Of any message: hands stand behind the state where flags say so. */
+export const MOST_MESSAGE_BYTES = MESSAGE_BYTES + 2 * HAND_BYTES;
 const KIND = 1;
 
 /** Half degrees to a radian. */
@@ -38,6 +41,9 @@ export interface Message {
   floor_m: ArrayLike<number>;
   heading: number;
   animation: number;
+  /** Position of the wrist and rotation; null where it is not seen. */
+  left_hand: ArrayLike<number> | null;
+  right_hand: ArrayLike<number> | null;
 }
 
 export const REST: Message = {
@@ -51,6 +57,8 @@ export const REST: Message = {
   floor_m: [0, 0],
   heading: 0,
   animation: 0,
+  left_hand: null,
+  right_hand: null,
 };
 
 const LENGTHS = { weights: SHAPES.length, head_m: 3, rotation: 4, gaze: 4, floor_m: 2 } as const;
@@ -69,19 +77,32 @@ function held(value: number, steps: number, least: number, most: number): number
   return nearest(Math.min(Math.max(value * steps, least), most));
 }
 
+/** Bytes of a message with these flags. */
+function size(flags: number): number {
+  return flags & FLAG.hands ? MOST_MESSAGE_BYTES : MESSAGE_BYTES;
+}
+
+function checkUnit(name: string, rotation: number[]): void {
+  const length = Math.hypot(...rotation);
+  if (Math.abs(length - 1) > UNIT_TOLERANCE) throw new ProtocolError(`${name}: has length ${length}, and must have 1`);
+}
+
 export function encode(message: Message): Uint8Array<ArrayBuffer> {
-  for (const [name, length] of Object.entries(LENGTHS) as [keyof typeof LENGTHS, number][]) {
+  const hands = [message.left_hand, message.right_hand];
+  const lengths = { ...LENGTHS, ...(hands[0] && { left_hand: 7 }), ...(hands[1] && { right_hand: 7 }) };
+  for (const [name, length] of Object.entries(lengths) as [keyof typeof LENGTHS, number][]) {
     const numbers = message[name];
     if (numbers.length !== length) throw new ProtocolError(`${name}: has ${numbers.length} numbers, and must have ${length}`);
     if (!Array.from(numbers).every(Number.isFinite)) throw new ProtocolError(`${name}: holds a number that is not finite`);
   }
   if (!Number.isFinite(message.heading)) throw new ProtocolError("heading: is not finite");
-  const length = Math.hypot(...Array.from(message.rotation));
-  if (Math.abs(length - 1) > UNIT_TOLERANCE) throw new ProtocolError(`rotation: has length ${length}, and must have 1`);
+  checkUnit("rotation", Array.from(message.rotation));
+  for (const hand of hands) if (hand) checkUnit("hand", Array.from(hand).slice(3));
   if (!(message.flags >= 0 && message.flags <= ALL_FLAGS)) throw new ProtocolError(`flags: is ${message.flags}`);
   if (!(message.animation >= 0 && message.animation <= 255)) throw new ProtocolError(`animation: is ${message.animation}`);
+  if (((message.flags & FLAG.hands) !== 0) !== hands.some(Boolean)) throw new ProtocolError("flags: say other than the hands");
 
-  const content = new Uint8Array(MESSAGE_BYTES);
+  const content = new Uint8Array(size(message.flags));
   const view = new DataView(content.buffer);
   view.setUint8(0, VERSION);
   view.setUint8(1, message.flags);
@@ -95,17 +116,30 @@ export function encode(message: Message): Uint8Array<ArrayBuffer> {
   // setInt16 takes it modulo a whole turn by itself
   view.setInt16(82, nearest(((message.heading % (2 * Math.PI)) / (2 * Math.PI)) * TURN_STEPS), true);
   view.setUint8(84, message.animation);
+  for (const [index, hand] of hands.entries()) {
+    const at = MESSAGE_BYTES + index * HAND_BYTES;
+    for (let i = 0; hand && i < 7; i++) view.setInt16(at + 2 * i, held(hand[i]!, i < 3 ? 1000 : UNIT_STEPS, -32767, 32767), true);
+  }
   return content;
 }
 
 export function decode(content: Uint8Array): Message {
-  if (content.length !== MESSAGE_BYTES) throw new ProtocolError(`a state has ${MESSAGE_BYTES} bytes, and this one has ${content.length}`);
+  if (content.length < MESSAGE_BYTES || content.length > MOST_MESSAGE_BYTES) throw new ProtocolError(`a state has no ${content.length} bytes`);
   const view = new DataView(content.buffer, content.byteOffset, content.byteLength);
   if (view.getUint8(0) !== VERSION) throw new ProtocolError(`version ${view.getUint8(0)} of a state is not known here`);
   if (view.getUint8(1) > ALL_FLAGS) throw new ProtocolError(`flags: is ${view.getUint8(1)}`);
+  if (content.length !== size(view.getUint8(1))) throw new ProtocolError(`a state of these flags has no ${content.length} bytes`);
   const read = (count: number, get: (index: number) => number): number[] => Array.from({ length: count }, (_, i) => get(i));
   const rotation = read(4, (i) => view.getInt16(66 + 2 * i, true) / UNIT_STEPS);
-  if (Math.abs(Math.hypot(...rotation) - 1) > UNIT_TOLERANCE) throw new ProtocolError("rotation: must have length 1");
+  checkUnit("rotation", rotation);
+  const [left, right] = [0, 1].map((index) => {
+    const at = MESSAGE_BYTES + index * HAND_BYTES;
+    if (!content.subarray(at, at + HAND_BYTES).some(Boolean)) return null;
+    const hand = read(7, (i) => view.getInt16(at + 2 * i, true) / (i < 3 ? 1000 : UNIT_STEPS));
+    checkUnit("hand", hand.slice(3));
+    return hand;
+  }) as [number[] | null, number[] | null];
+  if (content.length > MESSAGE_BYTES && !left && !right) throw new ProtocolError("flags: say that a hand is seen, and none is there");
   return {
     flags: view.getUint8(1),
     sequence: view.getUint16(2, true),
@@ -117,6 +151,8 @@ export function decode(content: Uint8Array): Message {
     floor_m: read(2, (i) => view.getInt16(78 + 2 * i, true) / 100),
     heading: view.getInt16(82, true) * ((2 * Math.PI) / TURN_STEPS),
     animation: view.getUint8(84),
+    left_hand: left,
+    right_hand: right,
   };
 }
 
@@ -126,10 +162,14 @@ export function unpack(content: Uint8Array): { time_ms: number; states: [number,
   const view = new DataView(content.buffer, content.byteOffset, content.byteLength);
   if (view.getUint8(0) !== VERSION || view.getUint8(1) !== KIND) throw new ProtocolError("no tick of this version");
   const count = view.getUint16(2, true);
-  if (content.length !== HEAD_BYTES + count * ENTRY_BYTES) throw new ProtocolError(`no tick of ${count} states`);
   const states: [number, Uint8Array][] = [];
-  for (let start = HEAD_BYTES; start < content.length; start += ENTRY_BYTES) {
-    states.push([view.getUint16(start, true), content.subarray(start + 2, start + ENTRY_BYTES)]);
+  let at = HEAD_BYTES;
+  for (let i = 0; i < count; i++) {
+    if (content.length < at + 2 + MESSAGE_BYTES) throw new ProtocolError(`a tick of ${count} states ends behind ${i}`);
+    const end = at + 2 + size(view.getUint8(at + 3));
+    states.push([view.getUint16(at, true), content.subarray(at + 2, end)]);
+    at = end;
   }
+  if (at !== content.length) throw new ProtocolError(`no tick of ${count} states`);
   return { time_ms: view.getUint32(4, true), states };
 }

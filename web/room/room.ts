@@ -264,6 +264,7 @@ class Meeting {
     const speaking = this.microphone?.speaking ?? false;
     const idle = this.idle.update(seconds, speaking ? this.microphone!.level : 0);
     const message = { ...this.state(this.camera?.face(now) ?? idle, speaking), ...this.headset.update(seconds) };
+    if (message.left_hand ?? message.right_hand) message.flags |= FLAG.hands;
     this.sent = { ...message, sequence: 0, time_ms: 0, weights: Float64Array.from(message.weights) };
     this.line.move(message);
     this.place(now);
@@ -312,6 +313,8 @@ class Meeting {
       floor_m: [this.walk.x, this.walk.z],
       heading: this.walk.heading,
       animation: this.animation,
+      left_hand: null,
+      right_hand: null,
     };
   }
 
