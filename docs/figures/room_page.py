@@ -15,7 +15,7 @@ async def come_in(tab: Tab, name: str, avatar: str = "") -> None:
         f" form.elements.avatar.value = {json.dumps(avatar)} || form.elements.avatar.value;"
         " if (form.elements.voice.checked) form.elements.voice.click(); form.requestSubmit(); })()"
     )
-    await tab.until("globalThis.meeting?.own && meeting.placed", 30)
+    await tab.until("globalThis.meeting?.own && meeting.placed", 90)
 
 
 async def stand(tab: Tab, *, x: float, z: float, heading: float, pitch: float = 0.0) -> None:
