@@ -174,7 +174,7 @@ def _section(judged: Judged, name: str) -> Section:
         shapes=shapes_table(figures),
         components=components_table(figures),
         people=people_table(figures),
-        histogram=Markup(histogram(errors)),
+        histogram=Markup(histogram(errors, "error in mm, no neutral picture")),
         honesty=_deviation(figures),
         rivals=rivals,
         worst=tuple(
@@ -216,14 +216,16 @@ def _headlines(figures: Evaluation, timings: Sequence[tuple[str, float]]) -> lis
     rest = figures.floors["rest"]
     beside = "" if calibrated is None else f"; with a neutral picture {figure(calibrated.geometry_mm)}"
     r2 = "" if calibrated is None else f"; with a neutral picture {_known(calibrated.r2)}"
+    blink = "" if calibrated is None else f"; with a neutral picture {_known(calibrated.blink_r2)}"
+    gaze = "" if calibrated is None else f"; with a neutral picture {calibrated.gaze_deg:.1f}°"
     lines = [
         Headline(
             value=f"{alone.geometry_mm:.2f} mm",
             caption=f"mean error of the face's vertices{beside}; a resting face {figure(rest.geometry_mm)}",
         ),
         Headline(value=_known(alone.r2), caption=f"mean R² of 51 shapes{r2}"),
-        Headline(value=_known(alone.blink_r2), caption="R² of the eyes' blink"),
-        Headline(value=f"{alone.gaze_deg:.1f}°", caption="mean angle between predicted and true gaze"),
+        Headline(value=_known(alone.blink_r2), caption=f"R² of the eyes' blink{blink}"),
+        Headline(value=f"{alone.gaze_deg:.1f}°", caption=f"mean angle between predicted and true gaze{gaze}"),
     ]
     if timings:
         lines.append(

@@ -22,9 +22,9 @@ MAIN = ("uncalibrated", "same_seat", "same_seat_fallback", "other_seat", "other_
 WORDS = {
     "uncalibrated": "no neutral picture",
     "same_seat": "neutral picture, same seat",
-    "same_seat_fallback": "the same, unless the network doubts the seat",
-    "other_seat": "neutral picture of another seat",
-    "other_seat_fallback": "the same, unless the network doubts the seat",
+    "same_seat_fallback": "same seat, left out if doubted",
+    "other_seat": "neutral picture, another seat",
+    "other_seat_fallback": "another seat, left out if doubted",
 }
 FLOORS = {"mean": "floor: always the training mean", "rest": "floor: always the resting face"}
 

@@ -3,16 +3,19 @@
 import numpy as np
 
 from regress.report.axes import Scale, label
-from regress.report.svg import line, picture, text
+from regress.report.svg import line, picture, text, upright_text
 
 
-def histogram(values: np.ndarray, *, bins: int = 30) -> str:
-    """Counts of positive values (n,), from 0 to the largest, with the median marked."""
-    width, height, left, bottom = 430, 190, 34, 30
+def histogram(values: np.ndarray, what: str, *, bins: int = 30) -> str:
+    """Counts of people by positive values (n,) from 0 to the largest, with the median marked.
+
+    ``what`` the values are stands below the axis, with its unit.
+    """
+    width, height, left, top, bottom = 430, 226, 44, 24, 44
     most = float(values.max()) * 1.0001 or 1.0
     counts, edges = np.histogram(values, bins=bins, range=(0, most))
     x = Scale(low=0, high=most, start=left, stop=width - 8)
-    y = Scale(low=0, high=max(int(counts.max()), 1), start=height - bottom, stop=10)
+    y = Scale(low=0, high=max(int(counts.max()), 1), start=height - bottom, stop=top)
     parts = []
     for tick in y.ticks(4):
         if tick == int(tick):
@@ -25,7 +28,12 @@ def histogram(values: np.ndarray, *, bins: int = 30) -> str:
                 f'width="{x(stop) - x(start) - 1:.1f}" height="{y(0) - y(count):.1f}"/>'
             )
     for tick in x.ticks(6):
-        parts.append(text(x(tick), height - 12, label(tick), "tick middle"))
+        parts.append(text(x(tick), height - bottom + 17, label(tick), "tick middle"))
+    parts.append(text((left + width - 8) / 2, height - 8, what, "tick middle"))
+    parts.append(upright_text(12, (top + height - bottom) / 2, "people", "tick middle"))
     median = float(x(np.median(values)))
-    parts.append(line(median, 6, median, height - bottom, "fit"))
+    parts.append(line(median, top - 6, median, height - bottom, "fit"))
+    # above the bars, and inside of the picture
+    beside = float(np.clip(median, left + 44, width - 52))
+    parts.append(text(beside, 13, f"median {np.median(values):.3g}", "tick middle"))
     return picture(width, height, parts, "People by error")

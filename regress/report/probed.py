@@ -214,7 +214,7 @@ def _part(
         pose_map=Markup(
             pose_map(poses.mae[..., _VISIBLE].mean(axis=-1), yaw_deg=YAW_DEG, pitch_deg=PITCH_DEG, most=most)
         ),
-        people=Markup(histogram(people.mae)),
+        people=Markup(histogram(people.mae, "mean absolute error of the weights")),
         leaks=talk and Markup(leak_map(talk.change, OUTPUTS, full=WEIGHT)),
         pose_worst=_largest(np.where(visible, poses.loss, np.nan), 5),
         pose_loss=float(np.nanmean(poses.loss[_VISIBLE])),

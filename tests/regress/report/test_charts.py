@@ -10,6 +10,7 @@ from regress.report.axes import Scale, figure, label
 from regress.report.bars import score_bars
 from regress.report.charts import learning_curves, regression_panel, small_curves
 from regress.report.content import Figures, LearningCurve, RegressionPlot, ShapeScores, mean_curve
+from regress.report.histogram import histogram
 
 
 def scores(*r2: float) -> list[ShapeScores]:
@@ -132,3 +133,18 @@ def test_ticks_are_round_numbers_with_a_true_minus_sign():
 def test_figures_have_three_decimals_and_no_negative_zero():
     texts = [figure(value) for value in (0.12345, -0.5, -0.0001, float("nan"))]
     assert texts == ["0.123", "\N{MINUS SIGN}0.500", "0.000", "\N{EN DASH}"]
+
+
+@pytest.mark.parametrize("values", [[0.5, 0.62, 0.7], [0.01, 0.01, 0.9], [0.9, 0.9, 0.1], [3.0]])
+def test_a_histogram_says_what_its_axes_are_and_where_the_median_is(values):
+    """All of its words stay inside of the picture."""
+    drawn = histogram(np.array(values), "error in mm")
+    assert f">median {np.median(values):.3g}<" in drawn
+    assert ">error in mm<" in drawn
+    assert ">people<" in drawn
+    width, height = (float(side) for side in re.search(r'viewBox="0 0 (\d+) (\d+)"', drawn).groups())
+    for x, y, words in re.findall(r'<text class="tick middle" x="([\d.]+)" y="([\d.]+)">([^<]+)<', drawn):
+        half = 3.2 * len(words)
+        assert half < float(x) + 1
+        assert float(x) + half < width + 6
+        assert 8 < float(y) < height

@@ -1,7 +1,7 @@
 """Words of the tables of a headset network's report."""
 
 from regress.learning.headset.comparison import Rivalry
-from regress.report.headset_tables import conditions_table, rivals_table
+from regress.report.headset_tables import WORDS, conditions_table, rivals_table
 from regress.runtime.headset.figures import Summary
 
 ROW = Rivalry(rows=4, geometry_mm=1.0, rival_mm=2.0, better=0.5, people=0.5)
@@ -16,3 +16,7 @@ def test_faces_at_rest_are_no_floor():
     assert [row[0].text for row in rows] == ["rest", "one sided"]
     rows = conditions_table({"uncalibrated": FIGURES}, {"rest": FIGURES}).rows
     assert [row[0].text for row in rows] == ["no neutral picture", "floor: always the resting face"]
+
+
+def test_every_condition_is_called_otherwise():
+    assert len(set(WORDS.values())) == len(WORDS)
