@@ -13,7 +13,7 @@ import subprocess
 import tempfile
 import time
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 
 import aiohttp
@@ -158,5 +158,6 @@ class Browser:
             finally:
                 listening.cancel()
                 # left open it draws on, and looks for its server at a port that another test's may get
-                async with self._session.put(f"{self._address}/json/close/{target['id']}"):
-                    pass
+                with suppress(aiohttp.ClientError):  # where the browser has ended before it
+                    async with self._session.put(f"{self._address}/json/close/{target['id']}"):
+                        pass
