@@ -1,7 +1,7 @@
 """Scores weights on a benchmark set by its name, with confidence intervals over people.
 
-    python benchmarks/score.py landmarks-1 --data datasets/out/default                      # the set's own rows again
-    python benchmarks/score.py landmarks-1 --data datasets/out/default --predictions mine.npy --title mine
+    python benchmarks/score.py landmarks-2 --data datasets/out/default                      # the set's own rows again
+    python benchmarks/score.py landmarks-2 --data datasets/out/default --predictions mine.npy --title mine
     python benchmarks/score.py headset-1 --data datasets/out/headset-arrays --model models/mine
 
 A set is a file of ``benchmarks/sets``: spec, hashes of the data, split, and rows. Data with another hash are refused.
