@@ -162,7 +162,7 @@ $(PARTS): web/package.json web/package-lock.json
 
 # (what finds the model belongs to the extra "live", which the developers' environment has)
 # MediaPipe's wasm by the hashes of npm's lock, its model by the hash that track holds, and the ready-made networks
-$(FACE)/.made: $(PARTS) | $(TESTER)
+$(FACE)/.made: $(PARTS) regress/models/landmarks-default/weights.npz | $(TESTER)
 	mkdir -p $(FACE)
 	cp web/node_modules/@mediapipe/tasks-vision/wasm/vision_wasm_module_internal.* $(FACE)
 	cp "$$($(BIN)/python -c 'from track.detectors.model_file import model_file; print(model_file())')" $(FACE)/face_landmarker.task
