@@ -10,10 +10,12 @@ from regress.cli.headset_faces import (
     Cheeks,
     JawOpen,
     LipsRolled,
+    Placement,
     Pucker,
     Rest,
     Shut,
     Smile,
+    Take,
     Wide,
 )
 from regress.cli.options import LeftEyeOption, MouthOption, RightEyeOption
@@ -42,16 +44,11 @@ def adapt(
             "avatar whose weights are known.",
         ),
     ] = None,
-    camera: Annotated[
-        list[str] | None,
-        typer.Option("--camera", metavar="NAME=PATH", help="A camera's pictures or film of the take."),
-    ] = None,
+    camera: Take = None,
     left_eye: LeftEyeOption = None,
     right_eye: RightEyeOption = None,
     mouth: MouthOption = None,
-    placement: Annotated[
-        Path | None, typer.Option("--placement", help="TOML of `regress headset check`.")
-    ] = None,
+    placement: Placement = None,
 ) -> None:
     """Adapt a model's last layers to a person, where frames that were held out get better by it; refuse to else.
 
@@ -65,12 +62,10 @@ def adapt(
     import numpy as np
 
     from facegen.console import say
-    from regress.cli.headset_input import camera_paths
     from regress.cli.headset_minute import read_minute
     from regress.learning.headset.adaptation import LEAST_GAIN, adapted_graph, changes, judge, read_heads
     from regress.learning.headset.known_frames import known_frames
     from regress.runtime.headset.folder import save_headset_model
-    from regress.runtime.headset.placement_file import read_placement
     from regress.runtime.headset.predictor import load_headset_predictor
     from regress.runtime.model import HEADSET as KIND
     from regress.runtime.model import check_place
@@ -80,26 +75,12 @@ def adapt(
         raise InputError("--out is needed: a folder for the person's model")
     check_place(out, KIND)
     predictor = load_headset_predictor(model or HEADSET)
-    given = {
-        "rest": rest,
-        "shut": shut,
-        "wide": wide,
-        "jaw_open": jaw_open,
-        "lips_rolled": lips_rolled,
-        "smile": smile,
-        "cheeks": cheeks,
-        "brows_up": brows_up,
-        "pucker": pucker,
-    }
-    short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
-    paths = camera_paths(
-        predictor, camera or [], {name: path for name, path in short.items() if path is not None}
-    )
     minute = read_minute(
         predictor,
-        {face: text for face, text in given.items() if text is not None},
-        paths,
-        placement={} if placement is None else read_placement(placement, predictor.sizes),
+        (rest, shut, wide, jaw_open, lips_rolled, smile, cheeks, brows_up, pucker),
+        camera or [],
+        {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth},
+        placement=placement,
         labels=weights,
     )
     for note in minute.notes:

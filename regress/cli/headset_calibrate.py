@@ -11,10 +11,12 @@ from regress.cli.headset_faces import (
     JawOpen,
     LipsRolled,
     Look,
+    Placement,
     Pucker,
     Rest,
     Shut,
     Smile,
+    Take,
     Wide,
 )
 from regress.cli.options import BitsOption, LeftEyeOption, MouthOption, RightEyeOption
@@ -53,19 +55,12 @@ def calibrate(
             "--distance-m", min=0.05, max=1000, help="How far away what was looked at lies; far by default."
         ),
     ] = 1000.0,
-    camera: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--camera", metavar="NAME=PATH", help="A camera's pictures or film of one take of all faces."
-        ),
-    ] = None,
+    camera: Take = None,
     left_eye: LeftEyeOption = None,
     right_eye: RightEyeOption = None,
     mouth: MouthOption = None,
     bits: BitsOption = None,
-    placement: Annotated[
-        Path | None, typer.Option("--placement", help="TOML of `regress headset check`.")
-    ] = None,
+    placement: Placement = None,
 ) -> None:
     """Find a person's own ends of each range in a guided minute: rest becomes 0, full movements become 1.
 
@@ -75,31 +70,24 @@ def calibrate(
     Example: regress headset calibrate --rest minute/rest --shut minute/shut --jaw-open minute/jaw --out anna.json
     """
     from facegen.console import say
-    from regress.cli.headset_input import camera_paths
     from regress.cli.headset_minute import read_minute
-    from regress.runtime.headset.guided import FACES, person_of
+    from regress.runtime.headset.guided import person_of
     from regress.runtime.headset.person import write_person
-    from regress.runtime.headset.placement_file import read_placement
     from regress.runtime.headset.predictor import load_headset_predictor
     from regress.runtime.ready_made import HEADSET
 
     if out is None:
         raise InputError("--out is needed: the person's file, as anna.json")
     predictor = load_headset_predictor(model or HEADSET)
-    given = (rest, shut, wide, jaw_open, lips_rolled, smile, cheeks, brows_up, pucker, look)
-    named = {face: text for face, text in zip(FACES, given, strict=True) if text is not None}
-    short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
-    paths = camera_paths(
-        predictor, camera or [], {name: path for name, path in short.items() if path is not None}
-    )
     minute = read_minute(
         predictor,
-        named,
-        paths,
+        (rest, shut, wide, jaw_open, lips_rolled, smile, cheeks, brows_up, pucker, look),
+        camera or [],
+        {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth},
         looked_at=looked_at or [],
         distance_m=distance_m,
         bits=bits,
-        placement={} if placement is None else read_placement(placement, predictor.sizes),
+        placement=placement,
     )
     for note in minute.notes:
         say(note)

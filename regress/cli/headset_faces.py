@@ -1,5 +1,6 @@
-"""The options that name a guided minute's faces: a folder each, or frames of one take."""
+"""The options of a guided minute: a folder for each face, or frames of one take, its cameras and their places."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -22,3 +23,11 @@ Cheeks = _face("Both cheeks puffed")
 BrowsUp = _face("Brows as high as they go")
 Pucker = _face("Lips as for a kiss")
 Look = _face("Looking around, or at --looked-at")
+
+Take = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--camera", metavar="NAME=PATH", help="A camera's pictures or film of one take of all faces."
+    ),
+]
+Placement = Annotated[Path | None, typer.Option("--placement", help="TOML of `regress headset check`.")]

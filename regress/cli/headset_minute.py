@@ -13,7 +13,6 @@ from regress.errors import InputError
 if TYPE_CHECKING:
     from regress.runtime.headset.footage import Footage
     from regress.runtime.headset.guided import GuidedTake
-    from regress.runtime.headset.placement import CameraPlacement
     from regress.runtime.headset.predictor import HeadsetPredictor
 
 _RANGE = re.compile(r"(\d{1,18})-(\d{1,18})")
@@ -48,25 +47,30 @@ class Minute:
 
 def read_minute(
     predictor: "HeadsetPredictor",
-    named: Mapping[str, str],
-    paths: dict[str, Path],
+    given: Sequence[str | None],
+    camera: Sequence[str],
+    short: Mapping[str, Path | None],
     *,
     looked_at: Sequence[str] = (),
     distance_m: float = float("inf"),
     bits: int | None = None,
-    placement: "Mapping[str, CameraPlacement] | None" = None,
+    placement: Path | None = None,
     labels: Path | None = None,
 ) -> Minute:
     """Frames of each face in which every given camera has a picture.
 
     Parameters
     ----------
-    named
-        By face what its option says: a folder, or ``FIRST-LAST`` of the take at ``paths``.
+    given
+        What the options of `FACES` say, in their order: a folder, or ``FIRST-LAST`` of the take.
+    camera, short
+        The take: ``NAME=PATH`` of its cameras, and paths by the names that have an option of their own.
     looked_at
         ``FRAME:YAW:PITCH`` of frames of ``look``.
     distance_m
         Of what was looked at there.
+    placement
+        TOML with the cameras' places.
     labels
         CSV with weights of frames of the take.
 
@@ -75,15 +79,18 @@ def read_minute(
     InputError
         Where a face's frames cannot be read, or there are none.
     """
-    from regress.cli.headset_input import read_footage, targets_of
-    from regress.runtime.headset.guided import LOOK, REST, GuidedTake
+    from regress.cli.headset_input import camera_paths, read_footage, targets_of
+    from regress.runtime.headset.guided import FACES, LOOK, REST, GuidedTake
     from regress.runtime.headset.levels import level_table
     from regress.runtime.headset.looks import levels_of
+    from regress.runtime.headset.placement_file import read_placement
+
+    named = {face: text for face, text in zip(FACES, given, strict=False) if text is not None}
+    paths = camera_paths(predictor, camera, {name: path for name, path in short.items() if path is not None})
+    places = {} if placement is None else read_placement(placement, predictor.sizes)
 
     def read(cameras: dict[str, Path]) -> "Footage":
-        return read_footage(
-            predictor, None, cameras, from_start=False, fps=None, bits=bits, placement=placement
-        )
+        return read_footage(predictor, None, cameras, from_start=False, fps=None, bits=bits, placement=places)
 
     targets = targets_of(looked_at)
     if targets and LOOK not in named:
