@@ -227,8 +227,11 @@ def _hand_over(dataset: "Dataset", job: "Job", *, dry_run: bool, wait: bool, as_
         return
     submission = farm.submit(job)
     if not wait:
-        table |= {"ids": submission.ids, "commands": [] if submission.ids else engine.instructions(job)}
-        print_table(table, as_json=as_json)
+        table |= {"ids": submission.ids}
+        commands = [] if submission.ids else engine.instructions(job)
+        print_table(table | {"commands": commands} if as_json else table, as_json=as_json)
+        if not as_json:
+            print("\n".join(commands))  # a line each, to be pasted
         return
     engine.wait(job, submission)
     raise typer.Exit(_show_state(dataset, as_json=as_json))

@@ -36,6 +36,7 @@ from facegen.spec import (
 )
 from facegen.store.description import FORMAT, read_description
 from facegen.store.folder import DatasetFolder, commit_file, shard_samples, write_json
+from facegen.store.folder_card import folder_cards
 from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
 from facegen.store.sample import read_sample
 from facegen.store.stage import staging
@@ -219,7 +220,7 @@ def _asset(key: str, load: Callable[[str], _Asset], name: str) -> _Asset:
 
 
 def begin(dataset: Dataset) -> None:
-    """Write ``spec.toml`` and ``dataset.json`` of a new dataset; check an old one.
+    """Write ``spec.toml``, ``dataset.json`` and the card of a new dataset; check an old one.
 
     Raises
     ------
@@ -239,6 +240,7 @@ def begin(dataset: Dataset) -> None:
                 f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
                 f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
             )
+        _write_cards(dataset)
         return
     if others:
         raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
@@ -258,6 +260,29 @@ def begin(dataset: Dataset) -> None:
         commit_file(stage / "spec.toml", folder.spec_toml)
         write_json(stage / "dataset.json", description)
         commit_file(stage / "dataset.json", folder.dataset_json)
+    _write_cards(dataset)
+
+
+def _write_cards(dataset: Dataset) -> None:
+    """Write what is missing of ``README.md`` and ``croissant.json``.
+
+    They come last: a folder that holds them alone is somebody else's, and what a person wrote into them stays.
+    """
+    folder, spec = dataset.folder, dataset.spec
+    missing = [path for path in (folder.card, folder.croissant_json) if not os.path.lexists(path)]
+    if not missing:
+        return
+    texts = folder_cards(
+        dataset.keypoint_schema,
+        read_description(folder),
+        views=dataset.headset.camera_names,
+        split=spec.split,
+        split_shares=spec.split_shares,
+    )
+    with staging(folder, "card") as stage:
+        for path in missing:
+            (stage / path.name).write_bytes(texts[path.name])
+            commit_file(stage / path.name, path)
 
 
 def open_dataset(path: str | Path) -> Dataset:

@@ -15,6 +15,9 @@ from facegen.files import sync
 
 SAMPLES_PER_FOLDER = 1000
 
+SHARD_PATTERN = "keypoints/shard-*.parquet"
+"""Of the keypoint shards, for readers of the folder."""
+
 NAMES_OF_JSON = {
     list: "a list",
     str: "a text",
@@ -40,6 +43,16 @@ class DatasetFolder:
     def dataset_json(self) -> Path:
         """What the dataset is: spec hash, versions, licences."""
         return self.path / "dataset.json"
+
+    @property
+    def card(self) -> Path:
+        """What the dataset is, for people and Hugging Face's ``datasets``."""
+        return self.path / "README.md"
+
+    @property
+    def croissant_json(self) -> Path:
+        """What the dataset is, for ``mlcroissant``."""
+        return self.path / "croissant.json"
 
     @property
     def spec_toml(self) -> Path:

@@ -155,7 +155,8 @@ def _take_description(source: DatasetFolder, target: DatasetFolder) -> None:
     if target.dataset_json.is_file():
         return
     with staging(target, "merge") as stage:
-        for path in (source.recording_csv, source.headset_toml, source.spec_toml, source.dataset_json):
+        first = (source.recording_csv, source.headset_toml, source.spec_toml, source.dataset_json)
+        for path in (*first, source.card, source.croissant_json):
             if path.is_file():
                 shutil.copyfile(path, stage / path.name)
                 commit_file(stage / path.name, target.path / path.name)

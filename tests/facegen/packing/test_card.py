@@ -1,7 +1,8 @@
-"""Packs of Parquet carry a card and Croissant metadata: both open without a script."""
+"""Datasets and packs of Parquet carry a card and Croissant metadata: both open without a script."""
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 
 from facegen.conventions import SPLITS
 from facegen.packing import Options, plan_pack, write_pack
+from facegen.store import read_png
 
 pytestmark = [pytest.mark.blender, pytest.mark.slow]
 
@@ -34,6 +36,29 @@ print(json.dumps(said))
 """In a process of its own: both libraries warn on import."""
 
 
+FOLDER_OPENED = """
+import json, sys
+import datasets
+import mlcroissant
+
+folder = sys.argv[1]
+opened = datasets.load_dataset(folder)
+card = mlcroissant.Dataset(folder + "/croissant.json")
+trained = datasets.load_dataset(folder, split="samples", filters=[("split", "==", "train")])
+pictures = list(card.records("left_eye_pictures"))
+grey_of = {p["left_eye_pictures/sample"]: p["left_eye_pictures/picture"].convert("L") for p in pictures}
+records = list(card.records("rendered"))
+said = {
+    "splits": {name: list(rows["sample"]) for name, rows in opened.items()},
+    "train": list(trained["sample"]),
+    "records": [[r["samples/sample"], list(map(float, r["samples/weights"]))] for r in card.records("samples")],
+    "pictures": {number: list(picture.tobytes()) for number, picture in grey_of.items()},
+    "labels": {r["rendered/sample"]: json.loads(r["rendered/record"])["sample"] for r in records},
+    "warnings": list(card.metadata.issues.warnings),
+}
+print(json.dumps(said))
+"""
+
 LIBRARIES = ("datasets==5.2.0", "mlcroissant==1.1.1", "pillow")
 """In an environment of their own: they want a pyarrow and an fsspec beyond what Blender's NumPy and PyTorch allow."""
 
@@ -56,7 +81,7 @@ def python(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "bin" / "python"
 
 
-def opened(python: Path, folder: Path, column: str) -> dict:
+def opened(python: Path, folder: Path, *, program: str, words: tuple[str, ...] = ()) -> dict:
     # clean of PYTHONPATH, which may name an environment with other versions
     home = {
         "PYTHONPATH": "",
@@ -65,7 +90,7 @@ def opened(python: Path, folder: Path, column: str) -> dict:
         "HOME": str(folder.parent),
     }
     done = subprocess.run(
-        [python, "-W", "ignore", "-c", OPENED, str(folder), column],
+        [python, "-W", "ignore", "-c", program, str(folder), *words],
         env={**os.environ, **home},
         capture_output=True,
         text=True,
@@ -84,7 +109,7 @@ def test_a_pack_opens_by_its_card_and_by_its_croissant_metadata(
     table = rendered.keypoints()
     split_of = dict(zip(table["sample"].to_pylist(), table["split"].to_pylist(), strict=True))
     weights = dict(zip(table["sample"].to_pylist(), table["weights"].to_pylist(), strict=True))
-    said = opened(python, tmp_path / "pack", "weights")
+    said = opened(python, tmp_path / "pack", program=OPENED, words=("weights",))
     expected = {split: [s for s in plan.samples if split_of[s] == split] for split in SPLITS}
     assert said["splits"] == {split: samples for split, samples in expected.items() if samples}
     for split, rows in said["numbers"].items():
@@ -96,6 +121,28 @@ def test_a_pack_opens_by_its_card_and_by_its_croissant_metadata(
     size = [camera.width, camera.height] if name == "parquet" else None
     assert said["pictures"] == [size] * len(said["pictures"])
     # a date of publication would make equal packs differ
+    assert [text for text in said["warnings"] if "datePublished" not in text] == []
+
+
+def test_a_rendered_folder_opens_by_its_card_and_by_its_croissant_metadata(
+    rendered, python: Path, tmp_path: Path
+):
+    folder = shutil.copytree(rendered.folder.path, tmp_path / "folder")
+    table = rendered.keypoints()
+    samples, splits = table["sample"].to_pylist(), table["split"].to_pylist()
+    said = opened(python, folder, program=FOLDER_OPENED)
+    assert said["splits"] == {"samples": samples}
+    train = [sample for sample, split in zip(samples, splits, strict=True) if split == "train"]
+    assert said["train"] == train
+    assert 0 < len(train) < len(samples)
+    assert [sample for sample, _ in said["records"]] == samples
+    np.testing.assert_allclose([row for _, row in said["records"]], table["weights"].to_pylist(), atol=1e-7)
+    numbers = rendered.folder.rendered()
+    assert said["labels"] == {str(number): number for number in numbers}
+    assert sorted(map(int, said["pictures"])) == numbers
+    for number in numbers:
+        grey = read_png(rendered.folder.render(number) / "left_eye.png")
+        assert said["pictures"][str(number)] == grey.ravel().tolist()
     assert [text for text in said["warnings"] if "datePublished" not in text] == []
 
 

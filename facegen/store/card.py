@@ -1,0 +1,141 @@
+"""Writes what a dataset or a pack says of itself in words: a card that Hugging Face reads (``README.md``)."""
+
+import json
+from collections.abc import Mapping, Sequence
+
+import pyarrow as pa
+
+CARD = "README.md"
+
+_SIZES = (1_000, 10_000, 100_000, 1_000_000, 10_000_000)
+"""Ends of the size classes that a card may name."""
+
+
+def card(
+    schema: pa.Schema,
+    described: Mapping,
+    *,
+    title: str,
+    samples: int,
+    data_files: Sequence[tuple[str, str]],
+    contents: str,
+) -> str:
+    """Text of a card: what is in it, columns, licence and how the data were made.
+
+    Parameters
+    ----------
+    schema
+        Of its tables; fields may have notes ``description``, ``shape`` and ``unit``.
+    described
+        ``dataset.json``.
+    title
+        What people call it.
+    samples
+        How many there are.
+    data_files
+        For each split its name and the files' pattern, as ``datasets.load_dataset(FOLDER)`` takes them from the head of
+        the card (https://huggingface.co/docs/hub/datasets-manual-configuration).
+    contents
+        What the reader learns before the columns, Markdown.
+    """
+    files = "\n".join(f"  - split: {split}\n    path: {pattern}" for split, pattern in data_files)
+    columns = "".join(f"| `{field.name}` | {_type(field)} | {described_field(field)} |\n" for field in schema)
+    versions = ", ".join(f"{name} {version}" for name, version in sorted(described["versions"].items()))
+    return f"""---
+pretty_name: {json.dumps(title)}
+license: {licence_tag(described)}
+task_categories:
+- keypoint-detection
+tags:
+- faces
+- synthetic
+- blendshapes
+- landmarks
+size_categories:
+- {_size(samples)}
+configs:
+- config_name: default
+  data_files:
+{files}
+---
+
+# {title}
+
+{samples:,} samples of {described["people"]:,} synthetic people, with exact labels.
+Nobody in them exists, and nobody annotated anything.
+
+{contents}
+
+| column | type | what it holds |
+|---|---|---|
+{columns}
+## How it was made
+
+facegen made it from the spec with the hash `{described["spec_hash"]}` and the seed {described["seed"]}.
+The same spec and versions give the same labels again. Label version {described["label_version"]}; {versions}.
+{_heads(described)}
+
+## Licence
+
+{described["licence"]}.
+"""
+
+
+def described_field(field: pa.Field) -> str:
+    """What a column holds, with its shape and unit."""
+    notes = {key.decode(): text.decode() for key, text in (field.metadata or {}).items()}
+    further = [notes[key] for key in ("shape", "unit") if key in notes]
+    text = notes.get("description", "")
+    return f"{text} ({', '.join(further)})" if further else text
+
+
+def rig_names(described: Mapping) -> str:
+    """Names of the rigs of a dataset, by its ``dataset.json``."""
+    return ", ".join(rig["name"] for rig in _rigs(described))
+
+
+def licence_tag(described: Mapping) -> str:
+    """Hugging Face's word for the licence of a dataset's rigs, ``other`` where they differ."""
+    tags = {
+        "cc0-1.0" if licence.startswith("CC0") else "mit" if licence.startswith("MIT") else "other"
+        for licence in rig_licences(described)
+    }
+    return tags.pop() if len(tags) == 1 else "other"
+
+
+def rig_licences(described: Mapping) -> list[str]:
+    """Licence of each rig."""
+    return [rig["licence"] for rig in _rigs(described)]
+
+
+def _rigs(described: Mapping) -> list[Mapping]:
+    """What ``dataset.json`` says of its rig, or of each of several."""
+    return described["rigs"] if "rigs" in described else [described["rig"]]
+
+
+def _heads(described: Mapping) -> str:
+    """A sentence for each rig."""
+    return "\n".join(
+        f"The heads {_of_whom(rig)}come from the rig {rig['name']!r}, {rig['version']}: {rig['source']}."
+        for rig in _rigs(described)
+    )
+
+
+def _of_whom(rig: Mapping) -> str:
+    return f"of {rig['share']:.0%} of the people " if "share" in rig else ""
+
+
+def _type(field: pa.Field) -> str:
+    if pa.types.is_struct(field.type):
+        return "picture"
+    if pa.types.is_fixed_size_list(field.type):
+        return f"{field.type.value_type}[{field.type.list_size}]"
+    return str(field.type.value_type) + "[]" if pa.types.is_list(field.type) else str(field.type)
+
+
+def _size(samples: int) -> str:
+    names = ["1K", "10K", "100K", "1M", "10M"]
+    for number, end in enumerate(_SIZES):
+        if samples < end:
+            return f"{names[number - 1]}<n<{names[number]}" if number else "n<1K"
+    return f"n>{names[-1]}"
