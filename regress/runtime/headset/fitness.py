@@ -63,9 +63,10 @@ class Misfit(Enum):
     RIM = "in a lens circle"
     FLICKER = "flickering"
     PLACED = "elsewhere"
+    LOST = "not found"
 
 
-_PLACES = (Misfit.MIRRORED, Misfit.UPSIDE_DOWN, Misfit.PLACED)
+_PLACES = (Misfit.MIRRORED, Misfit.UPSIDE_DOWN, Misfit.PLACED, Misfit.LOST)
 """What a placement makes good."""
 
 
@@ -147,6 +148,8 @@ def _judge_camera(
         told = None if rimmed else told
         texts = _of_place(name, placement, points, picture=size, view=(width, height), told=told)
         findings += [Finding(camera=name, misfit=misfit, sentence=text) for misfit, text in texts]
+        if found.lost:
+            findings.append(Finding(camera=name, misfit=Misfit.LOST, sentence=_lost_words(name)))
     elif told is not None:
         findings.append(
             Finding(camera=name, misfit=Misfit.TURNED, sentence=f"{name} is turned or mixed up: {told}")
@@ -250,6 +253,13 @@ def _of_place(
             f"{roll_deg:.0f}°; take --placement, or render for this camera: multiply its fx and fy in the headset's "
             f"TOML by {placement.size:.2f} and move its target there",
         )
+
+
+def _lost_words(name: str) -> str:
+    return (
+        f"{name}: the eye is not found: wherever the model looks, it traces one farther out; the placement is "
+        f"the whole picture: look at --sheet, write x, y and size into --out by hand, or try another model"
+    )
 
 
 def _told_by_typical(predictor: HeadsetPredictor, footage: Mapping[str, np.ndarray]) -> dict[str, str]:

@@ -10,10 +10,16 @@ import numpy as np
 import pytest
 
 from regress.errors import InputError
+from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.fitness import Misfit, judge
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import read_placement
-from regress.runtime.headset.placement_search import find_placement
+from regress.runtime.headset.placement_search import (
+    FoundPlacement,
+    _Search,
+    find_placement,
+    placement_of_points,
+)
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from tests.regress.headset.takes import write_take
 from tests.regress.headset.tiny import write_tiny_model
@@ -177,3 +183,39 @@ def test_what_cannot_be_judged_is_refused(predictor: HeadsetPredictor, take: Tak
     (tmp_path / "empty").mkdir()
     code, _, said = run("headset", "check", "headset-tracking3", "--left-eye", tmp_path / "empty")
     assert (code, "no picture that can be read" in said) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("x", "size", "lost"), [(0.1, 1.4, True), (0.5, 1.7, True), (0.5, 0.3, True), (0.4, 1.4, False)]
+)
+def test_a_search_that_is_held_at_its_limits_gives_the_whole_picture(
+    predictor: HeadsetPredictor,
+    take: Take,
+    monkeypatch: pytest.MonkeyPatch,
+    x: float,
+    size: float,
+    lost: bool,
+):
+    def best(self, start: CameraPlacement) -> FoundPlacement:
+        unrest = 0.03 if start.mirror and not start.roll_deg else 0.05
+        placement = replace(start, x=x, size=size)
+        return FoundPlacement(placement=placement, deviation=0.1, unrest=unrest, unsettled=0.1)
+
+    monkeypatch.setattr(_Search, "best", best)
+    found = find_placement(predictor, "left_eye", take["left_eye"])
+    assert found.lost == lost
+    assert found.placement == (
+        CameraPlacement(mirror=True) if lost else replace(found.placement, x=x, size=size)
+    )
+    (one,) = judge(predictor, {"left_eye": take["left_eye"]})
+    assert (Misfit.LOST in {finding.misfit for finding in one.findings}) == lost
+    assert one.placement.mirror
+
+
+def test_a_step_says_how_far_out_the_eye_lies_whatever_the_limits_are(predictor: HeadsetPredictor):
+    points = EyePoints.of(predictor, "left_eye")
+    far = points.usual.mean(axis=0) + 3 * (points.usual - points.usual.mean(axis=0)) + [400.0, 0.0]
+    view = predictor.sizes["left_eye"]
+    wanted = placement_of_points(CameraPlacement(), far[None], points, picture=view, view=view)
+    assert wanted.size == pytest.approx(3)
+    assert wanted.x > 2
