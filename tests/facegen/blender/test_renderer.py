@@ -318,13 +318,17 @@ def test_eye_cameras_see_what_real_ones_see(anny):
     # one face that looks straight ahead, at 64 pixels
     headset = load_headset("tracking3").scaled(64)
     renderer = open_renderer(threads=2)
-    figures = []
+    figures, behind = [], []
     for look in range(3):
-        layers = renderer.render(_face(anny, headset, look), "left_eye", samples=6, seed=1)
+        face = _face(anny, headset, look)
+        layers = renderer.render(face, "left_eye", samples=6, seed=1)
         grey = develop(layers.radiance, headset.sensor)
         parts = (Part.SKIN, Part.SCLERA, Part.IRIS, Part.PUPIL, Part.LASHES, Part.HAIR)
         level = [grey[layers.part == part].mean() for part in parts]
         figures.append([grey.mean(), grey.std(), *np.percentile(grey, [1, 50, 99]), *level])
+        bare = dataclasses.replace(face, meshes=tuple(mesh for mesh in face.meshes if mesh.name != "lashes"))
+        radiance = renderer.render(bare, "left_eye", samples=6, seed=1).radiance
+        behind.append(develop(radiance, headset.sensor)[layers.part == Part.LASHES].mean())
     mean, deviation, dark, median, bright, skin, sclera, iris, pupil, lashes, hair = np.mean(figures, axis=0)
     assert 60 < mean < 85
     assert 27 < deviation < 45
@@ -336,8 +340,8 @@ def test_eye_cameras_see_what_real_ones_see(anny):
     assert 44 < iris < 72
     assert 26 < pupil < 42  # real: 31 to 37; nine pixels across, its rim mixes with the iris
     assert pupil < iris - 15 < sclera
-    # a strand is a sixth of a pixel wide here, and still there after denoising
-    assert lashes < 0.92 * skin
+    # a strand is a sixth of a pixel wide here, and still there after denoising: it darkens the lit rim of the lid
+    assert lashes < 0.75 * np.mean(behind)
     assert hair < 0.92 * skin
     shut = renderer.render(
         _face(anny, headset, 0, eyeBlinkLeft=1.0, eyeBlinkRight=1.0), "left_eye", samples=1, seed=1

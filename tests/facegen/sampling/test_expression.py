@@ -226,12 +226,13 @@ def test_no_spec_for_learning_shows_what_the_test_withholds():
     )
     assert len({one.seed for one in specs.values()}) == 3
     learned, tested = (asdict(specs[name].expression.mixture) for name in ("headset", "headset-test"))
-    special = ("combined", "one_sided")
+    # winks take from dense: the test has them among its one-sided faces
+    special = ("combined", "one_sided", "wink", "dense")
     assert {name: share for name, share in learned.items() if name not in special} == {
         name: share for name, share in tested.items() if name not in special
     }
     whole = sum(tested.values())
-    assert [tested[name] / whole for name in special] == pytest.approx([0.25, 0.15])
+    assert [tested[name] / whole for name in special[:2]] == pytest.approx([0.25, 0.15])
 
 
 def test_a_component_does_not_depend_on_what_others_draw():

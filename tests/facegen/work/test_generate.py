@@ -102,9 +102,14 @@ def test_a_folder_with_other_things_and_one_that_cannot_be_written_are_refused(t
 def test_a_start_that_was_killed_is_no_obstacle(tmp_path):
     dataset = keypoints_dataset(tmp_path / "a")
     begin(dataset)
-    dataset.folder.dataset_json.unlink()
-    begin(dataset)
-    assert json.loads(dataset.folder.dataset_json.read_text())["spec_hash"] == dataset.hash
+    folder = dataset.folder
+    last = (folder.croissant_json, folder.card, folder.dataset_json)  # the three that come last, backwards
+    for count in range(1, 4):
+        for path in last[:count]:
+            path.unlink()
+        begin(dataset)
+        assert all(path.is_file() for path in last)
+    assert json.loads(folder.dataset_json.read_text())["spec_hash"] == dataset.hash
 
 
 def test_what_is_in_quarantine_is_left_alone_until_it_is_asked_for(tmp_path):
