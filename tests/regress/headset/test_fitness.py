@@ -11,7 +11,8 @@ import pytest
 
 from regress.errors import InputError
 from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.fitness import Misfit, judge
+from regress.runtime.headset.fitness import judge
+from regress.runtime.headset.misfits import Misfit
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import read_placement
 from regress.runtime.headset.placement_search import (
