@@ -16,14 +16,11 @@ from room.avatars.check import (
     MOST_DOCUMENT_BYTES,
     MOST_DRAWN,
     MOST_NODES,
-    MOST_NUMBERS,
-    MOST_PICTURES,
-    MOST_SIDE_PIXELS,
-    MOST_TEXTURE_PIXELS,
     MOST_TRIANGLES,
 )
-from room.avatars.extensions import HOW
 from room.errors import FormatError, NotAllowed
+from room.gltf.check import MOST_NUMBERS, MOST_PICTURES, MOST_SIDE_PIXELS, MOST_TEXTURE_PIXELS
+from room.gltf.extensions import HOW
 from room.protocol.texts import Changed, Left, Notice
 from room.server.application import STATIC
 from room.server.limits import UPLOADS_BURST

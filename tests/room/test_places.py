@@ -9,8 +9,9 @@ import pytest
 from facegen.formats.gltf_container import BIN, glb_bytes, open_glb
 from room.cli.places import read_places
 from room.errors import FormatError, InputError
+from room.gltf.check import MOST_PICTURES, MOST_SIDE_PIXELS
 from room.places import BUILT_IN, read_place
-from room.places.check import MOST_NODES, MOST_PICTURES, MOST_SIDE_PIXELS, MOST_TRIANGLES
+from room.places.check import MOST_DRAWN, MOST_NODES, MOST_TRIANGLES
 from room.places.names import named
 from room.places.place import FOLDER, MOST_PLACE_BYTES
 from tests.facegen.avatars.validator import complaints
@@ -56,7 +57,8 @@ def _write(path: Path, **change: object) -> Path:
 
 
 def _drawn(count: int) -> dict[str, object]:
-    return {"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3 * count, "type": "VEC3"}]}
+    """So many triangles of zeros, which cost the file nothing."""
+    return {"accessors": [{"componentType": 5126, "count": 3 * count, "type": "VEC3"}]}
 
 
 JPEG = b"\xff\xd8\xff\xc0\x00\x11\x08\x20\x00\x20\x00\x03\x01\x22\x00\x02\x11\x01\x03\x11\x01\xff\xd9"
@@ -74,6 +76,13 @@ REFUSED = {
     "too many triangles": (_drawn(MOST_TRIANGLES + 1), "decimate it"),
     "nothing to look at": ({"nodes": [{"name": "place.1"}]}, "nothing to look at"),
     "too many nodes": ({"nodes": [{"mesh": 0}] + [{}] * MOST_NODES}, "nodes"),
+    "too many parts": ({"nodes": [{"mesh": 0}] * (MOST_DRAWN + 1)}, "parts"),
+    "a node below itself": ({"nodes": [{"mesh": 0}, {"children": [1]}]}, "hang on themselves"),
+    "a view behind the file": ({"bufferViews": [{"buffer": 0, "byteLength": 37}]}, "ends behind"),
+    "an accessor behind its view": (
+        {"accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}]},
+        "reads behind",
+    ),
     "a mesh that is not there": ({"nodes": [{"mesh": 7}]}, "damaged"),
     "nodes that are none": ({"nodes": [3]}, "damaged"),
     "extensions that are none": ({"extensionsUsed": [3]}, "damaged"),

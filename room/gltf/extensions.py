@@ -1,4 +1,4 @@
-"""Says which extensions of glTF an own avatar may have: none by which a file acts, and required ones that are read.
+"""Says which extensions of glTF a file may have: none by which it acts, and required ones that are read.
 
 References
 ----------
@@ -15,10 +15,19 @@ READ = frozenset(
     KHR_materials_ior KHR_materials_iridescence KHR_materials_sheen KHR_materials_specular
     KHR_materials_transmission KHR_materials_unlit KHR_materials_volume KHR_mesh_quantization
     KHR_texture_transform EXT_texture_webp
+    """.split()
+)
+"""What every file may require: the page's reader knows it, and it needs nothing from outside."""
+
+VRM = frozenset(
+    """
     VRM VRMC_vrm VRMC_springBone VRMC_node_constraint VRMC_materials_mtoon VRMC_materials_hdr_emissiveMultiplier
     """.split()
 )
-"""What a file may require: the page's reader knows it, and it needs nothing from outside."""
+"""What an avatar may require beside these."""
+
+LIGHTS = frozenset({"KHR_lights_punctual"})
+"""What a place may require beside these."""
 
 HOW = {
     "KHR_draco_mesh_compression": "export it without Draco compression",
@@ -31,23 +40,21 @@ ACTING = ("interactivity", "behavior", "script", "audio", "event", "link", "hubs
 """Words in names of extensions by which a file does something, asks for something, or multiplies what it draws."""
 
 
-def check_extensions(used: Iterable[str], required: Iterable[str]) -> None:
+def check_extensions(used: Iterable[str], required: Iterable[str], *, read: frozenset[str]) -> None:
     """Refuse what acts, and what is needed and not read.
 
     Raises
     ------
     FormatError
-        With the extension's name, and what to do.
+        With the extension's name, and what to do; it begins behind the name of the file.
     """
     required = tuple(required)
     for name in (*used, *required):
         if any(word in name.lower() for word in ACTING):
-            raise FormatError(
-                f"this avatar has {name[:60]}, by which a file acts by itself; export it without, as a mere body"
-            )
+            raise FormatError(f"has {name[:60]}, by which a file acts by itself; export it without")
     for name in required:
-        if name not in READ:
+        if name not in read:
             raise FormatError(
-                f"this avatar needs {name[:60]}, which the room's page does not read; "
+                f"requires {name[:60]}, which the room's page does not read; "
                 f"{HOW.get(name, 'export it without')}"
             )
