@@ -89,7 +89,16 @@ def check(
         )
     if out is not None:
         cameras = {one.camera: one.placement for one in judged}
-        write_placement(out, Placement(cameras=cameras, model=chosen))
+        found_with = predictor.model
+        write_placement(
+            out,
+            Placement(
+                cameras=cameras,
+                model=chosen,
+                headset=found_with.headset,
+                network_sha256=found_with.network_sha256,
+            ),
+        )
         say(
             f"placement in {out}; look at --sheet, then give it to `regress headset predict --placement {out}`"
         )

@@ -87,7 +87,7 @@ def read_minute(
 
     named = {face: text for face, text in zip(FACES, given, strict=False) if text is not None}
     paths = camera_paths(predictor, camera, {name: path for name, path in short.items() if path is not None})
-    places = {} if placement is None else read_placement(placement, predictor.sizes)
+    places = {} if placement is None else read_placement(placement, predictor.model)
 
     def read(cameras: dict[str, Path]) -> "Footage":
         return read_footage(predictor, None, cameras, from_start=False, fps=None, bits=bits, placement=places)
@@ -123,7 +123,7 @@ def read_minute(
     tables = {}
     for name, looks in predictor.model.looks.items():
         seen = [frames[name] for frames in pictures.values() if name in frames]
-        place = (placement or {}).get(name)
+        place = places.get(name)
         if place is not None and place.low is not None:
             tables[name] = level_table(place.low, place.high, looks, fixed=True)
         elif seen:

@@ -222,7 +222,7 @@ def predict(
     paths = camera_paths(
         predictor, camera or [], {name: path for name, path in short.items() if path is not None}
     )
-    placed = {} if placement is None else read_placement(placement, predictor.sizes)
+    placed = {} if placement is None else read_placement(placement, predictor.model)
     footage = read_footage(
         predictor, dataset, paths, from_start=from_start, fps=fps, bits=bits, placement=placed
     )

@@ -13,7 +13,6 @@ from track.profile.places import person_of, profile_path
 from track.profile.profile import NeutralFace, Profile, read_profile
 
 if TYPE_CHECKING:
-    from regress.runtime.headset.placement import CameraPlacement
     from track.session.pipeline import Pipeline
     from track.sources import Capture
 
@@ -162,7 +161,7 @@ def open_profile(
     elif wishes.profile is not None and wishes.profile.endswith(".toml"):
         say(f"{path} does not exist yet; calibrating makes it")
     if wishes.placement is not None:
-        profile = profile.model_copy(update={"placement": _placement(wishes.placement, pipeline)})
+        profile = profile.model_copy(update={"placement": pipeline.read_placement(wishes.placement)})
     profile = _told(wishes.headset, profile, pipeline, say)
     if wishes.neutral in ("auto", "none"):
         profile = profile.model_copy(update={"neutral": None, "ranges": {}})
@@ -196,14 +195,6 @@ def fitted(profile: Profile, pipeline: "Pipeline", path: Path, say: Callable[[st
     if profile.ranges:
         say(f"{path}: its ranges were read by another model and are left out; calibrate again")
     return profile.model_copy(update={"ranges": {}, "model": None})
-
-
-def _placement(path: Path, pipeline: "Pipeline") -> "dict[str, CameraPlacement]":
-    from regress.runtime.headset.placement_file import read_placement
-
-    if pipeline.mark.kind != "headset":
-        raise InputError(f"--placement {path} is for a headset's cameras, and the model takes points")
-    return read_placement(path, dict.fromkeys(pipeline.cameras))
 
 
 def _told(headset: str | None, profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:

@@ -14,6 +14,7 @@ from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, unpacked_picture
 from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.placement_file import read_placement
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.headset.soundness import PictureSoundness
 from regress.runtime.sample import Sample
@@ -146,6 +147,10 @@ class HeadsetPipeline(Pipeline):
         if self._networks.reseated:
             found["seat"] = "the headset has moved since it was calibrated; a new neutral face sets it right"
         return found
+
+    def read_placement(self, path: Path) -> dict[str, CameraPlacement]:
+        """See `Pipeline`."""
+        return read_placement(path, self._predictor.model)
 
     def use_placement(self, placement: Mapping[str, CameraPlacement]) -> None:
         """See this of each camera's pictures, at these levels; all of it, at its own levels, of those left out."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from enum import Enum
+from pathlib import Path
 
 import numpy as np
 
@@ -78,6 +79,16 @@ class Pipeline:
             Where it is of another kind of model, other cameras or another detector.
         """
         raise NotImplementedError
+
+    def read_placement(self, path: Path) -> dict[str, CameraPlacement]:
+        """Placements of the cameras out of a file.
+
+        Raises
+        ------
+        InputError
+            Where it cannot be read or is of another model, or this one takes points.
+        """
+        raise InputError(f"--placement {path} is for a headset's cameras, and the model takes points")
 
     def use_placement(self, placement: Mapping[str, CameraPlacement]) -> None:
         """See this of each camera's pictures from now on; a landmark model's detector looks for the face itself."""

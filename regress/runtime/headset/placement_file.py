@@ -3,7 +3,9 @@
 ::
 
     version = 1
-    model = "headset-tracking3"            # for people: what it was found with
+    model = "headset-tracking3"            # what it was found with, for people
+    headset = "tracking3"                  # and of which headset's network, which others are not to take
+    network_sha256 = "..."                 # that network; both may be left out
 
     [cameras.left_eye]
     x = 0.54                               # middle of the view, as a share of the picture's width
@@ -16,7 +18,6 @@
 """
 
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
@@ -27,7 +28,7 @@ from facegen.documents import load_toml
 from facegen.files import write_whole
 from regress.errors import InputError
 from regress.runtime.documents import checked
-from regress.runtime.headset.model import MOST_CAMERAS
+from regress.runtime.headset.model import MOST_CAMERAS, HeadsetModel
 from regress.runtime.headset.placement import CameraPlacement
 
 
@@ -43,6 +44,8 @@ class Placement:
         By name; what is not named is taken as it is.
     model
         What it was found with, for people.
+    headset, network_sha256
+        Of the network that it was found with; empty where it is for any, as one that was written by hand.
     """
 
     __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
@@ -50,20 +53,23 @@ class Placement:
     version: Literal[1] = 1
     cameras: Annotated[dict[str, CameraPlacement], Len(0, MOST_CAMERAS)] = field(default_factory=dict)
     model: Annotated[str, Len(0, 300)] = ""
+    headset: Annotated[str, Len(0, 300)] = ""
+    network_sha256: Annotated[str, Len(0, 64)] = ""
+
+    def suits(self, model: HeadsetModel) -> bool:
+        """Whether a model sees as the one it was found with: the same, or one that was adapted from it."""
+        known = (model.network_sha256, model.training.began_as)
+        return self.headset in ("", model.headset) and self.network_sha256 in ("", *known)
 
 
-def read_placement(path: str | os.PathLike[str], cameras: Mapping[str, object]) -> dict[str, CameraPlacement]:
+def read_placement(path: str | os.PathLike[str], model: HeadsetModel) -> dict[str, CameraPlacement]:
     """Placements by camera.
-
-    Parameters
-    ----------
-    cameras
-        What the model has.
 
     Raises
     ------
     InputError
-        Where the file is missing or too large, is no TOML, or holds a key, a value or a camera that is not allowed.
+        Where the file is missing or too large, is no TOML, was found with another model, or holds a key, a value or a
+        camera that is not allowed.
     """
     path = Path(path)
     document = load_toml(path)
@@ -71,6 +77,13 @@ def read_placement(path: str | os.PathLike[str], cameras: Mapping[str, object]) 
         placement = checked(Placement, document)
     except InputError as error:
         raise InputError(f"{path} is no placement: {error}") from error
+    if not placement.suits(model):
+        raise InputError(
+            f"{path} was found with another network ({placement.model[:60] or placement.headset[:60]}), and networks "
+            f"expect the eye in other places; `regress headset check` again with this model, or take headset and "
+            f"network_sha256 out of the file to use it nevertheless"
+        )
+    cameras = [camera.name for camera in model.cameras]
     strangers = [name for name in placement.cameras if name not in cameras]
     if strangers:
         raise InputError(
@@ -88,8 +101,12 @@ def write_placement(path: str | os.PathLike[str], placement: Placement) -> None:
         Where it cannot be written.
     """
     lines = [f"version = {placement.version}"]
-    if placement.model:
-        lines.append(f"model = {_text(placement.model)}")
+    told = {
+        "model": placement.model,
+        "headset": placement.headset,
+        "network_sha256": placement.network_sha256,
+    }
+    lines += [f"{key} = {_text(value)}" for key, value in told.items() if value]
     for name, camera in placement.cameras.items():
         lines += ["", f"[cameras.{_text(name)}]"]
         lines += [f"x = {camera.x:.4f}", f"y = {camera.y:.4f}", f"size = {camera.size:.4f}"]

@@ -171,3 +171,17 @@ def test_a_person_without_anything_changes_nothing():
     np.testing.assert_allclose(OwnEnds.of(Person(), {}).apply(weights, None), weights)
     with pytest.raises(InputError, match=r"nowhere\.json"):
         read_person("nowhere.json")
+
+
+def test_a_placement_is_looked_through_and_another_models_is_refused(run, tmp_path: Path, person: Path):
+    words = ["headset", "calibrate", *CAMERAS, "--rest", REST, "--shut", SHUT, "--out", tmp_path / "p.json"]
+    place = tmp_path / "placement.toml"
+    place.write_text("version = 1\n[cameras.left_eye]\nsize = 0.8\nlow = 20.0\nhigh = 200.0\n")
+    code, _, said = run(*words, "--placement", place)
+    assert code == 0, said
+    assert read_person(tmp_path / "p.json").neutral["left_eye"] != read_person(person).neutral["left_eye"]
+    place.write_text(f'headset = "drawn"\n{place.read_text()}')
+    for order in (words, ["headset", "predict", *CAMERAS, "--out", tmp_path / "w.csv"]):
+        code, _, said = run(*order, "--placement", place)
+        assert (code, said.count("\n"), "found with another network" in said) == (2, 1, True), said
+    assert not (tmp_path / "w.csv").exists()

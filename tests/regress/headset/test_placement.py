@@ -1,6 +1,7 @@
 """Placements: what of a picture a network sees, pixels there and back, and their file."""
 
 import string
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 
 from regress.errors import InputError
 from regress.runtime.headset.footage import line_up
+from regress.runtime.headset.model import CameraInput, HeadsetModel, HeadsetTraining
 from regress.runtime.headset.pictures import fit_picture
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import Placement, read_placement, write_placement
@@ -19,6 +21,22 @@ from regress.runtime.headset.points import traced_points
 from regress.runtime.headset.recordings import read_recording
 from tests.regress.headset.takes import write_pictures
 from tests.regress.headset.tiny import NAMES
+
+
+def model_of(cameras: Iterable[str], **changes: object) -> HeadsetModel:
+    """What a folder would say of a network of these cameras."""
+    settings = {
+        "headset": "tracking3",
+        "cameras": tuple(CameraInput(name=name, width=64, height=64) for name in cameras),
+        "parts": {},
+        "modulation": 0.3,
+        "architecture": "modular",
+        "calibration": "optional",
+        "network_sha256": "a" * 64,
+        **changes,
+    }
+    return HeadsetModel(**settings)
+
 
 sides = st.tuples(st.integers(40, 200), st.integers(40, 200))
 placements = st.builds(
@@ -76,8 +94,9 @@ def test_beyond_the_edges_their_pixels_are_repeated():
 
 @given(
     st.dictionaries(
-        st.text(string.ascii_letters + string.digits + "_-.", min_size=1, max_size=20),
+        st.text(string.ascii_letters + string.digits + "_-.", max_size=20).map("c".__add__),
         placements.flatmap(lambda one: st.sampled_from([one, replace(one, low=-3.5, high=240.25)])),
+        min_size=1,
         max_size=4,
     ),
     st.text(max_size=50),
@@ -85,7 +104,7 @@ def test_beyond_the_edges_their_pixels_are_repeated():
 def test_a_file_says_what_was_written(tmp_path_factory, cameras, model):
     path = tmp_path_factory.mktemp("placement") / "placement.toml"
     write_placement(path, Placement(cameras=cameras, model=model))
-    found = read_placement(path, cameras)
+    found = read_placement(path, model_of(cameras))
     assert list(found) == list(cameras)
     for name, one in cameras.items():
         for field, digits in (("x", 4), ("y", 4), ("size", 4), ("roll_deg", 2), ("low", 1), ("high", 1)):
@@ -115,8 +134,38 @@ def test_what_is_no_placement_is_refused_by_name(tmp_path: Path, text: str, said
     path = tmp_path / "placement.toml"
     path.write_text(text if text.startswith("version") else f"version = 1\n{text}")
     with pytest.raises(InputError, match="placement") as refused:
-        read_placement(path, dict.fromkeys(NAMES))
+        read_placement(path, model_of(NAMES))
     assert said in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "taken"),
+    [
+        ({}, True),
+        ({"network_sha256": "b" * 64, "training": HeadsetTraining(began_as="a" * 64)}, True),
+        ({"network_sha256": "b" * 64}, False),
+        # a network for any headset may have begun as one for this
+        (
+            {"headset": "drawn", "network_sha256": "b" * 64, "training": HeadsetTraining(began_as="a" * 64)},
+            False,
+        ),
+    ],
+)
+def test_a_placement_is_for_the_model_that_it_was_found_with_and_for_adapted_ones(
+    tmp_path: Path, changes: dict[str, object], taken: bool
+):
+    path = tmp_path / "placement.toml"
+    of = {"model": "headset-tracking3", "headset": "tracking3", "network_sha256": "a" * 64}
+    write_placement(path, Placement(cameras={"mouth": CameraPlacement()}, **of))
+    model = model_of(NAMES, **changes)
+    if taken:
+        assert read_placement(path, model) == {"mouth": CameraPlacement()}
+    else:
+        with pytest.raises(InputError, match=r"another network \(headset-tracking3") as refused:
+            read_placement(path, model)
+        assert "check" in str(refused.value)
+    path.write_text("version = 1\n[cameras.mouth]\nx = 0.5\n")
+    assert read_placement(path, model), "by hand, for any model"
 
 
 class Tracer:
