@@ -167,6 +167,7 @@ $(FACE)/.made: $(PARTS) regress/models/landmarks-default/weights.npz | $(TESTER)
 	cp web/node_modules/@mediapipe/tasks-vision/wasm/vision_wasm_module_internal.* $(FACE)
 	cp "$$($(BIN)/python -c 'from track.detectors.model_file import model_file; print(model_file())')" $(FACE)/face_landmarker.task
 	$(BIN)/regress export landmarks-default --format javascript --name face --out $(FACE)
+	node web/pack.mjs
 	@touch $@
 
 $(RIG): $(READY) $(wildcard facegen/rigs/*.py blender_assets/rigs/anny/*)

@@ -1,9 +1,10 @@
-"""Films docs/pictures/room-film.webp: two people meet in the room, as a third one sees them.
+"""Films docs/pictures/room-film.webp: three people meet in the operating room, as a fourth one sees them.
 
     python docs/figures/room_film.py
 
-The two are programs that send states, as pages do. Pictures are taken one by one: the page's clock stands still while
-one is drawn, so that the film runs evenly however slowly software draws. Needs Chromium, and pillow.
+The three are programs that send states, as pages do. Pictures are taken one by one: the page's clock stands still while
+one is drawn, so that the film runs evenly however slowly software draws. Needs Chromium, pillow, and the rig
+(`make rig`) for one of the people.
 """
 
 import asyncio
@@ -18,9 +19,11 @@ from PIL import Image
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(Path(__file__).parent)]
 
-from room_page import come_in, only_the_room, stand  # noqa: E402
+from room_page import come_in, dressed, only_the_room, stand  # noqa: E402
+from room_people import dressed_guest  # noqa: E402
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES  # noqa: E402
+from room.places import read_place  # noqa: E402
 from room.protocol import Animation, Flag  # noqa: E402
 from tests.browser import Tab, chromium  # noqa: E402
 from tests.room.guests import Guest, open_room  # noqa: E402
@@ -31,7 +34,7 @@ SETTLE_S = 1.0
 """Before the first picture: arms sink from how they were modelled."""
 SIZE = (560, 360)
 MOST_BYTES = 500_000
-EYE = {"x": 0.05, "z": -1.0, "heading": math.pi, "pitch": -0.1}
+EYE = {"x": 0.05, "z": 0.55, "heading": math.pi, "pitch": -0.08}
 STATES_PER_PICTURE = 3
 """36 a second, about as many as a page sends: limbs and faces are shown between them."""
 
@@ -75,7 +78,7 @@ def ada(time_s: float) -> dict[str, object]:
     """Waits, turns to who comes, waves, speaks."""
     waves, speaks = 1.6 < time_s < 3.5, 4.0 < time_s < 6.3
     return {
-        "floor_m": (-0.6, -2.75),
+        "floor_m": (-0.42, -0.8),
         "heading": 0.2 + 0.6 * ease(time_s, 0.5, 1.6),
         "shapes": face(
             time_s,
@@ -96,7 +99,7 @@ def ben(time_s: float) -> dict[str, object]:
     speaks = 6.7 < time_s < 9.0
     gesture = Animation.WAVE if 2.7 < time_s < 4.2 else Animation.NOD if 5.0 < time_s < 6.4 else 0
     return {
-        "floor_m": (3.0 - 2.35 * walked, -2.7),
+        "floor_m": (1.75 - 1.2 * walked, -0.85),
         "heading": -math.pi / 2 + 0.75 * ease(time_s, 2.2, 3.0),
         "shapes": face(
             time_s,
@@ -108,6 +111,25 @@ def ben(time_s: float) -> dict[str, object]:
         "flags": Flag.TRACKED | (Flag.SPEAKING if speaks else 0),
         "animation": gesture,
         "turn": -0.35 * ease(time_s, 2.2, 3.0),
+    }
+
+
+def mei(time_s: float) -> dict[str, object]:
+    """Stands behind the two, looks at whoever acts, and nods."""
+    turn = 0.45 * ease(time_s, 0.4, 1.2) - 0.8 * ease(time_s, 3.6, 4.3) + 0.75 * ease(time_s, 6.6, 7.3)
+    return {
+        "floor_m": (0.12, -1.5),
+        "heading": 0.0,
+        "shapes": face(
+            time_s,
+            smile=0.25 + 0.45 * during(time_s, 2.6, 5.4, 0.6),
+            speech=0.0,
+            wonder=during(time_s, 7.0, 8.2),
+            blinks=(1.1, 2.9, 5.2, 7.1, 9.1),
+        ),
+        "flags": Flag.TRACKED,
+        "animation": Animation.NOD if 5.3 < time_s < 6.3 else 0,
+        "turn": turn,
     }
 
 
@@ -143,11 +165,13 @@ async def picture(tab: Tab, folder: Path, time_ms: int) -> Image.Image:
 
 async def film(folder: Path) -> list[Image.Image]:
     """All pictures."""
-    async with open_room() as place, chromium("--use-fake-ui-for-media-stream") as browser:
+    operating = {"": read_place("operating")}
+    async with open_room(places=operating) as place, chromium("--use-fake-ui-for-media-stream") as browser:
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
         people = [
             (await place.guest(name="Ada", avatar="nora"), ada),
             (await place.guest(name="Ben", avatar="omar"), ben),
+            (await dressed_guest(place, name="Mei", avatar="mei"), mei),
         ]
         for guest, act in people:
             await guest.say(kind="voice", open=True)
@@ -157,8 +181,7 @@ async def film(folder: Path) -> list[Image.Image]:
             await come_in(tab, "Eve")
             await only_the_room(tab)
             await stand(tab, **EYE)
-            dressed = "({ figure }) => figure.avatar.name !== 'plain'"
-            await tab.until(f"meeting.known.size === 3 && [...meeting.known.values()].every({dressed})", 60)
+            await dressed(tab)
             await tab.ask("void (globalThis.clock = 0, performance.now = () => globalThis.clock)")
             await tab.ask("for (const { playback } of meeting.known.values()) playback.restart()")
             pictures = []

@@ -15,7 +15,13 @@ async def come_in(tab: Tab, name: str, avatar: str = "") -> None:
         f" form.elements.avatar.value = {json.dumps(avatar)} || form.elements.avatar.value;"
         " if (form.elements.voice.checked) form.elements.voice.click(); form.requestSubmit(); })()"
     )
-    await tab.until("globalThis.meeting?.own && meeting.placed", 90)
+    await tab.until("globalThis.meeting?.own && meeting.placed", 240)
+
+
+async def dressed(tab: Tab) -> None:
+    """Wait until everybody wears what they chose, or brought: a file that was brought is called avatar."""
+    worn = "({ person, figure }) => figure.avatar.name === (person.own ? 'avatar' : person.avatar)"
+    await tab.until(f"[...meeting.known.values()].every({worn})", 240)
 
 
 async def stand(tab: Tab, *, x: float, z: float, heading: float, pitch: float = 0.0) -> None:

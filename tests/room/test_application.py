@@ -1,12 +1,18 @@
 """What a room's server gives by HTTP: headers, numbers for operators, files; and relays with credentials that end."""
 
 import asyncio
+import gzip
+import hashlib
 import time
+from pathlib import Path
 
+import pytest
+from aiohttp.test_utils import make_mocked_request
 from yarl import URL
 
 from room.server import Relays
 from room.server.application import STATIC
+from room.server.files import answer, hold
 from room.server.limits import Bucket
 from tests.room.guests import meeting, open_room
 
@@ -59,6 +65,30 @@ def test_a_bucket_allows_a_rate_and_a_burst():
     assert [bucket.take(now=0) for _ in range(5)] == [True] * 4 + [False]
     assert [bucket.take(now=1) for _ in range(3)] == [True, True, False]
     assert [bucket.take(now=100) for _ in range(5)] == [True] * 4 + [False]
+
+
+@pytest.mark.parametrize(
+    ("takes", "gets"),
+    [
+        ("gzip, deflate, br, zstd", "br"),
+        ("br;q=1.0, gzip;q=0.5", "br"),
+        ("gzip, br;q=0", "gzip"),
+        ("GZIP ; q=0.2, br;q=0.000", "gzip"),
+        ("gzip;q=0", None),
+        ("brotli, xgzip", None),
+        ("", None),
+    ],
+)
+def test_a_packed_form_goes_to_who_takes_it(tmp_path: Path, takes: str, gets: str | None):
+    content, brotli = b"0123456789" * 1000, b"as Brotli made it"
+    (tmp_path / f"{hashlib.sha256(content).hexdigest()}.br").write_bytes(brotli)
+    request = make_mocked_request("GET", "/", headers={"Accept-Encoding": takes})
+    answered = asyncio.run(answer(request, hold(content, ".js", tmp_path)))
+    assert answered.headers.get("Content-Encoding") == gets
+    assert {"br": bytes, "gzip": gzip.decompress, None: bytes}[gets](answered.body) == (
+        brotli if gets == "br" else content
+    )
+    assert hold(content + b"!", ".js", tmp_path).brotli is None, "of another version"
 
 
 @meeting

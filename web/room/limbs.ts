@@ -5,22 +5,34 @@ import type { VRM, VRMHumanBoneName } from "@pixiv/three-vrm";
 
 import { Turn } from "../avatar/bones.js";
 import { Arm, type Palm } from "./arm.js";
+import { restFingers } from "./fingers.js";
 import type { Hand } from "./reach.js";
 
-/** Directions of a limb's two parts in the body's frame: x to the left, y up, z forward; of the left side, mirrored for the right. */
-type Directions = readonly [upper: readonly [number, number, number], lower: readonly [number, number, number]];
-type Pose = (seconds: number, side: 1 | -1) => Directions;
+/**
+ * Directions of a limb's two parts in the body's frame: x to the left, y up, z forward; of the left side, mirrored for the
+ * right. `roll` turns the lower part about itself, in radians: a palm that faces inwards comes to face down.
+ */
+type Directions = readonly [upper: readonly [number, number, number], lower: readonly [number, number, number], roll?: number];
+/** Nothing of an arm that a gesture leaves at rest. */
+type Gesture = (seconds: number, side: 1 | -1) => Directions | undefined;
 
-const HANGING: Pose = (seconds) => [
-  [0.16, -1, 0.03 * Math.sin(1.3 * seconds)],
-  [0.1, -1, 0.28],
-];
+/** `ahead` is how far a step swings the arm. */
+function hanging(seconds: number, ahead: number): Directions {
+  return [
+    [0.16, -1, 0.03 * Math.sin(1.3 * seconds) + ahead],
+    [0.1, -1, 0.28 + ahead],
+  ];
+}
+/** Hands on the thighs, palms down: hanging, they would go through the chair. */
+const ON_THIGHS: Directions = [[0.14, -0.97, 0.18], [-0.16, -0.36, 0.9], 1.1];
+
 const rightAlone =
-  (pose: Pose): Pose =>
-  (seconds, side) => (side === -1 ? pose : HANGING)(seconds, side);
+  (gesture: Gesture): Gesture =>
+  (seconds, side) =>
+    side === -1 ? gesture(seconds, side) : undefined;
 
 /** By animation's number (`ANIMATIONS`); nods and shakes are the head's. */
-const ARMS: Record<number, Pose> = {
+const ARMS: Record<number, Gesture> = {
   1: rightAlone((seconds) => [
     [0.8, -0.45, 0.35],
     [0.25 + 0.45 * Math.sin(9 * seconds), 1, 0.25],
@@ -39,11 +51,11 @@ const ARMS: Record<number, Pose> = {
   ]),
   6: (seconds) => [
     [0.3, -0.8, 0.55],
-    [-0.42 + 0.14 * Math.sin(14 * seconds), 0.12, 0.9],
+    [-0.44 + 0.26 * Math.sin(14 * seconds), 0.12, 0.9],
   ],
 };
 
-const SEATED: Pose = () => [
+const SEATED: Directions = [
   [0.12, -0.12, 1],
   [0.02, -1, 0.05],
 ];
@@ -65,6 +77,7 @@ class Limb {
   private readonly arm: Arm | undefined;
   private met = 0;
   private readonly wanted = new Quaternion();
+  private readonly roll = new Quaternion();
   private readonly direction = new Vector3();
 
   constructor(
@@ -85,6 +98,7 @@ class Limb {
     before.slerp(this.towards(0, directions), share);
     // the lower part hangs on the upper one, and is turned with it
     const lower = directions ? this.towards(1, directions, before) : this.wanted.identity();
+    if (directions?.[2]) lower.premultiply(this.roll.setFromAxisAngle(this.direction, directions[2] * this.side));
     this.stands[1].slerp(lower, share);
     this.stands[2].slerp(this.wanted.identity(), share);
     this.met = 0;
@@ -159,6 +173,7 @@ export class Limbs {
       const palm = names[0] === "Arm" ? { middle: finger("Middle"), index: finger("Index"), little: finger("Pinky") } : undefined;
       return upper && lower && end ? new Limb([upper, lower, end], root, side, palm) : undefined;
     };
+    for (const prefix of ["Left", "Right"] as const) restFingers(bones, prefix, root);
     const pair = (...names: string[]): [Limb | undefined, Limb | undefined] => [limb(names, "Left", 1), limb(names, "Right", -1)];
     this.arms = pair("Arm", "ForeArm", "Hand");
     this.legs = pair("UpLeg", "Leg", "Foot");
@@ -172,19 +187,17 @@ export class Limbs {
     const phase = (Math.PI * this.walked) / STEP_M;
     const swing = SWING * Math.min(1, Math.abs(pace));
     for (const [index, side] of ([1, -1] as const).entries()) {
-      const pose = ARMS[animation] ?? HANGING;
-      const [upper, lower] = pose(this.time, side);
-      const arm = side * swing * -0.6 * Math.sin(phase);
+      const resting = seated ? ON_THIGHS : hanging(this.time, side * swing * -0.6 * Math.sin(phase));
       const hand = hands[index];
       const follows = hand && this.arms[index]?.follow(hand, seconds);
-      if (!follows) this.arms[index]?.move(animation in ARMS ? [upper, lower] : [[upper[0], upper[1], upper[2] + arm], [lower[0], lower[1], lower[2] + arm]], share);
+      if (!follows) this.arms[index]?.move(ARMS[animation]?.(this.time, side) ?? resting, share);
       const leg = side * swing * Math.sin(phase);
       const bent = -swing * Math.max(0, side * Math.cos(phase));
       const walking: Directions = [
         [0.03, -1, leg],
         [0.03, -1, leg + bent],
       ];
-      this.legs[index]?.move(seated ? SEATED(this.time, side) : swing > 0.01 ? walking : undefined, share);
+      this.legs[index]?.move(seated ? SEATED : swing > 0.01 ? walking : undefined, share);
     }
   }
 }

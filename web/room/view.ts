@@ -1,6 +1,6 @@
 /** Draws the room as one person sees it, and that person in a small mirror. */
 
-import { Group, PCFShadowMap, PerspectiveCamera, Quaternion, Scene, SRGBColorSpace, Vector3, WebGLRenderer, NeutralToneMapping, type Object3D } from "three";
+import { DirectionalLight, Group, PCFShadowMap, PerspectiveCamera, Quaternion, Scene, SRGBColorSpace, Vector3, WebGLRenderer, NeutralToneMapping, type Object3D } from "three";
 
 import { BACKGROUND, type Place } from "./place.js";
 
@@ -8,6 +8,8 @@ const FIELD_DEG = 50;
 const MOST_PIXEL_RATIO = 2;
 /** The own body is on this layer, which the own eyes do not see; 1 and 2 are those of a headset's two eyes. */
 const SELF = 3;
+/** Of the light that goes where one looks: lamps of a ceiling leave faces in the shade of their brows, dark ones above all. */
+const FILL = 0.8;
 /** The mirror hangs so far before the face, in metres. */
 const MIRROR_M = 0.62;
 
@@ -32,6 +34,10 @@ export class View {
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.xr.enabled = true;
     this.scene.add(this.rig.add(this.camera));
+    const fill = new DirectionalLight(0xffffff, FILL);
+    fill.position.set(0, 0, 0);
+    fill.target.position.set(0, 0, -1);
+    this.camera.add(fill, fill.target);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.scene.background = BACKGROUND;
