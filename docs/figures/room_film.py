@@ -157,7 +157,9 @@ async def picture(tab: Tab, folder: Path, time_ms: int) -> Image.Image:
     newest = "[...meeting.known.values()].filter(({ person }) => person.name !== 'Eve').every"
     await tab.until(f"{newest}(({{ newest }}) => newest?.time_ms >= {time_ms})")
     await tab.ask(f"void (globalThis.clock = {time_ms})")
+    await tab.ask("void (meeting.drawing = true)")  # and not between: software would draw without an end
     await tab.ask("new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(() => drawn())))")
+    await tab.ask("void (meeting.drawing = false)")
     path = folder / "picture.png"
     await tab.picture(path)
     return Image.open(io.BytesIO(path.read_bytes())).convert("RGB")
