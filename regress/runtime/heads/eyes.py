@@ -28,8 +28,8 @@ _LIDS = (((43, 47), (44, 46)), ((37, 41), (38, 40)))
 _CORNERS_M = np.array([[0.0315, -0.0033, 0.0119], [-0.0315, -0.0033, 0.0119]])
 """Midway between each eye's corners in the head frame, of the mean face (regress/data/reference_shape.json)."""
 
-_BALL_M = np.array([[-0.0002, 0.0033, -0.0073], [0.0002, 0.0033, -0.0073]])
-"""From there to the middle of an eyeball of 12 mm whose front is where the mean face's is."""
+_BALL_M = np.array([[-0.0002, 0.0018, -0.0064], [0.0002, 0.0018, -0.0064]])
+"""From there to the middle of an eyeball of 12 mm in the lids of the mean face (`facegen.rigs.human_eyes`)."""
 
 _FARTHEST_PX = 1e15
 """Of an iris, as of landmarks (regress.runtime.inputs.faults)."""
