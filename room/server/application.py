@@ -25,6 +25,7 @@ from room.server.hall import HERTZ, Hall
 from room.server.headers import protect, same_origin
 from room.server.janus import Janus
 from room.server.keys import Keys
+from room.server.lasting import lasting
 from room.server.limits import (
     BURST_S,
     CHATS_PER_S,
@@ -77,6 +78,11 @@ class Rooms:
         Where people meet, by the name of the room; an empty name stands for all others.
     replayed
         Recording that every room of this server plays; None where people meet each other alone.
+
+    Attributes
+    ----------
+    stopped
+        Set when the server has to end: the ticks, or what reaches other processes and engines, have failed.
     """
 
     def __init__(
@@ -105,6 +111,7 @@ class Rooms:
         self._dressing = Dressing(keys, self._wardrobe, self._halls.get, origins)
         self._places = {room: hold(place.content, ".glb") for room, place in (places or {}).items()}
         self.metrics = Metrics()
+        self.stopped = asyncio.Event()
 
     def application(self) -> web.Application:
         """Everything that is answered, and the ticks behind it."""
@@ -244,6 +251,7 @@ class Rooms:
         return hall
 
     async def _open(self, name: str) -> None:
+        switchboard = self._switchboard(name)
         hall = Hall(
             name,
             most_people=self._limits.people,
@@ -253,9 +261,14 @@ class Rooms:
             replay=Replay(self._replayed) if self._replayed else None,
             telegraph=self._telegraph,
             carrier=self._carrier,
-            switchboard=self._switchboard(name),
+            switchboard=switchboard,
         )
-        await hall.open()
+        try:
+            await hall.open()
+        except NotAllowed:
+            if switchboard:
+                switchboard.close()  # Janus would else tell it of every end and beginning, for ever
+            raise
         self._halls[name] = hall
 
     def _switchboard(self, name: str) -> Switchboard | None:
@@ -297,14 +310,12 @@ class Rooms:
     async def _reaching(self, application: web.Application) -> AsyncIterator[None]:
         async with AsyncExitStack() as stack:
             for reached in (*self._engines, *([self._telegraph] if self._telegraph else ())):
-                await stack.enter_async_context(reached.running())
+                await stack.enter_async_context(reached.running(failed=self.stopped.set))
             yield
 
     async def _ticking(self, application: web.Application) -> AsyncIterator[None]:
-        task = asyncio.create_task(self._tick())
-        yield
-        task.cancel()
-        await asyncio.gather(task, return_exceptions=True)
+        async with lasting(self._tick, failed=self.stopped.set):
+            yield
 
     async def _tick(self) -> None:
         due = time.monotonic()

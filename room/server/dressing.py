@@ -45,7 +45,7 @@ class Dressing:
         self, keys: Keys, wardrobe: Wardrobe, hall_of: Callable[[str], Hall | None], origins: frozenset[str]
     ) -> None:
         self._keys, self._wardrobe, self._hall_of, self._origins = keys, wardrobe, hall_of, origins
-        self._uploads = 0
+        self._uploading: set[tuple[str, str]] = set()
         self._checking = asyncio.Lock()
 
     async def take(self, request: web.Request) -> web.Response:
@@ -61,9 +61,12 @@ class Dressing:
             now=asyncio.get_running_loop().time()
         ):
             raise web.HTTPTooManyRequests(text="too many avatars at once; wait half a minute\n")
-        if self._uploads >= MOST_UPLOADS:
+        wearer = (hall.name, seat.id)
+        if wearer in self._uploading:  # who sends four slowly would keep all others from theirs
+            raise web.HTTPTooManyRequests(text="another avatar of yours is on its way; wait until it is there\n")
+        if len(self._uploading) >= MOST_UPLOADS:
             raise web.HTTPServiceUnavailable(text="many bring avatars at once; try again in a minute\n")
-        self._uploads += 1
+        self._uploading.add(wearer)
         try:
             content = await asyncio.wait_for(_body(request), UPLOAD_S)
             async with self._checking:  # one after the other, beside the loop: who meets notices nothing
@@ -75,12 +78,14 @@ class Dressing:
             raise web.HTTPRequestTimeout(
                 text=f"the avatar did not arrive in {UPLOAD_S:g} seconds\n"
             ) from None
+        except ConnectionError:  # they have gone: no fault of this server's, and nobody reads the answer
+            raise web.HTTPBadRequest(text="the avatar broke off\n") from None
         except FormatError as error:
             raise web.HTTPUnprocessableEntity(text=f"{error}\n") from None
         except NotAllowed as error:
             raise web.HTTPServiceUnavailable(text=f"{error}\n") from None
         finally:
-            self._uploads -= 1
+            self._uploading.remove(wearer)
 
     async def give(self, request: web.Request) -> web.Response:
         """A download; the page asks once for each avatar."""

@@ -15,6 +15,7 @@ from aiohttp import ClientError, ClientSession, ClientTimeout, ClientWebSocketRe
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from room.errors import InputError
+from room.server.lasting import lasting
 
 MOST_WORD_BYTES = 1024**2
 """Of one message of Janus: the lines of a hundred voices with all their addresses have 0.1 MB."""
@@ -143,14 +144,10 @@ class Janus:
         self._told_gone = False
 
     @asynccontextmanager
-    async def running(self) -> AsyncIterator[None]:
-        """Stay connected until the context ends."""
-        task = asyncio.create_task(self._stay())
-        try:
+    async def running(self, *, failed: Callable[[], None]) -> AsyncIterator[None]:
+        """Stay connected until the context ends; ``failed`` is called if that ends by a fault of this program."""
+        async with lasting(self._stay, failed=failed):
             yield
-        finally:
-            task.cancel()
-            await asyncio.gather(task, return_exceptions=True)
 
     async def attach(self, heard: Heard) -> int:
         """A new handle of the video room; ``heard`` is called with what Janus tells it unasked.

@@ -80,15 +80,14 @@ async def _serve(
             ) from None
         port = runner.addresses[0][1]
         started(f"{address.scheme}://{f'[{address.host}]' if ':' in address.host else address.host}:{port}")
-        await _stopped()
+        await _stopped(rooms.stopped)
     finally:
         await runner.cleanup()
     raise KeyboardInterrupt  # everybody was told; now the program ends as it does whenever it is stopped
 
 
-async def _stopped() -> None:
-    """Wait for Ctrl-C or SIGTERM; where a loop takes no signals, as on Windows, they end it by themselves."""
-    stopped = asyncio.Event()
+async def _stopped(stopped: asyncio.Event) -> None:
+    """Wait for Ctrl-C, SIGTERM or a fault; where a loop takes no signals, as on Windows, they end it by themselves."""
     with suppress(NotImplementedError):
         for number in (signal.SIGINT, signal.SIGTERM):
             asyncio.get_running_loop().add_signal_handler(number, stopped.set)

@@ -18,6 +18,7 @@ from redis.backoff import NoBackoff
 from redis.exceptions import RedisError
 
 from room.errors import InputError, NotAllowed
+from room.server.lasting import lasting
 
 MOST_WAITING = 1000
 """Messages that wait to be published, of all rooms together; older ones are dropped, as newer ones say more."""
@@ -73,15 +74,12 @@ class Telegraph:
         self._told_gone = False
 
     @asynccontextmanager
-    async def running(self) -> AsyncIterator[None]:
-        """Hear and speak until the context ends."""
-        tasks = [asyncio.create_task(work()) for work in (self._listen, self._speak)]
+    async def running(self, *, failed: Callable[[], None]) -> AsyncIterator[None]:
+        """Hear and speak until the context ends; ``failed`` is called if that ends by a fault of this program."""
         try:
-            yield
+            async with lasting(self._listen, self._speak, failed=failed):
+                yield
         finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
             with suppress(RedisError, OSError):
                 await self._redis.aclose()
 

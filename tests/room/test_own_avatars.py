@@ -23,7 +23,7 @@ from room.gltf.check import MOST_NUMBERS, MOST_PICTURES, MOST_SIDE_PIXELS, MOST_
 from room.gltf.extensions import HOW
 from room.protocol.texts import Changed, Left, Notice
 from room.server.application import STATIC
-from room.server.limits import UPLOADS_BURST
+from room.server.limits import MOST_UPLOADS, UPLOADS_BURST
 from tests.room.avatars import BINARY, POINTS, avatar, png, textured
 from tests.room.guests import Guest, Place, open_room
 
@@ -307,3 +307,40 @@ def test_who_tries_again_and_again_waits():
         assert (await bring(place, ben, avatar()))[0] == 200, "others do not"
 
     meet(run)
+
+
+def test_one_who_sends_slowly_keeps_nobody_else_from_it():
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        rest = asyncio.Event()
+
+        async def slow():
+            yield b"x"
+            await rest.wait()
+
+        first = asyncio.create_task(bring(place, ada, slow()))
+        for _ in range(MOST_UPLOADS - 1):
+            await asyncio.sleep(0.05)
+            status, sentence = await bring(place, ada, slow())
+            assert (status, "another avatar of yours" in sentence) == (429, True)
+        assert (await bring(place, ben, avatar()))[0] == 200
+        rest.set()
+        assert (await first)[0] == 422
+
+    meet(run)
+
+
+def test_an_avatar_that_breaks_off_is_no_fault_of_the_servers(caplog: pytest.LogCaptureFixture):
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        for _ in range(2):
+
+            async def slow():
+                yield b"x"
+                await asyncio.Event().wait()
+
+            first = asyncio.create_task(bring(place, ada, slow()))
+            await asyncio.sleep(0.2)
+            first.cancel()
+            await asyncio.sleep(0.2)
+
+    meet(run)
+    assert not caplog.records, "each would be a traceback in the operator's log"

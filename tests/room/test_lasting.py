@@ -1,0 +1,70 @@
+"""A server whose works fail: it ends, and says why, in place of going on without them."""
+
+import asyncio
+from functools import partial
+
+import pytest
+
+from room.errors import NotAllowed
+from room.server import Limits, Relays, Rooms, new_keys
+from room.server.hall import Hall
+from room.server.janus import Janus
+from room.server.lasting import lasting
+from room.server.serve import Address, serve
+from tests.room.guests import Place
+
+
+def test_works_end_with_the_context():
+    async def run() -> list[str]:
+        heard: list[str] = []
+
+        async def work() -> None:
+            try:
+                await asyncio.Event().wait()
+            finally:
+                heard.append("ended")
+
+        async with lasting(work, work, failed=partial(heard.append, "failed")):
+            await asyncio.sleep(0)
+        return heard
+
+    assert asyncio.run(run()) == ["ended", "ended"]
+
+
+def test_a_tick_that_fails_ends_the_server(monkeypatch: pytest.MonkeyPatch):
+    def tick(hall: Hall, *, now: float) -> None:
+        raise ZeroDivisionError("a fault of ours")
+
+    monkeypatch.setattr(Hall, "tick", tick)
+    keys = new_keys()
+    coming: list[asyncio.Task[None]] = []
+
+    async def come(address: str) -> None:
+        place = Place(address, keys)
+        try:
+            await (await place.come()).reading
+        finally:
+            await place.session.close()
+
+    def started(address: str) -> None:
+        coming.append(asyncio.get_running_loop().create_task(come(address)))
+
+    with pytest.raises(ZeroDivisionError, match="a fault of ours"):
+        serve(Rooms(keys, limits=Limits(), relays=Relays()), Address(port=0), started=started)
+
+
+def test_a_room_that_cannot_be_opened_leaves_nothing_at_its_engine(monkeypatch: pytest.MonkeyPatch):
+    async def open_(hall: Hall) -> None:
+        raise NotAllowed("this room cannot be reached", again=True)
+
+    monkeypatch.setattr(Hall, "open", open_)
+
+    async def run() -> int:
+        engine = Janus("ws://127.0.0.1:9")
+        rooms = Rooms(new_keys(), limits=Limits(), relays=Relays(), engines=[engine])
+        for _ in range(3):
+            with pytest.raises(NotAllowed):
+                await rooms._hall("meeting")
+        return len(engine.watchers)
+
+    assert asyncio.run(run()) == 0
