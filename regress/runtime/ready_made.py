@@ -19,6 +19,11 @@ def ready_made_models() -> dict[str, Path]:
     return {path.parent.name: path.parent for path in sorted(FOLDER.glob("*/model.json"))}
 
 
+def ready_made_names(file: str) -> str:
+    """Names of the ready-made models that have a file, weights.npz or network.onnx, for a sentence."""
+    return ", ".join(name for name, folder in ready_made_models().items() if (folder / file).is_file())
+
+
 def model_folder(model: str | os.PathLike[str]) -> Path:
     """The folder itself where it exists, or that of a model.json, else that of the ready-made model of this name."""
     folder = Path(model)

@@ -10,19 +10,9 @@ from room.errors import InputError
 if TYPE_CHECKING:
     from room.server import Keys
 
-RoomNames = Annotated[
-    list[str], typer.Option("--room", help="Name of a room, a-z, 0-9 and -; may be repeated.")
-]
 
-
-def print_links(keys: "Keys", rooms: Iterable[str], where: str) -> None:
-    """Print two lines for each room: the link of its guests, and that of its moderators.
-
-    Raises
-    ------
-    InputError
-        If a name is none.
-    """
+def _names(rooms: list[str]) -> list[str]:
+    """The names, before anything else is looked at: a refused command writes no file of keys."""
     from room.server.application import ROOM_NAME
 
     for room in rooms:
@@ -30,5 +20,17 @@ def print_links(keys: "Keys", rooms: Iterable[str], where: str) -> None:
             raise InputError(
                 f"--room {room!r}: must be of 1 to 40 characters a-z, 0-9 and -, and not begin with -"
             )
+    return rooms
+
+
+RoomNames = Annotated[
+    list[str],
+    typer.Option("--room", help="Name of a room, a-z, 0-9 and -; may be repeated.", callback=_names),
+]
+
+
+def print_links(keys: "Keys", rooms: Iterable[str], where: str) -> None:
+    """Print two lines for each room: the link of its guests, and that of its moderators."""
+    for room in rooms:
         for role in ("guest", "moderator"):
             print(f"{room}\t{role}\t{where.rstrip('/')}/room/{room}#{keys.key(room, role)}", flush=True)

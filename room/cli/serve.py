@@ -69,15 +69,16 @@ def serve(
     Example: room serve --host 0.0.0.0 --cert cert.pem --key key.pem --keys room.keys
     """
     from room.errors import InputError
-    from room.server import Address, Limits, Relays, Rooms, load_keys, new_keys
+    from room.server import Address, Limits, Relays, Rooms, keep_keys, new_keys, read_keys
     from room.server import serve as run
 
     places = read_places(place or ())
-    held = load_keys(keys) if keys else new_keys()
     if bool(turn) != bool(turn_secret):
         raise InputError("a relay needs both --turn and --turn-secret")
     secret = _secret(turn_secret, "coturn's static-auth-secret")
     engines = _engines(janus, janus_secret)
+    known = keys is not None and keys.exists()
+    held = read_keys(keys) if keys and known else new_keys()
     telegraph = _telegraph(redis, held, shared=keys is not None, recorded=record is not None)
     recorder = _recorder(record, names)
     relays = Relays(stun=tuple(stun or ()), turn=tuple(turn or ()), secret=secret)
@@ -95,6 +96,8 @@ def serve(
     address = Address(host=host, port=port, certificate=cert, private_key=key)
 
     def started(where: str) -> None:
+        if keys and not known:  # a command that was refused has written nothing
+            keep_keys(held, keys)
         print_links(held, names, where)
         if not cert and host not in ("127.0.0.1", "::1", "localhost"):
             say(

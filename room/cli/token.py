@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from facegen.console import say
 from room.cli.links import RoomNames, print_links
 
 
@@ -19,4 +20,10 @@ def token(
     """
     from room.server import load_keys
 
-    print_links(load_keys(keys), names, address)
+    known = keys.exists()
+    held = load_keys(keys)
+    if not known:
+        say(
+            f"room: {keys} was not there and is made: these links open rooms of `room serve --keys {keys}` alone"
+        )
+    print_links(held, names, address)

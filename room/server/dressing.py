@@ -63,7 +63,9 @@ class Dressing:
             raise web.HTTPTooManyRequests(text="too many avatars at once; wait half a minute\n")
         wearer = (hall.name, seat.id)
         if wearer in self._uploading:  # who sends four slowly would keep all others from theirs
-            raise web.HTTPTooManyRequests(text="another avatar of yours is on its way; wait until it is there\n")
+            raise web.HTTPTooManyRequests(
+                text="another avatar of yours is on its way; wait until it is there\n"
+            )
         if len(self._uploading) >= MOST_UPLOADS:
             raise web.HTTPServiceUnavailable(text="many bring avatars at once; try again in a minute\n")
         self._uploading.add(wearer)

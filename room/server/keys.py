@@ -52,20 +52,40 @@ def new_keys() -> Keys:
 
 
 def load_keys(path: Path) -> Keys:
-    """Read the secret of a file, which is made where there is none, for its owner alone.
+    """Read the secret of a file, which is made where there is none.
+
+    Raises
+    ------
+    InputError, OutputError
+        As `read_keys` and `keep_keys`.
+    """
+    if not path.exists():
+        keep_keys(new_keys(), path)
+    return read_keys(path)
+
+
+def keep_keys(keys: Keys, path: Path) -> None:
+    """Write a secret into a new file, for its owner alone.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be made.
+    """
+    with output_errors(path):
+        handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+        with open(handle, "w", encoding="ascii") as file:
+            file.write(keys.secret.hex() + "\n")
+
+
+def read_keys(path: Path) -> Keys:
+    """Read the secret of a file.
 
     Raises
     ------
     InputError
         If the file cannot be read, or holds no secret.
-    OutputError
-        If it cannot be made.
     """
-    if not path.exists():
-        with output_errors(path):
-            handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-            with open(handle, "w", encoding="ascii") as file:
-                file.write(secrets.token_hex(_SECRET_BYTES) + "\n")
     try:
         with open(path, encoding="ascii") as file:
             text = file.read(2 * _SECRET_BYTES + 2).strip()

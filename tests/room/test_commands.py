@@ -38,7 +38,9 @@ def test_token_prints_the_same_links_whenever_it_is_asked(tmp_path):
     assert moderator[2] != guest[2]
     if os.name == "posix":
         assert stat.S_IMODE(keys.stat().st_mode) == 0o600, "whoever reads it can come in everywhere"
+    assert not again.stderr
     other = room("token", "--keys", tmp_path / "other.keys", "--room", "lab")
+    assert "other.keys was not there and is made" in other.stderr, "as a mistyped name would be"
     assert guest[2].split("#")[1] not in other.stdout
 
 
@@ -79,6 +81,9 @@ REFUSED = {
     "a host with an empty part": ("serve", "--port", "0", "--host", "a..b"),
     "a host that is no one": ("serve", "--port", "0", "--host", "256.0.0.1"),
     "a port that is taken": ("serve", "--port", "{taken}"),
+    "a name of no room, of new keys": ("token", "--keys", "{folder}/new", "--room", "My Room"),
+    "a name of no room, of a server": ("serve", "--keys", "{folder}/new", "--room", "My Room"),
+    "a host that is no one, of new keys": ("serve", "--keys", "{folder}/new", "--host", "256.0.0.1"),
     "no place at all": ("serve", "--port", "0", "--people", "0"),
 }
 
@@ -96,6 +101,7 @@ def test_what_cannot_be_used_is_refused_in_a_sentence(arguments, tmp_path):
     assert done.returncode in (2, 74), done.stderr
     assert "Traceback" not in done.stderr
     assert "#" not in done.stdout, "no link of a room that is not open"
+    assert not (tmp_path / "new").exists(), "keys of a server that never was"
     if "--people" not in arguments:  # that one is Typer's, with the usage above it
         assert done.stderr.count("\n") == 1, done.stderr
 
@@ -122,7 +128,7 @@ def test_engines_that_cannot_be_used_are_refused_before_anything_is_written(case
     result = CliRunner().invoke(app, ["serve", "--port", "0", *filled])
     assert isinstance(result.exception, InputError)
     assert words in str(result.exception)
-    assert not (tmp_path / "r").exists()
+    assert [path.name for path in tmp_path.iterdir()] == ["empty"]
 
 
 @pytest.mark.parametrize(

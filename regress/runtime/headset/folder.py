@@ -14,6 +14,7 @@ from regress.runtime.documents import checked, read_document
 from regress.runtime.headset.figures import evaluation_from_json, evaluation_to_json
 from regress.runtime.headset.model import HeadsetModel
 from regress.runtime.model import HEADSET, KEYPOINTS, write_folder
+from regress.runtime.ready_made import ready_made_names
 
 VERSION = 1
 
@@ -76,7 +77,8 @@ def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
                 f"{folder} is a model of 68 points; `regress` commands without `headset` take it"
             )
         raise ModelError(
-            f"{needed} does not exist; a headset model is a folder with model.json and network.onnx"
+            f"{needed} does not exist; a headset model is a folder with model.json and network.onnx, or the name of a "
+            f"ready-made one: {ready_made_names('network.onnx')}"
         )
     try:
         document = read_document(path)

@@ -23,7 +23,7 @@ from regress.runtime.model.model import Calibrated, Model, Normalisation
 from regress.runtime.model.place import KEYPOINTS, write_folder
 from regress.runtime.model.record import TrainingRecord, record_to_json
 from regress.runtime.networks import Denoising, FoldedNetworks
-from regress.runtime.ready_made import model_folder
+from regress.runtime.ready_made import model_folder, ready_made_names
 from regress.targets import Network, observability
 
 SCHEMAS = (1, 2, 3, 4, 5)
@@ -69,7 +69,10 @@ def load_model(folder: str | os.PathLike[str]) -> Model:
             continue
         if (folder / "network.onnx").is_file():
             raise ModelError(f"{folder} is a model of headset pictures; `regress headset` commands take it")
-        raise ModelError(f"{path} does not exist; a model is a folder with model.json and weights.npz")
+        raise ModelError(
+            f"{path} does not exist; a model is a folder with model.json and weights.npz, or the name of a ready-made "
+            f"one: {ready_made_names('weights.npz')}"
+        )
     document = _read_document(document_path)
     arrays = _read_arrays(weights_path, document.weights_sha256)
     sizes = Sizes(
