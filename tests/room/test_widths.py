@@ -1,0 +1,81 @@
+"""The room's page at the width of a telephone, a tablet and a wide screen: nothing lies on another, or outside."""
+
+import asyncio
+import json
+from itertools import combinations
+
+import pytest
+
+from tests.browser import Tab, chromium, needs_chromium
+from tests.room.guests import open_room
+from tests.room.test_page import come_in
+
+pytestmark = [needs_chromium, pytest.mark.slow]
+
+SIZES = ((360, 640), (400, 780), (800, 600), (1600, 900))
+NAMES = ("Bea", "Dr. Maximiliana Featherstone-Ogilvy", "Carl")
+PARTS = ("#mirror", "nav", "nav > div", "#leave", "aside", "#people", "#lines", "#chat")
+APART = ("#mirror", "nav > div", "#leave", "aside")
+BOXES = """Object.fromEntries(%s.map((part) => {
+  const { left, top, right, bottom } = document.querySelector(part).getBoundingClientRect();
+  return [part, [left, top, right, bottom]];
+}))"""
+
+Box = tuple[float, float, float, float]
+"""Left, top, right and bottom in pixels."""
+
+
+async def boxes(tab: Tab, *parts: str) -> dict[str, Box]:
+    return await tab.ask(BOXES % json.dumps(parts))
+
+
+def inside(box: Box, width: int, height: int) -> bool:
+    return 0 <= box[0] < box[2] <= width and 0 <= box[1] < box[3] <= height
+
+
+def overlap(a: Box, b: Box) -> bool:
+    return min(a[2], b[2]) > max(a[0], b[0]) and min(a[3], b[3]) > max(a[1], b[1])
+
+
+async def observe() -> list[str]:
+    """What is wrong, a sentence each."""
+    wrong = []
+    async with open_room() as place, chromium("--use-fake-ui-for-media-stream") as browser:
+        link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'moderator')}"
+        for name in NAMES:
+            guest = await place.guest(name=name)
+            await guest.say(
+                kind="chat", text="A line that is longer than the list of all who are here is wide."
+            )
+        async with browser.open(link) as tab:
+            await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+            for width, height in SIZES:
+                await tab.look(width=width, height=height)
+                door = await boxes(tab, "#join", "#join > button", "#join [name=name]")
+                wrong += [
+                    f"{width}: {part} at {box}"
+                    for part, box in door.items()
+                    if not inside(box, width, height)
+                ]
+            await tab.look(width=200, height=120)  # software draws the first pictures slowly
+            await come_in(tab, "Ada")
+            await guest.say(kind="chat", text="And one that Ada reads.")
+            await tab.until("document.querySelector('#lines li')")
+            for width, height in SIZES:
+                await tab.look(width=width, height=height)
+                seen = await boxes(tab, *PARTS)
+                wrong += [
+                    f"{width}: {part} at {box}"
+                    for part, box in seen.items()
+                    if not inside(box, width, height)
+                ]
+                wrong += [
+                    f"{width}: {a} on {b}" for a, b in combinations(APART, 2) if overlap(seen[a], seen[b])
+                ]
+                lines = seen["#lines"]
+                wrong += [f"{width}: no line is read"] if lines[3] - lines[1] < 40 else []
+    return wrong
+
+
+def test_nothing_lies_on_another_or_outside():
+    assert asyncio.run(observe()) == []
