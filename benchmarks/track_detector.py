@@ -170,28 +170,43 @@ def tell_times(stopwatch: Stopwatch) -> None:
         print(f"| {step} | {np.median(taken_ms):.2f} | {np.percentile(taken_ms, 95):.2f} |")
 
 
-def tell_truth(watched: Watched, model: Model, truth: dict[str, np.ndarray]) -> None:
-    """Print how both opinions agree with what is true, in Markdown.
-
-    Parameters
-    ----------
-    truth
-        By column: 52 weights, and degrees under the names of ``docs/samples/acting.py``.
-    """
+def beside_truth(
+    watched: Watched, model: Model, truth: dict[str, np.ndarray]
+) -> dict[str, tuple[float, float, float, float]]:
+    """By shape that moves: r of ours and of MediaPipe's weights with what is true, and mean absolute errors of both."""
     if len(watched.samples) != len(truth["frame"]):
         sys.exit(f"a face is seen in {len(watched.samples)} frames, and the truth has {len(truth['frame'])}")
     true = np.array([truth[name] for name in BLENDSHAPES]).T
     rest = np.flatnonzero(true.sum(axis=1) == 0)[WARMING:]
     ours = model.calibrate(watched.points[rest]).predict(watched.points)
     ours[:, LOOKS] = watched.gaze_weights(rest)
+    both, found = (ours, watched.theirs), {}
+    for column in np.flatnonzero(true.std(axis=0) > MOVES):
+        r = [_r(each[:, column], true[:, column]) for each in both]
+        mae = [float(np.abs(each[:, column] - true[:, column]).mean()) for each in both]
+        found[BLENDSHAPES[column]] = (*r, *mae)
+    return found
+
+
+def read_truth(path: Path) -> dict[str, np.ndarray]:
+    """What a face does in a film, by column: 52 weights, and degrees under the names of ``docs/samples/acting.py``."""
+    table = np.genfromtxt(path, delimiter=",", names=True)
+    return {name: table[name] for name in table.dtype.names}
+
+
+def tell_truth(watched: Watched, model: Model, truth: dict[str, np.ndarray]) -> None:
+    """Print how both opinions agree with what is true, in Markdown.
+
+    Parameters
+    ----------
+    truth
+        As :func:`read_truth` gives it.
+    """
     print("\n| shape | r, ours | r, MediaPipe | MAE, ours | MAE, MediaPipe |\n|---|---|---|---|---|")
     figures = []
-    for column in np.flatnonzero(true.std(axis=0) > MOVES):
-        name = BLENDSHAPES[column]
-        r = [_r(each[:, column], true[:, column]) for each in (ours, watched.theirs)]
-        mae = [np.abs(each[:, column] - true[:, column]).mean() for each in (ours, watched.theirs)]
-        figures.append((*r, *mae))
-        print(f"| {name} | {r[0]:.2f} | {r[1]:.2f} | {mae[0]:.3f} | {mae[1]:.3f} |")
+    for name, row in beside_truth(watched, model, truth).items():
+        figures.append(row)
+        print(f"| {name} | {row[0]:.2f} | {row[1]:.2f} | {row[2]:.3f} | {row[3]:.3f} |")
     r_ours, r_theirs, mae_ours, mae_theirs = np.median(figures, axis=0)
     print(f"| median of {len(figures)} | {r_ours:.2f} | {r_theirs:.2f} | {mae_ours:.3f} | {mae_theirs:.3f} |")
     heads = np.degrees([sample.head[3:] for sample in watched.samples])
@@ -237,8 +252,7 @@ def main() -> None:
         f"{arguments.model} ({model.recipe})"
     )
     if arguments.truth:
-        table = np.genfromtxt(arguments.truth, delimiter=",", names=True)
-        tell_truth(watched, model, {name: table[name] for name in table.dtype.names})
+        tell_truth(watched, model, read_truth(arguments.truth))
         tell_times(stopwatch)
     else:
         tell(films, stopwatch)

@@ -48,6 +48,9 @@ class DetectorNoise:
     eyes
         Factor on the jitter of the twelve points of the eyes: lids open by a few pixels, and with all of the jitter
         networks read winks as blinks.
+    movement
+        Least share of a movement away from the neutral face that is shown: a detector's own by region, log-uniform from
+        this to 1 (``regress.learning.training.shrinking``). Faces without a neutral frame stay.
     copies
         How often each face is trained on, displaced anew each time.
     """
@@ -59,6 +62,7 @@ class DetectorNoise:
     clean: float = 0.5
     unbiased: float = 0.0
     eyes: float = 1.0
+    movement: float = 1.0
     copies: int = 1
 
     def staying(self, rng: np.random.Generator, count: int) -> np.ndarray:

@@ -8,6 +8,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, MIRRORED_BLENDSHAPES, MIRRORED
 from regress.learning.networks import Rows, fit_denoising
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.noise import DetectorNoise, displace, draw_displacements
+from regress.learning.training.shrinking import draw_gains, shrink
 from regress.runtime.features import Features, extract, mirrored_edges
 from regress.runtime.model import Normalisation
 from regress.runtime.networks import Denoising
@@ -155,9 +156,12 @@ def faces_of(dataset: KeypointDataset, split: str, *, calibrated: bool) -> Faces
 def as_detected(faces: Faces, noise: DetectorNoise, rng: np.random.Generator) -> Faces:
     """Faces as a detector would give them, with a bias of its own for each."""
     frame, neutral = draw_displacements(noise, rng, len(faces.points))
+    points = faces.points
+    if noise.movement < 1 and faces.neutral is not None:
+        points = shrink(points, faces.neutral, draw_gains(rng, len(points), least=noise.movement))
     return replace(
         faces,
-        points=displace(faces.points, frame),
+        points=displace(points, frame),
         neutral=None if faces.neutral is None else displace(faces.neutral, neutral),
     )
 
