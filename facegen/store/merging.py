@@ -151,12 +151,13 @@ def _link(source: Path, target: Path, *, copy: bool) -> None:
 
 
 def _take_description(source: DatasetFolder, target: DatasetFolder) -> None:
-    """The first dataset's description; the versions in it stay those that made the data."""
-    if target.dataset_json.is_file():
-        return
+    """The first dataset's description; the versions in it stay those that made the data, and a card stays as it is."""
+    first = (source.recording_csv, source.headset_toml, source.spec_toml, source.dataset_json)
+    cards = tuple(
+        path for path in (source.card, source.croissant_json) if not (target.path / path.name).exists()
+    )
     with staging(target, "merge") as stage:
-        first = (source.recording_csv, source.headset_toml, source.spec_toml, source.dataset_json)
-        for path in (*first, source.card, source.croissant_json):
+        for path in cards if target.dataset_json.is_file() else first + cards:
             if path.is_file():
                 shutil.copyfile(path, stage / path.name)
                 commit_file(stage / path.name, target.path / path.name)

@@ -66,12 +66,13 @@ def read_frame(datagram: bytes) -> PhoneFrame | None:
         (count,) = struct.unpack_from("!B", datagram, place)
         if count != _VALUES or len(datagram) != place + 1 + 4 * count:
             return None
-        values = np.frombuffer(datagram, dtype=">f4", offset=place + 1).astype(np.float64)
+        values = np.frombuffer(datagram, dtype=">f4", offset=place + 1)
     except struct.error:
         return None
-    if not np.isfinite(values).all():
+    if not np.isfinite(values).all():  # before they are made wider: a signalling NaN warns there
         return None
-    return PhoneFrame(timecode_s=timecode_s, weights=np.clip(values[: len(BLENDSHAPES)], 0, 1))
+    weights = values[: len(BLENDSHAPES)].astype(np.float64)
+    return PhoneFrame(timecode_s=timecode_s, weights=np.clip(weights, 0, 1))
 
 
 class Phone:

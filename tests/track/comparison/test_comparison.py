@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
@@ -100,6 +100,7 @@ def test_what_is_no_frame_is_nothing(datagram):
 
 
 @given(st.integers(0, 312), st.binary(min_size=1, max_size=8))
+@example(107, b"\x00\x7f\x81")  # a signalling NaN
 def test_damaged_frames_are_nothing_or_finite(place, bytes_there):
     (datagram,) = LiveLink()(Sample(time_s=1.0, weights=np.full(52, 0.5)))
     frame = read_frame(datagram[:place] + bytes_there + datagram[place + len(bytes_there) :])
