@@ -17,7 +17,7 @@ BOXES = (
     (0.0, 0.0, 3.5, 4.4, "your browser", OWN),
     (5.2, 2.0, 3.0, 2.4, "the room's server", SERVER),
     (9.9, 0.0, 3.5, 4.4, "the others' browsers", OTHERS),
-    (5.2, 4.95, 3.0, 0.75, "track, on a machine of yours", PROGRAM),
+    (4.8, 4.95, 3.8, 0.75, "track, on a machine of yours", PROGRAM),
 )
 TEXTS = (
     (1.75, 3.35, "camera's pictures: stay here\nand are kept nowhere"),
@@ -31,7 +31,7 @@ TEXTS = (
 )
 SPOKEN = "voice: straight from browser to browser, encrypted (by a TURN relay if you run one)"
 ARROWS = (
-    ((3.55, 3.2), (5.15, 3.2), "state, 85 bytes,\n30 a second;\nname, chat", STATE, 0.62),
+    ((3.55, 3.2), (5.15, 3.2), "state, 85 bytes\n(113 with hands),\n30 a second;\nname, chat", STATE, 0.68),
     ((8.25, 3.2), (9.85, 3.2), "one buffer a tick:\n21 kbit/s a\nperson seen", STATE, 0.62),
     (
         (3.55, 0.8),
