@@ -1,7 +1,8 @@
 """Datasets on disk."""
 
+from facegen.store.beginning import begin
 from facegen.store.blocks import draw_block, label_block
-from facegen.store.dataset import Dataset, begin, open_dataset, resolve
+from facegen.store.dataset import Dataset, open_dataset, resolve
 from facegen.store.description import read_description
 from facegen.store.folder import (
     DatasetFolder,

@@ -1,11 +1,9 @@
-"""Opens and begins datasets: a spec with everything that it names, and the folder of its samples."""
+"""Opens datasets: a spec with everything that it names, and the folder of its samples."""
 
 import dataclasses
 import hashlib
-import importlib.metadata
 import json
 import os
-import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,14 +11,11 @@ from typing import TypeVar
 
 import numpy as np
 import pyarrow as pa
-import tomli_w
 from pydantic import TypeAdapter, ValidationError
 
-from facegen import __version__
-from facegen.conventions import BLENDSHAPES, SHARD_ROWS
+from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError, MissingAsset
-from facegen.files import output_errors
-from facegen.headsets import Headset, headset_path, load_headset
+from facegen.headsets import Headset, load_headset
 from facegen.refusals import refusal
 from facegen.rigs import Rig, load_rig
 from facegen.sampling import Plan, plan_dataset, rig_of
@@ -32,24 +27,16 @@ from facegen.spec import (
     sample_ranges,
     shares_of,
     spec_hash,
-    spec_table,
 )
-from facegen.store.description import FORMAT, read_description
-from facegen.store.folder import DatasetFolder, commit_file, shard_samples, write_json
-from facegen.store.folder_card import folder_cards
+from facegen.store.description import read_description
+from facegen.store.folder import DatasetFolder, shard_samples
 from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
 from facegen.store.sample import read_sample
-from facegen.store.stage import staging
 
 _Asset = TypeVar("_Asset")
 
-_PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
-
 DRAWN = "drawn"
 """Name of the headset of a dataset whose people each wear another one."""
-
-_FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "headset.toml", "recording.csv")
-"""What `begin` leaves if it is killed before ``dataset.json``, and what a farm puts there before it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -219,112 +206,48 @@ def _asset(key: str, load: Callable[[str], _Asset], name: str) -> _Asset:
         raise MissingAsset(f"{key}: {error}") from None
 
 
-def begin(dataset: Dataset) -> None:
-    """Write ``spec.toml``, ``dataset.json`` and the card of a new dataset; check an old one.
-
-    Raises
-    ------
-    InputError
-        If the folder holds a dataset of another spec, or other files.
-    OutputError
-        If the folder cannot be written.
-    """
-    folder = dataset.folder
-    with output_errors(folder.path):
-        others = folder.path.is_dir() and any(p.name not in _FIRST_THINGS for p in folder.path.iterdir())
-    # looked at after the listing: another worker may be just beginning, and then this file is there by now
-    if os.path.lexists(folder.dataset_json):
-        stored_hash = read_description(folder)["spec_hash"]
-        if stored_hash != dataset.hash:
-            raise InputError(
-                f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
-                f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
-            )
-        _write_cards(dataset)
-        return
-    if others:
-        raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
-    with output_errors(folder.path):
-        folder.path.mkdir(parents=True, exist_ok=True)
-    # before anything lies there: it imports modules, and a stop during imports ends the program at once
-    table, description = spec_table(dataset.spec), _description(dataset)
-    with staging(folder, "begin") as stage:
-        if dataset.spec.playback is not None:
-            shutil.copyfile(dataset.spec.playback.recording, stage / "recording.csv")
-            commit_file(stage / "recording.csv", folder.recording_csv)
-            table["playback"]["recording"] = folder.recording_csv.name
-        shutil.copyfile(headset_path(dataset.spec.render.headset), stage / "headset.toml")
-        commit_file(stage / "headset.toml", folder.headset_toml)
-        table["render"]["headset"] = folder.headset_toml.name
-        (stage / "spec.toml").write_text(tomli_w.dumps(_without_none(table)), encoding="utf-8")
-        commit_file(stage / "spec.toml", folder.spec_toml)
-        write_json(stage / "dataset.json", description)
-        commit_file(stage / "dataset.json", folder.dataset_json)
-    _write_cards(dataset)
-
-
-def _write_cards(dataset: Dataset) -> None:
-    """Write what is missing of ``README.md`` and ``croissant.json``.
-
-    They come last: a folder that holds them alone is somebody else's, and what a person wrote into them stays.
-    """
-    folder, spec = dataset.folder, dataset.spec
-    missing = [path for path in (folder.card, folder.croissant_json) if not os.path.lexists(path)]
-    if not missing:
-        return
-    texts = folder_cards(
-        dataset.keypoint_schema,
-        read_description(folder),
-        views=dataset.headset.camera_names,
-        split=spec.split,
-        split_shares=spec.split_shares,
-    )
-    with staging(folder, "card") as stage:
-        for path in missing:
-            (stage / path.name).write_bytes(texts[path.name])
-            commit_file(stage / path.name, path)
-
-
 def open_dataset(path: str | Path) -> Dataset:
     """Open a dataset on disk.
 
     Raises
     ------
     InputError
-        If there is none, or its rig is no longer the one it was made with.
+        If there is none, or its spec, rig, headset or labels are no longer those that it was made with.
     """
     folder = DatasetFolder(Path(path))
     described = read_description(folder)
+    if not os.path.lexists(folder.spec_toml):
+        raise InputError(
+            f"{folder.spec_toml}: is missing; facegen generate SPEC --out {path}, with the spec that the dataset was "
+            f"made of, writes it again"
+        )
     spec = load_spec(folder.spec_toml)
     dataset = resolve(spec, path)
     if dataset.hash != described["spec_hash"]:
-        rigs = " or ".join(map(repr, shares_of(spec.rig)))
-        raise InputError(
-            f"{path}: was made with another version of rig {rigs}, of its headset.toml or of facegen's labels "
-            f"({described['label_version']}, now {LABEL_VERSION}); build that again, or make the dataset anew"
-        )
+        raise InputError(f"{path}: {_otherness(dataset, described)}")
     return dataset
 
 
-def _description(dataset: Dataset) -> dict:
-    return {
-        "format": FORMAT,
-        "spec_hash": dataset.hash,
-        "label_version": LABEL_VERSION,
-        "seed": dataset.spec.seed,
-        "samples": dataset.plan.samples,
-        "people": dataset.spec.people,
-        **_rigs(dataset),
-        "headset": dataset.headset.name,
-        "licence": "Pictures and labels derive from "
-        + " and ".join(f"the rig {rig.name!r}: {rig.licence}" for rig in dataset.rigs),
-        "blendshapes": list(BLENDSHAPES),
-        "versions": _versions(),
-    }
+def _otherness(dataset: Dataset, described: dict) -> str:
+    """What of a dataset is no longer as ``dataset.json`` has it, and what to do."""
+    if described["label_version"] != LABEL_VERSION:
+        return (
+            f"has labels of version {described['label_version']}, and this version of facegen makes and reads "
+            f"{LABEL_VERSION}; make the dataset anew, or read it with facegen "
+            f"{described['versions'].get('facegen', 'of then')}"
+        )
+    if any(described.get(key, about) != about for key, about in rigs_of(dataset).items()):
+        rigs = " or ".join(map(repr, shares_of(dataset.spec.rig)))
+        return f"was made with another version of rig {rigs}; build that again, or make the dataset anew"
+    return (
+        "its spec.toml or headset.toml was changed after it was made; facegen generate SPEC --out "
+        f"{dataset.folder.path}, with the spec that it was made of, writes spec.toml again, and headset.toml is a copy "
+        "of what that spec names"
+    )
 
 
-def _rigs(dataset: Dataset) -> dict:
-    """The key ``rig``, or where there are several, ``rigs`` with their shares."""
+def rigs_of(dataset: Dataset) -> dict:
+    """What ``dataset.json`` says of rigs: the key ``rig``, or where there are several, ``rigs`` with their shares."""
     about = [
         {"name": rig.name, **{key: getattr(rig, key) for key in ("sha256", "version", "source", "licence")}}
         for rig in dataset.rigs
@@ -333,14 +256,6 @@ def _rigs(dataset: Dataset) -> dict:
         return {"rig": about[0]}
     shares = shares_of(dataset.spec.rig)
     return {"rigs": [{**each, "share": shares[each["name"]]} for each in about]}
-
-
-def _versions() -> dict[str, str]:
-    """Versions of what made the data; OpenCV's is its own word, as any of its four distributions will do."""
-    import cv2  # where a dataset begins, not where one is read
-
-    installed = {name: importlib.metadata.version(name) for name in _PACKAGES}
-    return {"facegen": __version__, **installed, "opencv": cv2.__version__}
 
 
 def _headset_content(headset: Headset) -> dict:
@@ -373,7 +288,3 @@ def _scaled(headset: Headset, size_px: int) -> Headset:
 
 def _content_sha256(content: object) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
-
-
-def _without_none(table: dict) -> dict:
-    return {k: _without_none(v) if isinstance(v, dict) else v for k, v in table.items() if v is not None}

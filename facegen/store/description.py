@@ -1,10 +1,11 @@
 """Reads and checks ``dataset.json``, which says what a dataset is."""
 
+import os
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from facegen.errors import FormatError
+from facegen.errors import FormatError, InputError
 from facegen.refusals import refusal
 from facegen.store.folder import DatasetFolder, read_json
 
@@ -34,6 +35,18 @@ def read_description(folder: DatasetFolder) -> dict[str, Any]:
     InputError
         If there is no such file, or it is not what `facegen.store.begin` writes.
     """
+    path = folder.path
+    if not os.path.lexists(folder.dataset_json):
+        found = (
+            "holds no dataset.json"
+            if os.path.isdir(path)
+            else "is a file"
+            if os.path.isfile(path)
+            else "does not exist"
+        )
+        raise InputError(
+            f"{path}: {found}, so it is not a facegen dataset; facegen generate SPEC --out FOLDER makes one"
+        )
     content = read_json(folder.dataset_json)
     try:
         _Description.model_validate(content)

@@ -213,7 +213,14 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
     folder = Path(folder)
     path = folder / "arrays.json"
     if not path.is_file():
-        raise InputError(f"{path} does not exist; facegen pack DATASET --format arrays writes it")
+        if (folder / "dataset.json").is_file():
+            raise InputError(
+                f"{folder} is a dataset, and this takes its arrays; facegen pack {folder} --format arrays --out FOLDER "
+                f"writes them"
+            )
+        raise InputError(
+            f"{path} does not exist; a folder of arrays is what facegen pack DATASET --format arrays writes"
+        )
     document = read_document(path, most_bytes=MOST_DOCUMENT_BYTES)
     version = document.get("version")
     if version != VERSION:

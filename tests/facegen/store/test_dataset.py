@@ -65,14 +65,53 @@ def test_pictures_that_get_too_high_are_refused_by_the_key_that_makes_them_so(fo
         resolve(load_spec(folder / "spec.toml"), folder / "out")
 
 
-def test_a_damaged_description_is_refused(folder):
-    dataset = resolve(load_spec(folder / "spec.toml"), folder / "out")
-    begin(dataset)
-    dataset.folder.headset_toml.write_text(
-        headset_path("tracking3").read_text().replace("fx = 229.0", "fx = 228.0", 1)
-    )
-    with pytest.raises(InputError, match="another version"):
+def _changed(path: Path, old: str, new: str) -> None:
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
+
+
+def test_what_was_changed_after_a_dataset_was_made_is_named(folder):
+    spec = load_spec(folder / "spec.toml")
+    made = resolve(spec, folder / "out")
+    begin(made)
+    _changed(made.folder.spec_toml, "people = 3", "people = 4")
+    with pytest.raises(InputError, match=r"its spec\.toml or headset\.toml was changed"):
         open_dataset(folder / "out")
+    made.folder.spec_toml.unlink()
+    with pytest.raises(InputError, match=r"spec\.toml: is missing; facegen generate SPEC --out"):
+        open_dataset(folder / "out")
+    begin(made)  # as `facegen generate` does, which both sentences name
+    assert open_dataset(folder / "out").spec.people == 3
+    _changed(made.folder.headset_toml, "black_level = ", "black_level = 1")
+    with pytest.raises(InputError, match=r"headset\.toml was changed"):
+        open_dataset(folder / "out")
+    shutil.copyfile(folder / "mine.toml", made.folder.headset_toml)
+    sha256 = open_dataset(folder / "out").rig.sha256
+    _changed(made.folder.dataset_json, made.hash, "0" * 64)
+    _changed(made.folder.dataset_json, sha256, "0" * 64)
+    with pytest.raises(InputError, match="another version of rig 'anny'"):
+        open_dataset(folder / "out")
+    _changed(made.folder.dataset_json, '"label_version": ', '"label_version": 9')
+    with pytest.raises(InputError, match="labels of version 9"):
+        open_dataset(folder / "out")
+
+
+def test_a_dataset_is_read_by_the_samples_that_it_was_last_asked_for(folder):
+    for samples in ("0-2", "0-1", "0-2,5"):
+        (folder / "spec.toml").write_text(f'{SPEC}samples = "{samples}"\n')
+        wanted = resolve(load_spec(folder / "spec.toml"), folder / "out")
+        begin(wanted)
+        assert list(open_dataset(folder / "out").samples_to_render()) == list(wanted.samples_to_render())
+
+
+@pytest.mark.parametrize(
+    ("name", "found"),
+    [("nowhere", "does not exist"), ("mine.toml", "is a file"), (".", r"holds no dataset\.json")],
+)
+def test_what_is_no_dataset_says_what_it_is_and_what_makes_one(folder, name, found):
+    with pytest.raises(InputError, match=f"{found}, so it is not a facegen dataset; facegen generate SPEC"):
+        open_dataset(folder / name)
 
 
 @pytest.mark.parametrize("damage", ["flipped", "truncated"])

@@ -79,3 +79,13 @@ def test_another_version_is_refused(copy: Path):
     (copy / "arrays.json").write_text(json.dumps({**description, "version": 1}))
     with pytest.raises(InputError, match="version 1"):
         read_arrays(copy)
+
+
+def test_a_dataset_in_place_of_its_arrays_is_told_which_command_packs_it(tmp_path):
+    with pytest.raises(
+        InputError, match=r"arrays\.json does not exist; a folder of arrays is what facegen pack"
+    ):
+        read_arrays(tmp_path)
+    (tmp_path / "dataset.json").write_text("{}")
+    with pytest.raises(InputError, match=f"is a dataset.* facegen pack {tmp_path} --format arrays"):
+        read_arrays(tmp_path)

@@ -1,0 +1,143 @@
+"""Begins the folder of a dataset: its spec and what that names, what it is, and its card."""
+
+import importlib.metadata
+import os
+import shutil
+
+import tomli_w
+
+from facegen import __version__
+from facegen.conventions import BLENDSHAPES
+from facegen.documents import MOST_TOML_BYTES, read_bytes
+from facegen.errors import InputError
+from facegen.files import output_errors
+from facegen.headsets import headset_path
+from facegen.spec import LABEL_VERSION, spec_table
+from facegen.store.dataset import Dataset, rigs_of
+from facegen.store.description import FORMAT, read_description
+from facegen.store.folder import commit_file, write_json
+from facegen.store.folder_card import folder_cards
+from facegen.store.stage import staging
+
+_PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
+
+_FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "headset.toml", "recording.csv")
+"""What `begin` leaves if it is killed before ``dataset.json``, and what a farm puts there before it."""
+
+
+def begin(dataset: Dataset) -> None:
+    """Write ``spec.toml``, ``dataset.json`` and the card of a new dataset; check an old one.
+
+    An old one's ``spec.toml`` is written again where it is missing, or says otherwise which samples are rendered: its
+    readers ask for those of the spec that it was last given.
+
+    Raises
+    ------
+    InputError
+        If the folder holds a dataset of another spec, or other files.
+    OutputError
+        If the folder cannot be written.
+    """
+    folder = dataset.folder
+    with output_errors(folder.path):
+        others = folder.path.is_dir() and any(p.name not in _FIRST_THINGS for p in folder.path.iterdir())
+    # looked at after the listing: another worker may be just beginning, and then this file is there by now
+    if os.path.lexists(folder.dataset_json):
+        stored_hash = read_description(folder)["spec_hash"]
+        if stored_hash != dataset.hash:
+            raise InputError(
+                f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
+                f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
+            )
+        _renew_spec(dataset)
+        _write_cards(dataset)
+        return
+    if others:
+        raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
+    with output_errors(folder.path):
+        folder.path.mkdir(parents=True, exist_ok=True)
+    # before anything lies there: it imports modules, and a stop during imports ends the program at once
+    text, description = _spec_text(dataset), _description(dataset)
+    with staging(folder, "begin") as stage:
+        if dataset.spec.playback is not None:
+            shutil.copyfile(dataset.spec.playback.recording, stage / "recording.csv")
+            commit_file(stage / "recording.csv", folder.recording_csv)
+        shutil.copyfile(headset_path(dataset.spec.render.headset), stage / "headset.toml")
+        commit_file(stage / "headset.toml", folder.headset_toml)
+        (stage / "spec.toml").write_text(text, encoding="utf-8")
+        commit_file(stage / "spec.toml", folder.spec_toml)
+        write_json(stage / "dataset.json", description)
+        commit_file(stage / "dataset.json", folder.dataset_json)
+    _write_cards(dataset)
+
+
+def _spec_text(dataset: Dataset) -> str:
+    """The resolved spec as TOML; what it names lies beside it in the folder."""
+    folder, table = dataset.folder, spec_table(dataset.spec)
+    if dataset.spec.playback is not None:
+        table["playback"]["recording"] = folder.recording_csv.name
+    table["render"]["headset"] = folder.headset_toml.name
+    return tomli_w.dumps(_without_none(table))
+
+
+def _renew_spec(dataset: Dataset) -> None:
+    folder, text = dataset.folder, _spec_text(dataset)
+    if (
+        os.path.lexists(folder.spec_toml)
+        and read_bytes(folder.spec_toml, most_bytes=MOST_TOML_BYTES) == text.encode()
+    ):
+        return
+    with staging(folder, "spec") as stage:
+        (stage / "spec.toml").write_text(text, encoding="utf-8")
+        commit_file(stage / "spec.toml", folder.spec_toml)
+
+
+def _write_cards(dataset: Dataset) -> None:
+    """Write what is missing of ``README.md`` and ``croissant.json``.
+
+    They come last: a folder that holds them alone is somebody else's, and what a person wrote into them stays.
+    """
+    folder, spec = dataset.folder, dataset.spec
+    missing = [path for path in (folder.card, folder.croissant_json) if not os.path.lexists(path)]
+    if not missing:
+        return
+    texts = folder_cards(
+        dataset.keypoint_schema,
+        read_description(folder),
+        views=dataset.headset.camera_names,
+        split=spec.split,
+        split_shares=spec.split_shares,
+    )
+    with staging(folder, "card") as stage:
+        for path in missing:
+            (stage / path.name).write_bytes(texts[path.name])
+            commit_file(stage / path.name, path)
+
+
+def _description(dataset: Dataset) -> dict:
+    return {
+        "format": FORMAT,
+        "spec_hash": dataset.hash,
+        "label_version": LABEL_VERSION,
+        "seed": dataset.spec.seed,
+        "samples": dataset.plan.samples,
+        "people": dataset.spec.people,
+        **rigs_of(dataset),
+        "headset": dataset.headset.name,
+        "licence": "Pictures and labels derive from "
+        + " and ".join(f"the rig {rig.name!r}: {rig.licence}" for rig in dataset.rigs),
+        "blendshapes": list(BLENDSHAPES),
+        "versions": _versions(),
+    }
+
+
+def _versions() -> dict[str, str]:
+    """Versions of what made the data; OpenCV's is its own word, as any of its four distributions will do."""
+    import cv2  # where a dataset begins, not where one is read
+
+    installed = {name: importlib.metadata.version(name) for name in _PACKAGES}
+    return {"facegen": __version__, **installed, "opencv": cv2.__version__}
+
+
+def _without_none(table: dict) -> dict:
+    return {k: _without_none(v) if isinstance(v, dict) else v for k, v in table.items() if v is not None}
