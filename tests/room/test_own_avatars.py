@@ -18,6 +18,7 @@ from room.avatars.check import (
     MOST_NODES,
     MOST_TRIANGLES,
 )
+from room.avatars.pieces import PIECE_BYTES, pack_piece, read_piece
 from room.errors import FormatError, NotAllowed
 from room.gltf.check import MOST_NUMBERS, MOST_PICTURES, MOST_SIDE_PIXELS, MOST_TEXTURE_PIXELS
 from room.gltf.extensions import HOW
@@ -344,3 +345,20 @@ def test_an_avatar_that_breaks_off_is_no_fault_of_the_servers(caplog: pytest.Log
 
     meet(run)
     assert not caplog.records, "each would be a traceback in the operator's log"
+
+
+def test_an_avatar_comes_in_pieces_and_what_is_none_is_refused():
+    digest, whole = "ab" * 32, bytes(range(256)) * 1024 + b"end"
+    pieces = [read_piece(pack_piece(digest, whole, at)) for at in range(0, len(whole), PIECE_BYTES)]
+    assert b"".join(piece.content for piece in pieces) == whole
+    assert {(piece.digest, piece.total) for piece in pieces} == {(digest, len(whole))}
+    good = pack_piece(digest, b"four", 0)
+    for bad in (
+        good[:-4],
+        good + b"more",
+        b"\x02" + good[1:],
+        pack_piece(digest, bytes(MOST_AVATAR_BYTES + 1), 0),
+        good[:33] + (5).to_bytes(4, "little") + (2).to_bytes(4, "little") + good[41:],
+    ):
+        with pytest.raises(FormatError):
+            read_piece(bad)

@@ -6,9 +6,12 @@ from dataclasses import replace
 import pytest
 
 from room.protocol import Message, decode
-from room.protocol.texts import Changed, Left, Notice, Playing
+from room.protocol.message import time_of
+from room.protocol.texts import Changed, Left, Notice, Play, Playing
 from room.recording import check_recording, read_recording
 from room.recording.lines import Tick
+from room.server.replay import Replay
+from room.state import Meeting
 from tests.room.guests import Guest, open_room
 from tests.room.recordings import recorded
 
@@ -141,3 +144,20 @@ def test_nobody_can_be_somebody_of_a_replay_and_a_moderator_may_remove_them(tmp_
             assert late.number not in {left.number for left in chair.all(Left)[before:]}
 
     asyncio.run(run())
+
+
+def test_clocks_go_on_evenly_where_a_replay_is_halted(tmp_path):
+    """A page would not show what is older than what it has: a face would stand still for as long as the halt was."""
+    replay = Replay(check_recording(recorded(tmp_path / "meeting.jsonl")))
+    meeting = Meeting(most_people=8)
+    sent: dict[int, list[int]] = {}
+    for step in range(24):
+        now = step / 30
+        if step in (8, 16):
+            replay.play(Play(paused=step == 8), meeting, now=now)
+        replay.step(meeting, now=now)
+        for seat in meeting.seats:
+            sent.setdefault(seat.number, []).extend(map(time_of, seat.taken()))
+    assert all(times == sorted(times) for times in sent.values())
+    longest_ms = max(times[-1] - times[0] for times in sent.values())  # one of the two leaves
+    assert longest_ms == pytest.approx(24 / 30 * 1000, abs=200)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from regress.learning.headset.adaptation import Heads, KnownFrames, changes, judge
+from regress.learning.headset.adaptation import Heads, HeldOut, KnownFrames, changes, judge
 from regress.runtime.headset.outputs import MIRROR
 from regress.runtime.headset.predictor import load_headset_predictor
 
@@ -55,6 +55,11 @@ def test_what_another_head_would_say_is_learnt_from_other_frames():
     shape = BLENDSHAPE_INDEX["eyeBlinkLeft"]
     _, keys = heads.design([shape], np.arange(3))
     assert set(keys) == {("eye", shape), ("eye", int(MIRROR[shape])), ("mouth", shape)}
+
+
+def test_a_hundredth_is_the_least_that_is_worth_a_network():
+    better = [HeldOut(before=0.1, after=after, pull=1.0).better for after in (0.0989, 0.0991, 0.1)]
+    assert better == [True, False, False]
 
 
 def test_noise_is_refused_and_a_larger_pull_changes_less():

@@ -28,6 +28,12 @@ def test_lines_of_sight_meet_and_a_second_time_changes_nothing(
         np.testing.assert_array_equal(met[0, :, 0], gaze[0, :, 0])
 
 
+def test_eyes_meet_no_nearer_than_ten_centimetres():
+    far, near = np.array([[[-30.0, 0.0], [30.0, 0.0]]]), 2 * np.degrees(np.arctan2(0.062 / 2, 0.1))
+    met = meeting(far, np.array([1.0, 1.0]))
+    np.testing.assert_allclose(met[0, :, 0], [-near / 2, near / 2], atol=0.5)
+
+
 def test_an_eye_by_itself_stays_as_it_is():
     gaze = np.array([[[5.0, 1.0], [np.nan, np.nan]], [[5.0, 1.0], [-5.0, 3.0]]])
     met = meeting(gaze, np.array([1.0, 1.0]))
