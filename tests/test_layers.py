@@ -1,5 +1,6 @@
 """The direction of imports (DESIGN: data flows one way), and that every package says what is public."""
 
+import ast
 import graphlib
 import importlib
 import os
@@ -8,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from collections import Counter
 from pathlib import Path
 
 import grimp
@@ -146,6 +148,21 @@ def test_no_module_imports_itself_by_way_of_others():
     # for who asks for it, inside __getattr__
     imported["regress"] -= {"regress.learning.training.estimator"}
     graphlib.TopologicalSorter(imported).prepare()  # raises CycleError, which names the circle
+
+
+PROGRAMS = ("facegen", "regress", "track", "room", "benchmarks", "blender_assets", "docs", "tests")
+
+
+def test_no_constant_has_two_values():
+    """No linter's rule finds it, and what reads the first value breaks: so a script of docs/figures did."""
+    twice = []
+    for path in (path for program in PROGRAMS for path in sorted((ROOT / program).rglob("*.py"))):
+        lines = [
+            line for line in ast.parse(path.read_text(encoding="utf-8")).body if isinstance(line, ast.Assign)
+        ]
+        names = Counter(name.id for line in lines for name in line.targets if isinstance(name, ast.Name))
+        twice += [f"{path.relative_to(ROOT)}: {name}" for name, times in names.items() if times > 1]
+    assert not twice
 
 
 def _packages() -> list[str]:

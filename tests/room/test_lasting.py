@@ -38,6 +38,8 @@ def test_a_tick_that_fails_ends_the_server(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(Hall, "tick", tick)
     keys = new_keys()
     coming: list[asyncio.Task[None]] = []
+    late: list[str] = []
+    rooms = Rooms(keys, limits=Limits(), relays=Relays())
 
     async def come(address: str) -> None:
         place = Place(address, keys)
@@ -46,11 +48,17 @@ def test_a_tick_that_fails_ends_the_server(monkeypatch: pytest.MonkeyPatch):
         finally:
             await place.session.close()
 
+    def give_up() -> None:
+        late.append("the server went on without ticks")
+        rooms.stopped.set()
+
     def started(address: str) -> None:
         coming.append(asyncio.get_running_loop().create_task(come(address)))
+        asyncio.get_running_loop().call_later(20, give_up)
 
     with pytest.raises(ZeroDivisionError, match="a fault of ours"):
-        serve(Rooms(keys, limits=Limits(), relays=Relays()), Address(port=0), started=started)
+        serve(rooms, Address(port=0), started=started)
+    assert not late
 
 
 def test_a_room_that_cannot_be_opened_leaves_nothing_at_its_engine(monkeypatch: pytest.MonkeyPatch):
