@@ -34,7 +34,7 @@ SETTLE_S = 1.0
 """Before the first picture: arms sink from how they were modelled."""
 SIZE = (560, 360)
 MOST_BYTES = 500_000
-EYE = {"x": 0.05, "z": 0.55, "heading": math.pi, "pitch": -0.08}
+EYE = {"x": 0.12, "z": 0.5, "heading": math.pi, "pitch": -0.06}
 STATES_PER_PICTURE = 3
 """36 a second, about as many as a page sends: limbs and faces are shown between them."""
 
@@ -78,8 +78,8 @@ def ada(time_s: float) -> dict[str, object]:
     """Waits, turns to who comes, waves, speaks."""
     waves, speaks = 1.6 < time_s < 3.5, 4.0 < time_s < 6.3
     return {
-        "floor_m": (-0.42, -0.8),
-        "heading": 0.2 + 0.6 * ease(time_s, 0.5, 1.6),
+        "floor_m": (-0.14, -0.85),
+        "heading": 0.1 + 0.25 * ease(time_s, 0.5, 1.6),
         "shapes": face(
             time_s,
             smile=during(time_s, 1.4, 9.4) * (0.45 if speaks else 0.9),
@@ -89,18 +89,27 @@ def ada(time_s: float) -> dict[str, object]:
         ),
         "flags": Flag.TRACKED | (Flag.SPEAKING if speaks else 0),
         "animation": Animation.WAVE if waves else 0,
-        "turn": 0.35 * ease(time_s, 0.3, 1.1),
+        "turn": 0.25 * ease(time_s, 0.3, 1.1),
+    }
+
+
+def explaining(time_s: float) -> dict[str, tuple[float, ...]]:
+    """Hands as of a headset: held out, thumbs up, beating with the words."""
+    half, beat_m = math.sqrt(0.5), 0.035 * math.sin(6 * time_s)
+    return {
+        "left_hand": (0.16, 1.2 + beat_m, 0.3, 0.0, 0.0, -half, half),
+        "right_hand": (-0.2, 1.15 - beat_m, 0.33, 0.0, 0.0, half, half),
     }
 
 
 def ben(time_s: float) -> dict[str, object]:
-    """Comes in from the right, waves back, nods, answers."""
+    """Comes in from the right, nods, and answers with his hands as well."""
     walked = ease(time_s, 0.0, 2.6)
     speaks = 6.7 < time_s < 9.0
-    gesture = Animation.WAVE if 2.7 < time_s < 4.2 else Animation.NOD if 5.0 < time_s < 6.4 else 0
+    gesture = Animation.NOD if 2.9 < time_s < 3.7 or 5.2 < time_s < 6.4 else 0
     return {
-        "floor_m": (1.75 - 1.2 * walked, -0.85),
-        "heading": -math.pi / 2 + 0.75 * ease(time_s, 2.2, 3.0),
+        "floor_m": (1.8 - 1.12 * walked, -0.88),
+        "heading": -math.pi / 2 + 1.15 * ease(time_s, 2.2, 3.0),
         "shapes": face(
             time_s,
             smile=during(time_s, 2.2, 6.5) * 0.9 + during(time_s, 8.8, 12, 0.5) * 0.7,
@@ -108,17 +117,18 @@ def ben(time_s: float) -> dict[str, object]:
             wonder=during(time_s, 6.6, 7.6),
             blinks=(1.5, 4.4, 7.7),
         ),
-        "flags": Flag.TRACKED | (Flag.SPEAKING if speaks else 0),
+        "flags": Flag.TRACKED | (Flag.SPEAKING | Flag.HANDS if speaks else 0),
         "animation": gesture,
-        "turn": -0.35 * ease(time_s, 2.2, 3.0),
+        "turn": -0.22 * ease(time_s, 2.2, 3.0),
+        "hands": explaining(time_s) if speaks else {},
     }
 
 
 def mei(time_s: float) -> dict[str, object]:
-    """Stands behind the two, looks at whoever acts, and nods."""
-    turn = 0.45 * ease(time_s, 0.4, 1.2) - 0.8 * ease(time_s, 3.6, 4.3) + 0.75 * ease(time_s, 6.6, 7.3)
+    """Stands behind the two, looks at who comes, then at who speaks, and nods."""
+    turn = 0.4 * ease(time_s, 0.5, 1.2) - 0.75 * ease(time_s, 3.6, 4.3) + 0.75 * ease(time_s, 6.6, 7.3)
     return {
-        "floor_m": (0.12, -1.5),
+        "floor_m": (0.33, -1.6),
         "heading": 0.0,
         "shapes": face(
             time_s,
@@ -147,6 +157,7 @@ async def tell(guest: Guest, acted: dict[str, object], time_ms: int) -> None:
         heading=acted["heading"],
         flags=int(acted["flags"]),
         animation=int(acted["animation"]),
+        **acted.get("hands", {}),
         sequence=time_ms,
         time_ms=time_ms,
     )
@@ -203,7 +214,7 @@ def main() -> None:
     """Film, and write the largest quality that fits."""
     with tempfile.TemporaryDirectory() as folder:
         pictures = asyncio.run(film(Path(folder)))
-    for quality in range(70, 10, -8):
+    for quality in range(62, 10, -8):
         pictures[0].save(
             OUT,
             save_all=True,
@@ -211,7 +222,7 @@ def main() -> None:
             duration=round(1000 / FPS),
             loop=0,
             quality=quality,
-            method=6,
+            method=4,
         )
         if OUT.stat().st_size <= MOST_BYTES:
             break

@@ -74,6 +74,12 @@ async def observe() -> list[str]:
                 ]
                 lines = seen["#lines"]
                 wrong += [f"{width}: no line is read"] if lines[3] - lines[1] < 40 else []
+            await tab.ask("document.querySelector('#leave').click()")
+            await tab.until("document.querySelector('#state').textContent.startsWith('You have left')")
+            stays = await tab.ask(
+                "[...document.querySelectorAll('nav, #people li')].filter((each) => each.checkVisibility()).length"
+            )
+            wrong += [f"{stays} things that do nothing stay behind who left"] if stays else []
     return wrong
 
 

@@ -477,6 +477,8 @@ class Meeting {
     for (const known of this.known.values()) undress(known);
     this.known.clear();
     find("mirror").hidden = true;
+    find("people").replaceChildren();
+    document.querySelector("nav")!.hidden = true; // nothing to do here any more; what was said can still be read
     this.tell(text);
   }
 }

@@ -93,12 +93,14 @@ export class View {
   /** The own picture, the other way round as in a mirror; drawn into a corner first, then copied. */
   private reflect(): void {
     const { width, height } = this.glass;
-    this.renderer.setViewport(0, 0, width, height);
-    this.renderer.setScissor(0, 0, width, height);
+    const share = Math.min(1, this.canvas.width / width, this.canvas.height / height); // of a window smaller than the glass
+    const [across, up] = [Math.floor(width * share), Math.floor(height * share)];
+    this.renderer.setViewport(0, 0, across, up);
+    this.renderer.setScissor(0, 0, across, up);
     this.renderer.setScissorTest(true);
     this.renderer.render(this.scene, this.mirror);
     this.small.setTransform(-1, 0, 0, 1, width, 0);
-    this.small.drawImage(this.canvas, 0, this.canvas.height - height, width, height, 0, 0, width, height);
+    this.small.drawImage(this.canvas, 0, this.canvas.height - up, across, up, 0, 0, width, height);
     this.renderer.setScissorTest(false);
     this.renderer.setViewport(0, 0, this.canvas.width, this.canvas.height);
   }
