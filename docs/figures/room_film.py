@@ -29,14 +29,14 @@ from tests.browser import Tab, chromium  # noqa: E402
 from tests.room.guests import Guest, open_room  # noqa: E402
 
 OUT = ROOT / "docs/pictures/room-film.webp"
-FPS, LASTS_S = 12, 9.5
+FPS, LASTS_S = 10, 9.5
 SETTLE_S = 1.0
 """Before the first picture: arms sink from how they were modelled."""
 SIZE = (560, 360)
 MOST_BYTES = 500_000
 EYE = {"x": 0.12, "z": 0.5, "heading": math.pi, "pitch": -0.06}
 STATES_PER_PICTURE = 3
-"""36 a second, about as many as a page sends: limbs and faces are shown between them."""
+"""30 a second, about as many as a page sends: limbs and faces are shown between them."""
 
 Look = tuple[dict[str, float], int, int]
 """What face, flags and gesture are at a moment."""
@@ -108,7 +108,7 @@ def ben(time_s: float) -> dict[str, object]:
     speaks = 6.7 < time_s < 9.0
     gesture = Animation.NOD if 2.9 < time_s < 3.7 or 5.2 < time_s < 6.4 else 0
     return {
-        "floor_m": (1.8 - 1.12 * walked, -0.88),
+        "floor_m": (1.8 - 1.12 * walked, -1.08),
         "heading": -math.pi / 2 + 1.15 * ease(time_s, 2.2, 3.0),
         "shapes": face(
             time_s,
