@@ -91,7 +91,7 @@ def preview(
     headset, wearing = load_headset(name), load_rig(rig)
     figure = draw_headset(headset, wearing)
     with whole_file(out, suffix=".png") as part:
-        figure.savefig(part, metadata={"Software": None})
+        figure.savefig(part, metadata={"Software": None}, pil_kwargs={"optimize": True})
     for fault in placement_faults(put_on(headset, wearing)):
         say(f"{headset_path(name)}: {fault}")
     typer.echo(out)

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from facegen.geometry import apply_transform, project, rotation_from_angles, unproject
 from facegen.headsets import Headset
+from facegen.preview.lettering import write_labels
 from facegen.preview.portraits import shade
 from facegen.preview.wearer import EDGE, Wearer, put_on, seen_landmarks
 from facegen.raster import nearest_along_z, nearest_triangles
@@ -23,6 +24,8 @@ STEP_M = 0.6e-3
 CORNER_M = 0.022
 """How far along the rays of its picture's corners a camera is drawn."""
 VIEW_PX = 320
+WIDTH_IN, TITLE_IN, GAP_IN = 10.5, 0.22, 0.1
+"""Of the figure, of the line above each picture, and between two pictures."""
 _COLORS = ("#0050ff", "#e07000", "#009050", "#c000a0", "#806000", "#00a0b0", "#d02020", "#5050a0", "#60a000")
 
 
@@ -30,29 +33,37 @@ def draw_headset(headset: Headset, rig: Rig) -> Figure:
     """Figure of a headset on the rig's mean head, without tolerances: from three sides, then camera by camera."""
     wearer = put_on(headset.scaled(VIEW_PX), rig)
     cameras = len(headset.cameras)
-    columns = min(max(cameras, 2), 5)
+    columns = min(max(cameras, 2), 3)
     lines = -(-cameras // columns)
-    figure = Figure(figsize=(12.0, 12.0 / 3 * 1.0 + 12.0 / columns * lines), dpi=100)
-    FigureCanvasAgg(figure)
-    top, rest = figure.subfigures(2, 1, height_ratios=(1 / 3, lines / columns))
-    for axes, (title, (yaw, pitch)) in zip(top.subplots(1, 3), SIDES_DEG.items(), strict=True):
-        _draw_side(axes, wearer, yaw, pitch)
-        axes.set_title(title, fontsize=8, y=0.97)
-    grid = rest.subplots(lines, columns, squeeze=False).ravel()
-    for axes in grid:
+    side_in, view_in = WIDTH_IN / len(SIDES_DEG), WIDTH_IN / columns
+    height_in = side_in + lines * view_in + (1 + lines) * TITLE_IN
+    figure = Figure(figsize=(WIDTH_IN, height_in), dpi=100)
+    canvas = FigureCanvasAgg(figure)
+
+    def panel(number: int, wide_in: float, top_in: float) -> Axes:
+        bottom_in = height_in - top_in - TITLE_IN - wide_in
+        place = (number * wide_in + GAP_IN / 2, bottom_in + GAP_IN / 2, wide_in - GAP_IN, wide_in - GAP_IN)
+        axes = figure.add_axes(np.array(place) / [WIDTH_IN, height_in, WIDTH_IN, height_in])
         axes.set_axis_off()
-    for axes, view, color in zip(grid, wearer.views, _cycle(cameras), strict=False):
-        _draw_view(axes, wearer, view)
+        return axes
+
+    for number, (title, (yaw, pitch)) in enumerate(SIDES_DEG.items()):
+        axes = panel(number, side_in, 0.0)
+        _draw_side(canvas, axes, wearer, yaw, pitch)
+        axes.set_title(title, fontsize=9)
+    for number, (view, color) in enumerate(zip(wearer.views, _cycle(cameras), strict=True)):
+        line, column = divmod(number, columns)
+        axes = panel(column, view_in, side_in + TITLE_IN + line * (view_in + TITLE_IN))
+        _draw_view(canvas, axes, wearer, view)
         camera = headset.camera(view.name)
         seen = f"{seen_landmarks(wearer, view)[1].sum()} points"
-        title = f"{view.name}: {camera.model}, {camera.width}x{camera.height}, {seen}"
-        axes.set_title(title, fontsize=7, color=color, y=0.98)
-    for part in (top, rest):
-        part.subplots_adjust(left=0.005, right=0.995, bottom=0.01, top=0.95, wspace=0.03, hspace=0.12)
+        axes.set_title(
+            f"{view.name}: {camera.model}, {camera.width}x{camera.height}, {seen}", fontsize=8, color=color
+        )
     return figure
 
 
-def _draw_side(axes: Axes, wearer: Wearer, yaw: float, pitch: float) -> None:
+def _draw_side(canvas: FigureCanvasAgg, axes: Axes, wearer: Wearer, yaw: float, pitch: float) -> None:
     headset, fit = wearer.headset, wearer.head_from_headset
     turn = rotation_from_angles(np.radians(yaw), np.radians(pitch), 0.0)
     left, top, right, bottom = WINDOW_M
@@ -66,9 +77,12 @@ def _draw_side(axes: Axes, wearer: Wearer, yaw: float, pitch: float) -> None:
     axes.imshow(0.5 * (pictures[0] + pictures[1]), extent=(left, right, bottom, top), interpolation="nearest")
     color_of = dict(zip(headset.camera_names, _cycle(len(headset.cameras)), strict=True))
     lamp_camera = {led.name: led.camera for led in headset.leds}
+    drawn = []
     for lamp in headset_lamps(headset, fit):
         x, y, _ = lamp.position @ turn
+        drawn.append(np.array([[x, y]]))
         axes.plot(x, y, "o", color="#ffd000", mec=color_of[lamp_camera[lamp.name]], ms=3.5, mew=0.8)
+    pinholes = []
     for camera in headset.cameras:
         corners = [[-0.5, -0.5], [camera.width - 0.5, -0.5], [camera.width - 0.5, camera.height - 0.5]]
         corners.append([-0.5, camera.height - 0.5])
@@ -79,13 +93,25 @@ def _draw_side(axes: Axes, wearer: Wearer, yaw: float, pitch: float) -> None:
         for k in range(4):
             line = corners_m[[0, 1 + k, 1 + (k + 1) % 4]]
             axes.plot(line[:, 0], line[:, 1], color=color_of[camera.name], lw=0.8)
-        axes.annotate(camera.name, corners_m[0, :2], fontsize=6, color=color_of[camera.name])
+            along = np.linspace(0, 1, 9)[:, None, None]
+            drawn.append(((1 - along) * line[:-1, :2] + along * line[1:, :2]).reshape(-1, 2))
+        pinholes.append(corners_m[0, :2])
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
     axes.set_axis_off()
+    colors = [color_of[name] for name in headset.camera_names]
+    write_labels(
+        canvas,
+        axes,
+        np.array(pinholes),
+        headset.camera_names,
+        colors,
+        fontsize=8,
+        keep_off=np.concatenate(drawn),
+    )
 
 
-def _draw_view(axes: Axes, wearer: Wearer, view: View) -> None:
+def _draw_view(canvas: FigureCanvasAgg, axes: Axes, wearer: Wearer, view: View) -> None:
     camera = wearer.headset.camera(view.name)
     vertices, triangles, part = wearer.housed
     vertices = apply_transform(view.camera_from_head, vertices)
@@ -98,14 +124,11 @@ def _draw_view(axes: Axes, wearer: Wearer, view: View) -> None:
     picture = shade(vertices * (1.0, -1.0, -1.0), triangles, part, depth)
     axes.imshow(picture * transmission(camera)[..., None], interpolation="nearest")
     landmarks_px, seen = seen_landmarks(wearer, view)
-    for number in np.flatnonzero(seen):
-        x, y = landmarks_px[number]
-        axes.plot(x, y, ".", color="#0040ff", ms=3)
-        axes.annotate(
-            str(number), (x, y), (1.5, 1.5), textcoords="offset points", fontsize=5, color="#a00000"
-        )
+    axes.plot(*landmarks_px[seen].T, ".", color="#0040ff", ms=3)
     axes.set_xlim(-0.5, camera.width - 0.5)
     axes.set_ylim(camera.height - 0.5, -0.5)
+    numbers = [str(number) for number in np.flatnonzero(seen)]
+    write_labels(canvas, axes, landmarks_px[seen], numbers, ["#a00000"] * len(numbers), fontsize=7)
 
 
 def _cycle(count: int) -> list[str]:

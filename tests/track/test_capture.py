@@ -225,6 +225,19 @@ def test_a_camera_that_lags_is_left_out_and_told_once():
     )
 
 
+def test_a_camera_alone_is_never_later_than_others():
+    """A film on a busy machine stays behind the time that goes on while it is silent."""
+    switches = Switches()
+    with _capture(film=switches) as capture:
+        samples = _until(capture, _well)
+        switches.silent = True
+        samples += _until(capture, lambda sample: sample.faults.get("film") is CameraFault.SILENT)
+        switches.clock_s, switches.silent = -0.5, False
+        samples += _until(capture, _well)
+    assert _rises(samples)
+    assert told(samples) == ["film: SILENT"]
+
+
 def test_one_unplugged_camera_does_not_hold_up_the_others():
     switches = {"left": Switches(fps=20), "mouth": Switches(fps=20)}
     with _capture(**switches) as capture:

@@ -240,8 +240,11 @@ class Calibration:
     def _reason(self) -> str | None:
         """Why the recording is of no use; None where it is."""
         count = len(self._frames)
-        if count < max(FEWEST_FRAMES, SEEN_SHARE * (count + self._missed)):
-            return f"Your face was seen in {count} of {count + self._missed} frames"
+        came = count + self._missed
+        if came < FEWEST_FRAMES:
+            return f"Only {came} pictures came, and {FEWEST_FRAMES} are needed: camera or machine is too slow"
+        if count < max(FEWEST_FRAMES, SEEN_SHARE * came):
+            return f"Your face was seen in {count} of {came} frames"
         if self.name == "neutral":
             seen = steadiness(np.array([signature for _, signature in self._frames]), least=self._least)
             return (

@@ -253,7 +253,14 @@ class Session:
             self._take(outcome)
         if calibration.finished:
             self._calibration = None
+            if calibration.name == "neutral" and not calibration.kept:
+                self._use_known_neutral()
             self._say(f"calibration: {self._step.text.lower()}")
+
+    def _use_known_neutral(self) -> None:
+        """What was known before a calibration that gave no neutral face."""
+        if self.profile.neutral is not None:
+            self.pipeline.use_neutral(self.profile.neutral)
 
     def _take(self, outcome: Outcome) -> None:
         """Use what calibration found from the next frame on, and keep it."""
@@ -354,8 +361,7 @@ class Session:
                 self.pipeline.forget_neutral()
         elif verb == "cancel" and self._calibration is not None:
             self._step, self._calibration = self._calibration.cancel(), None
-            if self.profile.neutral is not None:
-                self.pipeline.use_neutral(self.profile.neutral)
+            self._use_known_neutral()
         elif verb == "mirror":
             self._mirrored = bool(value)
             self._change(mirror=self._mirrored)

@@ -162,6 +162,7 @@ class Capture:
             new = {name: each for name, each in new.items() if each.newest.time_s <= earliest_s + WAIT_S}
         taken = {name: camera.take() for name, camera in new.items()}
         self._latest |= taken
+        newest_s = max((each.time_s for each in self._latest.values()), default=0.0)
         now_s = max(each.time_s for each in taken.values()) - self._start_s if taken else self.now_s()
         self._last_s = max(now_s, self._last_s + _LEAST_S)
         self._count += 1
@@ -169,7 +170,7 @@ class Capture:
         for name, camera in self._cameras.items():
             fault = taken[name].fault if name in taken else camera.trouble()
             latest = self._latest.get(name)
-            late = taken and latest and self._last_s - (latest.time_s - self._start_s) > LATE_S
+            late = taken and latest and newest_s - latest.time_s > LATE_S
             if fault is None and late and not camera.ended:
                 fault = CameraFault.LATE
             if fault is not None:

@@ -2,7 +2,7 @@
 
 import { words, type Settings, type Step } from "./messages.js";
 
-/** A result stays as long where no further step comes. */
+/** A result stays as long where no other step comes; frames go on telling the last one. */
 const TOLD_MS = 4000;
 
 const STATES: Readonly<Record<Step["state"], string>> = {
@@ -59,15 +59,17 @@ export class CalibrationView {
 
   show(step: Step | null): void {
     if (!step) {
-      if (this.runs) this.hide(); // it was cut off
+      if (this.runs) this.card.hidden = true; // it was cut off
+      this.phase = "";
       return;
     }
     const phase = `${step.name} ${step.state}`;
+    if (phase === this.phase && this.card.hidden) return;
     if (phase !== this.phase) {
       this.phase = phase;
       this.most = Math.max(step.seconds_left, 0.1);
       clearTimeout(this.told);
-      if (!this.runs) this.told = setTimeout(() => this.hide(), TOLD_MS);
+      if (!this.runs) this.told = setTimeout(() => (this.card.hidden = true), TOLD_MS);
     }
     this.card.hidden = false;
     this.card.dataset["state"] = step.state;
@@ -76,11 +78,6 @@ export class CalibrationView {
     this.write(this.seconds, this.runs ? `${Math.ceil(step.seconds_left)}` : "");
     this.progress.hidden = this.cancel.hidden = !this.runs;
     this.progress.value = 1 - Math.min(step.seconds_left / this.most, 1);
-  }
-
-  private hide(): void {
-    this.phase = "";
-    this.card.hidden = true;
   }
 
   /** Only what changed, or screen readers would read it again. */

@@ -7,7 +7,7 @@ import pytest
 
 from facegen.conventions import BLENDSHAPES
 from tests.browser import needs_chromium
-from tests.track.page.stand import STEPS, standing
+from tests.track.page.stand import STEPS, moment_of, standing
 from track.messages import Command, Step
 from track.page import Page
 
@@ -81,6 +81,17 @@ def test_calibration_says_what_to_do_and_can_be_cancelled(loop, stand):
         await stand.tab.ask("document.getElementById('asking-cancel').click()")
         assert await stand.asks(2) == [Command(verb="picture", value=True), Command(verb="cancel")]
         await stand.publish_until(f"{asking}.hidden")
+        # the last step is told with every frame, and shown for four seconds
+        over = Step(name="jaw_open", state="done", seconds_left=0.0, text="Done")
+        await stand.publish_until(f"{asking}.innerText.includes('Done')", step=over)
+        await stand.publish_until(f"{asking}.hidden", step=over)
+        await stand.tab.ask(
+            f"(globalThis.again = 0, new MutationObserver(() => again++).observe({asking}, {{ attributes: true }}))"
+        )
+        for _ in range(20):
+            stand.page.publish(moment_of(np.zeros(52), step=over))
+            await asyncio.sleep(0.05)
+        assert await stand.tab.ask("again") == 0
 
     loop.run_until_complete(look())
 

@@ -98,6 +98,15 @@ def test_a_poor_neutral_face_is_asked_for_again_and_never_kept(person, reason):
     assert countdowns == TRIES - 1
 
 
+def test_too_few_pictures_are_told_as_such():
+    calibration = Calibration(("neutral",), least=LEAST)
+    at_rest = Sample(time_s=0.0, weights=np.zeros(52))
+    steps = [calibration.step(0.4 * row, at_rest, np.zeros(4)) for row in range(30)]
+    (text,) = {step.text for step in steps if step.state == "again" and step.text.endswith("once more")}
+    assert text.startswith("Only 5 pictures came, and 12 are needed"), text
+    assert calibration.outcomes() == []
+
+
 def test_a_face_that_is_not_seen_is_left_out_and_the_others_kept():
     def person(step, frame):
         weights, signature = obedient(step, frame)

@@ -60,6 +60,26 @@ def test_points_are_traced_where_somebody_looks():
         assert inside.mean() > 0.9
 
 
+@pytest.mark.parametrize("ends", ["failed", "cancelled"])
+def test_a_neutral_face_that_is_not_found_leaves_the_known_one(ends):
+    clock = itertools.count(1)
+    session, calibrated = headset_session(), headset_session()
+    shut = headset_frames()[90]
+    session.ask(Command(verb="calibrate", value="neutral"))
+    session.answer(replace(shut, time_s=0.0))
+    assert session.calibrating
+    if ends == "cancelled":
+        session.ask(Command(verb="cancel"))
+    while session.calibrating:  # by pictures that come once in two seconds
+        session.answer(replace(shut, time_s=2.0 * next(clock)))
+    assert session.step_of_calibration.state == "cancelled"
+    start_s = 2.0 * next(clock)
+    for row in range(2 * FPS):
+        sample = replace(shut, time_s=start_s + row / FPS)
+        answers = [each.answer(sample)[0].weights for each in (session, calibrated)]
+    np.testing.assert_allclose(*answers, atol=1e-3)
+
+
 @pytest.mark.parametrize(
     ("neutral", "words"),
     [
