@@ -24,7 +24,7 @@ STEP_M = 0.6e-3
 CORNER_M = 0.022
 """How far along the rays of its picture's corners a camera is drawn."""
 VIEW_PX = 320
-WIDTH_IN, TITLE_IN, GAP_IN = 10.5, 0.22, 0.1
+WIDTH_IN, TITLE_IN, GAP_IN = 10.2, 0.22, 0.1
 """Of the figure, of the line above each picture, and between two pictures."""
 _COLORS = ("#0050ff", "#e07000", "#009050", "#c000a0", "#806000", "#00a0b0", "#d02020", "#5050a0", "#60a000")
 
@@ -40,7 +40,7 @@ def draw_headset(headset: Headset, rig: Rig) -> Figure:
     figure = Figure(figsize=(WIDTH_IN, height_in), dpi=100)
     canvas = FigureCanvasAgg(figure)
 
-    def panel(number: int, wide_in: float, top_in: float) -> Axes:
+    def panel(number: float, wide_in: float, top_in: float) -> Axes:
         bottom_in = height_in - top_in - TITLE_IN - wide_in
         place = (number * wide_in + GAP_IN / 2, bottom_in + GAP_IN / 2, wide_in - GAP_IN, wide_in - GAP_IN)
         axes = figure.add_axes(np.array(place) / [WIDTH_IN, height_in, WIDTH_IN, height_in])
@@ -53,7 +53,10 @@ def draw_headset(headset: Headset, rig: Rig) -> Figure:
         axes.set_title(title, fontsize=9)
     for number, (view, color) in enumerate(zip(wearer.views, _cycle(cameras), strict=True)):
         line, column = divmod(number, columns)
-        axes = panel(column, view_in, side_in + TITLE_IN + line * (view_in + TITLE_IN))
+        left = (
+            columns - min(columns, cameras - line * columns)
+        ) / 2  # a line that is not full stands in the middle
+        axes = panel(left + column, view_in, side_in + TITLE_IN + line * (view_in + TITLE_IN))
         _draw_view(canvas, axes, wearer, view)
         camera = headset.camera(view.name)
         seen = f"{seen_landmarks(wearer, view)[1].sum()} points"

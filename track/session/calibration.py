@@ -243,8 +243,9 @@ class Calibration:
         came = count + self._missed
         if came < FEWEST_FRAMES:
             return f"Only {came} pictures came, and {FEWEST_FRAMES} are needed: camera or machine is too slow"
-        if count < max(FEWEST_FRAMES, SEEN_SHARE * came):
-            return f"Your face was seen in {count} of {came} frames"
+        least = max(FEWEST_FRAMES, round(SEEN_SHARE * came))
+        if count < least:
+            return f"Your face was seen in {count} of {came} frames, and {least} are needed"
         if self.name == "neutral":
             seen = steadiness(np.array([signature for _, signature in self._frames]), least=self._least)
             return (

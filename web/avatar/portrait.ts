@@ -15,6 +15,7 @@ import {
 } from "three";
 
 import type { Avatar } from "./avatar.js";
+import { findBone } from "./bones.js";
 
 /** A portrait lens: 85 mm on 35 mm film sees 16 degrees in height; a little more leaves room for hair. */
 const FIELD_DEG = 20;
@@ -22,6 +23,8 @@ const FIELD_DEG = 20;
 const [BELOW, ABOVE, MARGIN] = [0.4, 1.2, 0.12];
 /** Where a bust ends it has an edge; the picture ends above it. */
 const EDGE = 0.12;
+/** Of an avatar's height, what is above the bone of its head at least: a person's is an eighth. */
+const LEAST_HEAD = 0.05;
 /** Nobody's eyes gain from more, and telephones claim up to 4. */
 const MOST_PIXEL_RATIO = 2;
 
@@ -46,11 +49,20 @@ export function frameOf(avatar: Avatar): { centre: Vector3; height: number } {
   avatar.root.updateMatrixWorld(true);
   const face = avatar.morphs.faceBox();
   const whole = new Box3().setFromObject(avatar.root);
-  if (face.isEmpty()) return frameOfBox(whole);
+  if (face.isEmpty()) return frameOfHead(avatar, whole) ?? frameOfBox(whole);
   const { y } = face.getSize(new Vector3());
   const bottom = Math.max(face.min.y - BELOW * y, whole.min.y + EDGE * y);
   const top = Math.min(face.max.y + ABOVE * y, whole.max.y) + MARGIN * y;
   return { centre: face.getCenter(new Vector3()).setY((top + bottom) / 2), height: top - bottom };
+}
+
+/** From under the chin to above the crown, by the bone of a head whose shapes have names of their own. */
+function frameOfHead(avatar: Avatar, whole: Box3): { centre: Vector3; height: number } | undefined {
+  const centre = findBone(avatar.model, "head", avatar.vrm)?.getWorldPosition(new Vector3());
+  const size = whole.max.y - (centre?.y ?? Infinity);
+  if (!centre || size < LEAST_HEAD * whole.getSize(new Vector3()).y) return undefined;
+  const [bottom, top] = [centre.y - BELOW * size, whole.max.y + MARGIN * size];
+  return { centre: centre.setY((top + bottom) / 2), height: top - bottom };
 }
 
 /** The upper quarter of a body, or the whole of what is no body. */

@@ -57,6 +57,7 @@ def head(
     shapes: Sequence[str] = BLENDSHAPES,
     colour: Sequence[float] = (0.75, 0.55, 0.45, 1.0),
     leaning: bool = False,
+    body: bool = False,
     vrm: Callable[[dict[str, int], list[str]], dict] | None = None,
 ) -> bytes:
     """A .glb.
@@ -71,6 +72,8 @@ def head(
         Of its skin.
     leaning
         Whether its neck's bone lies on its back at rest, with head and eyes in its frame, as Blender's bones do.
+    body
+        Whether it has a body as high as a person and, with its arms held out, as wide.
     vrm
         Makes the extensions of a VRM from its nodes by name, and its shapes.
     """
@@ -104,6 +107,9 @@ def head(
     parts += [
         (ball + at[name].astype(np.float32), ball_triangles, name, (0.95, 0.95, 0.95, 1)) for name in EYES
     ]
+    if body:
+        trunk, trunk_triangles = egg(8, 12, (0.8, 0.75, 0.1))
+        parts.append((trunk + np.float32([0, 0.75, 0]), trunk_triangles, "hips", colour))
     primitives, materials = [], []
     for number, (vertices, triangles, bone, paint) in enumerate(parts):
         joint = np.zeros((len(vertices), 4), np.uint8)

@@ -132,7 +132,7 @@ def test_a_vrm_of_presets_alone_follows_roughly_and_says_so(loop, stand, tmp_pat
     def presets(nodes, shapes):
         return vrm1(nodes, list(names), custom=False)
 
-    path.write_bytes(head(shapes=list(names), spell=names.get, vrm=presets))
+    path.write_bytes(head(shapes=list(names), spell=names.get, vrm=presets, body=True))
     weights = np.zeros(52)
     weights[BLENDSHAPES.index("jawOpen")] = 0.7
 
@@ -147,9 +147,16 @@ def test_a_vrm_of_presets_alone_follows_roughly_and_says_so(loop, stand, tmp_pat
         while not (influences := await stand.tab.ask(moved))[0] and time.monotonic() < end:
             stand.page.publish(moment_of(weights))
             await asyncio.sleep(0.03)
-        return sentence, influences
+        frame = await stand.tab.ask(
+            "(({ frame: { centre, height } }) => [centre.y, height])(track.stage.portrait)"
+        )
+        return sentence, influences, frame
 
-    sentence, influences = loop.run_until_complete(look())
+    sentence, influences, (middle, height) = loop.run_until_complete(look())
+    # the head is an egg of .24 m about a height of 1.59, and its body is as wide as high
+    assert height < 0.4
+    assert middle - height / 2 < 1.47
+    assert middle + height / 2 > 1.71
     assert sentence == "plain.vrm has no ARKit shapes, so its 4 expressions follow roughly."
     np.testing.assert_allclose(influences, [0.7, 0, 0, 0], atol=1e-6)
 
