@@ -57,7 +57,7 @@ class Dressing:
             raise web.HTTPForbidden(
                 text="a moderator has taken your own avatar off; choose one of the room's\n"
             )
-        if not hall.uploads.setdefault(seat.id, Bucket(UPLOADS_PER_S, burst=UPLOADS_BURST)).take(
+        if not hall.cloakroom.uploads.setdefault(seat.id, Bucket(UPLOADS_PER_S, burst=UPLOADS_BURST)).take(
             now=asyncio.get_running_loop().time()
         ):
             raise web.HTTPTooManyRequests(text="too many avatars at once; wait half a minute\n")
@@ -103,14 +103,14 @@ class Dressing:
 
     async def _carried(self, digest: str, hall: Hall | None) -> bytes | None:
         """From another server of the room, checked as if it had been brought here; None where that cannot be."""
-        content = await hall.carried(digest) if hall else None
+        content = await hall.cloakroom.carried(digest) if hall else None
         if hall is None or content is None:
             return None
         try:
             async with self._checking:
                 if self._wardrobe.get(digest, hall.name) is None:  # who waited for the same may have kept it
                     await asyncio.to_thread(check_avatar, content)
-                    hall.keep(digest, content)
+                    hall.cloakroom.keep(digest, content)
         except (FormatError, NotAllowed):
             return None
         return self._wardrobe.get(digest, hall.name)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from facegen.conventions import BLENDSHAPES
 from room.avatars import Wardrobe
 from room.errors import NotAllowed
-from room.protocol.accounts import Part, Wanted
+from room.protocol.accounts import Part
 from room.protocol.texts import (
     Answer,
     Candidate,
@@ -31,13 +31,15 @@ from room.protocol.texts import (
 )
 from room.recording import Recorder
 from room.server.carrier import Carrier
+from room.server.cloakroom import Cloakroom
 from room.server.connection import Connection
-from room.server.limits import BURST_S, NEWCOMERS_PER_S, PLAYS_PER_S, RETURNS_PER_S, Bucket
+from room.server.limits import PLAYS_PER_S, Bucket
 from room.server.neighbours import Neighbours
 from room.server.replay import Replay
 from room.server.switchboard import Switchboard
 from room.server.turn import Relays
-from room.state import Meeting, Seat, identity
+from room.server.turnstile import Turnstile
+from room.state import Meeting, Seat
 from room.state.accounts import Ousted
 
 if TYPE_CHECKING:  # needs an extra of its own
@@ -70,6 +72,11 @@ class Hall:
         Brings own avatars from those processes, and to them; None where there is one alone.
     switchboard
         Has an engine pass voices on; None where they go from page to page.
+
+    Attributes
+    ----------
+    cloakroom
+        Has their own avatars.
     """
 
     def __init__(
@@ -91,6 +98,7 @@ class Hall:
         self.meeting = Meeting(
             most_people=most_people, process=process, first_number=int(process[:4] or "0", 16)
         )
+        self.cloakroom = Cloakroom(name, self.meeting, wardrobe, carrier)
         self._neighbours = telegraph and Neighbours(
             self.meeting,
             telegraph,
@@ -99,16 +107,13 @@ class Hall:
             call=self._call,
             oust=self._oust,
             undress=self._undressed,
-            send=self._send,
+            send=self.cloakroom.send,
         )
-        self._carrier = carrier
-        self._relays, self._wardrobe = relays, wardrobe
-        self.uploads: dict[str, Bucket] = {}
+        self._relays = relays
         self._pages: dict[str, Connection] = {}
         self._programs: dict[str, Connection] = {}
         self._switchboard = switchboard
-        self._newcomers = Bucket(NEWCOMERS_PER_S, burst=2 * most_people)
-        self._returns: dict[str, Bucket] = {}
+        self._turnstile = Turnstile(most_people)
         self._plays = Bucket(PLAYS_PER_S, burst=2 * PLAYS_PER_S)
 
     @property
@@ -135,14 +140,14 @@ class Hall:
         NotAllowed
             As `room.state.Meeting.enter`, or if people come in so often that others hear of nothing else.
         """
-        self._count(join, moderator=moderator)
+        self._turnstile.count(join, self.meeting, moderator=moderator)
         seat = self.meeting.enter(join, moderator=moderator)
         connections = self._connections(join.role)
         if older := connections.pop(seat.id, None):
             older.refuse("you came in from another window", again=False)
         connections[seat.id] = connection
         page = join.role == "page"
-        if page and self._wardrobe.get(seat.own, self.name) is None:
+        if page and not self.cloakroom.has(seat):
             seat.own = ""  # it stayed with the process that they came by before; their page brings it again
         if page:  # a program that moves a face has no say in this
             seat.recorded = join.recorded and self._recorder is not None
@@ -173,18 +178,6 @@ class Hall:
             if self._switchboard:
                 self._switchboard.begin(seat.id, connection.say)
         return seat
-
-    def _count(self, join: Join, *, moderator: bool) -> None:
-        """Refuse who comes in too often: one who is known by their own count, so that strangers keep out nobody."""
-        id = identity(join.secret)
-        known = self.meeting.seat(id) is not None
-        if moderator or (not known and join.role == "face"):
-            return
-        bucket = self._newcomers
-        if known:
-            bucket = self._returns.setdefault(id, Bucket(RETURNS_PER_S, burst=RETURNS_PER_S * BURST_S))
-        if not bucket.take(now=time.monotonic()):
-            raise NotAllowed("too many come in at once; wait a moment", again=True)
 
     def go(self, seat: Seat, connection: Connection, role: Part) -> None:
         """A connection has ended; the place is kept for a while."""
@@ -237,7 +230,7 @@ class Hall:
             case Play():
                 self._play(said)
             case Undress():
-                self._undress(seat)
+                self.cloakroom.undress(seat)
                 self._tell(Changed(person=seat.person))
             case Share():
                 for changed in self.meeting.share(seat, on=said.on):
@@ -268,46 +261,17 @@ class Hall:
         NotAllowed
             If the server has no room for it; they wear the stand-in then.
         """
-        self._undress(seat)
         try:
-            seat.own = self._wardrobe.put(content, (self.name, seat.id))
+            self.cloakroom.dress(seat, content)
         finally:
             self._tell(Changed(person=seat.person))
         return seat.own
-
-    def _undress(self, seat: Seat) -> None:
-        seat.own = ""
-        self._wardrobe.drop((self.name, seat.id))
-
-    async def carried(self, digest: str) -> bytes | None:
-        """An own avatar that another process of this room took; it was not checked here."""
-        worn = any(seat.own == digest and seat.home != self.meeting.process for seat in self.meeting.seats)
-        return await self._carrier.fetch(self.name, digest) if self._carrier and worn else None
-
-    def keep(self, digest: str, content: bytes) -> None:
-        """Keep an avatar of another process that was checked, for as long as its people wear it.
-
-        Raises
-        ------
-        NotAllowed
-            If the server has no room for it.
-        """
-        for seat in self.meeting.seats:
-            if seat.own == digest and seat.home != self.meeting.process:
-                self._wardrobe.put(content, (self.name, seat.id))
-
-    def _send(self, wanted: Wanted) -> None:
-        mine = any(
-            seat.own == wanted.digest and seat.home == self.meeting.process for seat in self.meeting.seats
-        )
-        if self._carrier and mine:
-            self._carrier.send(self.name, wanted)
 
     def _undressed(self, id: str) -> None:
         seat = self.meeting.seat(id)
         if seat and seat.home == self.meeting.process:
             seat.undressed = True
-            self._undress(seat)
+            self.cloakroom.undress(seat)
             self._tell(Changed(person=seat.person))
 
     def _write(self, seat: Seat, text: str) -> None:
@@ -347,7 +311,7 @@ class Hall:
         if self._replay:
             self._replay.close()
         if self._neighbours:
-            self._wardrobe.settle(self.name, {})
+            self.cloakroom.close()
             self._neighbours.close()
 
     def _record_roster(self) -> None:
@@ -396,8 +360,8 @@ class Hall:
             connection.say(signal)
 
     def _oust(self, ousted: Ousted) -> None:
-        self._returns.pop(ousted.id, None)
-        self._wardrobe.drop((self.name, ousted.id))
+        self._turnstile.forget(ousted.id)
+        self.cloakroom.drop(ousted.id)
         if self._switchboard:
             self._switchboard.end(ousted.id)
         if connection := self._pages.pop(ousted.id, None):
@@ -407,14 +371,14 @@ class Hall:
         """Let go of programs whose person has left by another process."""
         for id in [id for id in self._programs if self.meeting.seat(id) is None]:
             self._programs.pop(id).refuse("whose face this moves has left", again=True)
-        self._wardrobe.settle(self.name, {seat.id: seat.own for seat in self.meeting.seats})
+        self.cloakroom.settle()
 
     def _moderate(self, by: Seat, act: Moderate) -> None:
         seat = self.meeting.moderate(by, act)
         if seat is None:
             self._tell(Door(locked=self.meeting.locked))
         elif act.action == "undress":
-            self._undress(seat)
+            self.cloakroom.undress(seat)
             self._tell(Changed(person=seat.person))
             if self._neighbours and seat.home != self.meeting.process:
                 self._neighbours.undressed(seat.id)
@@ -425,11 +389,11 @@ class Hall:
 
     def _free(self, seat: Seat, *, word: str = "you have left") -> None:
         self.meeting.leave(seat)
-        self._returns.pop(seat.id, None)
+        self._turnstile.forget(seat.id)
         if self._switchboard:
             self._switchboard.end(seat.id)
-        self.uploads.pop(seat.id, None)
-        self._undress(seat)
+        self.cloakroom.uploads.pop(seat.id, None)
+        self.cloakroom.undress(seat)
         self._record_roster()
         for connections in (self._pages, self._programs):
             if connection := connections.pop(seat.id, None):
