@@ -41,15 +41,17 @@ def nearest_triangles(
     size = np.nan_to_num(np.minimum(np.floor(corners.max(axis=1)), limit) - first + 1.0, nan=0.0)
     size = np.maximum(size, 0.0).astype(np.int64)
     first = np.nan_to_num(first).astype(np.int64)
+    across, down = (np.ascontiguousarray(corners[..., axis].T) for axis in range(2))
+    area = _area(across, down)
     for some in _batches(size.prod(axis=1)):
         triangle = np.repeat(some, size[some].prod(axis=1))
         local = _counted(size[some].prod(axis=1))
         column = first[triangle, 0] + local % size[triangle, 0]
         row = first[triangle, 1] + local // size[triangle, 0]
-        weights = barycentric(np.stack([column, row], axis=-1), corners[triangle])
-        inside = (weights >= 0.0).all(axis=-1)
+        wa, wb, wc = _weights(column, row, across[:, triangle], down[:, triangle], area[triangle])
+        inside = (wa >= 0.0) & (wb >= 0.0) & (wc >= 0.0)
         triangle, pixel = triangle[inside], row[inside] * shape[1] + column[inside]
-        base, wb, wc = values[triangle, 0], weights[inside, 1], weights[inside, 2]
+        base, wb, wc = values[triangle, 0], wb[inside], wc[inside]
         here = (
             base + wb * (values[triangle, 1] - base) + wc * (values[triangle, 2] - base)
         )  # exact on level faces
@@ -79,15 +81,24 @@ def nearest_along_z(
 
 def barycentric(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Weights (m, 3) of the corners (m, 3, 2) at points (m, 2); NaN for triangles seen edge on."""
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    area = _cross(b - a, c - a)
-    safe = np.where(area == 0.0, np.nan, area)
-    wa, wb = _cross(b - points, c - points) / safe, _cross(c - points, a - points) / safe
-    return np.stack([wa, wb, 1.0 - wa - wb], axis=-1)
+    across, down = corners[..., 0].T, corners[..., 1].T
+    return np.stack(_weights(*points.T, across, down, _area(across, down)), axis=-1)
 
 
-def _cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+def _area(across: np.ndarray, down: np.ndarray) -> np.ndarray:
+    """Twice the area (m,) of triangles with corners (3, m), signed; NaN of those seen edge on."""
+    (ax, bx, cx), (ay, by, cy) = across, down
+    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    return np.where(area == 0.0, np.nan, area)
+
+
+def _weights(
+    x: np.ndarray, y: np.ndarray, across: np.ndarray, down: np.ndarray, area: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Weights (m,) of each corner (3, m) at points (m,); coordinates apart, as rows of two are three times as slow."""
+    (ax, bx, cx), (ay, by, cy) = across - x, down - y
+    wa, wb = (bx * cy - by * cx) / area, (cx * ay - cy * ax) / area
+    return wa, wb, 1.0 - wa - wb
 
 
 def _batches(pixels: np.ndarray) -> list[np.ndarray]:
