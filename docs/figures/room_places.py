@@ -84,10 +84,10 @@ async def picture_of(name: str) -> Image.Image:
             await tab.ask(JOIN)
             await tab.until("globalThis.meeting?.placed", 60)
             everybody = "[...meeting.known.values()].every(({ figure }) => figure.avatar.name !== 'plain')"
-            await tab.until(everybody, 90)
+            await tab.until(everybody, 180)
             await tab.ask(f"void Object.assign(meeting.walk, {stand})")
             await tab.ask(COUNT)
-            await tab.until("drawn >= 12", 60)
+            await tab.until("drawn >= 12", 120)
             with tempfile.TemporaryDirectory() as folder:
                 await tab.picture(Path(folder, "page.png"))
                 seen = Image.open(Path(folder, "page.png")).convert("RGB")
