@@ -11,7 +11,9 @@ if TYPE_CHECKING:
     from room.server import Keys
 
 
-def _names(rooms: list[str]) -> list[str]:
+def _names(
+    rooms: list,
+) -> list[str]:  # Python 3.10 takes list[str] for a class, and typer asks whose child it is
     """The names, before anything else is looked at: a refused command writes no file of keys."""
     from room.server.application import ROOM_NAME
 

@@ -167,7 +167,7 @@ def test_a_stale_spec_of_the_whole_dataset(copy):
     record = json.loads(text)
     (copy / "dataset.json").write_text(text.replace(record["spec_hash"], "f" * 64))
     result = CliRunner().invoke(app, ["validate", str(copy)])
-    assert "was made with another version" in str(result.exception)
+    assert "its spec.toml or headset.toml was changed after it was made" in str(result.exception)
     assert result.exception.exit_code == 2
 
 

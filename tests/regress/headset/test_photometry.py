@@ -40,8 +40,10 @@ def test_saturation_flattens_what_is_bright_and_keeps_order(percent: float, seed
     picture = torch.from_numpy(np.random.default_rng(seed).random((1, SIZE, SIZE), dtype=np.float32))
     flat = saturated(picture, torch.tensor([percent], dtype=torch.float32))
     assert float(flat.max()) <= float(picture.max()) + 1e-6
-    share = float((flat == flat.max()).float().mean())
-    assert abs(share - (1 - percent / 100)) < 0.08
+    # the percentile is that of every third pixel and line: exact there, and within five deviations of such a sample
+    cut = (flat == flat.max()).float()
+    assert abs(float(cut[:, ::3, ::3].mean()) - (1 - percent / 100)) < 0.01
+    assert abs(float(cut.mean()) - (1 - percent / 100)) < 0.15
     order = picture.flatten().argsort()
     assert (flat.flatten()[order].diff() >= 0).all()
 
