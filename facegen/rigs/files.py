@@ -23,6 +23,7 @@ from facegen.errors import FormatError, InputError, MissingAsset
 from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
 from facegen.rigs.rig import Rig
+from facegen.rigs.versions import VERSIONS
 
 RIG_FORMAT = 1
 """Version of the files. A reader refuses others: a rig is built anew in seconds."""
@@ -138,11 +139,16 @@ def load_rig(name: str, folder: Path | None = None) -> Rig:
     MissingAsset
         No rig of this name has been built.
     InputError
-        The file's content is not what its checksum says.
+        The file is of another build than this version takes, or its content is not what its checksum says.
     """
     folder = Path(folder) if folder is not None else rigs_folder()
     record = read_record(name, folder)
     path = folder / f"{name}.npz"
+    if record["version"] != VERSIONS.get(name, record["version"]):
+        raise InputError(
+            f"{path} is {record['version']!r}, and this version takes {VERSIONS[name]!r}, with other shapes or eyes; "
+            f"build it again with: facegen rig build {name}"
+        )
     content = read_bytes(path, most_bytes=2 * MOST_BYTES)
     if hashlib.sha256(content).hexdigest() != record["sha256"]:
         raise InputError(

@@ -17,11 +17,11 @@ from facegen.rigs.human_eyes import with_human_eyes
 from facegen.rigs.identity import fit_sphere
 from facegen.rigs.marking import lid_neighbourhood, lip_faces
 from facegen.rigs.rig import Rig
+from facegen.rigs.versions import VERSIONS
 
 MOST_COMPONENTS = 60
 """Modes taken at most; 60 hold 98.8 % of the variance."""
 CENTIMETRE_M = 0.01
-VERSION = "ICT-FaceKit light, build 3"
 LICENCE = "MIT"
 SOURCE = "ICT-FaceKit light (USC Institute for Creative Technologies, 2020), github.com/ICT-VGL/ICT-FaceKit"
 MOST_OBJ_BYTES = 32 * 1024**2
@@ -105,7 +105,7 @@ def build_ict(clone: Path, *, components: int = MOST_COMPONENTS) -> Rig:
         lid_vertices=lid_neighbourhood(vertices, expression, centre, radius),
         licence=LICENCE,
         source=SOURCE,
-        version=VERSION,
+        version=VERSIONS["ict"],
         missing=missing,
     )
     return with_human_eyes(rig)
@@ -201,4 +201,6 @@ def _build(sources: RigSources) -> Rig:
     return build_ict(sources.path)
 
 
-ICT = RigBuilder(version=VERSION, licence=LICENCE, origin="from --path, a clone of ICT-FaceKit", build=_build)
+ICT = RigBuilder(
+    version=VERSIONS["ict"], licence=LICENCE, origin="from --path, a clone of ICT-FaceKit", build=_build
+)

