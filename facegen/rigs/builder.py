@@ -28,12 +28,10 @@ class RigSources:
 
 @dataclass(frozen=True, kw_only=True)
 class RigBuilder:
-    """A rig that facegen builds: a module, and a line in `facegen.rigs.building.RIGS`.
+    """A rig that facegen builds: a module, and a line in `facegen.rigs.building.RIGS` and in `facegen.rigs.versions`.
 
     Attributes
     ----------
-    version
-        Of sources and builder; a build of another version is built anew.
     licence
         Of the shapes.
     origin
@@ -42,7 +40,6 @@ class RigBuilder:
         Builds it; raises `facegen.errors.InputError` where the sources are missing or unusable.
     """
 
-    version: str
     licence: str
     origin: str
     build: Callable[[RigSources], Rig]

@@ -10,9 +10,10 @@ from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.files import read_record, rigs_folder, save_rig
 from facegen.rigs.gltf_head import AddedHead, build_head
 from facegen.rigs.ict import ICT
+from facegen.rigs.versions import VERSIONS
 
 RIGS: dict[str, RigBuilder] = {"anny": ANNY, "ict": ICT}
-"""Every rig that facegen builds; a new one is a module and a line here."""
+"""Every rig that facegen builds; a new one is a module, a line here and its build in `VERSIONS`."""
 
 
 def build_rig(
@@ -111,6 +112,6 @@ def add_rig(
 
 def _up_to_date(name: str, folder: Path) -> bool:
     try:
-        return read_record(name, folder).get("version") == RIGS[name].version
+        return read_record(name, folder).get("version") == VERSIONS[name]
     except (MissingAsset, InputError):
         return False

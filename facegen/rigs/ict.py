@@ -201,6 +201,4 @@ def _build(sources: RigSources) -> Rig:
     return build_ict(sources.path)
 
 
-ICT = RigBuilder(
-    version=VERSIONS["ict"], licence=LICENCE, origin="from --path, a clone of ICT-FaceKit", build=_build
-)
+ICT = RigBuilder(licence=LICENCE, origin="from --path, a clone of ICT-FaceKit", build=_build)
