@@ -21,6 +21,7 @@ from facegen.expression.shapes import (
     draw_lower_face,
     draw_single,
     draw_sparse,
+    draw_tongue,
     draw_upper_face,
     draw_wink,
 )
@@ -83,6 +84,7 @@ COMPONENTS: dict[str, Component] = {
     "combined": Component(draw=draw_combined, living=False, subtle=False),
     "talk": Component(draw=draw_talk, living=True),
     "wink": Component(draw=draw_wink, living=False, subtle=False),
+    "tongue": Component(draw=draw_tongue, living=False, looking=False, subtle=False),
 }
 """Every component, by its key of ``[expression.mixture]``; a new one is a module and a line here."""
 

@@ -22,6 +22,8 @@ COMBINED_JAW, COMBINED_BLINK = 0.35, (0.3, 0.8)
 """Least jawOpen of a combined face, and from where to where both eyes are closed."""
 WINK_FULL, WINK_BOTH = 0.5, 0.35
 """Shares of winking faces whose lids meet, and of those that shut both eyes."""
+TONGUE_NONE, TONGUE_FULL, TONGUE_OTHERS = 1 / 3, 0.5, 0.15
+"""Shares of a tongue's faces without it, of the others those that put it out fully, and of shapes that move beside."""
 EXTREME_SHAPES, EXTREME_FROM, EXTREME_GAZE = 3, 0.75, 0.25
 """Shapes of an extreme face, the weakest weight there, and the share of faces with eyes turned as far."""
 
@@ -122,6 +124,21 @@ def draw_wink(rng: np.random.Generator, size: int, *, correlation: float) -> np.
     weights = np.zeros((size, len(BLENDSHAPES)))
     for side, column in enumerate(_BLINKS):
         weights[:, column] = np.where((sides == side) | (sides == 2), strength, 0.0)
+    return weights
+
+
+def draw_tongue(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """A tongue out of an open mouth, half of them fully, or in a third of the faces the open mouth alone.
+
+    About a seventh of the lower face's other shapes move beside it; the eyes rest. Networks that saw few tongues took
+    an open mouth for one.
+    """
+    beside = (rng.random((size, len(_FIRST))) < TONGUE_OTHERS) & ~_IS_UPPER
+    weights = _draw_active(rng, beside, correlation=correlation)
+    out = np.where(rng.random(size) < TONGUE_FULL, 1.0, rng.random(size))
+    weights[:, _TONGUE] = np.where(rng.random(size) < TONGUE_NONE, 0.0, out)
+    weights[:, _JAW] = TONGUE_NEEDS_JAW + 0.01 + (0.99 - TONGUE_NEEDS_JAW) * rng.random(size)
+    weights[:, CLOSING] = 0.0
     return weights
 
 

@@ -41,6 +41,7 @@ YOUNG = {
     "expression.mixture.combined": 1.0,
     "expression.mixture.talk": 1.0,
     "expression.mixture.wink": 1.0,
+    "expression.mixture.tongue": 1.0,
     "layout": {"count": 3},
 }
 """Keys that came after the first datasets, and values other than their defaults."""
