@@ -6,26 +6,32 @@
 People of `datasets/headset-guided.toml` do what `headset-guided.csv` says, in a seat of the headset; they are the same
 people as those of `headset-test.toml`, who sit otherwise there. Each person's minute is calibrated as
 `regress headset calibrate` does it. Errors are of the sixteen faces behind the minute in the same seat, and of ordinary
-frames of the other dataset in two other seats. Prints Markdown, which stands in docs/measurements/headset-networks.md.
+frames of the other dataset in two other seats. `--soft` blurs all pictures first, as a camera out of focus does. How
+far people open their eyes at rest is compared over people, as traced and as labelled. Prints Markdown, which stands in
+docs/measurements/headset-networks.md.
 """
 
 import argparse
 from collections import defaultdict
+from dataclasses import replace
 from pathlib import Path
 
+import cv2
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.conventions import BLENDSHAPE_INDEX, VIEW_POINTS
 from regress.learning.headset.accuracy import gaze_error_deg
 from regress.learning.headset.adaptation import adapted_graph, changes, judge, read_heads
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.evaluation import COMBINED
 from regress.learning.headset.known_frames import known_frames
+from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.graph import HeadsetGraph
 from regress.runtime.headset.guided import FACES, LOOK, REST, GuidedTake, person_of
 from regress.runtime.headset.person import OwnEnds, Person
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.traced_eyes import eye_features
 from regress.runtime.ready_made import model_folder
 
 MINUTE = ((REST, 4), *((face, 2) for face in FACES if face not in (REST, LOOK)), (LOOK, 9))
@@ -45,14 +51,16 @@ def main() -> None:
     parser.add_argument("--minute", required=True, type=Path)
     parser.add_argument("--others", type=Path, help="the same people in other seats")
     parser.add_argument("--adapt", action="store_true", help="adapt last layers too")
+    parser.add_argument("--soft", type=float, default=0.0, help="standard deviation of a blur in pixels")
     arguments = parser.parse_args()
-    predictor, minute = load_headset_predictor(arguments.model), read_arrays(arguments.minute)
-    others = None if arguments.others is None else read_arrays(arguments.others)
+    predictor, minute = load_headset_predictor(arguments.model), softened(arguments.minute, arguments.soft)
+    others = None if arguments.others is None else softened(arguments.others, arguments.soft)
     graph = (model_folder(arguments.model) / "network.onnx").read_bytes() if arguments.adapt else None
     found: dict[tuple[str, str], list[float]] = defaultdict(list)
     people = np.unique(minute.person)
     for number in people:
         measure(predictor, minute, int(number), others, found, graph)
+    openness = np.array([resting_openness(predictor, minute, int(number)) for number in people])
     places = list(dict.fromkeys(place for place, _ in found if "mm" in place))
     print(f"{len(people)} people; means over them.\n")
     print("| mean vertex error, mm | " + " | ".join(place.removesuffix(", mm") for place in places) + " |")
@@ -63,6 +71,38 @@ def main() -> None:
     for (place, what), values in found.items():
         if place not in places:
             print(f"| {what} | {np.mean(values):.2f} ({min(values):.2f} to {max(values):.2f}) |")
+    r = np.corrcoef(openness[..., 0].ravel(), openness[..., 1].ravel())[0, 1]
+    print(f"| r over people of how far eyes are open at rest, both eyes, traced against labelled | {r:.2f} |")
+
+
+def softened(folder: Path, blur_px: float) -> HeadsetArrays:
+    """Arrays of a folder, their pictures blurred by a Gaussian."""
+    arrays = read_arrays(folder)
+    if not blur_px:
+        return arrays
+    pictures = {
+        name: np.array([cv2.GaussianBlur(one, (0, 0), blur_px) for one in seen])
+        for name, seen in arrays.pictures.items()
+    }
+    return replace(arrays, pictures=pictures)
+
+
+def resting_openness(predictor: HeadsetPredictor, minute: HeadsetArrays, number: int) -> np.ndarray:
+    """(2, 2): of each eye at rest, how far it is open in irises, as traced and as labelled."""
+    rows = np.flatnonzero(minute.person == number)
+    rows = rows[np.argsort(minute.frame[rows])][: MINUTE[0][1]]
+    traced = predictor.graph.trace(pictures(minute, rows, predictor))
+    found = []
+    for camera in ("left_eye", "right_eye"):
+        eye = EyePoints.of(predictor, camera)
+        columns = [VIEW_POINTS.index(name) for name in predictor.model.points[camera]]
+        found.append(
+            [
+                np.nanmedian(eye_features(points.astype(np.float64), eye)[1])
+                for points in (traced[camera], minute.points[camera][rows][:, columns])
+            ]
+        )
+    return np.array(found)
 
 
 def measure(
