@@ -30,7 +30,7 @@ def main() -> None:
     errors: dict[tuple[str, int], list[float]] = {}
     for person in np.unique(arrays.person):
         rows = np.flatnonzero(arrays.person == person)
-        estimates, traced = predictor.graph.look(
+        estimates, traced = predictor.graph.see(
             {name: arrays.pictures[name][rows] for name in predictor.sizes}
         )
         for side, (camera, blink) in enumerate(

@@ -7,27 +7,24 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES, CAMERA_TERMS
+from facegen.conventions import CAMERA_TERMS
 from facegen.documents import read_bytes
 from regress.errors import InputError, ModelError
 from regress.runtime.headset.estimates import (
     CAMERA_INPUT,
     GRAPH_OUTPUTS,
-    POINTS,
     TERMS_TOLD,
     Estimates,
     points_output,
 )
 from regress.runtime.headset.folder import MOST_GRAPH_BYTES
+from regress.runtime.headset.graph_interface import GraphInterface
 from regress.runtime.headset.model import CameraInput
 from regress.runtime.onnx_file import graph_fault
 from regress.runtime.onnx_session import open_session, session_errors
 
 _BLOCK_ROWS = 64
 """Frames run at a time: more need more memory and are no faster."""
-
-_FRAMES = "n"
-"""Stands for the frames in the table of shapes; a graph may call them otherwise."""
 
 
 class HeadsetGraph:
@@ -62,10 +59,11 @@ class HeadsetGraph:
         with session_errors("network.onnx is not a graph that onnxruntime reads"):
             self._session = open_session(data)
         self._cameras = cameras
-        self._outputs = {value.name for value in self._session.get_outputs()}
-        self._shapes = _output_shapes(cameras, points or {})
+        self._interface = GraphInterface(cameras, points or {})
+        inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
+        self._interface.check(inputs, self._session.get_overridable_initializers(), outputs)
+        self._outputs = {value.name for value in outputs}
         self._told: np.ndarray | None = None
-        self._check_interface()
 
     @property
     def outputs(self) -> frozenset[str]:
@@ -97,42 +95,6 @@ class HeadsetGraph:
         other = copy.copy(self)
         other._told = table
         return other
-
-    def _check_interface(self) -> None:
-        """Refuse a graph whose inputs or outputs are not those that model.json speaks of."""
-        given = {value.name: (value.type, tuple(value.shape)) for value in self._session.get_inputs()}
-        needed = _input_shapes(self._cameras)
-        lost = sorted(needed.keys() - given.keys())
-        if lost:
-            raise ModelError(f"network.onnx has no input {', '.join(lost)}; model.json names them")
-        more = sorted(given.keys() - needed.keys())
-        if more:
-            raise ModelError(f"network.onnx has an input {more[0][:60]!r}, which model.json does not name")
-        for name, (kind, shape) in given.items():
-            if kind != needed[name][0] or not _fits(shape, needed[name][1]):
-                raise ModelError(
-                    f"network.onnx has an input {name} of {kind} {list(shape)}; model.json makes it "
-                    f"{' '.join(map(str, needed[name]))}"
-                )
-        for value in self._session.get_overridable_initializers():
-            table = [len(self._cameras), TERMS_TOLD]
-            if value.name != CAMERA_INPUT or value.type != _FLOAT or list(value.shape) != table:
-                raise ModelError(
-                    f"network.onnx has an input {value.name[:60]!r} of {value.type} {value.shape} with a default; "
-                    f"{CAMERA_INPUT} of {_FLOAT} {table} alone may have one"
-                )
-        for value in self._session.get_outputs():
-            shape = self._shapes.get(value.name)
-            if shape is not None and not (
-                value.type == _FLOAT and len(value.shape) == len(shape) and _fits(value.shape, shape)
-            ):
-                raise ModelError(
-                    f"network.onnx has an output {value.name} of {value.type} {value.shape}; model.json makes it "
-                    f"{_FLOAT} {shape}"
-                )
-        lacking = [name for name in GRAPH_OUTPUTS if name not in self._outputs]
-        if lacking:
-            raise ModelError(f"network.onnx has no output {lacking[0]}; a headset network gives it")
 
     def run(
         self,
@@ -203,10 +165,6 @@ class HeadsetGraph:
         points = self._run([points_output(name) for name in cameras], pictures, None, None, None)
         return dict(zip(cameras, points, strict=True))
 
-    def look(self, pictures: dict[str, np.ndarray]) -> tuple[Estimates, dict[str, np.ndarray]]:
-        """What `see` says of uncalibrated pictures."""
-        return self.see(pictures)
-
     def _run(
         self,
         names: Sequence[str],
@@ -249,54 +207,10 @@ class HeadsetGraph:
                 feed[CAMERA_INPUT] = self._told
             with session_errors("network.onnx cannot be run"):
                 blocks.append(self._session.run(names, feed))
-            self._check_answers(dict(zip(names, blocks[-1], strict=True)), rows=len(with_neutral[block]))
+            self._interface.check_answers(
+                dict(zip(names, blocks[-1], strict=True)), rows=len(with_neutral[block])
+            )
         return [np.concatenate(arrays) for arrays in zip(*blocks, strict=True)]
-
-    def _check_answers(self, answers: Mapping[str, np.ndarray], *, rows: int) -> None:
-        """Refuse answers of other shapes than model.json's: what a graph declares it need not keep."""
-        for name, answer in answers.items():
-            if name not in self._shapes:  # asked for by `read`
-                continue
-            shape = [rows if side == _FRAMES else side for side in self._shapes[name]]
-            if len(shape) != answer.ndim or not _fits(answer.shape, shape) or answer.dtype != np.float32:
-                raise ModelError(
-                    f"network.onnx answers with {name} of {answer.dtype} {list(answer.shape)}; model.json makes it "
-                    f"float32 {shape}"
-                )
-
-
-_FLOAT = "tensor(float)"
-
-
-def _input_shapes(cameras: Sequence[CameraInput]) -> dict[str, tuple[str, list[str | int]]]:
-    """Type and shape of each input, in onnxruntime's words."""
-    pictures = {
-        f"{kind}_{camera.name}": ("tensor(uint8)", [_FRAMES, camera.height, camera.width])
-        for camera in cameras
-        for kind in ("pictures", "neutral")
-    }
-    return {**pictures, "present": (_FLOAT, [_FRAMES, len(cameras)]), "calibrated": (_FLOAT, [_FRAMES])}
-
-
-def _output_shapes(
-    cameras: Sequence[CameraInput], points: Mapping[str, Sequence[str]]
-) -> dict[str, list[str | int]]:
-    """Shape of each output that there may be; words stand for any number."""
-    counts = {"cameras": len(cameras), "shapes": len(BLENDSHAPES)}
-    shapes = {name: [counts.get(side, side) for side in one.shape] for name, one in GRAPH_OUTPUTS.items()}
-    for camera in cameras:
-        count = len(points[camera.name]) if camera.name in points else "points"
-        shapes[points_output(camera.name)] = [count if side == "points" else side for side in POINTS.shape]
-    return shapes
-
-
-def _fits(shape: Sequence[str | int | None], needed: Sequence[str | int]) -> bool:
-    """Whether sides that both know are equal; a graph may leave open how many frames, or how long a side is."""
-    return len(shape) == len(needed) and all(
-        given == side
-        for given, side in zip(shape, needed, strict=True)
-        if isinstance(given, int) and isinstance(side, int)
-    )
 
 
 def _rows(arrays: dict[str, np.ndarray], name: str, block: slice, blank: np.ndarray) -> np.ndarray:

@@ -184,7 +184,7 @@ class _Search:
         """Points (n, P, 2) in the view, and how good it is."""
         seen, deviations = [], []
         for moved in _moved(placement):
-            estimates, traced = self._predictor.graph.look({self._camera: self.views(moved)})
+            estimates, traced = self._predictor.graph.see({self._camera: self.views(moved)})
             seen.append(traced[self._camera])
             deviations.append(estimates.deviation[:, self._part].mean())
         matrices = [moved.picture_from_view(self._picture, self._view) for moved in _moved(placement)]
