@@ -8,7 +8,8 @@ import itertools
 
 from room.errors import NotAllowed
 from room.protocol import check
-from room.protocol.texts import Join, Moderate, Person
+from room.protocol.answers import Person
+from room.protocol.texts import Join, Moderate
 from room.protocol.tick import pack
 from room.state.seat import Seat
 

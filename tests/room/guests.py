@@ -12,7 +12,8 @@ from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, web
 
 from room.places import Place as Scenery
 from room.protocol import Message, decode, encode
-from room.protocol.texts import Answer, Join, Left, Refused, Welcome, read_answer
+from room.protocol.answers import Answer, Left, Refused, Welcome, read_answer
+from room.protocol.texts import Join
 from room.protocol.tick import unpack
 from room.recording import Recorder, check_recording
 from room.server import Keys, Limits, Relays, Rooms, new_keys

@@ -13,7 +13,7 @@ import pytest
 
 from room.errors import FormatError
 from room.protocol import Message, encode
-from room.protocol.texts import Changed, Notice
+from room.protocol.answers import Changed, Notice
 from room.protocol.tick import pack
 from room.recording import check_recording, read_recording
 from room.recording.lines import Came, Gone, Heading, Tick

@@ -5,11 +5,14 @@ from dataclasses import replace
 
 import pytest
 
+from room.errors import NotAllowed
 from room.protocol import Message, decode
+from room.protocol.answers import Changed, Left, Notice, Playing
 from room.protocol.message import time_of
-from room.protocol.texts import Changed, Left, Notice, Play, Playing
+from room.protocol.texts import Play
 from room.recording import check_recording, read_recording
 from room.recording.lines import Tick
+from room.server.limits import PLAYS_PER_S
 from room.server.replay import Replay
 from room.state import Meeting
 from tests.room.guests import Guest, open_room
@@ -161,3 +164,14 @@ def test_clocks_go_on_evenly_where_a_replay_is_halted(tmp_path):
     assert all(times == sorted(times) for times in sent.values())
     longest_ms = max(times[-1] - times[0] for times in sent.values())  # one of the two leaves
     assert longest_ms == pytest.approx(24 / 30 * 1000, abs=200)
+
+
+def test_a_replay_that_is_asked_too_much_goes_on_as_it_was(tmp_path):
+    """Each jump reads the file, for all who look."""
+    replay, meeting = Replay(check_recording(recorded(tmp_path / "meeting.jsonl"))), Meeting(most_people=8)
+    for _ in range(2 * PLAYS_PER_S):
+        replay.play(Play(paused=True), meeting, now=0.0)
+    with pytest.raises(NotAllowed, match="that was too fast; the replay goes on as it was"):
+        replay.play(Play(paused=False), meeting, now=0.0)
+    assert replay.playing(now=0.0).paused
+    assert not replay.play(Play(paused=False), meeting, now=1 / PLAYS_PER_S)[-1].paused

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from room.protocol.texts import Changed, Door, Left, Line, Notice, Refused, Signal
+from room.protocol.answers import Changed, Door, Left, Line, Notice, Refused, Signal
 from room.server.connection import CLOSED_BY_RULE
 from room.state import identity
 from tests.room.guests import meeting, open_room

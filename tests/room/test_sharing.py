@@ -6,7 +6,7 @@ from collections.abc import Awaitable, Callable
 
 import pytest
 
-from room.protocol.texts import Changed, Notice, Signal
+from room.protocol.answers import Changed, Notice, Signal
 from tests.browser import chromium, needs_chromium
 from tests.room.guests import Place, open_room
 from tests.room.test_page import AWAKE, come_in

@@ -4,6 +4,7 @@
  * Who shares calls, and the others answer; the room's server says who may. Voices go their own way.
  */
 
+import { candidateOf, saidOf, type Send } from "./lines.js";
 import type { Candidate, Description, Person } from "./texts.js";
 
 /** A still picture is sent so many times a second, for those who come later. */
@@ -12,8 +13,6 @@ const STILL_HERTZ = 3;
 const MOST_PIXELS = 1920;
 /** Of a shared window: text stays sharp, and a film stutters a little. */
 const WINDOW_HERTZ = 12;
-
-type Send = (said: Description | Candidate) => void;
 
 export class Sharing {
   private own: MediaStream | undefined;
@@ -97,7 +96,7 @@ export class Sharing {
       const connection = signal.kind === "description" && signal.type === "offer" ? this.answerer(from) : this.of(from.id);
       if (!connection) return;
       if (signal.kind === "candidate") {
-        await connection.addIceCandidate({ candidate: signal.candidate, sdpMid: signal.mid ?? null, sdpMLineIndex: signal.line ?? null });
+        await connection.addIceCandidate(candidateOf(signal));
         return;
       }
       await connection.setRemoteDescription(signal);
@@ -145,16 +144,7 @@ export class Sharing {
   private connect(number: () => number): RTCPeerConnection {
     const connection = new RTCPeerConnection({ iceServers: this.ice });
     connection.onicecandidate = ({ candidate }) => {
-      if (!candidate) return;
-      const { sdpMid, sdpMLineIndex } = candidate;
-      this.send({
-        kind: "candidate",
-        plane: "screen",
-        to: number(),
-        candidate: candidate.candidate,
-        ...(sdpMid === null ? {} : { mid: sdpMid }),
-        ...(sdpMLineIndex === null ? {} : { line: sdpMLineIndex }),
-      });
+      if (candidate) this.send({ ...saidOf(candidate, number()), plane: "screen" });
     };
     connection.oniceconnectionstatechange = () => {
       if (connection.iceConnectionState === "failed") connection.restartIce();

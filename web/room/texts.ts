@@ -1,4 +1,4 @@
-/** The texts of a meeting, as `room/protocol/texts.py` defines them. */
+/** The texts of a meeting, as `room/protocol/texts.py` and `room/protocol/answers.py` define them. */
 
 export interface Person {
   number: number;
