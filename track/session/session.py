@@ -13,7 +13,8 @@ from regress.runtime.sample import Sample
 from track.errors import InputError
 from track.messages import Command, Moment, Step
 from track.profile.profile import LARGEST_GAIN, Profile
-from track.session.calibration import Calibration, Outcome, faces_of
+from track.session.calibration import Calibration, Outcome
+from track.session.faces import faces_of
 from track.session.fault_telling import FaultTelling
 from track.session.measures import Measures, Summary
 from track.session.outcomes import learnt
