@@ -75,7 +75,11 @@ class Text(BaseModel):
 
 
 class Join(Text):
-    """The first text of a connection; ``recorded`` says that this person agrees to be recorded, if the room is."""
+    """The first text of a connection; ``recorded`` says that this person agrees to be recorded, if the room is.
+
+    ``at_ms`` is the time of this coming by the person's own clock: of two servers that do not know of each other's yet,
+    the later one has them.
+    """
 
     kind: Literal["join"] = "join"
     version: Literal[1] = 1
@@ -86,6 +90,7 @@ class Join(Text):
     visit: Visit = ""
     role: Literal["page", "face"] = "page"
     recorded: bool = False
+    at_ms: Annotated[int, Field(ge=0, le=2**52)] = 0
 
 
 class Chat(Text):

@@ -148,7 +148,8 @@ class Meeting:
             self.screen("")
         seat.name, seat.avatar, seat.visit, seat.moderator = join.name, join.avatar, join.visit, moderator
         seat.gone_at, seat.voice = None, False
-        seat.home, seat.entry = self.process, seat.entry + 1
+        # another process may have them, and not have told yet: their own clock then says which coming is the later one
+        seat.home, seat.entry = self.process, max(seat.entry + 1, join.at_ms)
         return seat
 
     def replay(self, *, id: str, name: str, avatar: str) -> Seat:

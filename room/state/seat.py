@@ -38,7 +38,7 @@ class Seat:
     home
         Process at which their page is.
     entry
-        Counts their comings, by whatever process.
+        Grows with each of their comings, by whatever process: a time of their own clock in ms, or one more than before.
     mute_acts
         How often moderators muted them or gave their voice back.
     own

@@ -48,7 +48,7 @@ export interface Candidate {
 export type Act = "mute" | "unmute" | "undress" | "unshare" | "remove" | "lock" | "unlock";
 
 export type Said =
-  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page"; recorded: boolean }
+  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page"; recorded: boolean; at_ms?: number }
   | { kind: "chat"; text: string }
   | { kind: "voice"; open: boolean }
   | Description
