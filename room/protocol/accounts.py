@@ -40,7 +40,8 @@ class _Word(BaseModel):
 class Resident(_Word):
     """Somebody whose place is kept by the process that speaks.
 
-    ``entry`` grows with each of their comings, wherever they come; ``own`` is the SHA-256 of the avatar they brought, or nothing.
+    ``entry`` grows with each of their comings; ``own`` is the SHA-256 of the avatar they brought, or
+    nothing.
     """
 
     number: Number

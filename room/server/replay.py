@@ -210,7 +210,9 @@ class Replay:
         newest.clear()
 
     def _come(self, meeting: Meeting, came: Came) -> list[Told]:
-        seat = meeting.replay(id=f"{came.id}-{came.number}", name=came.name, avatar=came.avatar)
+        seat = meeting.replay(
+            id=f"{came.id}-{came.number}", name=came.name, avatar=came.avatar, number=came.number
+        )
         self._cast[came.number] = _Actor(seat=seat, came=came)
         return [Changed(person=seat.person)]
 

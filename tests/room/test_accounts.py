@@ -10,6 +10,7 @@ from room.protocol.message import Message, encode
 from room.protocol.texts import Join, Moderate
 from room.state import Meeting, identity
 from room.state.accounts import account, merge
+from tests.room.guests import secret_for
 
 SECRETS = [letter * 22 for letter in "abcd"]
 PROCESSES = ["1" * 16, "2" * 16, "3" * 16]
@@ -116,7 +117,7 @@ def test_an_account_that_is_heard_twice_changes_nothing_more(acts):
 
 def test_of_two_with_one_number_the_smaller_id_keeps_it_and_the_other_comes_in_anew():
     one, two = (Meeting(most_people=8, process=process) for process in PROCESSES[:2])
-    for meeting, secret in ((one, SECRETS[0]), (two, SECRETS[1])):
+    for meeting, secret in ((one, secret_for(3)), (two, secret_for(3))):
         meeting.enter(Join(key="k" * 22, secret=secret, name="Who"), moderator=False)
     smaller, greater = sorted((one, two), key=lambda meeting: meeting.seats[0].id)
     assert smaller.seats[0].number == greater.seats[0].number

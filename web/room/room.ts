@@ -6,6 +6,7 @@ import { rotation } from "../avatar/index.js";
 import { Wardrobe, type Dressed } from "./avatars.js";
 import { EYES_M, SEATED_M } from "./body.js";
 import { Brought } from "./brought.js";
+import { coloursOf, dye } from "./colours.js";
 import { FaceCamera } from "./face.js";
 import { Figure } from "./figure.js";
 import { Headset } from "./headset.js";
@@ -219,7 +220,7 @@ class Meeting {
     const own = person.own ? this.brought.fetch(person.own) : undefined;
     if (!known.figure || !person.own) this.dress(known, this.wardrobe.plain());
     const ready = await this.wardrobe.another(person.avatar);
-    if (ready && still()) this.dress(known, ready);
+    if (ready && still()) this.dress(known, ready, dye(ready.avatar.root, coloursOf(person)));
     const brought = await own;
     if (!brought) return;
     if (still()) this.dress(known, brought, () => brought.avatar.dispose());
