@@ -190,7 +190,9 @@ async def observe(folder: Path) -> dict[str, object]:
         shapes, error = await faces(ada, ben)
         found = {"shapes": shapes, "weights": error, **await sides(ada, ben), **await signs(ada, ben)}
         for tab in (ada, ben):
-            await tab.until("[...meeting.known.values()].every(({ figure }) => figure?.avatar.name === 'nora')")
+            await tab.until(
+                "[...meeting.known.values()].every(({ figure }) => figure?.avatar.name === 'nora')"
+            )
         found["worn"] = [await tab.ask(WORN) for tab in (ada, ben)]
         found["dots"] = await ben.ask(
             "[...document.querySelectorAll('#people .dot')].map((dot) => dot.style.background)"
