@@ -17,11 +17,12 @@ const ROOT = values.out ?? dirname(HERE);
 /** By folder of the repository: what is bundled for it. */
 const PAGES = {
   "track/page/static": ["track/page.ts", "track/page.css", "track/index.html"],
-  "room/server/static": ["room/room.ts", "room/face.worker.ts", "room/frames.worklet.js", "room/room.css", "room/room.html"],
+  "room/server/static": ["room/room.ts", "room/face.worker.ts", "room/paper.ts", "room/frames.worklet.js", "room/room.css", "room/room.html"],
 };
 
 /** Files that are served as they are, and where they come from. */
 const COPIES = {
+  "room/server/static/pdf.worker.js": "web/node_modules/pdfjs-dist/legacy/build/pdf.worker.min.mjs",
   "room/server/static/fvad.wasm": "web/node_modules/@echogarden/fvad-wasm/fvad.wasm",
 };
 

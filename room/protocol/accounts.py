@@ -11,7 +11,8 @@ from pydantic import BaseModel, ConfigDict, Field, StringConstraints, TypeAdapte
 
 from facegen.refusals import refusal
 from room.errors import FormatError
-from room.protocol.texts import Avatar, Line, Name, Number, Signal, Visit
+from room.protocol.answers import Line, Signal
+from room.protocol.texts import Avatar, Name, Number, Visit
 from room.protocol.tick import pack, unpack
 
 MOST_WORD_BYTES = 1024**2
@@ -39,7 +40,8 @@ class _Word(BaseModel):
 class Resident(_Word):
     """Somebody whose place is kept by the process that speaks.
 
-    ``entry`` counts their comings, wherever they came; ``own`` is the SHA-256 of the avatar they brought, or nothing.
+    ``entry`` grows with each of their comings; ``own`` is the SHA-256 of the avatar they brought, or
+    nothing.
     """
 
     number: Number

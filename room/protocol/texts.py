@@ -1,6 +1,7 @@
-"""Defines the texts of a meeting as JSON objects with a ``kind``: what a person may say, and what the room answers.
+"""Defines what a person may say in a meeting: texts, which are JSON objects with a ``kind``.
 
-A connection to ``/room/NAME/socket`` begins with `Join`; the room answers with `Welcome` or with `Refused` and closes.
+A connection to ``/room/NAME/socket`` begins with `Join`; the room answers (`room.protocol.answers`) with `Welcome`, or
+with `Refused` and closes.
 After that states go both ways as binary messages (`room.protocol.message`, `room.protocol.tick`), and texts as here.
 
 A program that moves somebody's face (``track --to room:LINK``) joins with ``role`` "face" and the person's own secret.
@@ -67,12 +68,18 @@ Visit = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{0,22}$")]
 RoomName = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9-]{0,39}$")]
 
 
-class _Text(BaseModel):
+class Text(BaseModel):
+    """What every text has in common: nothing unknown in it, and nothing of another type."""
+
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class Join(_Text):
-    """The first text of a connection; ``recorded`` says that this person agrees to be recorded, if the room is."""
+class Join(Text):
+    """The first text of a connection; ``recorded`` says that this person agrees to be recorded, if the room is.
+
+    ``at_ms`` is the time of this coming by the person's own clock: of two servers that do not know of each other's yet,
+    the later one has them.
+    """
 
     kind: Literal["join"] = "join"
     version: Literal[1] = 1
@@ -83,9 +90,10 @@ class Join(_Text):
     visit: Visit = ""
     role: Literal["page", "face"] = "page"
     recorded: bool = False
+    at_ms: Annotated[int, Field(ge=0, le=2**52)] = 0
 
 
-class Chat(_Text):
+class Chat(Text):
     """A line for all; empty where nothing of it is seen."""
 
     kind: Literal["chat"] = "chat"
@@ -96,7 +104,7 @@ class Chat(_Text):
     _seen = field_validator("text")(_line)
 
 
-class Voice(_Text):
+class Voice(Text):
     """Whether this person's microphone is open."""
 
     kind: Literal["voice"] = "voice"
@@ -107,7 +115,7 @@ Plane = Literal["voice", "screen"]
 """Which of two connections between two people a signal is for; only who shares has the second one."""
 
 
-class Description(_Text):
+class Description(Text):
     """A session description of WebRTC, for one person, or for one's own line to or from an engine of voices."""
 
     kind: Literal["description"] = "description"
@@ -117,7 +125,7 @@ class Description(_Text):
     sdp: str
 
 
-class Candidate(_Text):
+class Candidate(Text):
     """An address at which a person may be reached, for one person or a line; empty where there are no more."""
 
     kind: Literal["candidate"] = "candidate"
@@ -128,7 +136,7 @@ class Candidate(_Text):
     line: Annotated[int, Field(ge=0, le=64)] | None = None
 
 
-class Moderate(_Text):
+class Moderate(Text):
     """What a moderator does; ``number`` is whom, but for the door."""
 
     kind: Literal["moderate"] = "moderate"
@@ -136,14 +144,14 @@ class Moderate(_Text):
     number: Number | None = None
 
 
-class Consent(_Text):
+class Consent(Text):
     """Agrees to be recorded from now on, or no longer."""
 
     kind: Literal["consent"] = "consent"
     recorded: bool
 
 
-class Play(_Text):
+class Play(Text):
     """What somebody who looks at a replay asks of it; None leaves as it is. Seconds from its beginning."""
 
     kind: Literal["play"] = "play"
@@ -152,20 +160,20 @@ class Play(_Text):
     speed: Annotated[float, Field(ge=0.1, le=8)] | None = None
 
 
-class Undress(_Text):
+class Undress(Text):
     """Takes the avatar off that one brought: the one of the server's is worn again."""
 
     kind: Literal["undress"] = "undress"
 
 
-class Share(_Text):
+class Share(Text):
     """Shows a window or a picture on the room's screens from now on, or no longer."""
 
     kind: Literal["share"] = "share"
     on: bool
 
 
-class Leave(_Text):
+class Leave(Text):
     """Goes for good: the place is not kept."""
 
     kind: Literal["leave"] = "leave"
@@ -175,149 +183,8 @@ Said = Chat | Voice | Description | Candidate | Moderate | Consent | Play | Undr
 """What a person may say once they are in."""
 
 
-class Person(_Text):
-    """One line of the roster.
-
-    ``number`` stands before each state of a tick; ``id`` is the same person's whenever they come back. ``recorded`` are
-    those whose states go to the room's file, ``replayed`` those who come out of one; at most one ``shares``. ``own``
-    is the SHA-256 of an avatar that they brought, which the room's key fetches (`room.server.dressing`); ``avatar``
-    stands in for it until it is there.
-    """
-
-    number: Number
-    id: str
-    name: str
-    avatar: str
-    visit: str
-    moderator: bool
-    present: bool
-    voice: bool
-    muted: bool
-    face: Literal["page", "program"]
-    recorded: bool
-    replayed: bool
-    own: Annotated[str, StringConstraints(pattern=r"^([0-9a-f]{64})?$")] = ""
-    shares: bool = False
-
-
-class IceServer(_Text):
-    """Where a browser asks for its own address, or for a relay."""
-
-    urls: tuple[str, ...]
-    username: str | None = None
-    credential: str | None = None
-
-
-class Welcome(_Text):
-    """The first answer: who one is, who is there, and what the room allows; ``engine`` where voices go by one."""
-
-    kind: Literal["welcome"] = "welcome"
-    version: Literal[1] = 1
-    room: str
-    number: Number
-    id: str
-    moderator: bool
-    locked: bool
-    hertz: int
-    shapes: tuple[str, ...]
-    recording: bool
-    replay: bool
-    engine: bool
-    people: tuple[Person, ...]
-    ice: tuple[IceServer, ...]
-
-
-class About(_Text):
-    """What a page may know before it comes in: whether the room is recorded or plays a recording, and how voices go."""
-
-    recording: bool
-    replay: bool
-    engine: bool
-
-
-class Changed(_Text):
-    """Somebody came, came back, or is otherwise than before."""
-
-    kind: Literal["person"] = "person"
-    person: Person
-
-
-class Left(_Text):
-    """Somebody has gone, and the number is free again."""
-
-    kind: Literal["left"] = "left"
-    number: Number
-
-
-class Line(_Text):
-    """A line of chat, with who said it and when (seconds since 1970)."""
-
-    kind: Literal["line"] = "line"
-    number: Number
-    name: str
-    text: str
-    time_s: float
-
-
-class Door(_Text):
-    """Whether new people may come in."""
-
-    kind: Literal["door"] = "door"
-    locked: bool
-
-
-class Playing(_Text):
-    """Where a replay is now, how long it is, and how it goes on."""
-
-    kind: Literal["playing"] = "playing"
-    time_s: float
-    length_s: float
-    paused: bool
-    speed: float
-
-
-class Signal(_Text):
-    """A description or a candidate that came from somebody, or of one's own line."""
-
-    kind: Literal["signal"] = "signal"
-    sender: Number | EngineLine
-    signal: Description | Candidate
-
-
-class Engine(_Text):
-    """Voices go by an engine from now on and both lines begin anew, or it is away for a while."""
-
-    kind: Literal["engine"] = "engine"
-    state: Literal["ready", "away"]
-
-
-class Heard(_Text):
-    """Whose voice each sound of the line down is from the next description on: the person's id by the ``mid``."""
-
-    kind: Literal["heard"] = "heard"
-    voices: dict[str, str]
-
-
-class Notice(_Text):
-    """A word about what this person did, which had no effect."""
-
-    kind: Literal["notice"] = "notice"
-    text: str
-
-
-class Refused(_Text):
-    """The last text before the room closes a connection, and why; ``again`` says whether trying again makes sense."""
-
-    kind: Literal["refused"] = "refused"
-    text: str
-    again: bool
-
-
-Answer = Welcome | Changed | Left | Line | Door | Playing | Signal | Engine | Heard | Notice | Refused
-
 _JOIN = TypeAdapter(Join)
 _SAID = TypeAdapter(Annotated[Said, Field(discriminator="kind")])
-_ANSWER = TypeAdapter(Annotated[Answer, Field(discriminator="kind")])
 
 
 def read_join(content: str) -> Join:
@@ -339,21 +206,7 @@ def read_said(content: str) -> Said:
     FormatError
         If it is too long, no JSON, or none of `Said`.
     """
-    return _read(_SAID, content, _Text)
-
-
-def read_answer(content: str) -> Answer:
-    """Read what the room says; for programs and tests.
-
-    Raises
-    ------
-    FormatError
-        If it is no JSON, or none of `Answer`.
-    """
-    try:
-        return _ANSWER.validate_json(content)
-    except ValidationError as error:
-        raise FormatError(f"the room says what is not known here: {refusal(error, _Text)}") from None
+    return _read(_SAID, content, Text)
 
 
 def _read(adapter: TypeAdapter, content: str, record: type) -> object:

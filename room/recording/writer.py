@@ -15,7 +15,7 @@ from facegen.conventions import BLENDSHAPES
 from facegen.errors import OutputError
 from facegen.files import output_errors
 from room.errors import InputError
-from room.protocol.texts import Person
+from room.protocol.answers import Person
 from room.protocol.tick import unpack
 from room.recording.lines import MOST_RECORDING_BYTES, Came, Event, Gone, Heading, Tick
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from aiohttp import web
 
-from room.protocol.texts import Answer, Refused
+from room.protocol.answers import Answer, Refused
 from room.server.limits import MOST_QUEUED, MOST_TICKS_QUEUED
 from room.server.metrics import Metrics
 

@@ -1,39 +1,21 @@
-"""Joins a room's state with the connections of those who are in it: who hears of what."""
+"""Joins a room's state with those who are in it: who comes, moves and goes, and who hears of it."""
 
 import time
 from typing import TYPE_CHECKING
 
 from facegen.conventions import BLENDSHAPES
 from room.avatars import Wardrobe
-from room.errors import NotAllowed
 from room.protocol.accounts import Part
-from room.protocol.texts import (
-    Answer,
-    Candidate,
-    Changed,
-    Chat,
-    Consent,
-    Description,
-    Door,
-    Join,
-    Leave,
-    Left,
-    Line,
-    Moderate,
-    Notice,
-    Play,
-    Said,
-    Share,
-    Signal,
-    Undress,
-    Voice,
-    Welcome,
-)
+from room.protocol.answers import Answer, Changed, Left, Signal, Welcome
+from room.protocol.texts import Join, Said
 from room.recording import Recorder
+from room.server.acts import Acts
+from room.server.calls import Calls
 from room.server.carrier import Carrier
 from room.server.cloakroom import Cloakroom
 from room.server.connection import Connection
-from room.server.limits import PLAYS_PER_S, Bucket
+from room.server.connections import Connections
+from room.server.consents import Consents
 from room.server.neighbours import Neighbours
 from room.server.replay import Replay
 from room.server.switchboard import Switchboard
@@ -93,33 +75,42 @@ class Hall:
         switchboard: Switchboard | None = None,
     ) -> None:
         self.name = name
-        self._recorder, self._replay = recorder, replay
+        self._replay = replay
         process = telegraph.process if telegraph else ""
         self.meeting = Meeting(
             most_people=most_people, process=process, first_number=int(process[:4] or "0", 16)
         )
         self.cloakroom = Cloakroom(name, self.meeting, wardrobe, carrier)
+        self._connections = Connections()
+        self._consents = Consents(self.meeting, recorder)
+        self._calls = Calls(self.meeting, self._connections, switchboard, away=self._call_away)
         self._neighbours = telegraph and Neighbours(
             self.meeting,
             telegraph,
             name,
-            tell=self._tell_here,
-            call=self._call,
+            tell=self._connections.tell,
+            call=self._connections.call,
             oust=self._oust,
             undress=self._undressed,
             send=self.cloakroom.send,
         )
+        self._acts = Acts(
+            self.meeting,
+            cloakroom=self.cloakroom,
+            consents=self._consents,
+            calls=self._calls,
+            replay=replay,
+            neighbours=self._neighbours,
+            tell=self._tell,
+            free=self._free,
+        )
         self._relays = relays
-        self._pages: dict[str, Connection] = {}
-        self._programs: dict[str, Connection] = {}
-        self._switchboard = switchboard
         self._turnstile = Turnstile(most_people)
-        self._plays = Bucket(PLAYS_PER_S, burst=2 * PLAYS_PER_S)
 
     @property
     def empty(self) -> bool:
         """Whether nobody of this process has a place or a connection."""
-        return self.meeting.empty and not self._pages and not self._programs
+        return self.meeting.empty and self._connections.empty
 
     async def open(self) -> None:
         """Learn who is in the room by other processes.
@@ -142,16 +133,12 @@ class Hall:
         """
         self._turnstile.count(join, self.meeting, moderator=moderator)
         seat = self.meeting.enter(join, moderator=moderator)
-        connections = self._connections(join.role)
-        if older := connections.pop(seat.id, None):
-            older.refuse("you came in from another window", again=False)
-        connections[seat.id] = connection
+        self._connections.enter(seat.id, join.role, connection)
         page = join.role == "page"
         if page and not self.cloakroom.has(seat):
             seat.own = ""  # it stayed with the process that they came by before; their page brings it again
         if page:  # a program that moves a face has no say in this
-            seat.recorded = join.recorded and self._recorder is not None
-            self._record_roster()
+            self._consents.enter(seat, recorded=join.recorded)
         connection.say(
             Welcome(
                 room=self.name,
@@ -160,9 +147,9 @@ class Hall:
                 moderator=seat.moderator,
                 locked=self.meeting.locked,
                 hertz=HERTZ,
-                recording=self._recorder is not None,
+                recording=self._consents.recording,
                 replay=self._replay is not None,
-                engine=self._switchboard is not None,
+                engine=self._calls.by_engine,
                 shapes=BLENDSHAPES,
                 people=self.meeting.people,
                 ice=self._relays.servers(seat.id, now_s=time.time()) if page else (),
@@ -175,18 +162,15 @@ class Hall:
             self._tell(Changed(person=seat.person), but=seat)
             if self._neighbours:
                 self._neighbours.entered()
-            if self._switchboard:
-                self._switchboard.begin(seat.id, connection.say)
+            self._calls.begin(seat, connection.say)
         return seat
 
     def go(self, seat: Seat, connection: Connection, role: Part) -> None:
         """A connection has ended; the place is kept for a while."""
-        connections = self._connections(role)
-        if connections.get(seat.id) is not connection:  # a newer one has taken its part
+        if not self._connections.go(seat.id, role, connection):  # a newer one has taken its part
             return
-        del connections[seat.id]
-        if role == "page" and self._switchboard:
-            self._switchboard.end(seat.id)
+        if role == "page":
+            self._calls.end(seat.id)
         if role == "face":
             seat.program_left()
         else:
@@ -215,43 +199,7 @@ class Hall:
         NotAllowed
             If the rules forbid it.
         """
-        match said:
-            case Chat():
-                self._write(seat, said.text)
-            case Voice():
-                seat.voice = said.open
-                self._tell(Changed(person=seat.person))
-            case Description() | Candidate():
-                self._pass_on(seat, said)
-            case Moderate():
-                self._moderate(seat, said)
-            case Consent():
-                self._consent(seat, said.recorded)
-            case Play():
-                self._play(said)
-            case Undress():
-                self.cloakroom.undress(seat)
-                self._tell(Changed(person=seat.person))
-            case Share():
-                for changed in self.meeting.share(seat, on=said.on):
-                    self._tell(Changed(person=changed.person))
-            case Leave():
-                self._free(seat)
-
-    def _consent(self, seat: Seat, recorded: bool) -> None:
-        if self._recorder is None:
-            raise NotAllowed("this room is not recorded")
-        seat.recorded = recorded
-        self._record_roster()
-        self._tell(Changed(person=seat.person))
-
-    def _play(self, said: Play) -> None:
-        if self._replay is None:
-            raise NotAllowed("people meet here; there is nothing to play")
-        if not self._plays.take(now=time.monotonic()):
-            raise NotAllowed("that was too fast; the replay goes on as it was", again=True)
-        for answer in self._replay.play(said, self.meeting, now=time.monotonic()):
-            self._tell(answer)
+        self._acts.do(seat, said)
 
     def dress(self, seat: Seat, content: bytes) -> str:
         """Let somebody wear an avatar that was checked, and tell all; gives its digest.
@@ -274,128 +222,55 @@ class Hall:
             self.cloakroom.undress(seat)
             self._tell(Changed(person=seat.person))
 
-    def _write(self, seat: Seat, text: str) -> None:
-        if seat.muted:
-            raise NotAllowed("a moderator has muted you", again=True)
-        if text:
-            line = Line(number=seat.number, name=seat.name, text=text, time_s=time.time())
-            self._tell(line)
-            if self._neighbours:
-                self._neighbours.spoken(line)
-
     def tick(self, *, now: float) -> None:
         """Send what moved, and free places that nobody came back to."""
         for seat in self.meeting.expire(now=now):
             self._free(seat)
-        if self._switchboard:
-            self._switchboard.follow(self.meeting)
+        self._calls.tick()
         if self._neighbours:
             self._neighbours.tick(now=now)
-            self._follow()
+            self._connections.follow({seat.id for seat in self.meeting.seats})
+            self.cloakroom.settle()
         if self._replay:
             for answer in self._replay.step(self.meeting, now=now):
                 self._tell(answer)
         content = self.meeting.tick(now=now)
         if content:
-            if self._recorder:
-                self._recorder.tick(content)
-            for connection in self._pages.values():
-                connection.tick(content)
-        if self._recorder and not self._recorder.open:
-            self._end_recording()
+            self._connections.tick(content)
+        for answer in self._consents.tick(content):
+            self._tell(answer)
 
     def close(self) -> None:
         """Let go of what is replayed, of the other processes and of the engine."""
-        if self._switchboard:
-            self._switchboard.close()
+        self._calls.close()
         if self._replay:
             self._replay.close()
         if self._neighbours:
             self.cloakroom.close()
             self._neighbours.close()
 
-    def _record_roster(self) -> None:
-        if self._recorder:
-            self._recorder.roster(self.meeting.people)
-
-    def _end_recording(self) -> None:
-        self._recorder = None
-        self._tell(Notice(text="the recording has ended, and nobody is recorded any more"))
-        for person in self.meeting.people:
-            if person.recorded and (seat := self.meeting.seat(person.id)):
-                seat.recorded = False
-                self._tell(Changed(person=seat.person))
-
-    def _connections(self, role: Part) -> dict[str, Connection]:
-        return self._pages if role == "page" else self._programs
-
     def _tell(self, answer: Answer, *, but: Seat | None = None) -> None:
         """Tell all; what is true of people from now on goes to the other processes with the next account."""
-        self._tell_here(answer, but=but)
+        self._connections.tell(answer, but=but.id if but else "")
         if self._neighbours:
             self._neighbours.changed()
 
-    def _tell_here(self, answer: Answer, *, but: Seat | None = None) -> None:
-        for id, connection in self._pages.items():
-            if but is None or id != but.id:
-                connection.say(answer)
-
-    def _pass_on(self, seat: Seat, said: Description | Candidate) -> None:
-        if isinstance(said.to, str):
-            if self._switchboard:
-                self._switchboard.hear(seat.id, said)
-            return
-        called, signal = self.meeting.numbered(said.to), Signal(sender=seat.number, signal=said)
-        if called is None:
-            return  # they have just left: the caller hears of that by the roster
-        if said.plane == "screen" and not (seat.shares or called.shares):
-            return  # sharing has just ended
-        if called.id in self._pages:
-            self._pages[called.id].say(signal)
-        elif self._neighbours and called.home != self.meeting.process:
-            self._neighbours.called(called.id, signal)
-
-    def _call(self, id: str, signal: Signal) -> None:
-        if connection := self._pages.get(id):
-            connection.say(signal)
+    def _call_away(self, id: str, signal: Signal) -> None:
+        if self._neighbours:
+            self._neighbours.called(id, signal)
 
     def _oust(self, ousted: Ousted) -> None:
         self._turnstile.forget(ousted.id)
         self.cloakroom.drop(ousted.id)
-        if self._switchboard:
-            self._switchboard.end(ousted.id)
-        if connection := self._pages.pop(ousted.id, None):
-            connection.refuse(ousted.text, again=ousted.again)
+        self._calls.end(ousted.id)
+        self._connections.oust(ousted.id, ousted.text, again=ousted.again)
 
-    def _follow(self) -> None:
-        """Let go of programs whose person has left by another process."""
-        for id in [id for id in self._programs if self.meeting.seat(id) is None]:
-            self._programs.pop(id).refuse("whose face this moves has left", again=True)
-        self.cloakroom.settle()
-
-    def _moderate(self, by: Seat, act: Moderate) -> None:
-        seat = self.meeting.moderate(by, act)
-        if seat is None:
-            self._tell(Door(locked=self.meeting.locked))
-        elif act.action == "undress":
-            self.cloakroom.undress(seat)
-            self._tell(Changed(person=seat.person))
-            if self._neighbours and seat.home != self.meeting.process:
-                self._neighbours.undressed(seat.id)
-        elif act.action == "remove":
-            self._free(seat, word="a moderator has removed you from this room")
-        else:
-            self._tell(Changed(person=seat.person))
-
-    def _free(self, seat: Seat, *, word: str = "you have left") -> None:
+    def _free(self, seat: Seat, word: str = "you have left") -> None:
         self.meeting.leave(seat)
         self._turnstile.forget(seat.id)
-        if self._switchboard:
-            self._switchboard.end(seat.id)
+        self._calls.end(seat.id)
         self.cloakroom.uploads.pop(seat.id, None)
         self.cloakroom.undress(seat)
-        self._record_roster()
-        for connections in (self._pages, self._programs):
-            if connection := connections.pop(seat.id, None):
-                connection.refuse(word, again=False)
+        self._consents.follow()
+        self._connections.part(seat.id, word)
         self._tell(Left(number=seat.number))

@@ -18,7 +18,7 @@ from room.protocol.accounts import (
     pack_moves,
     read_word,
 )
-from room.protocol.texts import Answer, Changed, Line, Signal
+from room.protocol.answers import Answer, Changed, Line, Signal
 from room.state import Meeting
 from room.state.accounts import SILENT_S, Ousted, account, merge, silent
 

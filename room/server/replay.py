@@ -4,11 +4,13 @@ import bisect
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from room.errors import InputError
+from room.errors import InputError, NotAllowed
+from room.protocol.answers import Changed, Left, Playing
 from room.protocol.message import retimed, time_of
-from room.protocol.texts import Changed, Left, Play, Playing
+from room.protocol.texts import Play
 from room.recording import Survey, follow_recording
 from room.recording.lines import Came, Event, Gone, Tick
+from room.server.limits import PLAYS_PER_S, Bucket
 from room.state import Meeting, Seat
 
 AGAIN_S = 3.0
@@ -76,6 +78,7 @@ class Replay:
 
     def __init__(self, survey: Survey) -> None:
         self._survey = survey
+        self._plays = Bucket(PLAYS_PER_S, burst=2 * PLAYS_PER_S)
         self._lines: Iterator[Event] = iter(())
         self._next: Event | None = None
         self._cast: dict[int, _Actor] = {}
@@ -107,7 +110,15 @@ class Replay:
         return told
 
     def play(self, said: Play, meeting: Meeting, *, now: float) -> list[Told]:
-        """Halt, go on, jump or change the pace, as somebody who looks asks."""
+        """Halt, go on, jump or change the pace, as somebody who looks asks.
+
+        Raises
+        ------
+        NotAllowed
+            If those who look ask too often: each jump reads the file.
+        """
+        if not self._plays.take(now=now):
+            raise NotAllowed("that was too fast; the replay goes on as it was", again=True)
         ends = self._survey.ends_ms
         self._position_ms, self._at = min(self._position(now), ends), now
         told: list[Told] = []
@@ -199,7 +210,9 @@ class Replay:
         newest.clear()
 
     def _come(self, meeting: Meeting, came: Came) -> list[Told]:
-        seat = meeting.replay(id=f"{came.id}-{came.number}", name=came.name, avatar=came.avatar)
+        seat = meeting.replay(
+            id=f"{came.id}-{came.number}", name=came.name, avatar=came.avatar, number=came.number
+        )
         self._cast[came.number] = _Actor(seat=seat, came=came)
         return [Changed(person=seat.person)]
 

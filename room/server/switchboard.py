@@ -3,7 +3,8 @@
 import asyncio
 from collections.abc import Callable
 
-from room.protocol.texts import Answer, Candidate, Description, Engine
+from room.protocol.answers import Answer, Engine
+from room.protocol.texts import Candidate, Description
 from room.server.janus import Janus
 from room.server.voices import VoiceRoom, Voices, clear
 from room.state import Meeting

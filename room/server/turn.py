@@ -9,7 +9,7 @@ import hashlib
 import hmac
 from dataclasses import dataclass
 
-from room.protocol.texts import IceServer
+from room.protocol.answers import IceServer
 
 LASTS_S = 12 * 3600
 """A credential ends after the longest meeting; a page that comes back gets a new one."""

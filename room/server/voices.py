@@ -9,7 +9,8 @@ import hmac
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from room.protocol.texts import Answer, Candidate, Description, Engine, Heard, Signal
+from room.protocol.answers import Answer, Engine, Heard, Signal
+from room.protocol.texts import Candidate, Description
 from room.server.janus import Body, EngineGone, Janus, Jsep, RoomWord, Word
 
 MOST_VOICES = 64

@@ -7,7 +7,7 @@ locks the latest act. Of two people with one number the smaller id keeps it. Who
 from dataclasses import dataclass, field
 
 from room.protocol.accounts import Account, Mute, Resident
-from room.protocol.texts import Changed, Door, Left
+from room.protocol.answers import Changed, Door, Left
 from room.state.meeting import Meeting
 from room.state.seat import Seat
 

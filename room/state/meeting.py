@@ -8,7 +8,8 @@ import itertools
 
 from room.errors import NotAllowed
 from room.protocol import check
-from room.protocol.texts import Join, Moderate, Person
+from room.protocol.answers import Person
+from room.protocol.texts import Join, Moderate
 from room.protocol.tick import pack
 from room.state.seat import Seat
 
@@ -20,6 +21,9 @@ ELSEWHERE_S = 5.0
 
 NUMBERS = 65536
 """Of people: two bytes before each state."""
+
+COLOURS = 12
+"""Of people's clothes (``CLOTHES`` in ``web/room/colours.ts``): pages take them by the number."""
 
 MOST_REMOVED = 1000
 """People whom a room keeps out; beyond it the oldest may try again, and a moderator had better lock the door."""
@@ -55,7 +59,8 @@ class Meeting:
     """
 
     def __init__(self, *, most_people: int, process: str = "", first_number: int = 0) -> None:
-        self.most_people, self.process, self._first_number = most_people, process, first_number
+        self.most_people, self.process = most_people, process
+        self._first_number = first_number - first_number % COLOURS  # one colour at every process
         self.locked, self.lock_acts = False, 0
         self.sharer, self.share_acts = "", 0
         self._seats: dict[str, Seat] = {}
@@ -135,7 +140,7 @@ class Meeting:
             if sum(not other.replayed for other in self._seats.values()) >= self.most_people:
                 raise NotAllowed(f"the room is full; it has {self.most_people} places", again=True)
             seat = Seat(
-                number=self._free_number(),
+                number=self._free_number(int(id, 16)),
                 id=id,
                 name=join.name,
                 avatar=join.avatar,
@@ -147,13 +152,14 @@ class Meeting:
             self.screen("")
         seat.name, seat.avatar, seat.visit, seat.moderator = join.name, join.avatar, join.visit, moderator
         seat.gone_at, seat.voice = None, False
-        seat.home, seat.entry = self.process, seat.entry + 1
+        # another process may have them, and not have told yet: their own clock then says which coming is the later one
+        seat.home, seat.entry = self.process, max(seat.entry + 1, join.at_ms)
         return seat
 
-    def replay(self, *, id: str, name: str, avatar: str) -> Seat:
-        """Give a place to somebody out of a recording, however full the room is."""
+    def replay(self, *, id: str, name: str, avatar: str, number: int) -> Seat:
+        """Give a place to somebody out of a recording, however full the room is; ``number`` is the recorded one."""
         seat = Seat(
-            number=self._free_number(),
+            number=self._free_number(number),
             id=f"replay-{id}",  # no `identity` has such a name: nobody can come and be them
             name=name,
             avatar=avatar,
@@ -165,12 +171,17 @@ class Meeting:
         self._seats[seat.id] = seat
         return seat
 
-    def _free_number(self) -> int:
+    def _free_number(self, wish: int) -> int:
+        """A number whose colour nobody has, while there is one; the colour of ``wish`` where that is free.
+
+        A person's wish follows from their id, so they come back in the same colour.
+        """
         taken = {seat.number for seat in self._seats.values()}
+        steps = (
+            row * COLOURS + (wish + step) % COLOURS for row in itertools.count() for step in range(COLOURS)
+        )
         return next(
-            number
-            for number in ((self._first_number + step) % NUMBERS for step in itertools.count())
-            if number not in taken
+            number for step in steps if (number := (self._first_number + step) % NUMBERS) not in taken
         )
 
     def take(self, seat: Seat, message: bytes, *, program: bool, now: float) -> bool:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from room.protocol import Flag
-from room.protocol.texts import Person
+from room.protocol.answers import Person
 
 PROGRAM_LASTS_S = 1.0
 """A program that is silent for longer has lost the face: the page moves it again. Thirty messages came in this time."""
@@ -38,7 +38,7 @@ class Seat:
     home
         Process at which their page is.
     entry
-        Counts their comings, by whatever process.
+        Grows with each of their comings, by whatever process: a time of their own clock in ms, or one more than before.
     mute_acts
         How often moderators muted them or gave their voice back.
     own

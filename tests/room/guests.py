@@ -12,11 +12,14 @@ from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, web
 
 from room.places import Place as Scenery
 from room.protocol import Message, decode, encode
-from room.protocol.texts import Answer, Join, Left, Refused, Welcome, read_answer
+from room.protocol.answers import Answer, Left, Refused, Welcome, read_answer
+from room.protocol.texts import Join
 from room.protocol.tick import unpack
 from room.recording import Recorder, check_recording
 from room.server import Keys, Limits, Relays, Rooms, new_keys
 from room.server.janus import Janus
+from room.state import identity
+from room.state.meeting import COLOURS
 
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.telegraph import Telegraph
@@ -90,6 +93,13 @@ class Guest:
         await self.socket.close()
         with suppress(asyncio.CancelledError):
             await self.reading
+
+
+def secret_for(number: int) -> str:
+    """A secret whose person gets this number, one of the first, where it is free."""
+    while int(identity(secret := secrets.token_urlsafe(16)), 16) % COLOURS != number:
+        pass
+    return secret
 
 
 class Place:

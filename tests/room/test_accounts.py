@@ -10,6 +10,7 @@ from room.protocol.message import Message, encode
 from room.protocol.texts import Join, Moderate
 from room.state import Meeting, identity
 from room.state.accounts import account, merge
+from tests.room.guests import secret_for
 
 SECRETS = [letter * 22 for letter in "abcd"]
 PROCESSES = ["1" * 16, "2" * 16, "3" * 16]
@@ -45,7 +46,7 @@ def _do(meetings: list[Meeting], act: str, at: int, whom: int, by: int) -> None:
     if act == "hear":
         merge(meeting, account(meetings[by]), now=0.0)
     elif act == "enter":
-        join = Join(key="k" * 22, secret=SECRETS[whom], name=f"Person {whom}", visit=f"v{at}")
+        join = Join(key="k" * 22, secret=SECRETS[whom], name=f"Person {whom}", visit=f"v{at}", at_ms=3 * by)
         try:
             meeting.enter(join, moderator=True)
         except NotAllowed:
@@ -116,7 +117,7 @@ def test_an_account_that_is_heard_twice_changes_nothing_more(acts):
 
 def test_of_two_with_one_number_the_smaller_id_keeps_it_and_the_other_comes_in_anew():
     one, two = (Meeting(most_people=8, process=process) for process in PROCESSES[:2])
-    for meeting, secret in ((one, SECRETS[0]), (two, SECRETS[1])):
+    for meeting, secret in ((one, secret_for(3)), (two, secret_for(3))):
         meeting.enter(Join(key="k" * 22, secret=secret, name="Who"), moderator=False)
     smaller, greater = sorted((one, two), key=lambda meeting: meeting.seats[0].id)
     assert smaller.seats[0].number == greater.seats[0].number
@@ -206,3 +207,23 @@ def _exchange(meetings: list[Meeting]) -> None:
             for other in meetings:
                 if other is not meeting:
                     merge(other, account(meeting), now=0.0)
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_who_goes_on_before_the_first_process_has_told_stays_where_they_went(first):
+    """Both processes have counted one coming: of their names alone one window in two would be turned out."""
+    order = [Meeting(most_people=8, process=PROCESSES[at]) for at in (first, 1 - first)]
+    for at, meeting in enumerate(order):
+        join = Join(key="k" * 22, secret=SECRETS[0], name="Ada", visit=f"v{at}", at_ms=10**12 + at)
+        meeting.enter(join, moderator=False)
+    said = [account(meeting) for meeting in order]
+    assert not merge(order[1], said[0], now=0.0).ousted, "the newer window"
+    assert [ousted.again for ousted in merge(order[0], said[1], now=0.0).ousted] == [False]
+    assert {meeting.seats[0].home for meeting in order} == {order[1].process}
+
+
+def test_a_clock_that_goes_back_takes_nobody_from_where_they_went():
+    meeting = Meeting(most_people=8, process=PROCESSES[0])
+    for at_ms in (10**12, 5):
+        seat = meeting.enter(Join(key="k" * 22, secret=SECRETS[0], name="Ada", at_ms=at_ms), moderator=False)
+    assert seat.entry == 10**12 + 1

@@ -14,7 +14,7 @@ import aiohttp
 import psutil
 import pytest
 
-from room.protocol.texts import Changed, Left, Welcome
+from room.protocol.answers import Changed, Left, Welcome
 from room.server import load_keys
 from tests.room.engines import free_port, needs_redis, redis
 from tests.room.guests import Guest, Place

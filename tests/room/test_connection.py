@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from room.protocol.texts import Notice
+from room.protocol.answers import Notice
 from room.protocol.tick import pack
 from room.server.connection import CLOSED_BY_RULE, Connection
 from room.server.limits import MOST_QUEUED, MOST_TICKS_QUEUED

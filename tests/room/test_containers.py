@@ -14,7 +14,7 @@ import typer
 import yaml
 
 from room.cli import app
-from room.protocol.texts import Left
+from room.protocol.answers import Left
 from room.server import load_keys
 from room.server.turn import Relays
 from tests.room.engines import free_port, needs_redis, redis, started

@@ -51,7 +51,7 @@ def test_every_address_is_taken(address):
 
 
 def test_somebody_comes_in_past_many_who_say_nothing(monkeypatch):
-    monkeypatch.setattr("room.server.application.Door", lambda: Door(most=8))
+    monkeypatch.setattr("room.server.visits.Door", lambda: Door(most=8))
 
     async def run() -> None:
         async with open_room() as place:

@@ -72,7 +72,7 @@ def test_a_room_that_cannot_be_opened_leaves_nothing_at_its_engine(monkeypatch: 
         rooms = Rooms(new_keys(), limits=Limits(), relays=Relays(), engines=[engine])
         for _ in range(3):
             with pytest.raises(NotAllowed):
-                await rooms._hall("meeting")
+                await rooms._halls.open("meeting")
         return len(engine.watchers)
 
     assert asyncio.run(run()) == 0

@@ -126,6 +126,13 @@ SAY = """(() => {
 })()"""
 
 
+WORN = """[...meeting.known.values()].map(({ person, figure }) => {
+  const tops = [];
+  figure.avatar.root.traverse(({ material }) => material?.name === 'top' && tops.push(material.color.getHexString()));
+  return [person.name, ...tops];
+}).sort()"""
+"""In what colour a page shows the clothes of each person."""
+
 DRAWN = """new Promise((done) => {
     let left = 30;
     const next = () => (--left ? requestAnimationFrame(next) : done(true));
@@ -182,6 +189,14 @@ async def observe(folder: Path) -> dict[str, object]:
     async with meet(folder, "Ada", "Ben") as (place, (ada, ben)):
         shapes, error = await faces(ada, ben)
         found = {"shapes": shapes, "weights": error, **await sides(ada, ben), **await signs(ada, ben)}
+        for tab in (ada, ben):
+            await tab.until(
+                "[...meeting.known.values()].every(({ figure }) => figure?.avatar.name === 'nora')"
+            )
+        found["worn"] = [await tab.ask(WORN) for tab in (ada, ben)]
+        found["dots"] = await ben.ask(
+            "[...document.querySelectorAll('#people .dot')].map((dot) => dot.style.background)"
+        )
         await ada.ask(SAY % json.dumps("<img src=x onerror=alert(1)> **hello**"))
         await ben.until("document.querySelector('#lines li')")
         found["line"] = await ben.ask("document.querySelector('#lines li').textContent")
@@ -282,6 +297,14 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
 def test_weights_arrive(found):
     assert found["shapes"] >= 51
     assert found["weights"] <= 0.02
+
+
+def test_two_in_one_avatar_are_told_apart_and_all_see_them_alike(found):
+    assert found["worn"][0] == found["worn"][1]
+    (ada, hers), (ben, his) = found["worn"][0]
+    assert (ada, ben) == ("Ada", "Ben")
+    assert hers != his
+    assert len(set(found["dots"])) == 2, "beside the names as well"
 
 
 def test_a_voice_comes_from_its_side(found):

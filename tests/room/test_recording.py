@@ -13,7 +13,7 @@ import pytest
 
 from room.errors import FormatError
 from room.protocol import Message, encode
-from room.protocol.texts import Changed, Notice
+from room.protocol.answers import Changed, Notice
 from room.protocol.tick import pack
 from room.recording import check_recording, read_recording
 from room.recording.lines import Came, Gone, Heading, Tick
@@ -63,7 +63,7 @@ def test_only_who_agreed_is_in_the_file_and_everybody_sees_who_that_is(tmp_path)
 def test_consent_is_taken_back_and_given_at_once(tmp_path):
     path = tmp_path / "meeting.jsonl"
 
-    async def run() -> None:
+    async def run() -> tuple[int, int]:
         async with open_room(recorder=make_recorder(path)) as place:
             ada, ben = await place.guest(recorded=True), await place.guest(name="Ben")
             await walk(ada, steps=3)
@@ -78,9 +78,10 @@ def test_consent_is_taken_back_and_given_at_once(tmp_path):
             # who comes back by a page that says nothing of consent is not recorded
             again = await place.guest(secret=ben.secret, name="Ben")
             await walk(again, steps=3, animation=4)
+            return ada.number, ben.number
 
-    asyncio.run(run())
-    assert {(number, state.animation) for number, state in states(path)} == {(0, 0), (1, 6)}
+    ada, ben = asyncio.run(run())
+    assert {(number, state.animation) for number, state in states(path)} == {(ada, 0), (ben, 6)}
     kinds = [type(line) for line in read_recording(path) if not isinstance(line, Tick)]
     assert kinds == [Heading, Came, Gone, Came, Gone]
 

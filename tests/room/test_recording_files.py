@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from facegen.conventions import BLENDSHAPES
 from room.errors import FormatError, InputError
 from room.protocol import Message, encode
-from room.protocol.texts import Person
+from room.protocol.answers import Person
 from room.protocol.tick import pack
 from room.recording import check_recording, follow_recording, read_recording
 from room.recording.lines import Came, Gone

@@ -9,7 +9,7 @@ import aiohttp
 import pytest
 from aiohttp import web
 
-from room.protocol.texts import Changed, Left, Line, Notice, Refused, Welcome
+from room.protocol.answers import Changed, Left, Line, Notice, Refused, Welcome
 from room.server import Limits, new_keys
 from room.server.connection import CLOSED_BY_RULE, PARTING_S
 from room.server.limits import BURST_S, CHATS_PER_S, NEWCOMERS_PER_S, RETURNS_PER_S, STATES_PER_S

@@ -2,18 +2,26 @@
 
 import asyncio
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
+from room.errors import NotAllowed
 from room.protocol import Message, decode
+from room.protocol.answers import Changed, Left, Notice, Playing
 from room.protocol.message import time_of
-from room.protocol.texts import Changed, Left, Notice, Play, Playing
+from room.protocol.texts import Play
 from room.recording import check_recording, read_recording
-from room.recording.lines import Tick
+from room.recording.lines import Came, Tick
+from room.server.limits import PLAYS_PER_S
 from room.server.replay import Replay
 from room.state import Meeting
-from tests.room.guests import Guest, open_room
+from tests.room.guests import Guest, open_room, secret_for
 from tests.room.recordings import recorded
+
+
+def _names(path: Path) -> dict[int, str]:
+    return {line.number: line.name for line in read_recording(path) if isinstance(line, Came)}
 
 
 def test_a_replay_sends_the_same_states_at_the_same_pace_and_begins_again(tmp_path):
@@ -21,7 +29,7 @@ def test_a_replay_sends_the_same_states_at_the_same_pace_and_begins_again(tmp_pa
     ticks = [line for line in read_recording(path) if isinstance(line, Tick)]
     before = {
         name: [decode(content) for tick in ticks for number, content in tick.states if number == at]
-        for at, name in ((0, "Ada"), (1, "Ben"))
+        for at, name in _names(path).items()
     }
 
     async def run() -> None:
@@ -61,7 +69,13 @@ def test_a_replay_halts_jumps_and_goes_faster_for_all_who_look(tmp_path):
     path = recorded(tmp_path / "meeting.jsonl")
     ticks = [line for line in read_recording(path) if isinstance(line, Tick)]
     survey = check_recording(path)
-    ada = [(tick.time_ms, decode(state)) for tick in ticks for number, state in tick.states if number == 0]
+    names = _names(path)
+    ada = [
+        (tick.time_ms, decode(state))
+        for tick in ticks
+        for number, state in tick.states
+        if names[number] == "Ada"
+    ]
     length_s = (survey.ends_ms - survey.begins_ms) / 1000
 
     def cast(guest: Guest) -> set[int]:
@@ -131,11 +145,11 @@ def test_nobody_can_be_somebody_of_a_replay_and_a_moderator_may_remove_them(tmp_
         async with open_room(replayed=path) as place:
             chair = await place.guest(moderator=True)
             await chair.told(Changed, lambda changed: changed.person.name == "Ben")
-            ada = (await chair.told(Changed, lambda changed: changed.person.id.endswith("-0"))).person
+            ada = (await chair.told(Changed, lambda changed: changed.person.name == "Ada")).person
             await chair.say(kind="moderate", action="remove", number=ada.number)
             await chair.told(Left, lambda left: left.number == ada.number)
             await chair.until(lambda: len(chair.sequences) > 3)
-            late = await place.guest(name="Late")
+            late = await place.guest(name="Late", secret=secret_for(ada.number))
             assert {person.replayed for person in late.welcome.people} == {True, False}
             assert len({person.number for person in late.welcome.people}) == len(late.welcome.people)
             assert late.number == ada.number, "free again"
@@ -161,3 +175,14 @@ def test_clocks_go_on_evenly_where_a_replay_is_halted(tmp_path):
     assert all(times == sorted(times) for times in sent.values())
     longest_ms = max(times[-1] - times[0] for times in sent.values())  # one of the two leaves
     assert longest_ms == pytest.approx(24 / 30 * 1000, abs=200)
+
+
+def test_a_replay_that_is_asked_too_much_goes_on_as_it_was(tmp_path):
+    """Each jump reads the file, for all who look."""
+    replay, meeting = Replay(check_recording(recorded(tmp_path / "meeting.jsonl"))), Meeting(most_people=8)
+    for _ in range(2 * PLAYS_PER_S):
+        replay.play(Play(paused=True), meeting, now=0.0)
+    with pytest.raises(NotAllowed, match="that was too fast; the replay goes on as it was"):
+        replay.play(Play(paused=False), meeting, now=0.0)
+    assert replay.playing(now=0.0).paused
+    assert not replay.play(Play(paused=False), meeting, now=1 / PLAYS_PER_S)[-1].paused

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from room.protocol.texts import Changed, Door, Left, Line, Notice, Refused, Signal
+from room.protocol.answers import Changed, Door, Left, Line, Notice, Refused, Signal
 from room.server.connection import CLOSED_BY_RULE
 from room.state import identity
 from tests.room.guests import meeting, open_room
@@ -47,9 +47,8 @@ async def test_all_get_one_tick_for_many_states_and_none_when_nobody_moves(place
     ticks, seconds = guests[0].ticks - before, time.monotonic() - start
     assert ticks <= 30 * seconds + 2, "one buffer a tick, however many people move"
     await guests[0].until(lambda: len(guests[0].sequences) == 120)
-    assert sorted(guests[0].sequences) == [(guest.number, step) for guest in guests for step in range(30)], (
-        "none is lost"
-    )
+    sent = sorted((guest.number, step) for guest in guests for step in range(30))
+    assert sorted(guests[0].sequences) == sent, "none is lost"
     quiet = guests[0].ticks
     await asyncio.sleep(0.3)
     assert guests[0].ticks - quiet <= 1

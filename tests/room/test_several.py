@@ -10,7 +10,7 @@ from functools import wraps
 import pytest
 
 from room.avatars.pieces import PIECE_BYTES
-from room.protocol.texts import Changed, Door, Left, Line, Notice, Signal
+from room.protocol.answers import Changed, Door, Left, Line, Notice, Signal
 from room.server import Keys, Limits, new_keys
 from room.server.connection import CLOSED_BY_RULE
 from room.server.neighbours import AGAIN_S

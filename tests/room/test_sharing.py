@@ -1,14 +1,16 @@
 """One person at a time shows something on the room's screens: by the rules, and in two tabs of a real browser."""
 
 import asyncio
+import base64
 import functools
 from collections.abc import Awaitable, Callable
 
 import pytest
 
-from room.protocol.texts import Changed, Notice, Signal
-from tests.browser import chromium, needs_chromium
+from room.protocol.answers import Changed, Notice, Signal
+from tests.browser import Tab, chromium, needs_chromium
 from tests.room.guests import Place, open_room
+from tests.room.papers import LOCKED, paper
 from tests.room.test_page import AWAKE, come_in
 
 
@@ -105,6 +107,61 @@ SEEN = """(() => {
   pen.drawImage(meeting.board.film, 0, 0, 8, 8);
   return [...pen.getImageData(4, 4, 1, 1).data];
 })()"""
+PAPER = """((encoded, name) => {
+  const file = new File([Uint8Array.from(atob(encoded), (each) => each.charCodeAt(0))], name);
+  const carried = new DataTransfer(); carried.items.add(file);
+  const input = document.querySelector('#paper');
+  input.files = carried.files; input.dispatchEvent(new Event('change'));
+})"""
+LARGE = """(() => {
+  const carried = new DataTransfer(); carried.items.add(new File([new Uint8Array(2 ** 26 + 1)], 'large.pdf'));
+  const input = document.querySelector('#paper');
+  input.files = carried.files; input.dispatchEvent(new Event('change'));
+})()"""
+DARK = """(() => {
+  const { film } = meeting.board, pen = new OffscreenCanvas(160, 120).getContext('2d');
+  pen.drawImage(film, 0, 0, 160, 120);
+  const { data } = pen.getImageData(0, 60, 160, 60);
+  return data.filter((value, at) => at % 4 === 2 && value < 60).length;
+})()"""
+"""How much of the lower half has no blue: of a blue page, that is where letters are."""
+
+REFUSED = {
+    "text.pdf": (b"hello", "the file is no PDF"),
+    "cut.pdf": (b"%PDF-1.4\n1 0 obj\n", "cannot be read, as it is damaged"),
+    "locked.pdf": (LOCKED, "needs a password; save it without one"),
+    "long.pdf": (paper(*[(9, 9, (0, 0, 0))] * 2001), "has 2001 pages, and 2000 are read"),
+}
+
+
+async def turn_pages(ada: Tab, ben: Tab) -> dict[str, object]:
+    """Ben shows a PDF in place of his picture; what Ada sees of it, and what both are told."""
+    found: dict[str, object] = {"before": [each for each in ben.asked if "paper.js" in each]}
+    pages = paper((400, 300, (0.1, 0.1, 0.9)), (300, 400, (0.1, 0.6, 0.1)))
+    await ben.ask(f"{PAPER}('{base64.b64encode(pages).decode()}', 'slides.pdf')")
+    await ada.until("`${meeting.board.size}` === '1920,1440'", 30)
+    await ada.until(f"({SEEN})[2] > 190", 15)
+    found["letters"] = await ada.ask(DARK)
+    await ben.ask("document.querySelector('#next').click()")
+    await ada.until(f"`${{meeting.board.size}}` === '1440,1920' && ({SEEN})[2] < 70", 15)
+    found["page"] = await ben.ask("document.querySelector('#page').textContent")
+    found["last"] = await ben.ask("document.querySelector('#next').disabled")
+    found["refused"] = {}
+    for name, (content, _) in REFUSED.items():
+        await ben.ask("void meeting.tell('')")
+        await ben.ask(f"{PAPER}('{base64.b64encode(content).decode()}', '{name}')")
+        await ben.until(
+            f"'{name}' && document.querySelector('#state').textContent.startsWith('Nothing is shared')", 15
+        )
+        found["refused"][name] = await ben.ask("document.querySelector('#state').textContent")
+    await ben.ask(LARGE)
+    await ben.until("document.querySelector('#state').textContent.includes('65 MiB, and 64 are read')", 15)
+    await ben.ask("dispatchEvent(new KeyboardEvent('keydown', { key: 'PageUp' }))")
+    await ada.until(f"({SEEN})[2] > 190", 15)
+    found["loaded"] = [sum("paper.js" in each for each in tab.asked) for tab in (ada, ben)]
+    return found
+
+
 WISH = """(() => {{
   const share = document.querySelector('#share');
   share.value = '{}';
@@ -116,7 +173,7 @@ SHARED = "document.querySelector('#shared')"
 
 @pytest.mark.slow
 @needs_chromium
-def test_a_picture_and_a_window_reach_the_other_and_a_moderator_ends_them():
+def test_a_picture_a_pdf_and_a_window_reach_the_other_and_a_moderator_ends_them():
     async def run() -> dict[str, object]:
         found = {}
         async with open_room() as place, chromium(*AWAKE, "--auto-accept-this-tab-capture") as browser:
@@ -135,7 +192,9 @@ def test_a_picture_and_a_window_reach_the_other_and_a_moderator_ends_them():
                 found["colour"] = await ada.ask(SEEN)
                 found["told"] = await ada.ask(f"{SHARED}.textContent")
                 found["told self"] = await ben.ask(f"{SHARED}.textContent")
+                found |= await turn_pages(ada, ben)
                 await ada.ask(STOP)
+                await ben.until("document.querySelector('#pages').hidden")
                 await ben.until(f"!meeting.sharing.shares && {SHARED}.hidden")
                 await ada.until(f"!meeting.board.shown && {SHARED}.hidden")
                 await ada.ask(WISH.format("window"))
@@ -167,6 +226,13 @@ def test_a_picture_and_a_window_reach_the_other_and_a_moderator_ends_them():
     assert blue < 70
     assert found["told"] == "Ben shares the screen"
     assert found["told self"] == "You share the screen"
+    assert (found["before"], found["loaded"]) == ([], [0, 1]), (
+        "the reader comes with the first PDF, and to nobody else"
+    )
+    assert found["letters"] > 50
+    assert (found["page"], found["last"]) == ("2 of 2", True)
+    for name, (_, reason) in REFUSED.items():
+        assert reason in found["refused"][name], name
     assert min(found["window"]) > 0
     x, y, z = found["dot"]
     # the wall with the window is 6.4 metres ahead; its glass and frame a few centimetres before it

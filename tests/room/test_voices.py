@@ -8,7 +8,7 @@ from contextlib import AsyncExitStack, asynccontextmanager
 import aiohttp
 import pytest
 
-from room.protocol.texts import Engine, Signal
+from room.protocol.answers import Engine, Signal
 from room.server import Keys
 from room.server.janus import Janus
 from room.server.voices import instance_of, voice_room

@@ -47,7 +47,7 @@ def calibrate(
     from track.cli.running import RunOptions, ended_by_signals, open_session
     from track.errors import InputError
     from track.messages import Command, Moment
-    from track.session.calibration import faces_of
+    from track.session.faces import faces_of
 
     wishes = Wishes(
         cameras=camera or (),

@@ -16,7 +16,8 @@ from track.profile.keeper import ProfileKeeper
 from track.profile.profile import write_profile
 
 if TYPE_CHECKING:
-    from track.session.session import Screen, Session, Summary
+    from track.session.measures import Summary
+    from track.session.session import Screen, Session
     from track.sinks.sink import Sink
     from track.sources import Capture
 

@@ -15,8 +15,8 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.sample import Sample
-from track.errors import InputError
 from track.messages import Step
+from track.session.faces import FACES
 from track.session.steadiness import steadiness
 
 FIRST_COUNTDOWN_S, COUNTDOWN_S = 3.0, 2.0
@@ -37,7 +37,10 @@ SEEN_SHARE = 0.7
 """Of a recording's frames that must have a face."""
 
 FEWEST_FRAMES = 12
-"""With a face: below 8 a second for a second and a half nothing can be judged."""
+"""With a face: of fewer nothing can be judged. Below 8 a second a recording goes on until they are there."""
+
+LONGEST_S = 6.0
+"""Of a recording for which pictures come slowly: two a second are enough, and nobody holds a face for longer."""
 
 FAINT = 0.25
 """Reading of a full movement below which it was not made, or the model does not see it: gains end at 2."""
@@ -47,51 +50,6 @@ SHUT = 0.4
 
 _FULL = 0.6
 """Quantile of a recording that is the full movement: people need a third of the time to get there."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Face:
-    """One face that people are asked for.
-
-    Parameters
-    ----------
-    text
-        What to do.
-    shapes
-        Whose ranges it gives; none of the neutral face.
-    """
-
-    text: str
-    shapes: tuple[str, ...] = ()
-
-
-FACES: Mapping[str, Face] = {
-    "neutral": Face(text="Look into the camera, mouth shut, face at rest"),
-    "jaw_open": Face(text="Open your mouth as wide as it goes", shapes=("jawOpen",)),
-    "smile": Face(
-        text="Smile as broadly as you can, teeth shut", shapes=("mouthSmileLeft", "mouthSmileRight")
-    ),
-    "brows_up": Face(
-        text="Raise your brows as high as they go",
-        shapes=("browInnerUp", "browOuterUpLeft", "browOuterUpRight"),
-    ),
-    "pucker": Face(text="Pucker your lips as for a kiss", shapes=("mouthPucker",)),
-    "cheeks": Face(text="Puff out both cheeks", shapes=("cheekPuff",)),
-    "eyes_shut": Face(
-        text="Shut both eyes until three seconds are over", shapes=("eyeBlinkLeft", "eyeBlinkRight")
-    ),
-    "eyes_wide": Face(text="Open both eyes as wide as they go", shapes=("eyeWideLeft", "eyeWideRight")),
-    "lips_rolled": Face(
-        text="Roll both lips in, over your teeth", shapes=("mouthRollUpper", "mouthRollLower")
-    ),
-    "look_around": Face(text="Look left, right, up and down, as far as is easy, head still"),
-}
-"""In the order of asking; names as a command's value has them."""
-
-OF_HEADSETS = ("eyes_wide", "lips_rolled", "look_around")
-"""Faces that networks of landmarks see too little of to be asked for."""
-
-OF_ALL = tuple(name for name in FACES if name not in OF_HEADSETS)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -113,23 +71,6 @@ class Outcome:
     ranges: Mapping[str, float] | None = None
 
 
-def faces_of(asked: str, known: Sequence[str] = OF_ALL) -> tuple[str, ...]:
-    """Names of the faces that a command's value asks for: one of `FACES`, or ``all`` of those that a model knows.
-
-    Raises
-    ------
-    InputError
-        Where there is no such face.
-    """
-    if asked == "all":
-        return tuple(known)
-    if asked not in FACES:
-        raise InputError(
-            f"there is no face {str(asked)[:40]!r} to calibrate; all, {', '.join(FACES)} are known"
-        )
-    return (asked,)
-
-
 class Calibration:
     """Goes through faces as time passes.
 
@@ -146,7 +87,7 @@ class Calibration:
         self._number, self._tries, self._over = 0, 0, False
         self._state, self._until_s, self._text, self._last_reason = "", 0.0, "", ""
         self._frames: list[tuple[Sample, np.ndarray]] = []
-        self._missed = 0
+        self._missed, self._began_s, self._slow = 0, 0.0, False
         self._outcomes: list[Outcome] = []
         self.kept: list[str] = []
         """Names of faces that gave something."""
@@ -187,6 +128,7 @@ class Calibration:
             self._count_down(time_s, FIRST_COUNTDOWN_S)
         if self._state == "recording":
             self._record(sample, signature)
+            self._wait_for_slow_pictures(time_s)
         if time_s >= self._until_s:
             self._go_on(time_s)
         left = max(0.0, self._until_s - time_s)
@@ -198,6 +140,18 @@ class Calibration:
         else:
             self._frames.append((sample, signature))
 
+    def _wait_for_slow_pictures(self, time_s: float) -> None:
+        """Go on where too few have come, unless they came without a face; end as soon as there are enough."""
+        count, came = len(self._frames), len(self._frames) + self._missed
+        wanted = count < FEWEST_FRAMES and SEEN_SHARE * came < FEWEST_FRAMES
+        if self._slow and not wanted:
+            self._until_s = time_s
+        elif wanted and time_s >= self._until_s:
+            each_s = (time_s - self._began_s) / max(1, came)
+            until_s = min(time_s + each_s * (FEWEST_FRAMES - count), self._began_s + LONGEST_S)
+            self._slow, self._until_s = True, until_s
+            self._text = f"{FACES[self.name].text}, a little longer: pictures come slowly"
+
     def _count_down(self, time_s: float, seconds: float) -> None:
         self._state, self._until_s, self._text = "countdown", time_s + seconds, FACES[self.name].text
 
@@ -205,7 +159,7 @@ class Calibration:
         if self._state == "countdown":
             self._state, self._text = "recording", FACES[self.name].text
             self._until_s = time_s + RECORDING_S.get(self.name, OTHERS_RECORDING_S)
-            self._frames, self._missed = [], 0
+            self._frames, self._missed, self._began_s, self._slow = [], 0, time_s, False
         elif self._state == "recording":
             self._judge(time_s)
         elif self._state == "again" and self._tries < TRIES:
@@ -242,7 +196,10 @@ class Calibration:
         count = len(self._frames)
         came = count + self._missed
         if came < FEWEST_FRAMES:
-            return f"Only {came} pictures came, and {FEWEST_FRAMES} are needed: camera or machine is too slow"
+            return (
+                f"Only {came} pictures came in {LONGEST_S:g} seconds, and {FEWEST_FRAMES} are needed: "
+                "camera or machine is too slow"
+            )
         least = max(FEWEST_FRAMES, round(SEEN_SHARE * came))
         if count < least:
             return f"Your face was seen in {count} of {came} frames, and {least} are needed"

@@ -21,8 +21,8 @@ from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 from track.errors import InputError
 from track.profile.profile import ModelMark, NeutralFace, base64_of
-from track.session.calibration import FACES
 from track.session.exchange import ExchangeWatch
+from track.session.faces import FACES
 from track.session.pipeline import Pipeline, filter_of
 
 LEAST_MOVEMENT = 0.15

@@ -16,7 +16,7 @@ from regress.runtime.stages.smoothing import OneEuroSmoothing
 from regress.runtime.stages.stage import Stage
 from track.errors import InputError
 from track.profile.profile import ModelMark, NeutralFace
-from track.session.calibration import OF_ALL
+from track.session.faces import OF_ALL
 
 GROUPS = "groups"
 """The filter of live faces: One-Euro, with `FASTER`."""
@@ -38,7 +38,7 @@ class Pipeline:
     least_movement
         Of a signature, in its unit, that counts as a movement (`track.session.steadiness`).
     faces
-        Names of `track.session.calibration.FACES` that it sees enough of.
+        Names of `track.session.faces.FACES` that it sees enough of.
     listens
         Whether it can be told where cameras are.
     """

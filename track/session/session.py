@@ -2,25 +2,25 @@
 
 import queue
 import time
-from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
 
 from regress.runtime.sample import Sample
-from regress.runtime.stages.output import Mirror
-from track.errors import InputError, OutputError
+from track.errors import InputError
 from track.messages import Command, Moment, Step
-from track.profile.profile import LARGEST_GAIN, SMALLEST_RANGE, Profile
-from track.session.calibration import Calibration, Outcome, faces_of
-from track.session.fading import Fading
+from track.profile.profile import LARGEST_GAIN, Profile
+from track.session.calibration import Calibration, Outcome
+from track.session.faces import faces_of
 from track.session.fault_telling import FaultTelling
-from track.session.measures import Measures
+from track.session.measures import Measures, Summary
+from track.session.outcomes import learnt
+from track.session.person import Person
 from track.session.pipeline import Pipeline
-from track.session.ranges import GazeCentre, Ranges, by_lids, middle_of
+from track.session.recordings import Recordings
 from track.session.undisturbed import undisturbed
 from track.sinks.sink import Sink
 
@@ -49,35 +49,6 @@ class Screen(Protocol):
 
     def publish(self, moment: Moment) -> None:
         """Take a moment without waiting."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Summary:
-    """How a session went.
-
-    Parameters
-    ----------
-    frames, faces
-        Frames that came, and those with a face.
-    seconds
-        By the frames' own times.
-    fps
-        At the end.
-    latency_ms
-        From a picture's time to the last sink, p50, p95 and p99; none of films that are read at any speed.
-    cpu_ms
-        Of each stage.
-    faults
-        How often each was told.
-    """
-
-    frames: int
-    faces: int
-    seconds: float
-    fps: float
-    latency_ms: Mapping[str, float]
-    cpu_ms: Mapping[str, Mapping[str, float]]
-    faults: Mapping[str, int]
 
 
 class Session:
@@ -117,17 +88,13 @@ class Session:
     ) -> None:
         self.pipeline, self.sinks, self.profile = pipeline, list(sinks), profile
         self._say, self._keep = say, keep
-        self._ranges = Ranges(profile.factors(), profile.at_rest(), by_lids(profile))
-        self._centre = GazeCentre(np.zeros(4) if profile.gaze is None else np.array(profile.gaze))
-        self._mirror, self._mirrored = Mirror(), profile.mirror if mirror is None else mirror
-        self._fading = Fading()
+        self._person = Person(profile, mirrored=profile.mirror if mirror is None else mirror)
         self.measures, self._telling = Measures(), FaultTelling(say)
         self._commands: queue.Queue[Command] = queue.Queue(MOST_COMMANDS)
         self._calibration: Calibration | None = None
         self._step: Step | None = None
         self._looks: list[np.ndarray] | None = None
-        self._new_recording, self._recording = new_recording, None
-        self._finishing = ThreadPoolExecutor(max_workers=1, thread_name_prefix="recording")
+        self._recordings = Recordings(self.sinks, new_recording, say)
         self._pictures_wanted, self._timed, self._stopped = False, timed, False
         self._faces, self._first_s, self._last_s = 0, None, 0.0
         if profile.told_cameras and pipeline.listens:
@@ -170,7 +137,7 @@ class Session:
     def _run(self, pictures: Pictures, screen: Screen | None, seconds: float | None) -> None:
         until_s = None if seconds is None else time.monotonic() + seconds
         while not self._stopped and (until_s is None or time.monotonic() < until_s):
-            sample = pictures.read(TICK_S if self._fading.under_way else None)
+            sample = pictures.read(TICK_S if self._person.settling else None)
             if sample is None:
                 break
             for answer in self.answer(sample, pictures.now_s if self._timed else None):
@@ -207,8 +174,8 @@ class Session:
             faults=self._telling.now,
             step=self._step,
             settings={
-                "mirror": self._mirrored,
-                "recording": self._recording is not None,
+                "mirror": self._person.mirrored,
+                "recording": self._recordings.under_way,
                 "calibrated": self.profile.neutral is not None,
                 "profile": self.profile.person,
                 "gains": dict(self.profile.gains),
@@ -231,7 +198,7 @@ class Session:
     def _finished(self, sample: Sample) -> Sample:
         """A frame behind the pipeline, as the person and the avatar want it."""
         if sample.weights is None:
-            sample = replace(sample, weights=np.full(len(self._ranges.factors), np.nan))
+            sample = replace(sample, weights=self._person.unknown())
         self._first_s = sample.time_s if self._first_s is None else self._first_s
         self._last_s = sample.time_s
         self._faces += not np.isnan(sample.weights).any()
@@ -241,10 +208,7 @@ class Session:
             self._calibrate(sample)
         self._telling.step(sample.time_s, self.pipeline.sentences(sample))
         with self.measures.stage("person"):
-            sample = self._ranges.step(self._centre.step(sample))
-            if self._mirrored:
-                sample = self._mirror.step(sample)
-            return self._fading.step(sample)
+            return self._person.step(sample)
 
     def _calibrate(self, sample: Sample) -> None:
         calibration = self._calibration
@@ -264,41 +228,12 @@ class Session:
 
     def _take(self, outcome: Outcome) -> None:
         """Use what calibration found from the next frame on, and keep it."""
-        if outcome.ranges is None:
-            neutral = self.pipeline.neutral_of(outcome.samples)
-            self.pipeline.use_neutral(neutral)
-            # what was read without this neutral face is no range of it, but of the same person in another seat
-            kept = (
-                self.profile.ranges
-                if self.profile.neutral and self.profile.model == self.pipeline.mark
-                else {}
-            )
-            self._change(
-                neutral=neutral,
-                ranges=kept if neutral.pictures else {},
-                rests=self.pipeline.rests_of(outcome.samples),
-                eyes=self.pipeline.eyes_with(self.profile.eyes, outcome.name, outcome.samples),
-                model=self.pipeline.mark,
-                gaze=None,
-            )
-        elif outcome.name == "look_around":
-            self._change(gaze=middle_of([sample.gaze for sample in outcome.samples]))
-        else:
-            readings = {
-                name: min(max(reading, SMALLEST_RANGE), 1.0) for name, reading in outcome.ranges.items()
-            }
-            self._change(
-                ranges={**self.profile.ranges, **readings},
-                eyes=self.pipeline.eyes_with(self.profile.eyes, outcome.name, outcome.samples),
-                model=self.pipeline.mark,
-            )
+        self._change(**learnt(outcome, self.profile, self.pipeline))
 
     def _change(self, **changes: object) -> None:
         self.profile = self.profile.model_copy(update=changes)
-        self._ranges.factors, self._ranges.rests = self.profile.factors(), self.profile.at_rest()
-        self._ranges.by_lids = by_lids(self.profile)
+        self._person.use(self.profile)
         self.pipeline.use_eyes(self.profile.eyes)
-        self._centre.centre = np.zeros(4) if self.profile.gaze is None else np.array(self.profile.gaze)
         self._keep(self.profile)
 
     def _look(self, sample: Sample) -> None:
@@ -310,33 +245,11 @@ class Session:
             self._looks = None
             self._say("the eyes are centred on where they looked")
 
-    def _record(self, wanted: bool) -> None:
-        """Begin or end the page's recording; one that cannot be written takes nothing else along."""
-        try:
-            if wanted and self._recording is None and self._new_recording is not None:
-                self._recording = self._new_recording()
-                self.sinks.append(self._recording)
-                self._say(f"recording {self._recording.title}")
-            elif not wanted and self._recording is not None:
-                recording, self._recording = self._recording, None
-                self.sinks.remove(recording)
-                self._finishing.submit(self._finish, recording)
-        except OutputError as error:
-            self._say(str(error))
-
-    def _finish(self, recording: Sink) -> None:
-        """Give the page's recording its name, in another thread: a disk takes a frame's time and more."""
-        try:
-            recording.close()
-            self._say(f"recorded {recording.title}")
-        except OutputError as error:
-            self._say(str(error))
-
     def close(self) -> None:
         """Let sinks and stages go: recordings are written whole, each whether or not another one can be."""
         with ExitStack() as closing:
             closing.callback(self.pipeline.close)
-            closing.callback(self._finishing.shutdown)
+            closing.callback(self._recordings.close)
             for sink in self.sinks:
                 closing.callback(sink.close)
 
@@ -363,14 +276,14 @@ class Session:
             self._step, self._calibration = self._calibration.cancel(), None
             self._use_known_neutral()
         elif verb == "mirror":
-            self._mirrored = bool(value)
-            self._change(mirror=self._mirrored)
+            self._person.mirrored = bool(value)
+            self._change(mirror=self._person.mirrored)
         elif verb == "gain" and command.shape is not None and isinstance(value, (int, float)):
             gain = float(np.clip(value, 0.0, LARGEST_GAIN))
             self._change(gains={**self.profile.gains, command.shape: gain})
         elif verb == "recentre":
             self._looks = []
         elif verb == "record":
-            self._record(bool(value))
+            self._recordings.record(bool(value))
         elif verb == "picture":
             self._pictures_wanted = bool(value)

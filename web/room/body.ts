@@ -12,6 +12,8 @@ import {
   Vector2,
 } from "three";
 
+import { clothesOf } from "./colours.js";
+
 /** Height of the eyes above the floor, standing and seated, in metres. */
 export const EYES_M = 1.6;
 export const SEATED_M = 1.18;
@@ -36,9 +38,6 @@ const BEHIND = -0.085;
 const UPPER = 0.27;
 const LOWER = 0.25;
 
-/** Colours of clothes: told apart at the far side of a table, and none is a signal. */
-const CLOTHES = [0x2f6f73, 0x5b4a8a, 0x8a5a2f, 0x3f5f3a, 0x7a3b46, 0x33547d, 0x5c5c5c, 0x84703a];
-
 /** An arm that hangs; its parts are called as Mixamo's bones, so that `Limbs` moves it like a skeleton's. */
 function makeArm(side: "Left" | "Right", cloth: MeshStandardMaterial, skin: MeshStandardMaterial): Group {
   const arm = new Group();
@@ -62,7 +61,7 @@ function makeArm(side: "Left" | "Right", cloth: MeshStandardMaterial, skin: Mesh
 /** Chest, neck and arms; the origin lies between the eyes. */
 export function makeBody(number: number): Group {
   const body = new Group();
-  const cloth = new MeshStandardMaterial({ color: CLOTHES[number % CLOTHES.length]!, roughness: 0.95 });
+  const cloth = new MeshStandardMaterial({ color: clothesOf(number), roughness: 0.95 });
   const skin = new MeshStandardMaterial({ color: 0xb98a6c, roughness: 0.7 });
   const points = PROFILE.map(([radius, y]) => new Vector2(radius, y)).reverse();
   const chest = new Mesh(new LatheGeometry(points, 32), cloth);

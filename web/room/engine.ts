@@ -4,9 +4,8 @@
  * The room speaks with the engine (room/server/voices.py); this page knows its two lines alone.
  */
 
-import { saidOf } from "./mesh.js";
+import { saidOf, type Lines, type Send } from "./lines.js";
 import type { Candidate, Description, Person } from "./texts.js";
-import type { Lines, Send } from "./voice.js";
 
 export class Engine implements Lines {
   /** Whose voice each sound of the next description down is: ids by `mid`. */

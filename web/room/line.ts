@@ -55,7 +55,7 @@ export class Line {
     const socket = new WebSocket(this.address);
     this.socket = socket;
     socket.binaryType = "arraybuffer";
-    socket.addEventListener("open", () => socket.send(JSON.stringify(this.join)));
+    socket.addEventListener("open", () => socket.send(JSON.stringify({ ...this.join, at_ms: Date.now() })));
     socket.addEventListener("message", ({ data }) => {
       if (socket !== this.socket) return;
       if (typeof data === "string") this.hear(JSON.parse(data) as Answer);

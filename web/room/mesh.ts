@@ -4,8 +4,8 @@
  * Connections follow MDN's "perfect negotiation": either side may offer at any time, and the polite one gives way.
  */
 
+import { candidateOf, saidOf, type Lines, type Send } from "./lines.js";
 import type { Candidate, Description, Person } from "./texts.js";
-import type { Lines, Send } from "./voice.js";
 
 interface Peer {
   readonly connection: RTCPeerConnection;
@@ -128,19 +128,4 @@ export class Mesh implements Lines {
     const { type, sdp } = connection.localDescription!;
     if (type !== "pranswer") this.send({ kind: "description", to: number, type, sdp });
   }
-}
-
-/** An address of this browser, as a text to somebody. */
-export function saidOf({ candidate, sdpMid, sdpMLineIndex }: RTCIceCandidate, to: Candidate["to"]): Candidate {
-  return {
-    kind: "candidate",
-    to,
-    candidate,
-    ...(sdpMid === null ? {} : { mid: sdpMid }),
-    ...(sdpMLineIndex === null ? {} : { line: sdpMLineIndex }),
-  };
-}
-
-function candidateOf({ candidate, mid, line }: Candidate): RTCIceCandidateInit {
-  return { candidate, sdpMid: mid ?? null, sdpMLineIndex: line ?? null };
 }

@@ -6,11 +6,13 @@ import { rotation } from "../avatar/index.js";
 import { Wardrobe, type Dressed } from "./avatars.js";
 import { EYES_M, SEATED_M } from "./body.js";
 import { Brought } from "./brought.js";
+import { coloursOf, dye } from "./colours.js";
 import { FaceCamera } from "./face.js";
 import { Figure } from "./figure.js";
 import { Headset } from "./headset.js";
 import { about, ask, randomText, readLink, secretOf, sentence } from "./join.js";
 import { Line } from "./line.js";
+import { Offering } from "./offering.js";
 import { Idle, type OwnFace } from "./own.js";
 import { Board } from "./board.js";
 import { Place } from "./place.js";
@@ -55,6 +57,7 @@ class Meeting {
   drawing = true;
   readonly board: Board;
   readonly sharing: Sharing;
+  private readonly offering: Offering;
   private readonly view: View;
   private readonly pointers: Pointers;
   private readonly walk: Walk;
@@ -92,7 +95,16 @@ class Meeting {
     this.sharing = new Sharing(
       (signal) => this.line.say(signal),
       (stream) => this.board.show(stream),
-      () => this.shareNothing(),
+      () => this.offering.end(),
+    );
+    this.offering = new Offering(
+      this.sharing,
+      {
+        sharer: () => [...this.known.values()].find(({ person }) => person.shares && person.number !== this.own?.number)?.person.name,
+        say: (on) => this.line.say({ kind: "share", on }),
+        tell: (text) => this.tell(text),
+      },
+      meetingPlace.screens.length > 0,
     );
     this.voice = new Voice((signal) => this.line.say(signal), { echoes });
     this.voice.speakInto(microphone?.stream);
@@ -219,7 +231,7 @@ class Meeting {
     const own = person.own ? this.brought.fetch(person.own) : undefined;
     if (!known.figure || !person.own) this.dress(known, this.wardrobe.plain());
     const ready = await this.wardrobe.another(person.avatar);
-    if (ready && still()) this.dress(known, ready);
+    if (ready && still()) this.dress(known, ready, dye(ready.avatar.root, coloursOf(person)));
     const brought = await own;
     if (!brought) return;
     if (still()) this.dress(known, brought, () => brought.avatar.dispose());
@@ -347,6 +359,7 @@ class Meeting {
     this.sidebar.list(people, this.own.number, this.own.moderator);
     this.voice.meet(people, this.own.id);
     this.sharing.meet(people, this.own.id);
+    this.offering.follow();
     const sharer = people.find(({ shares }) => shares);
     const shared = find("shared");
     shared.hidden = !sharer;
@@ -378,7 +391,6 @@ class Meeting {
     });
     find("neutral").addEventListener("click", () => this.camera?.neutral());
     find("seat").addEventListener("click", () => this.sit());
-    this.shareControls();
     const gesture = find<HTMLSelectElement>("gesture");
     gesture.replaceChildren(
       ...ANIMATIONS.map((name, number) => new Option(number ? `${number} ${name}` : "Gesture …", String(number))),
@@ -421,43 +433,6 @@ class Meeting {
     this.tell("");
   }
 
-  private shareControls(): void {
-    const share = find<HTMLSelectElement>("share");
-    const file = find<HTMLInputElement>("file");
-    // telephones have no windows to give
-    if (!("getDisplayMedia" in (navigator.mediaDevices ?? {}))) share.querySelector("[value=window]")!.remove();
-    share.hidden = !this.meetingPlace.screens.length;
-    const begin = async (take: () => Promise<void>): Promise<void> => {
-      const other = [...this.known.values()].find(({ person }) => person.shares && person.number !== this.own?.number);
-      if (other) return this.tell(`${other.person.name} shares already; they or a moderator can end it.`);
-      try {
-        await take();
-        this.line.say({ kind: "share", on: true });
-      } catch (error) {
-        this.tell(error instanceof DOMException && error.name === "NotAllowedError" ? "" : `Nothing is shared: ${error instanceof Error ? error.message : error}`);
-      }
-    };
-    share.addEventListener("change", () => {
-      const wish = share.value;
-      share.value = "";
-      share.blur();
-      if (wish === "window") void begin(() => this.sharing.window());
-      if (wish === "picture") file.click();
-      if (wish === "nothing") this.shareNothing();
-    });
-    file.addEventListener("change", () => {
-      const [picture] = file.files ?? [];
-      if (picture) void begin(() => this.sharing.picture(picture));
-      file.value = "";
-    });
-  }
-
-  private shareNothing(): void {
-    if (!this.sharing.shares) return;
-    this.sharing.end();
-    this.line.say({ kind: "share", on: false });
-  }
-
   private gesture(number: number): void {
     this.animation = number;
     this.animationEnds = number && !STAYS.has(ANIMATIONS[number]!) ? performance.now() / 1000 + GESTURE_S : Infinity;
@@ -471,6 +446,7 @@ class Meeting {
   private end(text: string): void {
     this.voice.close();
     this.sharing.close();
+    this.offering.follow();
     this.microphone?.close();
     this.camera?.close();
     this.own = undefined;

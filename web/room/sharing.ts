@@ -1,22 +1,19 @@
 /**
- * Shares a window or a picture with all: straight from browser to browser, a connection for each who looks.
+ * Shares a window, a picture or a page with all: straight from browser to browser, a connection for each who looks.
  *
  * Who shares calls, and the others answer; the room's server says who may. Voices go their own way.
  */
 
+import { candidateOf, saidOf, type Send } from "./lines.js";
+import { Still, type Picture } from "./still.js";
 import type { Candidate, Description, Person } from "./texts.js";
 
-/** A still picture is sent so many times a second, for those who come later. */
-const STILL_HERTZ = 3;
-/** Longer sides of a picture are made smaller: a wall in a page has no more pixels. */
-const MOST_PIXELS = 1920;
 /** Of a shared window: text stays sharp, and a film stutters a little. */
 const WINDOW_HERTZ = 12;
 
-type Send = (said: Description | Candidate) => void;
-
 export class Sharing {
   private own: MediaStream | undefined;
+  private shown: Still | undefined;
   /** Whether the room knows that this page shares. */
   private granted = false;
   private readonly viewers = new Map<string, { connection: RTCPeerConnection; visit: string; number: number }>();
@@ -46,17 +43,14 @@ export class Sharing {
 
   /** Show a picture of a file; throws where the browser cannot read it. */
   async picture(file: Blob): Promise<void> {
-    const bitmap = await createImageBitmap(file);
-    const scale = Math.min(1, MOST_PIXELS / Math.max(bitmap.width, bitmap.height));
-    const canvas = document.createElement("canvas");
-    // codecs want even numbers
-    [canvas.width, canvas.height] = [2 * Math.ceil((bitmap.width * scale) / 2), 2 * Math.ceil((bitmap.height * scale) / 2)];
-    const pen = canvas.getContext("2d")!;
-    const draw = (): void => pen.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
-    draw();
-    const stream = canvas.captureStream(STILL_HERTZ);
-    const timer = setInterval(() => (stream.active && this.own === stream ? draw() : this.own === stream || clearInterval(timer)), 1000 / STILL_HERTZ);
-    this.take(stream);
+    this.still(await createImageBitmap(file));
+  }
+
+  /** Show a picture, in place of the one that is shown. */
+  still(picture: Picture): void {
+    if (this.shown && this.own === this.shown.stream) return this.shown.turn(picture);
+    this.shown = new Still(picture);
+    this.take(this.shown.stream);
   }
 
   /** Show nothing more. */
@@ -97,7 +91,7 @@ export class Sharing {
       const connection = signal.kind === "description" && signal.type === "offer" ? this.answerer(from) : this.of(from.id);
       if (!connection) return;
       if (signal.kind === "candidate") {
-        await connection.addIceCandidate({ candidate: signal.candidate, sdpMid: signal.mid ?? null, sdpMLineIndex: signal.line ?? null });
+        await connection.addIceCandidate(candidateOf(signal));
         return;
       }
       await connection.setRemoteDescription(signal);
@@ -113,6 +107,8 @@ export class Sharing {
     const [track] = stream.getVideoTracks();
     track!.contentHint = "detail";
     track!.addEventListener("ended", () => this.own === stream && this.ended());
+    for (const before of this.own?.getTracks() ?? []) before.stop();
+    for (const { connection } of this.viewers.values()) void connection.getSenders()[0]?.replaceTrack(track!);
     this.own = stream;
     this.show(stream);
   }
@@ -145,16 +141,7 @@ export class Sharing {
   private connect(number: () => number): RTCPeerConnection {
     const connection = new RTCPeerConnection({ iceServers: this.ice });
     connection.onicecandidate = ({ candidate }) => {
-      if (!candidate) return;
-      const { sdpMid, sdpMLineIndex } = candidate;
-      this.send({
-        kind: "candidate",
-        plane: "screen",
-        to: number(),
-        candidate: candidate.candidate,
-        ...(sdpMid === null ? {} : { mid: sdpMid }),
-        ...(sdpMLineIndex === null ? {} : { line: sdpMLineIndex }),
-      });
+      if (candidate) this.send({ ...saidOf(candidate, number()), plane: "screen" });
     };
     connection.oniceconnectionstatechange = () => {
       if (connection.iceConnectionState === "failed") connection.restartIce();

@@ -1,5 +1,6 @@
 /** The list of people and the chat. Whatever people typed becomes text, never markup. */
 
+import { clothesOf, written } from "./colours.js";
 import type { Act, Person } from "./texts.js";
 import type { Voice } from "./voice.js";
 
@@ -52,6 +53,7 @@ export class Sidebar {
     const item = document.createElement("li");
     const dot = document.createElement("span");
     dot.className = "dot";
+    if (!person.own) dot.style.background = written(clothesOf(person.number)); // who brought an avatar wears its colours
     this.dots.set(person.number, dot);
     const name = document.createElement("span");
     name.textContent = person.name + (self ? " (you)" : "");

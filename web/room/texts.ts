@@ -1,4 +1,4 @@
-/** The texts of a meeting, as `room/protocol/texts.py` defines them. */
+/** The texts of a meeting, as `room/protocol/texts.py` and `room/protocol/answers.py` define them. */
 
 export interface Person {
   number: number;
@@ -48,7 +48,7 @@ export interface Candidate {
 export type Act = "mute" | "unmute" | "undress" | "unshare" | "remove" | "lock" | "unlock";
 
 export type Said =
-  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page"; recorded: boolean }
+  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page"; recorded: boolean; at_ms?: number }
   | { kind: "chat"; text: string }
   | { kind: "voice"; open: boolean }
   | Description

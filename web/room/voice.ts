@@ -4,24 +4,11 @@
  */
 
 import { Engine } from "./engine.js";
+import type { Lines, Send } from "./lines.js";
 import { Loopback } from "./loopback.js";
 import { Mesh } from "./mesh.js";
 import { glide, Sound, type Place } from "./sound.js";
 import type { Answer, Candidate, Description, Person } from "./texts.js";
-
-export type Send = (said: Description | Candidate) => void;
-
-/** How voices travel. Each way gives to `play` what it brings, by the person's id, and to `stop` whose voice has ended. */
-export interface Lines {
-  speakInto(track: MediaStreamTrack | null): void;
-  /** Who is here now; `own` is this person's id. */
-  meet(people: ReadonlyMap<string, Person>, own: string): void;
-  /** Somebody has left for good. */
-  part(id: string): void;
-  hear(sender: string, signal: Description | Candidate): Promise<void>;
-  state(id: string): RTCPeerConnectionState;
-  close(): void;
-}
 
 export class Voice {
   /** Made when the person joins: browsers play nothing before a click. */

@@ -10,16 +10,16 @@ from regress.runtime.sample import Sample
 from track.errors import InputError
 from track.session.calibration import (
     COUNTDOWN_S,
-    FACES,
+    FEWEST_FRAMES,
     FIRST_COUNTDOWN_S,
-    OF_ALL,
+    LONGEST_S,
     OTHERS_RECORDING_S,
     RECORDING_S,
     TOLD_S,
     TRIES,
     Calibration,
-    faces_of,
 )
+from track.session.faces import FACES, OF_ALL, faces_of
 from track.session.steadiness import steadiness
 
 FPS = 30
@@ -101,10 +101,40 @@ def test_a_poor_neutral_face_is_asked_for_again_and_never_kept(person, reason):
 def test_too_few_pictures_are_told_as_such():
     calibration = Calibration(("neutral",), least=LEAST)
     at_rest = Sample(time_s=0.0, weights=np.zeros(52))
-    steps = [calibration.step(0.4 * row, at_rest, np.zeros(4)) for row in range(30)]
+    steps = [calibration.step(0.6 * row, at_rest, np.zeros(4)) for row in range(30)]
     (text,) = {step.text for step in steps if step.state == "again" and step.text.endswith("once more")}
-    assert text.startswith("Only 5 pictures came, and 12 are needed"), text
+    assert text.startswith("Only 10 pictures came in 6 seconds, and 12 are needed"), text
     assert calibration.outcomes() == []
+
+
+@pytest.mark.parametrize("fps", [2.1, 3, 5, 7, 8.5])
+@pytest.mark.parametrize("name", ["neutral", "smile"])
+def test_slow_pictures_are_waited_for_and_the_person_is_told(fps, name):
+    """Below eight a second a recording of fixed length could never succeed, however often it was tried."""
+    calibration = Calibration((name,), least=LEAST)
+    steps, weights = [], np.full(52, 0.7)
+    while not calibration.finished:
+        time_s = len(steps) / fps
+        steps.append((time_s, calibration.step(time_s, Sample(time_s=time_s, weights=weights), np.zeros(4))))
+    (outcome,) = calibration.outcomes()
+    assert len(outcome.samples) in (FEWEST_FRAMES, FEWEST_FRAMES + 1, round(fps * RECORDING_S["neutral"]))
+    recorded = [(time_s, step) for time_s, step in steps if step.state == "recording"]
+    usual_s = RECORDING_S.get(name, OTHERS_RECORDING_S)
+    assert any("a little longer" in step.text for _, step in recorded) == (fps * usual_s < FEWEST_FRAMES - 1)
+    assert recorded[-1][0] - recorded[0][0] <= max(usual_s, FEWEST_FRAMES / fps)
+    assert all(0 <= step.seconds_left <= LONGEST_S for _, step in steps)
+
+
+def test_pictures_without_a_face_are_not_waited_for():
+    calibration = Calibration(("neutral",), least=LEAST)
+    unseen = Sample(time_s=0.0, weights=np.full(52, np.nan))
+    recorded = 0
+    for frame in range(round((FIRST_COUNTDOWN_S + LONGEST_S) * FPS)):
+        step = calibration.step(frame / FPS, unseen, None)
+        if step.state == "again":
+            break
+        recorded += step.state == "recording"
+    assert recorded == pytest.approx(RECORDING_S["neutral"] * FPS, abs=2)
 
 
 def test_a_face_that_is_not_seen_is_left_out_and_the_others_kept():

@@ -10,7 +10,7 @@ import pytest
 from aiohttp import web
 
 from room.protocol import Flag, Message, decode
-from room.protocol.texts import Changed
+from room.protocol.answers import Changed
 from tests.room.guests import open_room
 from tests.track.sinks.receivers import acted, lost
 from track.errors import InputError

@@ -1,0 +1,123 @@
+"""Does what the people of one room say: chat, microphones, consent, screens, replays, and what moderators do."""
+
+import time
+from collections.abc import Callable
+
+from room.errors import NotAllowed
+from room.protocol.answers import Answer, Changed, Door, Line
+from room.protocol.texts import (
+    Candidate,
+    Chat,
+    Consent,
+    Description,
+    Leave,
+    Moderate,
+    Play,
+    Said,
+    Share,
+    Undress,
+    Voice,
+)
+from room.server.calls import Calls
+from room.server.cloakroom import Cloakroom
+from room.server.consents import Consents
+from room.server.neighbours import Neighbours
+from room.server.replay import Replay
+from room.state import Meeting, Seat
+
+
+class Acts:
+    """What a person in the room may do by a text.
+
+    Parameters
+    ----------
+    meeting
+        Who is in the room.
+    cloakroom, consents, calls
+        Its own avatars, its recording, and its voices and screens.
+    replay
+        What the room plays; None where people meet.
+    neighbours
+        The other processes of the room; None where there are none.
+    tell
+        Called with what all have to hear.
+    free
+        Called with somebody who goes for good, and the word that closes their page.
+    """
+
+    def __init__(
+        self,
+        meeting: Meeting,
+        *,
+        cloakroom: Cloakroom,
+        consents: Consents,
+        calls: Calls,
+        replay: Replay | None,
+        neighbours: Neighbours | None,
+        tell: Callable[[Answer], None],
+        free: Callable[[Seat, str], None],
+    ) -> None:
+        self._meeting, self._cloakroom, self._consents, self._calls = meeting, cloakroom, consents, calls
+        self._replay, self._neighbours = replay, neighbours
+        self._tell, self._free = tell, free
+
+    def do(self, seat: Seat, said: Said) -> None:
+        """Do what a person says.
+
+        Raises
+        ------
+        NotAllowed
+            If the rules forbid it.
+        """
+        match said:
+            case Chat():
+                self._write(seat, said.text)
+            case Voice():
+                seat.voice = said.open
+                self._tell(Changed(person=seat.person))
+            case Description() | Candidate():
+                self._calls.pass_on(seat, said)
+            case Moderate():
+                self._moderate(seat, said)
+            case Consent():
+                self._consents.change(seat, recorded=said.recorded)
+                self._tell(Changed(person=seat.person))
+            case Play():
+                self._play(said)
+            case Undress():
+                self._cloakroom.undress(seat)
+                self._tell(Changed(person=seat.person))
+            case Share():
+                for changed in self._meeting.share(seat, on=said.on):
+                    self._tell(Changed(person=changed.person))
+            case Leave():
+                self._free(seat, "you have left")
+
+    def _play(self, said: Play) -> None:
+        if self._replay is None:
+            raise NotAllowed("people meet here; there is nothing to play")
+        for answer in self._replay.play(said, self._meeting, now=time.monotonic()):
+            self._tell(answer)
+
+    def _write(self, seat: Seat, text: str) -> None:
+        if seat.muted:
+            raise NotAllowed("a moderator has muted you", again=True)
+        if text:
+            line = Line(number=seat.number, name=seat.name, text=text, time_s=time.time())
+            self._tell(line)
+            if self._neighbours:
+                self._neighbours.spoken(line)
+
+    def _moderate(self, by: Seat, act: Moderate) -> None:
+        seat = self._meeting.moderate(by, act)
+        if seat is None:
+            self._tell(Door(locked=self._meeting.locked))
+        elif act.action == "undress":
+            self._cloakroom.undress(seat)
+            self._tell(Changed(person=seat.person))
+            if self._neighbours and seat.home != self._meeting.process:
+                self._neighbours.undressed(seat.id)
+        elif act.action == "remove":
+            self._free(seat, "a moderator has removed you from this room")
+        else:
+            self._tell(Changed(person=seat.person))

@@ -1,0 +1,75 @@
+"""Passes on what browsers say to each other of their voices and screens, to the person or the engine that is meant."""
+
+from collections.abc import Callable
+
+from room.protocol.answers import Answer, Signal
+from room.protocol.texts import Candidate, Description
+from room.server.connections import Connections
+from room.server.switchboard import Switchboard
+from room.state import Meeting, Seat
+
+
+class Calls:
+    """The calls of one room.
+
+    Parameters
+    ----------
+    meeting
+        Who is in the room.
+    connections
+        Of those who are at this process.
+    switchboard
+        Has an engine pass voices on; None where they go from page to page.
+    away
+        Called with a signal for somebody at another process, by id.
+    """
+
+    def __init__(
+        self,
+        meeting: Meeting,
+        connections: Connections,
+        switchboard: Switchboard | None,
+        *,
+        away: Callable[[str, Signal], None],
+    ) -> None:
+        self._meeting, self._connections, self._switchboard = meeting, connections, switchboard
+        self._away = away
+
+    @property
+    def by_engine(self) -> bool:
+        """Whether an engine passes voices on."""
+        return self._switchboard is not None
+
+    def begin(self, seat: Seat, say: Callable[[Answer], None]) -> None:
+        """Give lines to an engine to somebody whose page has come; ``say`` sends to it."""
+        if self._switchboard:
+            self._switchboard.begin(seat.id, say)
+
+    def end(self, id: str) -> None:
+        """Take the lines of somebody whose page has gone."""
+        if self._switchboard:
+            self._switchboard.end(id)
+
+    def pass_on(self, seat: Seat, said: Description | Candidate) -> None:
+        """Give what somebody's browser says to whom it is for."""
+        if isinstance(said.to, str):
+            if self._switchboard:
+                self._switchboard.hear(seat.id, said)
+            return
+        called, signal = self._meeting.numbered(said.to), Signal(sender=seat.number, signal=said)
+        if called is None:
+            return  # they have just left: the caller hears of that by the roster
+        if said.plane == "screen" and not (seat.shares or called.shares):
+            return  # sharing has just ended
+        if not self._connections.call(called.id, signal) and called.home != self._meeting.process:
+            self._away(called.id, signal)
+
+    def tick(self) -> None:
+        """Do to voices what moderators did to people."""
+        if self._switchboard:
+            self._switchboard.follow(self._meeting)
+
+    def close(self) -> None:
+        """End with the room."""
+        if self._switchboard:
+            self._switchboard.close()

@@ -1,0 +1,139 @@
+"""Opens the rooms of one process for the first who comes, lets them tick, and closes them behind the last."""
+
+import asyncio
+import time
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from room.avatars import Wardrobe
+from room.errors import NotAllowed
+from room.recording import Recorder, Survey
+from room.server.carrier import Carrier
+from room.server.hall import HERTZ, Hall
+from room.server.janus import Janus
+from room.server.limits import Limits
+from room.server.metrics import Metrics
+from room.server.replay import Replay
+from room.server.switchboard import Switchboard
+from room.server.turn import Relays
+from room.server.voices import instance_of, voice_room
+
+if TYPE_CHECKING:  # needs an extra of its own
+    from room.server.telegraph import Telegraph
+
+
+class Halls:
+    """The rooms in which somebody is.
+
+    Parameters
+    ----------
+    secret
+        From which the numbers and pins of an engine's rooms follow.
+    limits
+        What is allowed.
+    relays
+        What browsers are told for their voices.
+    wardrobe
+        Keeps the avatars that people bring.
+    recorder
+        Records its one room; None where nothing is recorded.
+    replayed
+        Recording that every room plays; None where people meet each other alone.
+    telegraph
+        Reaches the other processes that carry the same rooms; None where this is the only one.
+    engines
+        Janus instances that share the rooms' voices; none where these go from page to page.
+    """
+
+    def __init__(
+        self,
+        secret: bytes,
+        *,
+        limits: Limits,
+        relays: Relays,
+        wardrobe: Wardrobe,
+        recorder: Recorder | None,
+        replayed: Survey | None,
+        telegraph: "Telegraph | None",
+        engines: Sequence[Janus],
+    ) -> None:
+        self._secret, self._limits, self._relays, self._wardrobe = secret, limits, relays, wardrobe
+        self._recorder, self._replayed = recorder, replayed
+        self._telegraph, self._engines = telegraph, engines
+        self._carrier = Carrier(telegraph, wardrobe) if telegraph else None
+        self._halls: dict[str, Hall] = {}
+        self._opening: dict[str, asyncio.Task[None]] = {}
+
+    def get(self, name: str) -> Hall | None:
+        """The room of a name, while somebody is in it."""
+        return self._halls.get(name)
+
+    def count(self, metrics: Metrics) -> None:
+        """Say how many rooms and people there are."""
+        metrics.rooms = len(self._halls)
+        metrics.people = sum(len(hall.meeting.people) for hall in self._halls.values())
+
+    def recorder_of(self, name: str) -> Recorder | None:
+        """What records a room; None where nothing does."""
+        recorder = self._recorder
+        return recorder if recorder and recorder.room == name and recorder.open else None
+
+    async def open(self, name: str) -> Hall:
+        """The room of a name, opened for the first who comes; others who come meanwhile wait for the same.
+
+        Raises
+        ------
+        NotAllowed
+            If there are too many rooms, or other processes that may have this one cannot be reached.
+        """
+        while (hall := self._halls.get(name)) is None:  # a tick may close it before the first is in
+            if name not in self._opening:
+                if len(self._halls) + len(self._opening) >= self._limits.rooms:
+                    raise NotAllowed(f"all {self._limits.rooms} rooms of this server are in use", again=True)
+                opening = self._opening[name] = asyncio.create_task(self._open(name))
+                opening.add_done_callback(lambda _: self._opening.pop(name))
+            await asyncio.shield(self._opening[name])
+        return hall
+
+    async def tick(self, metrics: Metrics) -> None:
+        """Let all rooms tick, until this is cancelled; ``metrics`` counts the time by which they are late."""
+        due = time.monotonic()
+        while True:
+            due += 1 / HERTZ
+            await asyncio.sleep(due - time.monotonic())
+            now = time.monotonic()
+            metrics.late_s += now - due
+            due = max(due, now - 1 / HERTZ)  # what was missed by more than a tick is not made up for
+            for name, hall in list(self._halls.items()):
+                hall.tick(now=now)
+                if hall.empty:
+                    hall.close()
+                    del self._halls[name]
+
+    async def _open(self, name: str) -> None:
+        switchboard = self._switchboard(name)
+        hall = Hall(
+            name,
+            most_people=self._limits.people,
+            relays=self._relays,
+            wardrobe=self._wardrobe,
+            recorder=self.recorder_of(name),
+            replay=Replay(self._replayed) if self._replayed else None,
+            telegraph=self._telegraph,
+            carrier=self._carrier,
+            switchboard=switchboard,
+        )
+        try:
+            await hall.open()
+        except NotAllowed:
+            if switchboard:
+                switchboard.close()  # Janus would else tell it of every end and beginning, for ever
+            raise
+        self._halls[name] = hall
+
+    def _switchboard(self, name: str) -> Switchboard | None:
+        if not self._engines:
+            return None
+        # a person who comes back may stand in Janus's list a second time for a moment
+        room = voice_room(self._secret, name, places=2 * self._limits.people)
+        return Switchboard(instance_of(name, self._engines), room)

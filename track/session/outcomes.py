@@ -1,0 +1,37 @@
+"""Says what a face that calibration took changes in a person's profile."""
+
+from collections.abc import Mapping
+
+from track.profile.profile import SMALLEST_RANGE, Profile
+from track.session.calibration import Outcome
+from track.session.pipeline import Pipeline
+from track.session.ranges import middle_of
+
+
+def learnt(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> Mapping[str, object]:
+    """Fields of ``profile`` that become otherwise; a neutral face is in use in the pipeline from then on."""
+    if outcome.ranges is None:
+        return _by_neutral(outcome, profile, pipeline)
+    if outcome.name == "look_around":
+        return {"gaze": middle_of([sample.gaze for sample in outcome.samples])}
+    readings = {name: min(max(reading, SMALLEST_RANGE), 1.0) for name, reading in outcome.ranges.items()}
+    return {
+        "ranges": {**profile.ranges, **readings},
+        "eyes": pipeline.eyes_with(profile.eyes, outcome.name, outcome.samples),
+        "model": pipeline.mark,
+    }
+
+
+def _by_neutral(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> Mapping[str, object]:
+    neutral = pipeline.neutral_of(outcome.samples)
+    pipeline.use_neutral(neutral)  # first: what weights read at rest is read behind it
+    # what was read without this neutral face is no range of it, but of the same person in another seat
+    kept = profile.ranges if profile.neutral and profile.model == pipeline.mark else {}
+    return {
+        "neutral": neutral,
+        "ranges": kept if neutral.pictures else {},
+        "rests": pipeline.rests_of(outcome.samples),
+        "eyes": pipeline.eyes_with(profile.eyes, outcome.name, outcome.samples),
+        "model": pipeline.mark,
+        "gaze": None,
+    }

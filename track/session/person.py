@@ -1,0 +1,60 @@
+"""Makes of a pipeline's answers those of one person: by their ranges, their gaze's centre, their mirror, and rest."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from regress.runtime.sample import Sample
+from regress.runtime.stages.output import Mirror
+from track.profile.profile import Profile
+from track.session.fading import Fading
+from track.session.ranges import GazeCentre, Ranges, by_lids
+
+
+class Person:
+    """What goes between the pipeline and the sinks.
+
+    Parameters
+    ----------
+    profile
+        Of the person and camera.
+    mirrored
+        Whether left and right are exchanged.
+
+    Attributes
+    ----------
+    mirrored
+        May be changed between two frames.
+    """
+
+    def __init__(self, profile: Profile, *, mirrored: bool) -> None:
+        self.mirrored = mirrored
+        self._ranges = Ranges(profile.factors(), profile.at_rest(), by_lids(profile))
+        self._centre = GazeCentre(_centre(profile.gaze))
+        self._mirror, self._fading = Mirror(), Fading()
+
+    @property
+    def settling(self) -> bool:
+        """Whether the face still goes to rest, or comes back: it then moves without any picture."""
+        return self._fading.under_way
+
+    def use(self, profile: Profile) -> None:
+        """Go by another profile from the next frame on."""
+        self._ranges.factors, self._ranges.rests = profile.factors(), profile.at_rest()
+        self._ranges.by_lids = by_lids(profile)
+        self._centre.centre = _centre(profile.gaze)
+
+    def unknown(self) -> np.ndarray:
+        """(52,) NaN: the weights of a frame without a face."""
+        return np.full(len(self._ranges.factors), np.nan)
+
+    def step(self, sample: Sample) -> Sample:
+        """A frame behind the pipeline, as the person and the avatar want it."""
+        sample = self._ranges.step(self._centre.step(sample))
+        if self.mirrored:
+            sample = self._mirror.step(sample)
+        return self._fading.step(sample)
+
+
+def _centre(gaze: Sequence[float] | None) -> np.ndarray:
+    return np.zeros(4) if gaze is None else np.array(gaze)

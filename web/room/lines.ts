@@ -1,0 +1,33 @@
+/** What the ways that voices travel have in common (mesh.ts, engine.ts); voice.ts takes either. */
+
+import type { Candidate, Description, Person } from "./texts.js";
+
+export type Send = (said: Description | Candidate) => void;
+
+/** How voices travel. Each way gives to `play` what it brings, by the person's id, and to `stop` whose voice has ended. */
+export interface Lines {
+  speakInto(track: MediaStreamTrack | null): void;
+  /** Who is here now; `own` is this person's id. */
+  meet(people: ReadonlyMap<string, Person>, own: string): void;
+  /** Somebody has left for good. */
+  part(id: string): void;
+  hear(sender: string, signal: Description | Candidate): Promise<void>;
+  state(id: string): RTCPeerConnectionState;
+  close(): void;
+}
+
+/** An address of this browser, as a text to somebody. */
+export function saidOf({ candidate, sdpMid, sdpMLineIndex }: RTCIceCandidate, to: Candidate["to"]): Candidate {
+  return {
+    kind: "candidate",
+    to,
+    candidate,
+    ...(sdpMid === null ? {} : { mid: sdpMid }),
+    ...(sdpMLineIndex === null ? {} : { line: sdpMLineIndex }),
+  };
+}
+
+/** What a browser takes of such a text. */
+export function candidateOf({ candidate, mid, line }: Candidate): RTCIceCandidateInit {
+  return { candidate, sdpMid: mid ?? null, sdpMLineIndex: line ?? null };
+}

@@ -1,0 +1,33 @@
+/** A picture as a film that stands still, so that those who come later see it as well; it can be turned to another one. */
+
+/** So many times a second it is sent. */
+const STILL_HERTZ = 3;
+/** Longer sides of a picture are made smaller: a wall in a page has no more pixels. */
+const MOST_PIXELS = 1920;
+
+export type Picture = ImageBitmap | HTMLCanvasElement;
+
+export class Still {
+  readonly stream: MediaStream;
+  private readonly canvas = document.createElement("canvas");
+
+  constructor(private picture: Picture) {
+    this.turn(picture);
+    this.stream = this.canvas.captureStream(STILL_HERTZ);
+    const timer = setInterval(() => (this.stream.active ? this.draw() : clearInterval(timer)), 1000 / STILL_HERTZ);
+  }
+
+  /** Show another one. */
+  turn(picture: Picture): void {
+    this.picture = picture;
+    const scale = Math.min(1, MOST_PIXELS / Math.max(picture.width, picture.height));
+    // codecs want even numbers
+    const [width, height] = [picture.width, picture.height].map((side) => 2 * Math.ceil((side * scale) / 2)) as [number, number];
+    if (this.canvas.width !== width || this.canvas.height !== height) [this.canvas.width, this.canvas.height] = [width, height];
+    this.draw();
+  }
+
+  private draw(): void {
+    this.canvas.getContext("2d")!.drawImage(this.picture, 0, 0, this.canvas.width, this.canvas.height);
+  }
+}
