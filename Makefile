@@ -72,8 +72,8 @@ headset-any: models/headset-any/report.html  ## A network for any headset, of dr
 	@echo "model:   models/headset-any"
 	@echo "report:  models/headset-any/report.html"
 
-models: $(MODEL)/model.json models/headset/report.html  ## Train the ready-made models again, say whether they are the same; ADOPT=1 takes them
-	$(BIN)/regress models --against landmarks-default=$(MODEL) --against headset-tracking3=models/headset $(if $(ADOPT),--adopt)
+models: models/landmarks-default/model.json models/headset/report.html  ## Train the ready-made models again, say whether they are the same; ADOPT=1 takes them
+	$(BIN)/regress models --against landmarks-default=models/landmarks-default --against headset-tracking3=models/headset $(if $(ADOPT),--adopt)
 
 samples: $(RIG)  ## Make docs/samples again
 	for name in landmarks headset; do \
@@ -190,6 +190,14 @@ $(MODEL)/report.html: $(MODEL)/model.json
 $(MODEL)/exports/.made: $(MODEL)/model.json
 	$(BIN)/regress export $(MODEL) --out $(MODEL)/exports
 	@touch $@
+
+# the ready-made networks learn from heads of two rigs, one of them from a clone that the user has
+blender_assets/build/ict.json: | $(READY)
+	@echo "the ready-made networks learn from the rig ict too: $(BIN)/facegen rig build ict --path CLONE --modes 24, of a clone of ICT-FaceKit" >&2; exit 2
+
+models/landmarks-default/model.json: datasets/landmarks-default.toml $(RIG) blender_assets/build/ict.json
+	$(BIN)/facegen generate $< --out datasets/out/landmarks-default $(if $(WORKERS),--workers $(WORKERS))
+	$(BIN)/regress train datasets/out/landmarks-default --out $(@D)
 
 # headset networks: pictures, arrays of them, models; index.json is what a pack gets last
 datasets/out/%-arrays/index.json: datasets/%.toml $(RIG)

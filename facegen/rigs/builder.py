@@ -19,11 +19,14 @@ class RigSources:
         Wheel of a Python package that the user named.
     downloads
         Folder for what is downloaded.
+    modes
+        Identity modes to take at most, of rigs whose sources may hold more; None takes as many as the rig does.
     """
 
     path: Path | None
     wheel: Path | None
     downloads: Path
+    modes: int | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,6 +22,7 @@ def build_rig(
     path: Path | None = None,
     wheel: Path | None = None,
     folder: Path | None = None,
+    modes: int | None = None,
     force: bool = False,
 ) -> tuple[Path, bool]:
     """Build rig ``name`` unless it is there already.
@@ -36,6 +37,8 @@ def build_rig(
         Wheel of its sources; downloaded where not given.
     folder
         Where to write; default `facegen.rigs.files.rigs_folder`.
+    modes
+        Identity modes to take at most, for those that are built from a folder.
     force
         Build even if the same version is there.
 
@@ -51,11 +54,13 @@ def build_rig(
     """
     if name not in RIGS:
         raise InputError(f"There is no rig {name!r} to build; facegen builds {' and '.join(RIGS)}")
+    if modes is not None and path is None:
+        raise InputError(f"--modes {modes} is for a rig that is built from a folder, as ict; --path names it")
     folder = Path(folder) if folder is not None else rigs_folder()
     npz = folder / f"{name}.npz"
     if not force and path is None and _up_to_date(name, folder):
         return npz, False
-    sources = RigSources(path=path, wheel=wheel, downloads=folder / "download")
+    sources = RigSources(path=path, wheel=wheel, downloads=folder / "download", modes=modes)
     save_rig(RIGS[name].build(sources), folder)
     if path is not None and (path / "LICENSE").is_file():  # ICT's terms ask that it goes with the shapes
         shutil.copyfile(path / "LICENSE", folder / f"{name}.LICENSE")

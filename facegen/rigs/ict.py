@@ -198,7 +198,7 @@ def _mark_tongue(part: np.ndarray, vertices: np.ndarray, faces: np.ndarray, jaw_
 def _build(sources: RigSources) -> Rig:
     if sources.path is None:
         raise InputError("Rig 'ict' is built from a clone of ICT-FaceKit; say where it lies with --path DIR")
-    return build_ict(sources.path)
+    return build_ict(sources.path, components=min(sources.modes or MOST_COMPONENTS, MOST_COMPONENTS))
 
 
 ICT = RigBuilder(licence=LICENCE, origin="from --path, a clone of ICT-FaceKit", build=_build)

@@ -12,8 +12,8 @@ from tests.facegen.rigs.glb_head import write_head
 
 
 @pytest.fixture(scope="session")
-def ict(tmp_path_factory: pytest.TempPathFactory) -> Rig:
-    """The ICT rig, built from the sample of a clone that lies beside the project."""
+def ict_clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The sample of a clone of ICT-FaceKit that lies beside the project."""
     beside = Path(__file__).resolve().parents[4] / "shared" / "real"
     archive = Path(os.environ.get("FACEGEN_REAL", beside)) / "ict-facekit-24.tar.xz"
     if not archive.is_file():
@@ -22,8 +22,14 @@ def ict(tmp_path_factory: pytest.TempPathFactory) -> Rig:
     with tarfile.open(archive) as tar:
         # Python knows filters from 3.11.4 on; Debian 12 has 3.11.2
         tar.extractall(folder, **({"filter": "data"} if hasattr(tarfile, "data_filter") else {}))
-    build_rig("ict", path=folder / "ICT-FaceKit", folder=folder)
-    return load_rig("ict", folder)
+    return folder / "ICT-FaceKit"
+
+
+@pytest.fixture(scope="session")
+def ict(ict_clone: Path) -> Rig:
+    """The ICT rig, of all modes that the sample has."""
+    build_rig("ict", path=ict_clone, folder=ict_clone.parent)
+    return load_rig("ict", ict_clone.parent)
 
 
 @pytest.fixture(scope="session")

@@ -110,6 +110,15 @@ def test_building_again_does_nothing(anny: Rig) -> None:
     assert (rigs_folder() / "anny.npz").stat().st_mtime_ns == before
 
 
+def test_any_clone_gives_a_rig_of_so_many_modes(ict: Rig, ict_clone: Path, tmp_path: Path) -> None:
+    build_rig("ict", path=ict_clone, folder=tmp_path, modes=3)
+    few = load_rig("ict", tmp_path)
+    assert few.components == 3 < ict.components
+    np.testing.assert_array_equal(few.identity, ict.identity[:3])
+    with pytest.raises(InputError, match="--modes 3 .* --path"):
+        build_rig("anny", folder=tmp_path, modes=3)
+
+
 def test_unknown_and_unusable_sources_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="anny and ict"):
         build_rig("nobody")
