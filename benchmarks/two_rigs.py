@@ -3,8 +3,8 @@
     python benchmarks/two_rigs.py models/default landmarks-default --real RECORDINGS
 
 Clips: median r with MediaPipe's estimates. OpenFace: r of the mean blink with AU45, and its height. Film: the acting
-avatar of docs/samples, a head of the rig anny. Takes: two recorded performances, played by people of either rig, 1 px of
-noise with a bias at 100 px between the outer eye corners; a rig that a model learned from is at home there. Prints
+avatar of docs/samples, a head of the rig anny. Takes: two recorded performances, played by people of either rig, 1 px
+of noise with a bias at 100 px between the outer eye corners; a rig that a model learned from is at home there. Prints
 Markdown, which stands in docs/measurements/real-recordings.md.
 """
 

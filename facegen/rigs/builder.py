@@ -20,7 +20,7 @@ class RigSources:
     downloads
         Folder for what is downloaded.
     modes
-        Identity modes to take at most, of rigs whose sources may hold more; None takes as many as the rig does.
+        Identity modes to take of sources that may hold more; None takes as many as the rig does.
     """
 
     path: Path | None

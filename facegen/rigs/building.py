@@ -38,7 +38,7 @@ def build_rig(
     folder
         Where to write; default `facegen.rigs.files.rigs_folder`.
     modes
-        Identity modes to take at most, for those that are built from a folder.
+        Identity modes to take, for those that are built from a folder: any clone then gives the same file.
     force
         Build even if the same version is there.
 
@@ -54,12 +54,15 @@ def build_rig(
     """
     if name not in RIGS:
         raise InputError(f"There is no rig {name!r} to build; facegen builds {' and '.join(RIGS)}")
-    if modes is not None and path is None:
-        raise InputError(f"--modes {modes} is for a rig that is built from a folder, as ict; --path names it")
     folder = Path(folder) if folder is not None else rigs_folder()
     npz = folder / f"{name}.npz"
-    if not force and path is None and _up_to_date(name, folder):
+    if not force and path is None and _up_to_date(name, folder, modes):
         return npz, False
+    if modes is not None and path is None:
+        raise InputError(
+            f"Rig {name!r} of {modes} modes is not in {folder}; --modes is for one that is built from a folder, "
+            "as ict from a clone of ICT-FaceKit: say where it lies with --path DIR"
+        )
     sources = RigSources(path=path, wheel=wheel, downloads=folder / "download", modes=modes)
     save_rig(RIGS[name].build(sources), folder)
     if path is not None and (path / "LICENSE").is_file():  # ICT's terms ask that it goes with the shapes
@@ -115,8 +118,9 @@ def add_rig(
     return save_rig(added.rig, folder), added
 
 
-def _up_to_date(name: str, folder: Path) -> bool:
+def _up_to_date(name: str, folder: Path, modes: int | None) -> bool:
     try:
-        return read_record(name, folder).get("version") == VERSIONS[name]
+        record = read_record(name, folder)
     except (MissingAsset, InputError):
         return False
+    return record["version"] == VERSIONS[name] and modes in (None, record["identity_components"])

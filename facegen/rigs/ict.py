@@ -198,7 +198,17 @@ def _mark_tongue(part: np.ndarray, vertices: np.ndarray, faces: np.ndarray, jaw_
 def _build(sources: RigSources) -> Rig:
     if sources.path is None:
         raise InputError("Rig 'ict' is built from a clone of ICT-FaceKit; say where it lies with --path DIR")
-    return build_ict(sources.path, components=min(sources.modes or MOST_COMPONENTS, MOST_COMPONENTS))
+    if sources.modes is None:
+        return build_ict(sources.path)
+    if not 1 <= sources.modes <= MOST_COMPONENTS:
+        raise InputError(f"--modes {sources.modes} is not allowed: rig 'ict' takes 1 to {MOST_COMPONENTS}")
+    rig = build_ict(sources.path, components=sources.modes)
+    if rig.components < sources.modes:
+        raise InputError(
+            f"{sources.path} holds {rig.components} identity modes, fewer than --modes {sources.modes}; "
+            "take a whole clone of ICT-FaceKit, or ask for fewer"
+        )
+    return rig
 
 
 ICT = RigBuilder(licence=LICENCE, origin="from --path, a clone of ICT-FaceKit", build=_build)

@@ -115,8 +115,30 @@ def test_any_clone_gives_a_rig_of_so_many_modes(ict: Rig, ict_clone: Path, tmp_p
     few = load_rig("ict", tmp_path)
     assert few.components == 3 < ict.components
     np.testing.assert_array_equal(few.identity, ict.identity[:3])
-    with pytest.raises(InputError, match="--modes 3 .* --path"):
+    with pytest.raises(InputError, match=r"'anny' of 3 modes is not in .* --path"):
         build_rig("anny", folder=tmp_path, modes=3)
+
+
+def test_a_larger_clone_gives_the_same_bytes_of_so_many_modes(ict_clone: Path, tmp_path: Path) -> None:
+    """A clone of 24 modes, asked for 3, and one that holds no more than these."""
+    smaller = tmp_path / "clone" / "FaceXModel"
+    smaller.mkdir(parents=True)
+    for file in (ict_clone / "FaceXModel").iterdir():
+        if not file.name.startswith("identity") or file.name < "identity003":
+            (smaller / file.name).symlink_to(file)
+    larger_built, built = tmp_path / "of_24", tmp_path / "of_3"
+    build_rig("ict", path=ict_clone, modes=3, folder=larger_built)
+    build_rig("ict", path=smaller.parent, folder=built)
+    for ending in (".npz", ".json"):
+        assert (larger_built / f"ict{ending}").read_bytes() == (built / f"ict{ending}").read_bytes()
+
+    assert build_rig("ict", modes=3, folder=built) == (built / "ict.npz", False)
+    with pytest.raises(InputError, match="'ict' of 24 modes is not in"):
+        build_rig("ict", modes=24, folder=built)
+    with pytest.raises(InputError, match="3 identity modes, fewer than --modes 24"):
+        build_rig("ict", path=smaller.parent, modes=24, folder=built)
+    with pytest.raises(InputError, match="takes 1 to 60"):
+        build_rig("ict", path=ict_clone, modes=61, folder=built)
 
 
 def test_unknown_and_unusable_sources_are_refused(tmp_path: Path) -> None:
