@@ -17,6 +17,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from facegen.archives import MOST_BYTES, check_shapes, parse_npz
+from facegen.assets import assets_folder
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, Part
 from facegen.documents import load_json, read_bytes
 from facegen.errors import FormatError, InputError, MissingAsset
@@ -59,12 +60,6 @@ class _Record(BaseModel):
     identity_components: Annotated[int, Field(ge=0, le=10_000)]
     traits: list[Literal["one", "female", "age", "african", "asian"]]
     missing: list[Literal[BLENDSHAPES]]
-
-
-def assets_folder() -> Path:
-    """The source tree's ``blender_assets``, or the current folder's where there is no source tree."""
-    in_source = Path(__file__).resolve().parents[2] / "blender_assets"
-    return in_source if in_source.is_dir() else Path("blender_assets")
 
 
 def rigs_folder() -> Path:
