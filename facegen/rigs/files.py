@@ -101,10 +101,13 @@ def read_record(name: str, folder: Path | None = None) -> dict:
     path = folder / f"{name}.json"
     if not os.path.isfile(path) or not os.path.isfile(path.with_suffix(".npz")):
         built = ", ".join(sorted(file.stem for file in folder.glob("*.npz"))) or "none"
-        raise MissingAsset(
-            f"There is no rig {name!r} in {folder} (built: {built}); make it with: facegen rig build {name}, "
-            "or of your own head with: facegen rig add"
+        known = name in VERSIONS
+        cure = (
+            f"make it with: facegen rig build {name}"
+            if known
+            else "make one of your own head with: facegen rig add"
         )
+        raise MissingAsset(f"There is no rig {name!r} in {folder} (built: {built}); {cure}")
     again = f"build it again with: facegen rig build {name} --force"
     try:
         record = load_json(path)
