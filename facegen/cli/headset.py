@@ -82,12 +82,13 @@ def preview(
 
     Example: facegen headset preview tracking3 --out tracking3.png
     """
-    from facegen.files import whole_file
+    from facegen.files import refuse_ending, whole_file
     from facegen.headsets import headset_path, load_headset
     from facegen.preview.headsets import draw_headset
     from facegen.preview.wearer import placement_faults, put_on
     from facegen.rigs import load_rig
 
+    refuse_ending(out, ".png", what="a picture")
     headset, wearing = load_headset(name), load_rig(rig)
     figure = draw_headset(headset, wearing)
     with whole_file(out, suffix=".png") as part:

@@ -117,9 +117,11 @@ def preview(
 
     Example: facegen rig preview anny --out anny.png
     """
+    from facegen.files import refuse_ending
     from facegen.preview.portraits import draw_portraits
     from facegen.rigs import load_rig
 
+    refuse_ending(out, ".png", what="a picture")
     draw_portraits(load_rig(name), out)
     typer.echo(str(out))
 
@@ -135,9 +137,10 @@ def landmarks(
     """
     import numpy as np
 
-    from facegen.files import whole_file
+    from facegen.files import refuse_ending, whole_file
     from facegen.rigs import load_rig, neutral_landmarks
 
+    refuse_ending(out, ".npy", what="an array of landmarks")
     rig = load_rig(name)
     points = neutral_landmarks(rig, np.zeros((1, rig.components)))[0]
     with whole_file(out) as part, open(part, "wb") as file:
@@ -164,12 +167,9 @@ def export(
     """
     from facegen.avatars import export_avatar
     from facegen.errors import InputError
-    from facegen.files import write_whole
+    from facegen.files import refuse_ending, write_whole
 
-    if out.suffix.lower() != ".glb":
-        raise InputError(
-            f"--out is {out}; an avatar is written as binary glTF: name a file that ends with .glb"
-        )
+    refuse_ending(out, ".glb", what="an avatar")
     for option, value, allowed in (
         ("hair", hair, HAIR),
         ("sex", sex, SEXES),

@@ -12,15 +12,15 @@ spec_app = typer.Typer(help="Specs: what a dataset is, in TOML.", no_args_is_hel
 
 @spec_app.command()
 def check(spec: Annotated[Path, typer.Argument(help="A spec, for example datasets/default.toml.")]) -> None:
-    """Say whether a spec can be used, and how much it makes.
+    """Say whether a spec can be used, with the rig and the headset that it names, and how much it makes.
 
     Example: facegen spec check datasets/default.toml
     """
-    from facegen.sampling import plan_dataset
     from facegen.spec import load_spec, sample_ranges
+    from facegen.store import resolve
 
     checked = load_spec(spec)
-    plan = plan_dataset(checked)
+    plan = resolve(checked, Path()).plan
     rendered = len(sample_ranges(checked.render.samples, total=plan.samples, where=f"{spec}: render.samples"))
     print(f"{spec}: good; {checked.people} people, {plan.samples} samples, {rendered} of them rendered")
 

@@ -106,6 +106,8 @@ def damage_told(path: Path) -> Iterator[None]:
             yield
     except FormatError as error:
         raise error if str(path) in str(error) else FormatError(f"{path}: {error}") from error
+    except UnicodeDecodeError as error:
+        raise FormatError(f"{path} cannot be read as a glTF 2.0 file (it is neither GLB nor JSON)") from error
     # by where the damage lies
     except (
         *(OSError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError),

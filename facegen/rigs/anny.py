@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from facegen.assets import assets_folder
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.documents import load_json
 from facegen.rigs.builder import RigBuilder, RigSources
-from facegen.rigs.files import assets_folder
 from facegen.rigs.human_eyes import with_human_eyes
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
 from facegen.rigs.makehuman import (

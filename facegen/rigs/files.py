@@ -17,6 +17,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from facegen.archives import MOST_BYTES, check_shapes, parse_npz
+from facegen.assets import assets_folder
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, Part
 from facegen.documents import load_json, read_bytes
 from facegen.errors import FormatError, InputError, MissingAsset
@@ -61,12 +62,6 @@ class _Record(BaseModel):
     missing: list[Literal[BLENDSHAPES]]
 
 
-def assets_folder() -> Path:
-    """The source tree's ``blender_assets``, or the current folder's where there is no source tree."""
-    in_source = Path(__file__).resolve().parents[2] / "blender_assets"
-    return in_source if in_source.is_dir() else Path("blender_assets")
-
-
 def rigs_folder() -> Path:
     """Where built rigs lie: the environment's FACEGEN_RIGS, else ``blender_assets/build``."""
     return Path(os.environ.get("FACEGEN_RIGS") or assets_folder() / "build")
@@ -106,10 +101,13 @@ def read_record(name: str, folder: Path | None = None) -> dict:
     path = folder / f"{name}.json"
     if not os.path.isfile(path) or not os.path.isfile(path.with_suffix(".npz")):
         built = ", ".join(sorted(file.stem for file in folder.glob("*.npz"))) or "none"
-        raise MissingAsset(
-            f"There is no rig {name!r} in {folder} (built: {built}); make it with: facegen rig build {name}, "
-            "or of your own head with: facegen rig add"
+        known = name in VERSIONS
+        cure = (
+            f"make it with: facegen rig build {name}"
+            if known
+            else "make one of your own head with: facegen rig add"
         )
+        raise MissingAsset(f"There is no rig {name!r} in {folder} (built: {built}); {cure}")
     again = f"build it again with: facegen rig build {name} --force"
     try:
         record = load_json(path)

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from facegen.assets import assets_folder
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.documents import load_json, read_text
 from facegen.errors import FormatError, InputError
 from facegen.rigs.builder import RigBuilder, RigSources
-from facegen.rigs.files import assets_folder
 from facegen.rigs.human_eyes import with_human_eyes
 from facegen.rigs.identity import fit_sphere
 from facegen.rigs.marking import lid_neighbourhood, lip_faces

@@ -1,11 +1,12 @@
 """Where predicted weights go: a table on standard output or in a file, or an avatar's animation."""
 
+import shlex
 import sys
 from pathlib import Path
 
 from facegen.console import say
 from facegen.conventions import BLENDSHAPES
-from facegen.files import write_whole
+from facegen.files import refuse_ending, write_whole
 from regress.cli.options import TableFormat
 from regress.errors import InputError
 from regress.runtime.prediction import Prediction
@@ -31,6 +32,8 @@ def check_targets(
         )
     if gltf is not None and out in (None, STANDARD_OUTPUT):
         raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
+    if gltf is not None:
+        refuse_ending(out, ".glb", ".vrm", what="an animated avatar")
 
 
 def needs_times(table_format: TableFormat, gltf: Path | None) -> bool:
@@ -55,7 +58,7 @@ def write_prediction(
         write_whole(out, text)
         played = prediction.names == BLENDSHAPES and len(prediction.weights) > 1
         look = (
-            f"; facegen preview --weights {out} --out face.webp plays it on a head (factory extra)"
+            f"; facegen preview --weights {shlex.quote(str(out))} --out face.webp plays it on a head (factory extra)"
             if played
             else ""
         )

@@ -52,11 +52,11 @@ def test_train_writes_a_model_that_evaluate_and_predict_read(
 def test_predict_writes_a_whole_csv_and_names_the_empty_rows(
     run, quick_model_folder: Path, points_file: Path, tmp_path: Path
 ):
-    target = tmp_path / "weights.csv"
+    target = tmp_path / "my weights.csv"
     code, out, err = run("predict", quick_model_folder, points_file, "--out", target, "--smooth", 2)
     assert (code, out) == (0, "")
     assert "1 of 5 rows have no face: 4" in err
-    assert f"{target}: 5 frames of 52 weights; facegen preview --weights" in err
+    assert f"{target}: 5 frames of 52 weights; facegen preview --weights '{target}' --out" in err
     for nowhere in ((), ("--out", "-")):
         code, out, _ = run("predict", quick_model_folder / "model.json", points_file, *nowhere, "--smooth", 2)
         assert (code, out) == (0, target.read_text())

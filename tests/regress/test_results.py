@@ -118,6 +118,7 @@ def test_a_vrm_s_expressions_move_what_they_bind(
         (("--format", "livelink"), "give --fps"),
         (("--gltf", "a.glb", "--out", "b.glb"), "give --fps"),
         (("--gltf", "a.glb"), "needs --out"),
+        (("--gltf", "a.glb", "--out", "b.csv", "--fps", 25), "an animated avatar ends with .glb or .vrm"),
         (("--gltf", "none.glb", "--out", "b.glb", "--fps", 25), "does not exist"),
         (("--format", "livelink", "--retarget", "vrm1"), "leave out --retarget"),
         (("--retarget", "metahuman"), "no target 'metahuman'"),

@@ -42,7 +42,7 @@ def refused(result: subprocess.CompletedProcess, code: int, *words: str) -> None
         (GOOD + "peple = 3\n", ["unknown key 'peple'", "'people'"]),
         (GOOD + "[camera]\ndistance_m = 600\n", ["camera.distance_m = 600", "0.2 and 10 metres"]),
         (GOOD + '[head]\nyaw_deg = "0.3 rad"\n', ["head.yaw_deg", "must be a number"]),
-        (GOOD + 'rig = "nobody"\n', ["no rig 'nobody'", "facegen rig build nobody"]),
+        (GOOD + 'rig = "nobody"\n', ["no rig 'nobody'", "facegen rig add"]),
         (GOOD + '[render]\nheadset = "goggles"\n', ["no headset 'goggles'", "tracking3"]),
         (GOOD + '[render]\nsamples = "0-99"\n', ["sample 99 does not exist", "0-29"]),
         (
@@ -57,6 +57,10 @@ def test_bad_specs(tmp_path, anny, text, words):
     spec.write_text(text)
     refused(facegen("generate", spec, "--out", tmp_path / "out"), 2, *words)
     assert not (tmp_path / "out").exists()
+    checked = CliRunner().invoke(app, ["spec", "check", str(spec)])
+    assert isinstance(checked.exception, InputError)
+    for word in words:
+        assert word in str(checked.exception)
 
 
 def test_a_missing_spec_and_a_missing_rig(tmp_path, anny):
@@ -103,16 +107,16 @@ def test_names_that_no_file_can_have(monkeypatch, anny, arguments, words):
     assert words in str(refusal)
 
 
-@pytest.mark.parametrize("command", ["preview", "landmarks"])
-def test_an_old_file_stays_where_a_new_one_finds_no_room(monkeypatch, anny, tmp_path, command):
+@pytest.mark.parametrize(("command", "name"), [("preview", "old.png"), ("landmarks", "old.npy")])
+def test_an_old_file_stays_where_a_new_one_finds_no_room(monkeypatch, anny, tmp_path, command, name):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    (tmp_path / "old.png").write_text("old")
+    (tmp_path / name).write_text("old")
     monkeypatch.setattr(os, "replace", full)
-    refusal = CliRunner().invoke(app, ["rig", command, "anny", "--out", str(tmp_path / "old.png")]).exception
+    refusal = CliRunner().invoke(app, ["rig", command, "anny", "--out", str(tmp_path / name)]).exception
     assert isinstance(refusal, OutputError)
-    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("old.png", "old")]
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [(name, "old")]
 
 
 def test_mean_landmarks_are_written(tmp_path, anny):
@@ -130,3 +134,27 @@ def test_usage_and_version():
     assert version.returncode == 0
     assert "bpy 4.5" in version.stdout
     assert "Example:" in facegen("generate", "--help").stdout
+
+
+@pytest.mark.parametrize(
+    ("command", "ending"),
+    [
+        (("headset", "preview", "tracking3"), ".png"),
+        (("rig", "preview"), ".png"),
+        (("rig", "landmarks"), ".npy"),
+        (("rig", "export"), ".glb"),
+    ],
+)
+def test_a_name_that_promises_another_kind_of_file_is_refused(command, ending, tmp_path):
+    out = tmp_path / "out.xyz"
+    refusal = CliRunner().invoke(app, [*command, "--out", str(out)]).exception
+    assert isinstance(refusal, InputError)
+    assert f"ends with {ending}" in str(refusal)
+    assert not out.exists()
+
+
+def test_a_folder_that_is_not_there_is_named(tmp_path, anny):
+    out = tmp_path / "none" / "points.npy"
+    refusal = CliRunner().invoke(app, ["rig", "landmarks", "--out", str(out)]).exception
+    assert isinstance(refusal, OutputError)
+    assert f"there is no folder {out.parent}; make it" in str(refusal)

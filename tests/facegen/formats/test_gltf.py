@@ -314,3 +314,10 @@ def test_files_have_a_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(gltf_container, "MOST_BYTES", 100)
     with pytest.raises(FormatError, match="at most 100"):
         read_gltf(path)
+
+
+def test_a_picture_is_no_gltf(tmp_path: Path) -> None:
+    path = tmp_path / "face.webp"
+    path.write_bytes(b"RIFF\xf4\x00\x00\x00WEBPVP8 ")
+    with pytest.raises(FormatError, match=r"face\.webp cannot be read .* \(it is neither GLB nor JSON\)"):
+        read_gltf(path)

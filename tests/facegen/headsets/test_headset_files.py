@@ -126,6 +126,16 @@ def test_missing_and_damaged_files(tmp_path):
         load_headset(path)
 
 
+def test_an_installed_package_finds_the_headsets_of_the_clone_it_is_used_in(tmp_path, monkeypatch):
+    clone = headset_path("tracking3").parents[2]
+    monkeypatch.setattr("facegen.assets.__file__", str(tmp_path / "site-packages" / "facegen" / "assets.py"))
+    monkeypatch.chdir(clone)
+    assert load_headset("tracking3").name == "tracking3"
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(MissingAsset, match=r"no headset 'tracking3'; none are in blender_assets.headsets"):
+        load_headset("tracking3")
+
+
 def test_a_path_is_as_good_as_a_name():
     assert load_headset(headset_path("tracking3")) == load_headset("tracking3")
 
