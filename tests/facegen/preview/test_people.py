@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from facegen.avatars.hair import STYLES
+from facegen.avatars.haircuts import STYLES
 from facegen.conventions import BLENDSHAPE_INDEX
 from facegen.preview.looks import MENS_HAIR, WOMENS_HAIR, draw_look
 from facegen.preview.performance import FACE_M, WINDOW_M, pictures, play_weights
