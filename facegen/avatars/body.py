@@ -74,7 +74,7 @@ def body_bytes(
     person, look
         Shape and colours.
     clothes, hair
-        Names of `facegen.avatars.garments.OUTFITS` and `facegen.avatars.hair.STYLES`.
+        Names of `facegen.avatars.garments.OUTFITS` and `facegen.avatars.haircuts.STYLES`.
     """
     body = person_body(wheel, rig, person)
     shapes = face_shapes(body.source.rig)

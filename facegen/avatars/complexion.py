@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from scipy import ndimage
 
-from facegen.avatars.hair import STYLES, HairStyle, in_hair
+from facegen.avatars.haircuts import STYLES, HairStyle, in_hair
 from facegen.avatars.pictures import noise
 from facegen.avatars.shapes import FaceShapes
 from facegen.avatars.skin import OUTSIDE, chart

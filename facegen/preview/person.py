@@ -7,7 +7,9 @@ import cv2
 import numpy as np
 
 from facegen.avatars.complexion import skin_tones
-from facegen.avatars.hair import LAYERS, STYLES, HairStyle, hair_surfaces
+from facegen.avatars.hair import hair_surfaces
+from facegen.avatars.haircuts import STYLES, HairStyle
+from facegen.avatars.strands import LAYERS
 from facegen.avatars.surface import vertex_normals
 from facegen.conventions import LANDMARK_GROUPS, Part
 from facegen.preview.looks import Look

@@ -26,8 +26,12 @@ COLOURS = {
     Part.EYE_CAVITY: (0.55, 0.30, 0.30),
     Part.HEADSET: (0.36, 0.38, 0.44),
 }
-SHEET_M = (-0.120, 0.165, 0.120, -0.135)
-"""Window of `draw_portraits`: the whole head, and room for a title above it."""
+SHEET_M = (-0.125, 0.142, 0.125, -0.138)
+"""Window of `draw_portraits` about the middle of the head: the whole head, and room for a title above it."""
+HEAD_MIDDLE_M = 0.075
+"""How far behind the eyes the middle of a head lies."""
+SHEET_PX = 500
+"""Width of a picture of `draw_portraits`, in which numbers of the lips find room."""
 HIDDEN_M = 4e-3
 """A landmark this far behind what is drawn is hidden; jaw points on the silhouette lie a little behind it."""
 
@@ -179,6 +183,7 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
     from matplotlib.figure import Figure
 
     from facegen.files import whole_file
+    from facegen.preview.lettering import write_labels
 
     people = people if rig.components else 1
     rng = np.random.Generator(np.random.PCG64(7))
@@ -186,24 +191,30 @@ def draw_portraits(rig: Rig, out: Path, *, people: int = 3) -> None:
     identity[0] = 0.0
     gaze = np.tile((0.0, 0.0, 1.0), (people, 2, 1))
     faces = evaluate(rig, identity, np.zeros((people, len(BLENDSHAPES))), gaze)
-    figure = Figure(figsize=(3.75 * len(VIEWS_DEG), 4.6875 * people), dpi=100)  # pixels match the file's
+    left, top, right, bottom = SHEET_M
+    step_m = (right - left) / SHEET_PX
+    height_px = round((top - bottom) / step_m)
+    # pixels match the file's
+    figure = Figure(figsize=(SHEET_PX * len(VIEWS_DEG) / 100, height_px * people / 100), dpi=100)
     canvas = FigureCanvasAgg(figure)
     for person in range(people):
         for column, (view, yaw) in enumerate(VIEWS_DEG.items()):
             axes = figure.add_axes((column / 3, 1 - (person + 1) / people, 1 / 3, 1 / people))
-            drawn = portrait(
-                rig, faces, person, gaze[person], yaw_deg=yaw, window_m=SHEET_M, step_m=0.24 / 375
-            )
+            aside_m = HEAD_MIDDLE_M * np.sin(np.radians(yaw))  # where the turned head has its middle
+            window_m = (left + aside_m, top, right + aside_m, bottom)
+            drawn = portrait(rig, faces, person, gaze[person], yaw_deg=yaw, window_m=window_m, step_m=step_m)
             axes.imshow(drawn.picture, interpolation="nearest")
             axes.plot(*drawn.landmarks[drawn.seen].T, ".", color="#0040ff", markersize=3)
             axes.plot(*drawn.landmarks[~drawn.seen].T, ".", color="#ffffff", markersize=2)
-            for number in np.flatnonzero(drawn.seen):
-                x, y = drawn.landmarks[number]
-                axes.annotate(
-                    str(number), (x, y), (1.5, 1.5), textcoords="offset points", fontsize=5, color="#a00000"
-                )
             axes.set_axis_off()
+            seen = np.flatnonzero(drawn.seen)
+            colors = ["#a00000"] * len(seen)
+            write_labels(
+                *(canvas, axes, drawn.landmarks[seen], [str(number) for number in seen], colors),
+                fontsize=6,
+                keep_off=drawn.landmarks[~drawn.seen],
+            )
             if person == 0:
-                axes.set_title(view, y=0.955, fontsize=9)
+                axes.set_title(view, y=0.965, fontsize=10)
     with whole_file(out) as part:
-        canvas.print_png(str(part), metadata={"Software": None})
+        canvas.print_png(str(part), metadata={"Software": None}, pil_kwargs={"optimize": True})

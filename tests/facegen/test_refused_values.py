@@ -53,3 +53,12 @@ def test_sentences(record, table, sentence):
     with pytest.raises(ValidationError) as error:
         TypeAdapter(record).validate_python(table)
     assert sentence in refusal(error.value, record)
+
+
+def test_a_list_that_is_too_short_is_told_without_how_it_was_found():
+    class Named(BaseModel):
+        names: Annotated[tuple[str, ...], Field(min_length=2)]
+
+    with pytest.raises(ValidationError) as error:
+        Named(names=("a",))
+    assert refusal(error.value, Named) == 'names = ["a"]: must have at least 2 items, not 1'

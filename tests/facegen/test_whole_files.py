@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from facegen.errors import InputError, OutputError
-from facegen.files import output_errors, swap_folders, whole_file, write_whole
+from facegen.files import output_errors, refuse_ending, swap_folders, whole_file, write_whole
 
 
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
@@ -25,6 +25,15 @@ def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monke
         write_whole(path, "new, and half of it\n")
     assert path.read_bytes() == b"old\n"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_name_ends_as_what_is_written_does(tmp_path):
+    there = write_whole(tmp_path / "face.csv", "old\n")
+    for out in (there, tmp_path / "none.csv", tmp_path / "face", Path("a" * 5000)):
+        with pytest.raises(InputError, match=r"an avatar ends with \.glb or \.vrm: name such a file"):
+            refuse_ending(out, ".glb", ".vrm", what="an avatar")
+    for out in (tmp_path / "face.GLB", tmp_path / "face.vrm", tmp_path, Path(os.devnull)):
+        refuse_ending(out, ".glb", ".vrm", what="an avatar")
 
 
 def test_an_interrupted_writer_leaves_the_old_file(tmp_path):
@@ -54,6 +63,8 @@ def test_a_folder_is_no_place_for_a_file(tmp_path, monkeypatch):
 
 def test_the_systems_reason_is_in_the_sentence(tmp_path):
     with pytest.raises(OutputError, match=r"a: cannot be written \(No such file or directory\)"):
+        write_whole(write_whole(tmp_path / "file", "") / "a", "new\n")
+    with pytest.raises(OutputError, match=r"a: there is no folder .*none; make it, or name another$"):
         write_whole(tmp_path / "none" / "a", "new\n")
     with pytest.raises(OutputError, match=r"b: cannot be written \(odd\)"), output_errors(Path("b")):
         raise OSError("odd")

@@ -137,7 +137,7 @@ def test_bad_options_are_refused(
 def test_options_are_what_avatars_know() -> None:
     from facegen.avatars.export import SKINS
     from facegen.avatars.garments import OUTFITS
-    from facegen.avatars.hair import STYLES
+    from facegen.avatars.haircuts import STYLES
     from facegen.avatars.people import BUILDS
     from facegen.cli import rig as command
 

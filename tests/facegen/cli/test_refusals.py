@@ -42,7 +42,7 @@ def refused(result: subprocess.CompletedProcess, code: int, *words: str) -> None
         (GOOD + "peple = 3\n", ["unknown key 'peple'", "'people'"]),
         (GOOD + "[camera]\ndistance_m = 600\n", ["camera.distance_m = 600", "0.2 and 10 metres"]),
         (GOOD + '[head]\nyaw_deg = "0.3 rad"\n', ["head.yaw_deg", "must be a number"]),
-        (GOOD + 'rig = "nobody"\n', ["no rig 'nobody'", "facegen rig add"]),
+        (GOOD + 'rig = "nobody"\n', ["no rig 'nobody'", "make one of your own head with: facegen rig add"]),
         (GOOD + '[render]\nheadset = "goggles"\n', ["no headset 'goggles'", "tracking3"]),
         (GOOD + '[render]\nsamples = "0-99"\n', ["sample 99 does not exist", "0-29"]),
         (

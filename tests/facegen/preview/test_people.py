@@ -2,14 +2,16 @@
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 
-from facegen.avatars.hair import STYLES
+from facegen.avatars.haircuts import STYLES
 from facegen.conventions import BLENDSHAPE_INDEX
 from facegen.preview.looks import MENS_HAIR, WOMENS_HAIR, draw_look
 from facegen.preview.performance import FACE_M, WINDOW_M, pictures, play_weights
 from facegen.preview.person import PAPER
+from facegen.preview.portraits import VIEWS_DEG, draw_portraits
 
 PAPER_RGB = np.round(255 * np.array(PAPER))
 
@@ -65,3 +67,15 @@ def test_a_strip_shows_a_mouth_twice_as_large(anny):
         return int((np.abs(still - spoken).max(axis=2) > 25).sum())
 
     assert moved(FACE_M) > 2 * moved(WINDOW_M)
+
+
+def test_a_rig_s_sheet_cuts_no_head_off(anny, tmp_path):
+    draw_portraits(anny, tmp_path / "rig.png", people=1)
+    sheet = cv2.imread(str(tmp_path / "rig.png"))
+    white = (sheet == 255).all(axis=-1)
+    above_the_neck = white[: round(0.7 * len(white))]
+    for view in np.split(above_the_neck, len(VIEWS_DEG), axis=1):
+        assert view[25].all()  # below the title
+        assert view[:, 0].all()
+        assert view[:, -1].all()
+        assert not view.all()

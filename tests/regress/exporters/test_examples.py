@@ -113,13 +113,26 @@ def _snippet(language: str, heading: str) -> str:
     return section.partition(f"```{language}\n")[2].partition("```")[0]
 
 
+def test_the_page_s_faces_to_try(tmp_path: Path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "docs").symlink_to(EXAMPLES.parent)
+    exec(_snippet("python", "Faces to try"), {})
+    faces = np.load("points.npy")
+    assert faces.shape == (1800, 68, 2)
+    np.testing.assert_array_equal(np.load("neutral.npy"), faces[0])
+    np.testing.assert_allclose(np.loadtxt("points.txt").reshape(-1, 68, 2), faces, atol=1e-4)
+    for name, face in (("neutral", faces[0]), ("points", faces[700])):
+        np.testing.assert_allclose(json.loads(Path(f"{name}.json").read_text()), face.ravel())
+
+
 def test_the_page_on_onnx(folder: Path, quick_model, neutral, monkeypatch):
     monkeypatch.chdir(folder)
     exports = folder / "models" / "default" / "exports"
     exports.mkdir(parents=True)
     shutil.copy(folder / "face.onnx", exports)
     np.save(folder / "neutral.npy", neutral)
-    given = {"points": FACES}
+    np.save(folder / "points.npy", FACES)
+    given = {}
     exec(_snippet("python", "ONNX"), given)
     np.testing.assert_allclose(given["weights"], _expected(quick_model, neutral), atol=1e-4)
     assert json.loads(given["names"]) == list(BLENDSHAPES)
@@ -127,12 +140,12 @@ def test_the_page_on_onnx(folder: Path, quick_model, neutral, monkeypatch):
 
 def test_the_page_on_javascript(folder: Path, quick_model, neutral):
     _needs("node")
-    (folder / "package.json").write_text('{"type": "module"}')
-    given = {"points": FACES[0].tolist(), "neutral": neutral.ravel().tolist()}
-    words = "".join(f"const {name} = {json.dumps(values)};\n" for name, values in given.items())
+    (folder / "points.json").write_text(json.dumps(FACES[0].tolist()))
+    (folder / "neutral.json").write_text(json.dumps(neutral.ravel().tolist()))
+    (folder / "package.json").write_text('{"type": "module"}')  # face.js is one, whatever the version of Node
     show = "console.log(JSON.stringify(Array.from(weights)));"
-    (folder / "snippet.js").write_text(words + _snippet("js", "JavaScript") + show)
-    shown, weights = _run(folder, "node", "snippet.js").splitlines()
+    (folder / "weights.mjs").write_text(_snippet("js", "JavaScript") + show)
+    shown, weights = _run(folder, "node", "weights.mjs").splitlines()
     np.testing.assert_allclose(json.loads(weights), _expected(quick_model, neutral)[0], atol=1e-4)
     assert shown.split()[0] == "jawOpen"
 
