@@ -7,7 +7,6 @@ imports, in which Python answers with a traceback; so it is born with these sign
 import contextlib
 import signal
 from collections.abc import Callable, Iterator
-from multiprocessing import resource_tracker
 from types import FrameType
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
@@ -23,6 +22,9 @@ def born_deaf() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):  # Windows, where Ctrl-C comes as an event
         yield
         return
+    # a program that starts no children does not wait for it: meanwhile nobody would answer a stop
+    from multiprocessing import resource_tracker
+
     # its own start unblocks the signals, so it may not be the first thing that a child's start needs
     resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)

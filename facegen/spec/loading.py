@@ -55,6 +55,10 @@ def load_spec(path: str | Path) -> Spec:
         raise InputError(
             f"{path}: there is no such spec; the ones that come with facegen are datasets/*.toml"
         )
+    if os.path.isdir(path):
+        raise InputError(
+            f"{path} is a folder; name a spec's file, for example a dataset's {path / 'spec.toml'}"
+        )
     spec = parse_spec(load_toml(path), where=str(path))
     if spec.playback is not None:
         recording = _beside(path, "playback.recording", spec.playback.recording)

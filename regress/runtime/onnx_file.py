@@ -11,7 +11,6 @@ MOST_NODES = 100_000
 
 _MODEL = {7: "graph", 25: "function"}
 _GRAPH = {1: "node", 5: "tensor", 15: "sparse"}
-_FUNCTION = {7: "node"}
 _NODE = {4: "operator", 5: "attribute", 7: "domain"}
 _ATTRIBUTE = {5: "tensor", 6: "subgraph", 10: "tensor", 11: "subgraph", 22: "sparse", 23: "sparse"}
 _SPARSE = {1: "tensor", 2: "tensor"}

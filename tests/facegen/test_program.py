@@ -241,3 +241,9 @@ def test_a_number_that_is_not_finite_is_refused(value):
     assert done.returncode == 2
     assert done.stderr.startswith("facegen: ")
     assert done.stderr.count("\n") == 1
+
+
+def test_a_program_answers_stops_before_it_loads_what_children_need():
+    asked = "import sys, facegen.program; print('multiprocessing' in sys.modules)"
+    shown = subprocess.run([sys.executable, "-c", asked], cwd=ROOT, capture_output=True, text=True)
+    assert shown.stdout == "False\n", shown.stderr

@@ -158,3 +158,16 @@ def test_a_folder_that_is_not_there_is_named(tmp_path, anny):
     refusal = CliRunner().invoke(app, ["rig", "landmarks", "--out", str(out)]).exception
     assert isinstance(refusal, OutputError)
     assert f"there is no folder {out.parent}; make it" in str(refusal)
+
+
+def test_a_folder_in_place_of_a_spec_is_told(tmp_path):
+    for words in (
+        ["spec", "check"],
+        ["generate", "--out", "none"],
+        ["blend", "--sample", "0", "--out", "none"],
+    ):
+        refusal = CliRunner().invoke(app, [*words, str(tmp_path)]).exception
+        assert isinstance(refusal, InputError)
+        assert f"is a folder; name a spec's file, for example a dataset's {tmp_path / 'spec.toml'}" in str(
+            refusal
+        )

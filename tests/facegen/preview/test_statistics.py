@@ -85,5 +85,7 @@ def test_the_page_is_one_file_and_equal_data_give_equal_text(dataset):
     page = statistics_page(dataset, dataset_statistics(dataset))
     assert page == statistics_page(dataset, dataset_statistics(dataset))
     assert page.count("<svg") == 4
+    # what is wider than a telephone moves sideways in a box of its own
+    assert len(re.findall(r'<div class="wide">\s*<(?:table|\?xml|svg)', page)) == page.count("<svg") + 1
     assert not re.search(r'(src|href)="http', page)
     assert "browInnerUp" in page
