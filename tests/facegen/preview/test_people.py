@@ -8,7 +8,7 @@ import pytest
 
 from facegen.avatars.haircuts import STYLES
 from facegen.conventions import BLENDSHAPE_INDEX
-from facegen.preview.looks import MENS_HAIR, WOMENS_HAIR, draw_look
+from facegen.preview.looks import GREY_HAIR, MENS_HAIR, WOMENS_HAIR, draw_look
 from facegen.preview.performance import FACE_M, WINDOW_M, pictures, play_weights
 from facegen.preview.person import PAPER
 from facegen.preview.portraits import VIEWS_DEG, draw_portraits
@@ -39,6 +39,17 @@ def test_looks_differ_and_repeat():
 def test_skin_goes_with_ancestry(ancestry, low, high):
     for number in range(20):
         assert low < np.mean(draw_look(number, ancestry=np.array(ancestry)).colours.skin) < high
+
+
+def test_only_men_have_beards_and_only_the_old_are_grey():
+    women, men = ([draw_look(seed, female=female) for seed in range(40)] for female in (True, False))
+    assert {look.colours.beard for look in women} == {0.0}
+    assert {look.colours.beard for look in men} == {0.0, 0.3, 0.55}
+    young, old = (
+        np.array([draw_look(seed, age_years=age).colours.hair for seed in range(40)]) for age in (25.0, 85.0)
+    )
+    assert np.abs(old - GREY_HAIR).max() < 0.12
+    assert np.abs(young - GREY_HAIR).max(axis=1).mean() > 0.2
 
 
 @pytest.mark.parametrize("seed", [0, 3])
