@@ -221,7 +221,7 @@ def test_it_appears_whole_or_not_at_all(name: str, tmp_path: Path, monkeypatch: 
     assert [path.name for path in tmp_path.iterdir() if path.is_file()] == []
     sink.close()
     assert [path.name for path in tmp_path.iterdir()] == [name.split(":")[1]]
-    with pytest.raises(OutputError, match="cannot be written"):
+    with pytest.raises(OutputError, match="there is no folder none; make it"):
         open_sink(parse_target(name.replace(":", ":none/")), pytest.fail)
 
 
