@@ -70,6 +70,14 @@ def called(body: str, *arguments: str, **options) -> subprocess.CompletedProcess
             74,
             "masks: a.csv: no space left; free some and run the same command again\n",
         ),
+        *(
+            (
+                f"import errno; raise OSError(errno.{name}, 'no', 'a.csv')",
+                2,
+                "masks: a.csv: cannot be reached (no); name another\n",
+            )
+            for name in ("ENAMETOOLONG", "ELOOP", "EACCES")
+        ),
     ],
 )
 def test_ends_have_their_codes(body, code, sentence):

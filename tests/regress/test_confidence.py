@@ -11,7 +11,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError
 from regress.runtime.model import load_model
 from regress.runtime.stages.adjustment import mirror
-from regress.runtime.stages.confidence import confidence
+from regress.runtime.stages.confidence import ALONE, BESIDE_NEUTRAL, confidence, trust
 
 
 @pytest.fixture
@@ -43,6 +43,13 @@ def test_it_falls_as_faces_get_stranger_and_is_empty_without_a_face(quick_model,
     missing = faces[:3].copy()
     missing[1, 4] = np.nan
     assert np.isnan(confidence(quick_model, missing)).all(axis=1).tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize(("calibrated", "limits"), [(False, ALONE), (True, BESIDE_NEUTRAL)])
+def test_networks_beside_a_neutral_frame_are_strange_to_a_face_earlier(calibrated, limits):
+    usual, strange = limits
+    distance = np.array([0.0, usual, (usual + strange) / 2, strange, strange + 1.0])
+    np.testing.assert_allclose(trust(distance, calibrated=calibrated), [1.0, 1.0, 0.5, 0.0, 0.0])
 
 
 def test_a_model_without_scores_says_so(quick_model, faces):

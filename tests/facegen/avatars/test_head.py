@@ -10,11 +10,14 @@ from typer.testing import CliRunner
 
 from facegen.avatars import export_avatar
 from facegen.avatars.eyeballs import clearance
+from facegen.avatars.hair import hair_surfaces
+from facegen.avatars.haircuts import STYLES
 from facegen.avatars.shapes import CLEAR_M, face_shapes
 from facegen.cli.rig import rig_app
 from facegen.conventions import BLENDSHAPES, Part
 from facegen.errors import InputError
 from facegen.formats.gltf import read_gltf
+from facegen.raster import triangles_of
 from facegen.rigs import Rig
 from tests.facegen.avatars.validator import complaints
 
@@ -63,6 +66,17 @@ def test_lids_never_cut_the_eye(anny: Rig) -> None:
         for weight in np.linspace(0.0, 1.0, 21):
             gap = clearance(shapes.neutral[lid] + weight * moved, centre, radius, ahead)
             assert gap.min() > 0.75 * CLEAR_M, (side, weight)
+
+
+def test_hair_has_no_seam(anny: Rig) -> None:
+    style = STYLES["bob"]
+    drawn = {"colour": (0.5, 0.4, 0.3), "rng": np.random.default_rng(2)}
+    (hair,) = hair_surfaces(anny.vertices, triangles_of(anny.faces[anny.part == Part.SKIN]), style, **drawn)
+    _, place, count = np.unique(np.round(hair.positions, 7), axis=0, return_inverse=True, return_counts=True)
+    normals = hair.normals[np.argsort(place.ravel(), kind="stable")]
+    for together in np.split(normals, np.cumsum(count)[:-1]):
+        np.testing.assert_allclose(together, together[:1].repeat(len(together), axis=0), atol=1e-9)
+    assert (count > 1).sum() > 10
 
 
 def test_bones_leave_the_rest_as_it_is(head: Path) -> None:
@@ -137,7 +151,6 @@ def test_bad_options_are_refused(
 def test_options_are_what_avatars_know() -> None:
     from facegen.avatars.export import SKINS
     from facegen.avatars.garments import OUTFITS
-    from facegen.avatars.haircuts import STYLES
     from facegen.avatars.people import BUILDS
     from facegen.cli import rig as command
 

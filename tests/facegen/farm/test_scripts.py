@@ -103,7 +103,9 @@ def test_times_are_slurms(text, seconds):
     assert Resources(time=text).time_s == seconds
 
 
-@pytest.mark.parametrize(("text", "mebibytes"), [("900M", 900), ("4G", 4096), ("1T", 1 << 20), ("2048K", 2)])
+@pytest.mark.parametrize(
+    ("text", "mebibytes"), [("900M", 900), ("4G", 4096), ("1T", 1 << 20), ("2048K", 2), ("1K", 1)]
+)
 def test_memory_is_slurms(text, mebibytes):
     assert Resources(mem=text).mem_mib == mebibytes
 
