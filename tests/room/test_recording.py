@@ -179,8 +179,11 @@ def test_a_killed_server_leaves_a_readable_file(tmp_path):
             return len(guest.sequences)
 
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as run:
-        link = run.stdout.readline().split("\t")[2].strip()
-        assert asyncio.run(meet(*link.split("#"))) == 30
+        try:
+            link = run.stdout.readline().split("\t")[2].strip()
+            assert asyncio.run(meet(*link.split("#"))) == 30
+        finally:
+            run.kill()
     assert [state.sequence for _, state in states(path)] == list(range(30))
     assert path.stat().st_mode & 0o077 == 0
     again = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=30)
