@@ -32,6 +32,11 @@ SEED = 1
 HELD_OUT = 4000
 """Samples of each sampler that are compared with the others of the same sampler."""
 MOVES = 0.02
+PARTS = {
+    **{"eyes": "eyeBlinkLeft", "jaw": "jawForward", "mouth": "mouthClose", "brows": "browDownLeft"},
+    "cheeks, nose": "cheekPuff",
+}
+"""Parts of the face, and the first of each part's shapes in `BLENDSHAPES` order; the tongue ends the last."""
 EYES = np.tile([[0.031, 0.0, 0.0], [-0.031, 0.0, 0.0]], (BLOCK, 1, 1))
 
 
@@ -131,15 +136,24 @@ def draw_picture(takes: dict[str, np.ndarray], size: int, path: Path) -> None:
     from PIL import Image
 
     sets = {**takes, **{name: draw(size) for name, draw in SAMPLERS.items()}}
-    figure, axes = plt.subplots(2, 3, figsize=(21, 14.5), layout="constrained")
+    plt.rcParams.update({"font.size": 15, "axes.titlesize": 17, "axes.titlepad": 10})
+    figure, axes = plt.subplots(2, 3, figsize=(15, 10.2), layout="constrained")
+    starts = [BLENDSHAPE_INDEX[shape] for shape in PARTS.values()]
+    ends = [*starts[1:], len(BLENDSHAPES)]
+    middles = [(start + end - 1) / 2 for start, end in zip(starts, ends, strict=True)]
     for axis, (name, weights) in zip(axes.flat, sets.items(), strict=False):
         image = axis.imshow(coactivation(weights), vmin=-1, vmax=1, cmap="RdBu_r")
-        axis.set_title(name, fontsize=16)
-        axis.set_xticks(range(len(BLENDSHAPES)), BLENDSHAPES, rotation=90, fontsize=6.5)
-        axis.set_yticks(range(len(BLENDSHAPES)), BLENDSHAPES, fontsize=6.5)
+        axis.set_title(name)
+        axis.set_xticks(middles, PARTS, rotation=45, ha="right", rotation_mode="anchor")
+        axis.set_yticks(middles, PARTS)
+        axis.tick_params(length=0)
+        for start in starts[1:]:
+            axis.axhline(start - 0.5, color="#555555", linewidth=0.6)
+            axis.axvline(start - 0.5, color="#555555", linewidth=0.6)
     axes.flat[-1].axis("off")
-    figure.colorbar(image, ax=axes.flat[-1], location="left", shrink=0.7, label="correlation of two weights")
-    figure.savefig(path, dpi=90)
+    place = axes.flat[-1].inset_axes((0.1, 0.0, 0.06, 1.0))
+    figure.colorbar(image, cax=place, label="correlation of two weights")
+    figure.savefig(path, dpi=100)
     # a palette: a third of the bytes, and no difference to the eye
     Image.open(path).convert("RGB").quantize(256).save(path, optimize=True)
 

@@ -29,6 +29,11 @@ def say(message: str) -> None:
         hang_up(sys.stderr)
 
 
+def counted(count: int, one: str, many: str = "") -> str:
+    """A number with its noun: ``"1 file"``, ``"2 files"``; ``many`` where it is not ``one`` with an s."""
+    return f"{count} {one if count == 1 else many or f'{one}s'}"
+
+
 def one_line(message: str) -> str:
     """The message in one line of at most `MOST_CHARACTERS`: what a terminal would act on is escaped, the middle cut.
 

@@ -16,10 +16,11 @@ WIDTH = 1800
 
 
 def main() -> None:
-    """Shrink to `WIDTH`; of a PNG keep 160 greys for the views and 90 colours for points and bars."""
+    """Shrink to `WIDTH` at most; of a PNG keep 160 greys for the views and 90 colours for points and bars."""
     name = sys.argv[2] if len(sys.argv) > 2 else "contact-sheet.png"
     sheet = Image.open(sys.argv[1]).convert("RGB")
-    sheet = sheet.resize((WIDTH, round(WIDTH * sheet.height / sheet.width)), Image.LANCZOS)
+    if sheet.width > WIDTH:
+        sheet = sheet.resize((WIDTH, round(WIDTH * sheet.height / sheet.width)), Image.LANCZOS)
     if name.endswith(".webp"):
         sheet.save(OUT / name, quality=78, method=6)
         return

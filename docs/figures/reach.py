@@ -4,10 +4,11 @@ python docs/figures/reach.py    # table to standard output, docs/pictures/rig-re
 """
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageDraw, ImageFont
 
 from facegen.assets import assets_folder
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, mirrored_name
@@ -17,7 +18,10 @@ from facegen.rigs import Rig, evaluate, load_rig
 OUT = Path(__file__).resolve().parents[1] / "pictures" / "rig-reach.jpg"
 RIGS = ("anny", "ict")
 SHOWN = 8
-WINDOW_M, STEP_M = (-0.075, 0.060, 0.075, -0.100), 0.6e-3
+WINDOW_M, STEP_M = (-0.082, 0.060, 0.082, -0.116), 0.75e-3
+ACROSS = SHOWN // 2
+"""Shapes side by side: with all of them in one line a page would show faces too small."""
+LABEL_PX, GAP_PX = 34, 14
 APPLE = {  # largest 2-D move of a landmark at weight 1, as a share of the outer-eye distance, both sides alike
     **{"jawOpen": 0.444, "mouthClose": 0.289, "mouthLeft": 0.143, "mouthSmileLeft": 0.142},
     **{"browInnerUp": 0.136, "browOuterUpLeft": 0.128, "eyeBlinkLeft": 0.105, "mouthRollUpper": 0.103},
@@ -82,14 +86,34 @@ def main() -> None:
         print(f"| {shape} | {apple:.3f} | {' | '.join(cells)} |")
     chosen = sorted(apart, key=apart.get, reverse=True)[:SHOWN]
     print("\nDrawn:", ", ".join(chosen))
-    rows = []
-    for name, rig in rigs.items():
-        for with_gain in (False, True):
-            weight = np.ones(len(BLENDSHAPES)) if with_gain else 1.0 / gain[name]
-            rows.append(
-                np.concatenate([picture(rig, s, weight[BLENDSHAPE_INDEX[s]]) for s in chosen], axis=1)
-            )
-    Image.fromarray(np.concatenate(rows)).save(OUT, quality=88)
+    cells = {}
+    for shape in chosen:
+        i = BLENDSHAPE_INDEX[shape]
+        for name, rig in rigs.items():
+            cells[shape, f"{name} as made"] = picture(rig, shape, 1.0 / gain[name][i])
+            cells[shape, f"{name} now"] = picture(rig, shape, 1.0)
+    sheet(chosen, cells).save(OUT, quality=84)
+
+
+def sheet(chosen: Sequence[str], cells: dict[tuple[str, str], np.ndarray]) -> Image.Image:
+    """Pictures of shapes (columns) as rigs have them (lines), under the shapes' names and beside the lines'."""
+    lines = list(dict.fromkeys(line for _, line in cells))
+    high, wide, _ = next(iter(cells.values())).shape
+    block = LABEL_PX + len(lines) * high + GAP_PX
+    paper = Image.new("RGB", (LABEL_PX + ACROSS * wide, block * (len(chosen) // ACROSS) - GAP_PX), "white")
+    draw, font = ImageDraw.Draw(paper), ImageFont.load_default(size=24)
+    for place, shape in enumerate(chosen):
+        left, top = LABEL_PX + place % ACROSS * wide, place // ACROSS * block
+        draw.text(
+            (left + wide / 2, top + LABEL_PX / 2), shape.removesuffix("Left"), "black", font, anchor="mm"
+        )
+        for number, line in enumerate(lines):
+            paper.paste(Image.fromarray(cells[shape, line]), (left, top + LABEL_PX + number * high))
+            if place % ACROSS == 0:
+                name = Image.new("RGB", (high, LABEL_PX), "white")  # upright beside its line
+                ImageDraw.Draw(name).text((high / 2, LABEL_PX / 2), line, "black", font, anchor="mm")
+                paper.paste(name.rotate(90, expand=True), (0, top + LABEL_PX + number * high))
+    return paper
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.console import progress
+from facegen.console import counted, progress
 
 
 def develop(
@@ -50,4 +50,4 @@ def develop(
         made = develop_dataset(
             opened, out, settings, numbers, on_progress=lambda done: show("samples developed", done, total)
         )
-    print(f"{out}: {made} samples developed, {total - made} were there")
+    print(f"{out}: {counted(made, 'sample')} developed, {total - made} there already")

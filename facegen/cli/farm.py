@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from facegen.cli.tables import print_table
-from facegen.console import say
+from facegen.console import counted, say
 from facegen.documents import last_lines
 from facegen.errors import InputError
 
@@ -141,7 +141,7 @@ def resume(
         say(f"facegen: {names} must wait for tasks that are not done; resume again after them")
     if not resumption.steps:
         missing = resumption.state.missing
-        say(f"facegen: nothing to submit; {missing} things are missing and all have tasks")
+        say(f"facegen: nothing to submit; {counted(missing, 'thing')} missing, and each has a task")
         print_table({"job": None, "tasks": 0}, as_json=as_json)
         return
     if retry_quarantined and not dry_run:

@@ -9,7 +9,7 @@ import typer
 
 from facegen.children import answer_stops, ignore_stops
 from facegen.cli.tables import print_table
-from facegen.console import progress, say
+from facegen.console import counted, progress, say
 from facegen.errors import ExitCode
 
 
@@ -116,7 +116,7 @@ def generate(
         as_json=as_json,
     )
     if summary.left:
-        say(f"facegen: stopped with {summary.left} things left; run the same command to go on")
+        say(f"facegen: stopped with {counted(summary.left, 'thing')} left; run the same command to go on")
         raise typer.Exit(ExitCode.DRAINED)
     if names:
         say(f"facegen: {len(names)} failed three times; their logs are in {out}/quarantine")

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.console import progress
+from facegen.console import counted, progress
 
 
 def merge(
@@ -34,4 +34,5 @@ def merge(
     if as_json:
         print(json.dumps({"out": str(out)} | asdict(merged)))
     else:
-        print(f"{out}: {merged.taken} shards and rendered samples taken over, {merged.found} were there")
+        taken = counted(merged.taken, "shard or rendered sample", "shards and rendered samples")
+        print(f"{out}: {taken} taken over, {merged.found} there already")

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.console import progress
+from facegen.console import counted, progress
 
 
 def pack(
@@ -62,7 +62,8 @@ def pack(
     if as_json:
         print(json.dumps({"out": str(out)} | asdict(packed)))
     else:
-        print(f"{out}: {packed.samples} samples, {packed.written} files written, {packed.found} found")
+        samples, written = counted(packed.samples, "sample"), counted(packed.written, "file")
+        print(f"{out}: {samples}, {written} written, {packed.found} found")
 
 
 def _names(text: str | None) -> tuple[str, ...] | None:

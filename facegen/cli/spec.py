@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from facegen.console import counted
+
 spec_app = typer.Typer(help="Specs: what a dataset is, in TOML.", no_args_is_help=True)
 
 
@@ -22,7 +24,8 @@ def check(spec: Annotated[Path, typer.Argument(help="A spec, for example dataset
     checked = load_spec(spec)
     plan = resolve(checked, Path()).plan
     rendered = len(sample_ranges(checked.render.samples, total=plan.samples, where=f"{spec}: render.samples"))
-    print(f"{spec}: good; {checked.people} people, {plan.samples} samples, {rendered} of them rendered")
+    people, samples = counted(checked.people, "person", "people"), counted(plan.samples, "sample")
+    print(f"{spec}: good; {people}, {samples}, {rendered} of them rendered")
 
 
 @spec_app.command()

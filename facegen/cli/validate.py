@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from facegen.console import progress, say
+from facegen.console import counted, progress, say
 from facegen.errors import ExitCode
 
 if TYPE_CHECKING:
@@ -59,10 +59,9 @@ def validate(
     else:
         for name in repaired.removed if repaired else ():
             print(f"removed {name}")
-        faults = sum(verdict.wrong.values())
-        print(
-            f"{verdict.shards} shards and {verdict.renders} rendered samples checked, {faults} things wrong"
-        )
+        shards, renders = counted(verdict.shards, "shard"), counted(verdict.renders, "rendered sample")
+        faults = counted(sum(verdict.wrong.values()), "thing")
+        print(f"{shards} and {renders} checked, {faults} wrong")
         if verdict.renders and not opened.spec.render.truth:
             say(
                 f"facegen: {dataset} has no EXR files (render.truth = false), so no label was held against depths"

@@ -12,7 +12,7 @@ from PIL import Image
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import InputError
 from facegen.formats.film import encode_film
-from facegen.preview.performance import FACE_M, Performance, pictures
+from facegen.preview.performance import Performance, face_window, pictures
 
 FILM_SUFFIXES, ANIMATION_SUFFIXES = (".webm", ".mp4"), (".gif", ".webp")
 """Films are written by OpenCV, animated pictures by Pillow (which holds all frames in memory)."""
@@ -54,7 +54,9 @@ def clip_strip(
         FigureCanvasAgg(figure)
         faces = figure.add_gridspec(1, len(chosen), left=0.01, right=0.99, top=0.91, bottom=0.53, wspace=0.02)
         curves = figure.add_gridspec(1, 1, left=0.05, right=0.85, top=0.51, bottom=0.1)
-        drawn = pictures(performance.rows(chosen), height_px=height_px, landmarks=landmarks, window_m=FACE_M)
+        shown = performance.rows(chosen)
+        window_m = face_window(shown)
+        drawn = pictures(shown, height_px=height_px, landmarks=landmarks, window_m=window_m)
         for column, (row, picture) in enumerate(zip(chosen, drawn, strict=True)):
             axes = figure.add_subplot(faces[0, column])
             axes.imshow(picture, interpolation="lanczos")

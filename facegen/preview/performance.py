@@ -18,7 +18,9 @@ from facegen.store import Dataset, column_array
 WINDOW_M = (-0.150, 0.165, 0.150, -0.150)
 """Left, top, right and bottom of the pictures: room for a head with hair that turns."""
 FACE_M = (-0.094, 0.066, 0.094, -0.130)
-"""The same of pictures in which a mouth is large enough to be read."""
+"""The same of pictures in which a mouth is large enough to be read, of a face that looks ahead."""
+EARS_M, JAW_M = -0.100, -0.090
+"""How far back and how far down a head reaches whose face must not be cut."""
 SOMEBODY = draw_look(8, female=True, ancestry=np.array([0.0, 0.0, 1.0]))
 """Who plays weights of nobody that a dataset knows."""
 _SEEN, _HIDDEN = (0, 190, 255), (255, 255, 255)
@@ -187,6 +189,17 @@ def pictures(
         if landmarks:
             _draw_landmarks(picture, drawn.landmarks, drawn.seen)
         yield picture
+
+
+def face_window(performance: Performance) -> tuple[float, float, float, float]:
+    """`FACE_M` for all frames of a face that turns: moved, and made larger where need be, so that no ear is cut."""
+    left, top, right, bottom = FACE_M
+    head = performance.rig.vertices + np.tensordot(performance.identity, performance.rig.identity, 1)
+    head = head[(head[:, 2] > EARS_M) & (head[:, 1] > JAW_M) & (head[:, 1] < top)]
+    across = head @ performance.rotation[:, 0].T
+    low, high = float(across.min()), float(across.max())
+    middle, scale = (low + high) / 2, max(1.0, 1.03 * (high - low) / (right - left))
+    return middle + scale * left, scale * top, middle + scale * right, scale * bottom
 
 
 def _draw_landmarks(picture: np.ndarray, points: np.ndarray, seen: np.ndarray) -> None:

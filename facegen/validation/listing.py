@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from facegen.console import counted
 from facegen.store import Dataset
 from facegen.validation.finding import Finding
 
@@ -48,7 +49,7 @@ def _shard_or_extra(dataset: Dataset, entry: Path, shards: list[int]) -> Finding
     if match is None or dataset.folder.shard(int(match[1])) != entry or not entry.is_file():
         return _extra(dataset, entry, "is no keypoint shard", kind="extra-file")
     if int(match[1]) >= dataset.shards:
-        held = f"{dataset.plan.samples} samples in {dataset.shards} shards"
+        held = f"{counted(dataset.plan.samples, 'sample')} in {counted(dataset.shards, 'shard')}"
         what = f"is a shard beyond the dataset, which has {held}"
         return _extra(dataset, entry, what, kind="extra-shard")
     shards.append(int(match[1]))

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from facegen.console import progress, say
+from facegen.console import counted, progress, say
 from regress.errors import InputError
 from regress.learning.headset.architectures import ARCHITECTURES
 from regress.learning.headset.recipe import DRAWN_SETTINGS, WITHHOLDINGS, HeadsetRecipe, recipe_of
@@ -116,7 +116,8 @@ def train(
             progress=lambda stage, *steps: draw(f"{out.name}: {stage}", *steps),
         )
     record = model.training
-    say(f"trained on {record.rows} frames of {record.people} people in {time.monotonic() - began:.0f} s")
+    rows, people = counted(record.rows, "frame"), counted(record.people, "person", "people")
+    say(f"trained on {rows} of {people} in {time.monotonic() - began:.0f} s")
     for name, figures in (model.scores.conditions if model.scores else {}).items():
         if name.removesuffix("_told") in ("uncalibrated", "same_seat"):
             r2 = "undefined" if figures.r2 is None else f"{figures.r2:.3f}"

@@ -4,7 +4,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from facegen.console import say
+from facegen.console import counted, say
 from facegen.conventions import BLENDSHAPES
 from facegen.files import refuse_ending, write_whole
 from regress.cli.options import TableFormat
@@ -62,8 +62,8 @@ def write_prediction(
             if played
             else ""
         )
-        frames = len(prediction.weights)
-        say(f"{out}: {frames} frame{'s' * (frames > 1)} of {len(prediction.names)} weights{look}")
+        frames = counted(len(prediction.weights), "frame")
+        say(f"{out}: {frames} of {len(prediction.names)} weights{look}")
         return
     avatar = animated_avatar(prediction, gltf)
     if avatar.missing:
@@ -72,4 +72,4 @@ def write_prediction(
     if avatar.headless:
         say(f"{gltf} has no bone called head that can be turned: the head's pose is left out")
     write_whole(out, avatar.content)
-    say(f"{out}: {gltf.name} with an animation of {len(prediction.weights)} frames")
+    say(f"{out}: {gltf.name} with an animation of {counted(len(prediction.weights), 'frame')}")

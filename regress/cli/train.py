@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.console import progress, say
+from facegen.console import counted, progress, say
 from regress.errors import InputError
 
 
@@ -44,7 +44,9 @@ def train(
     with progress(unit="%") as draw:
         model = train_model(keypoints, chosen, seed=seed, progress=draw)
     save_model(model, out)
-    say(f"trained on {model.record.training_rows} rows in {time.monotonic() - began:.0f} s; model in {out}")
+    say(
+        f"trained on {counted(model.record.training_rows, 'row')} in {time.monotonic() - began:.0f} s; model in {out}"
+    )
     say(f"the heads came from {heads_in_words(model.record.dataset.rig)}")
     for name, figures in model.record.summary.items():
         r2, visible = figures.mean_r2_networks, figures.mean_r2_visible

@@ -19,11 +19,11 @@ from facegen.raster.z_buffer import barycentric
 from regress.runtime.stages.gaze import gaze_of
 
 FILE = Path(__file__).parent / "head.npz"
-WINDOW_M = (-0.113, 0.082, 0.074, -0.140)
-"""Left, top, right and bottom of a picture: from the forehead to any chin."""
+WINDOW_M = (-0.117, 0.121, 0.070, -0.147)
+"""Left, top, right and bottom of a picture: from the crown to any chin."""
 VIEW_DEG = -15.0
 """Where the viewer stands, towards the subject's right: a nose and lips have depth from there."""
-HEIGHT_PX = 300
+HEIGHT_PX = 360
 """Of a picture: pages show it smaller, which smooths its edges."""
 _LAMPS = ((np.array([-0.45, 0.55, 0.70]), 0.62), (np.array([0.75, 0.15, 0.64]), 0.22))
 """Direction and strength of the key light and of the one that fills its shadows."""

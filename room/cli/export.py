@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.console import say
+from facegen.console import counted, say
 
 
 def export(
@@ -18,4 +18,4 @@ def export(
     """
     from room.recording.table import write_table
 
-    say(f"room: {write_table(recording, out):,} rows in {out}")
+    say(f"room: {counted(write_table(recording, out), 'row')} in {out}")

@@ -13,7 +13,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 from facegen.cli import app
-from facegen.console import progress
+from facegen.console import counted, progress
 from facegen.errors import InputError
 from facegen.extras import FACTORY, HEADSET, LEARN, missing_extra
 from tests.facegen.cli.commands import ROOT, calls, sub_commands
@@ -139,3 +139,8 @@ def test_a_farm_reads_shares_and_an_unknown_style_is_refused(capsys):
     assert capsys.readouterr().out == "openjd_progress: 25.0\nopenjd_status: 1 of 4 samples\n"
     with pytest.raises(InputError, match="must be auto or openjd"), progress(style="bars"):
         pass
+
+
+def test_one_thing_is_no_things():
+    assert [counted(number, "file") for number in (0, 1, 2)] == ["0 files", "1 file", "2 files"]
+    assert [counted(number, "person", "people") for number in (1, 12)] == ["1 person", "12 people"]

@@ -55,7 +55,7 @@ def compare(
     """
     import numpy as np
 
-    from facegen.console import say
+    from facegen.console import counted, say
     from track.cli.opening import Wishes, camera_texts, is_headset
     from track.cli.running import RunOptions, ended_by_signals, open_session
     from track.comparison.comparison import compare_weights
@@ -132,5 +132,5 @@ def compare(
         if figures.r is not None:
             typer.echo(f"{name:<20} {figures.r:6.2f} {figures.mae:6.3f} {figures.moved:6.3f}")
     typer.echo(
-        f"{len(found.rows)} frames; the phone is {delay_ms:.0f} ms later; median r {found.median_r:.2f}"
+        f"{counted(len(found.rows), 'frame')}; the phone is {delay_ms:.0f} ms later; median r {found.median_r:.2f}"
     )

@@ -8,8 +8,9 @@ import pytest
 
 from facegen.avatars.haircuts import STYLES
 from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.geometry import rotation_from_angles
 from facegen.preview.looks import GREY_HAIR, MENS_HAIR, WOMENS_HAIR, draw_look
-from facegen.preview.performance import FACE_M, WINDOW_M, pictures, play_weights
+from facegen.preview.performance import FACE_M, WINDOW_M, face_window, pictures, play_weights
 from facegen.preview.person import PAPER
 from facegen.preview.portraits import VIEWS_DEG, draw_portraits
 
@@ -78,6 +79,15 @@ def test_a_strip_shows_a_mouth_twice_as_large(anny):
         return int((np.abs(still - spoken).max(axis=2) > 25).sum())
 
     assert moved(FACE_M) > 2 * moved(WINDOW_M)
+
+
+def test_strips_follow_a_face_that_turns(anny):
+    ahead = replace(play_weights(anny, np.zeros((3, 52)), np.arange(3.0), title=""), look=None)
+    turns = np.stack([rotation_from_angles(np.radians(yaw), 0.0, 0.0) for yaw in (-22, -18, -14)])
+    for played in (ahead, replace(ahead, rotation=turns), replace(ahead, rotation=turns.transpose(0, 2, 1))):
+        for picture in pictures(played, height_px=120, landmarks=False, window_m=face_window(played)):
+            cheeks = picture[50:80]
+            assert (cheeks[:, [0, -1]] == 255).all()
 
 
 def test_a_rig_s_sheet_cuts_no_head_off(anny, tmp_path):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from regress.report.head import FILE, drawn_head, head_image, load_head
+from regress.report.head import FILE, WINDOW_M, drawn_head, head_image, load_head
 
 MAKER = Path(__file__).parents[3] / "docs" / "figures" / "report_head.py"
 
@@ -26,16 +26,25 @@ def still() -> np.ndarray:
 @pytest.mark.parametrize(
     ("name", "rows"),
     [
-        ("jawOpen", (50, 105)),
-        ("eyeBlinkLeft", (28, 52)),
-        ("browInnerUp", (8, 45)),
-        ("eyeLookOutLeft", (28, 52)),
+        ("jawOpen", (56, 105)),
+        ("eyeBlinkLeft", (38, 58)),
+        ("browInnerUp", (22, 52)),
+        ("eyeLookOutLeft", (38, 58)),
     ],
 )
 def test_a_shape_changes_the_picture_where_it_moves_the_face(still, name, rows):
     changed = np.abs(drawn_head(one(name), height_px=105) - still).sum(axis=(1, 2))
     assert changed.sum() > 500
     assert changed[slice(*rows)].sum() > 0.9 * changed.sum()
+
+
+@pytest.mark.parametrize("name", BLENDSHAPES)
+def test_no_head_is_cut(name):
+    there = drawn_head(one(name), height_px=105)[..., 3] > 0
+    assert not there[:2].any()
+    assert not there[:80, [0, -1]].any()  # below, shoulders begin
+    face = load_head().rest[:, 1] > -0.10
+    assert load_head().posed(one(name))[face, 1].min() > WINDOW_M[3] + 4e-3
 
 
 def test_eyes_turn_without_growing():
