@@ -17,6 +17,7 @@ from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import read_placement
 from regress.runtime.headset.placement_search import (
     FoundPlacement,
+    _is_as_drawn,
     _Search,
     find_placement,
     placement_of_points,
@@ -220,3 +221,16 @@ def test_a_step_says_how_far_out_the_eye_lies_whatever_the_limits_are(predictor:
     wanted = placement_of_points(CameraPlacement(), far[None], points, picture=view, view=view)
     assert wanted.size == pytest.approx(3)
     assert wanted.x > 2
+
+
+def test_a_network_of_drawn_headsets_is_not_led_to_the_usual_eye(predictor: HeadsetPredictor, take: Take):
+    """It knows eyes of every size, so the picture as it comes is settled; far out it is led like any network."""
+    for model, settled in ((load_headset_predictor("headset-any"), True), (predictor, False)):
+        points = EyePoints.of(model, "left_eye")
+        search = _Search(model, "left_eye", points, take["left_eye"][:8])
+        found = search.best(CameraPlacement(size=0.85, roll_deg=10.0))
+        assert (found.unsettled == 0.0) == settled
+    assert not _is_as_drawn(CameraPlacement(), CameraPlacement(size=1.6))
+    assert not _is_as_drawn(CameraPlacement(), CameraPlacement(x=0.7))
+    assert not _is_as_drawn(CameraPlacement(roll_deg=170.0), CameraPlacement(roll_deg=-150.0))
+    assert _is_as_drawn(CameraPlacement(roll_deg=170.0), CameraPlacement(roll_deg=-170.0))
