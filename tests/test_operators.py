@@ -88,6 +88,25 @@ def test_every_limit_is_in_the_table_as_the_code_has_it():
     assert told == held, "docs/operators.md lists every MOST_... of both programs, but those in WITHIN"
 
 
+PDF_LIMITS = {
+    "MOST_BYTES": ("64 * MIB", "64 MiB"),
+    "MOST_PAGES": ("2000", "2,000"),
+    "MOST_PIXELS": ("1920", "1,920"),
+    "MOST_PICTURE_PIXELS": ("2 ** 25", f"{2**25:,}"),
+    "PATIENCE_MS": ("20_000", "20 s"),
+}
+"""Constants of the room's page, and what its operators read."""
+
+
+def test_the_limits_of_pdfs_are_in_their_table_as_the_page_has_them():
+    page = (ROOT / "docs/room-operators.md").read_text(encoding="utf-8")
+    code = (ROOT / "web/room/paper.ts").read_text(encoding="utf-8")
+    held = dict(re.findall(r"^const ((?:MOST|PATIENCE)_\w+) = (.+);", code, re.MULTILINE))
+    told = {name: said for said, name in re.findall(r"\| ([^|]+) \| `((?:MOST|PATIENCE)_\w+)` \|", page)}
+    assert held == {name: value for name, (value, _) in PDF_LIMITS.items()}
+    assert told == {name: said for name, (_, said) in PDF_LIMITS.items()}
+
+
 def test_every_exit_code_is_in_the_table():
     assert [int(row[0]) for row in _rows("Exit codes")] == sorted(int(code) for code in ExitCode)
 
