@@ -93,7 +93,7 @@ def test_the_command_shows_how_far_it_is(tmp_path):
     done = CliRunner().invoke(app, ["merge", str(one), "--out", str(tmp_path / "all")])
     assert done.exit_code == 0, done.output
     assert "shards and rendered samples: 1 of 1" in done.stderr
-    assert "1 shards and rendered samples taken over" in done.stdout
+    assert "1 shard or rendered sample taken over" in done.stdout
 
 
 def test_a_merge_that_was_killed_at_its_start_goes_on(tmp_path):
