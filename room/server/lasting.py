@@ -4,6 +4,10 @@ import asyncio
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import asynccontextmanager
 
+AGAIN_S = 1.0
+"""Between cancellations of a work that goes on: before Python 3.12 `asyncio.wait_for` swallows one that comes in the
+moment of its answer (https://github.com/python/cpython/issues/86296), and a server would wait without end."""
+
 
 @asynccontextmanager
 async def lasting(
@@ -31,8 +35,11 @@ async def lasting(
     try:
         yield
     finally:
-        for task in tasks:
-            task.cancel()
+        going = set(tasks)
+        while going:
+            for task in going:
+                task.cancel()
+            _, going = await asyncio.wait(going, timeout=AGAIN_S)
         for answer in await asyncio.gather(*tasks, return_exceptions=True):
             if isinstance(answer, Exception):
                 raise answer

@@ -72,6 +72,7 @@ class Telegraph:
         self._wake = asyncio.Event()
         self._ears: PubSub | None = None
         self._told_gone = False
+        self._tried = asyncio.Event()
 
     @asynccontextmanager
     async def running(self, *, failed: Callable[[], None]) -> AsyncIterator[None]:
@@ -84,7 +85,7 @@ class Telegraph:
                 await self._redis.aclose()
 
     async def join(self, room: str, heard: Heard) -> None:
-        """Hear what other processes say of a room, from when this returns.
+        """Hear what other processes say of a room, from when this returns; who comes at the start waits for Redis.
 
         Raises
         ------
@@ -95,6 +96,7 @@ class Telegraph:
         self._heard[channel] = heard
         confirmed = self._confirmed[channel] = asyncio.Event()
         try:
+            await asyncio.wait_for(self._tried.wait(), REACH_S)
             if self._ears is None or not self.connected:
                 raise ConnectionError
             await self._ears.subscribe(channel)
@@ -195,6 +197,7 @@ class Telegraph:
             self._heard[channel](message["data"])
 
     def _tell_gone(self) -> None:
+        self._tried.set()
         if not self._told_gone:
             self._told_gone = True
             self._said(
@@ -202,6 +205,7 @@ class Telegraph:
             )
 
     def _tell_back(self) -> None:
+        self._tried.set()
         if self._told_gone:
             self._told_gone = False
             self._said("redis is back: rooms are whole again")

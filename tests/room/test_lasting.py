@@ -1,6 +1,7 @@
 """A server whose works fail: it ends, and says why, in place of going on without them."""
 
 import asyncio
+from contextlib import suppress
 from functools import partial
 
 import pytest
@@ -76,3 +77,20 @@ def test_a_room_that_cannot_be_opened_leaves_nothing_at_its_engine(monkeypatch: 
         return len(engine.watchers)
 
     assert asyncio.run(run()) == 0
+
+
+def test_a_work_that_swallows_a_cancellation_is_ended_by_the_next():
+    ends = []
+
+    async def work() -> None:
+        for end in ("swallowed", "heard"):
+            with suppress(asyncio.CancelledError):
+                await asyncio.sleep(60)
+            ends.append(end)
+
+    async def run() -> None:
+        async with asyncio.timeout(20), lasting(work, failed=lambda: ends.append("failed")):
+            await asyncio.sleep(0)
+
+    asyncio.run(run())
+    assert ends == ["swallowed", "heard"]

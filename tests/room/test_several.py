@@ -178,6 +178,19 @@ async def test_a_program_at_another_server_moves_the_face_and_gives_it_back(nort
         await guest.until(lambda guest=guest: guest.states[ada.number].weights[0] == 0.2)
 
 
+def test_who_comes_before_redis_has_answered_waits_for_it(port):
+    """A server says its address and hears Redis a moment later; no page is sent away between the two."""
+
+    async def run() -> None:
+        telegraph = Telegraph(f"redis://127.0.0.1:{port}/0", secret=new_keys().secret)
+        async with telegraph.running(failed=lambda: None):
+            assert not telegraph.connected
+            await telegraph.join("meeting", lambda _: None)
+            assert telegraph.connected
+
+    asyncio.run(run())
+
+
 def test_places_are_counted_over_all_servers(port):
     async def run() -> None:
         keys = new_keys()
