@@ -90,7 +90,7 @@ def draw_faces(
     weights[alive] = fade(weights[alive])
     # closed lips are mostly just closed: the fourth power keeps the median at 0.004 (0.002 in the range-of-motion take)
     close_lips(weights, beyond=CLOSE_BEYOND_JAW * rng.random(size) ** 4)
-    target = draw_gaze_target(spec, streams("gaze"), size, wish=weights)
+    target = draw_gaze_target(spec, streams, size, wish=weights)
     gaze = axes_from_target(target, eye_center)
     apart = np.flatnonzero(~conjugate)
     gaze[apart] = diverge(gaze[apart], draw_deviation(streams("gaze apart"), len(apart)))

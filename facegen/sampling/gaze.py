@@ -1,5 +1,7 @@
 """Draws where the eyes look, both at one point or, rarely, apart; converts gaze to eyeLook* weights and back."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
@@ -9,6 +11,9 @@ from facegen.spec import Spec, draw
 FULL_YAW_RAD = np.radians(30.0)
 FULL_PITCH_RAD = np.radians(25.0)
 """Eye rotations at which an eyeLook* weight reaches 1."""
+
+FARTHEST_YAW_RAD, FARTHEST_PITCH_RAD = np.radians([42.0, 30.0])
+"""How far wide looks go; eyes of healthy people reach about 45 degrees to either side, older ones about 30 upwards."""
 
 AHEAD = (0.0, 0.0, 1.0)
 """Optical axis of an eye at rest."""
@@ -24,20 +29,34 @@ DEVIATION_YAW_RAD, DEVIATION_PITCH_RAD = np.radians([3.0, 25.0]), np.radians([0.
 """Least and largest angles between eyes that look apart (squints are mostly horizontal, 5 to 25 degrees)."""
 
 
-def draw_gaze_target(spec: Spec, rng: np.random.Generator, size: int, *, wish: np.ndarray) -> np.ndarray:
+def draw_gaze_target(
+    spec: Spec, streams: Callable[[str], np.random.Generator], size: int, *, wish: np.ndarray
+) -> np.ndarray:
     """Points (size, 3) that are looked at: head frame, metres, seen from midway between the eyes.
 
-    Where any eyeLook* weight of ``wish`` (size, 52) is above 0, the point lies in that direction, far away.
+    Where any eyeLook* weight of ``wish`` (size, 52) is above 0, the point lies in that direction, far away. Of all other
+    looks a share of ``spec.gaze.wide`` goes anywhere that eyes can turn to.
     """
+    rng = streams("gaze")
     yaw, pitch, distance = (
         draw(d, rng, size) for d in (spec.gaze.yaw_deg, spec.gaze.pitch_deg, spec.gaze.distance_m)
     )
+    rng = streams("gaze wide")
+    wide = rng.random(size) < spec.gaze.wide
+    wide_yaw, wide_pitch = draw_wide_looks(rng, size)
+    yaw, pitch = np.where(wide, wide_yaw, np.radians(yaw)), np.where(wide, wide_pitch, np.radians(pitch))
     sideways, up = _shares(wish)
     wished = (wish[:, _LOOKS] > 0).any(axis=1)
-    yaw = np.where(wished, np.clip(sideways.sum(axis=-1), -1, 1) * FULL_YAW_RAD, np.radians(yaw))
-    pitch = np.where(wished, np.clip(up.sum(axis=-1), -1, 1) * FULL_PITCH_RAD, np.radians(pitch))
+    yaw = np.where(wished, np.clip(sideways.sum(axis=-1), -1, 1) * FULL_YAW_RAD, yaw)
+    pitch = np.where(wished, np.clip(up.sum(axis=-1), -1, 1) * FULL_PITCH_RAD, pitch)
     distance = np.where(wished, WISH_DISTANCE_M, distance)
     return distance[:, None] * direction_from_angles(yaw, pitch)
+
+
+def draw_wide_looks(rng: np.random.Generator, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Yaw and pitch (size,) in radians, spread evenly over the ellipse that eyes can turn to."""
+    radius, angle = np.sqrt(rng.random(size)), 2 * np.pi * rng.random(size)
+    return FARTHEST_YAW_RAD * radius * np.cos(angle), FARTHEST_PITCH_RAD * radius * np.sin(angle)
 
 
 def draw_deviation(rng: np.random.Generator, size: int) -> np.ndarray:

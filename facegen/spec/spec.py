@@ -126,6 +126,8 @@ class Gaze:
     """Upwards."""
     distance_m: quantity(0.1, 100, "metres") = default({"uniform": [0.3, 3.0]})
     """Distance of the point that is looked at; near ones turn the eyes inwards."""
+    wide: Share = 0.0
+    """Share of the looks of still faces that go anywhere within 42 degrees sideways and 30 up or down, evenly."""
 
 
 @dataclass(frozen=True, kw_only=True, config=STRICT)

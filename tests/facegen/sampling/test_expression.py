@@ -13,6 +13,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHA
 from facegen.expression import COMPONENTS, UNMIXED, load_emotions, load_templates, restrain
 from facegen.expression.couplings import CLOSE_BEYOND_JAW, EXCLUSIVE, MEETING, TONGUE_NEEDS_JAW
 from facegen.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
+from facegen.geometry import angles_from_direction
 from facegen.randomness import stream
 from facegen.sampling import COMPONENT_NAMES
 from facegen.sampling.faces import DrawnFaces, draw_faces
@@ -139,6 +140,25 @@ def test_eyes_turn_through_their_whole_range_even_where_people_look_at_near_poin
     faces = drawn(parse_spec(near | {"expression": {"mixture": {"single": 1}}}, where="test"), 10)
     for name in ("eyeLookOutLeft", "eyeLookInLeft", "eyeLookOutRight", "eyeLookInRight"):
         assert column(faces, name).max() > 0.97, name
+
+
+def test_wide_looks_fill_all_that_eyes_can_turn_to_and_leave_other_looks_as_they_are():
+    def turned(wide: float) -> np.ndarray:
+        far = {"wide": wide, "distance_m": 100}
+        given = {"version": 1, "kind": "still", "seed": 7, "people": 1, "gaze": far}
+        axes = drawn(parse_spec(given | {"expression": {"mixture": {"speech": 1}}}, where="test"), 20).gaze
+        return np.degrees(np.stack(angles_from_direction(axes), axis=-1)[:, 0])
+
+    usual, some, all_wide = turned(0.0), turned(0.35), turned(1.0)
+    changed = (some != usual).any(axis=-1)
+    assert abs(changed.mean() - 0.35) < 0.02
+    np.testing.assert_array_equal(some[changed], all_wide[changed])
+    reach = np.hypot(*(all_wide / (42, 30)).T)
+    # even in area: a quarter of the looks within half the reach, a quarter beyond .87 of it
+    np.testing.assert_allclose(np.quantile(reach, (0.25, 0.75)), (0.5, 0.75**0.5), atol=0.02)
+    assert 0.99 < reach.max() < 1.01
+    assert (all_wide.min(axis=0) < (-40, -28)).all()
+    assert (all_wide.max(axis=0) > (40, 28)).all()
 
 
 def test_subtle_faces_keep_their_lips_closed():

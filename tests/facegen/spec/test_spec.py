@@ -42,6 +42,7 @@ YOUNG = {
     "expression.mixture.talk": 1.0,
     "expression.mixture.wink": 1.0,
     "expression.mixture.tongue": 1.0,
+    "gaze.wide": 0.5,
     "layout": {"count": 3},
 }
 """Keys that came after the first datasets, and values other than their defaults."""
