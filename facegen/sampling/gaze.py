@@ -34,8 +34,8 @@ def draw_gaze_target(
 ) -> np.ndarray:
     """Points (size, 3) that are looked at: head frame, metres, seen from midway between the eyes.
 
-    Where any eyeLook* weight of ``wish`` (size, 52) is above 0, the point lies in that direction, far away. Of all other
-    looks a share of ``spec.gaze.wide`` goes anywhere that eyes can turn to.
+    Where any eyeLook* weight of ``wish`` (size, 52) is above 0, the point lies in that direction, far away. Of all
+    other looks a share of ``spec.gaze.wide`` goes anywhere that eyes can turn to.
     """
     rng = streams("gaze")
     yaw, pitch, distance = (
