@@ -24,6 +24,11 @@ from facegen.spec import Expression, Spec
 FAINTEST = 0.02
 """Subtle faces are scaled by a factor from this to 1, every order of magnitude as often as the next."""
 
+BLINK_SHUT = 0.5
+"""Share of blinks in which the eyes are shut; the others are on their way."""
+
+LIDS = [BLENDSHAPE_INDEX[name] for name in ("eyeBlinkLeft", "eyeBlinkRight")]
+
 LIDS_FOLLOW_DOWN, LIDS_FOLLOW_UP = 0.8, 0.8
 """Largest share of eyeLookDown in eyeBlink, and of eyeLookUp in eyeWide; drawn anew for every face."""
 
@@ -90,6 +95,8 @@ def draw_faces(
     weights[alive] = fade(weights[alive])
     # closed lips are mostly just closed: the fourth power keeps the median at 0.004 (0.002 in the range-of-motion take)
     close_lips(weights, beyond=CLOSE_BEYOND_JAW * rng.random(size) ** 4)
+    blinks = draw_blinks(streams("expression blinks"), size, share=settings.blinks)
+    weights[:, LIDS] = np.maximum(weights[:, LIDS], blinks[:, None])
     target = draw_gaze_target(spec, streams, size, wish=weights)
     gaze = axes_from_target(target, eye_center)
     apart = np.flatnonzero(~conjugate)
@@ -121,3 +128,10 @@ def draw_resting(settings: Expression, rng: np.random.Generator, size: int) -> n
     """Activity (size, 52) that faces have at rest: mostly faint, at most ``settings.resting``."""
     unit = draw_shapes(rng, size, correlation=settings.left_right_correlation)
     return settings.resting * _RESTLESS * unit**2
+
+
+def draw_blinks(rng: np.random.Generator, size: int, *, share: float) -> np.ndarray:
+    """How far (size,) a blink has shut both eyes; 0 in all but ``share`` of the faces."""
+    blinks, shut = rng.random((2, size))
+    closing = rng.random(size)
+    return np.where(blinks < share, np.where(shut < BLINK_SHUT, 1.0, closing), 0.0)

@@ -33,6 +33,7 @@ _LATE_KEYS: dict[str, Any] = {
     "render.truth": True,
     "layout": None,
     "gaze.wide": 0.0,
+    "expression.blinks": 0.0,
     **{f"expression.mixture.{name}": 0.0 for name, component in COMPONENTS.items() if not component.first},
 }
 """Keys that are younger than some datasets, and values that change nothing: with these they stay out of the hash."""

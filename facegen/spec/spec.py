@@ -113,6 +113,8 @@ class Expression:
     """Share of faces that are scaled down, log-uniformly to between 2 and 100 %."""
     resting: Share = 0.2
     """Largest weight that each shape has at rest, in rest, emotion, speech, movement and one_sided faces."""
+    blinks: Share = 0.0
+    """Share of still faces in the middle of a blink, whatever else they do; half of these have shut both eyes."""
     mixture: Mixture = Mixture(**{name: component.share for name, component in COMPONENTS.items()})
 
 

@@ -161,6 +161,21 @@ def test_wide_looks_fill_all_that_eyes_can_turn_to_and_leave_other_looks_as_they
     assert (all_wide.max(axis=0) > (40, 28)).all()
 
 
+def test_blinks_shut_lids_in_their_share_of_faces_and_leave_all_else_as_it_is():
+    def of(blinks: float) -> DrawnFaces:
+        return drawn(spec(mixture={"lower_face": 1}, resting=0.0, blinks=blinks), 20)
+
+    without, some = of(0.0), of(0.3)
+    lids = [BLENDSHAPE_INDEX[name] for name in ("eyeBlinkLeft", "eyeBlinkRight")]
+    assert not without.weights[:, lids].any()
+    np.testing.assert_array_equal(*some.weights[:, lids].T)
+    blink = some.weights[:, lids[0]]
+    assert abs((blink > 0).mean() - 0.3) < 0.02
+    assert abs((blink == 1).mean() - 0.15) < 0.02
+    others = np.delete(np.arange(len(BLENDSHAPES)), lids)
+    np.testing.assert_array_equal(some.weights[:, others], without.weights[:, others])
+
+
 def test_subtle_faces_keep_their_lips_closed():
     faces = drawn(spec(mixture={"rest": 1}, subtle=1.0, resting=0.0), 1)
     assert np.median(column(faces, "jawOpen")) < 0.02

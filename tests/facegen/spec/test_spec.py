@@ -43,6 +43,7 @@ YOUNG = {
     "expression.mixture.wink": 1.0,
     "expression.mixture.tongue": 1.0,
     "gaze.wide": 0.5,
+    "expression.blinks": 0.5,
     "layout": {"count": 3},
 }
 """Keys that came after the first datasets, and values other than their defaults."""
