@@ -1,0 +1,95 @@
+/** The row of buttons under the picture: what each does is the meeting's, what it says is here. */
+
+import type { Microphone } from "./microphone.js";
+import { ANIMATIONS } from "./protocol.js";
+import type { Person, Said, Welcome } from "./texts.js";
+
+const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
+
+/** What buttons and keys ask for. */
+export interface Wishes {
+  say(said: Said): void;
+  /** Take the face of now for the neutral one. */
+  neutral(): void;
+  sit(): void;
+  /** Of a key that is pressed again the gesture ends. */
+  gesture(number: number, again: boolean): void;
+  lock(): void;
+  consent(): void;
+  leave(): void;
+}
+
+export class Controls {
+  private readonly mute = find<HTMLButtonElement>("mute");
+  private readonly select = find<HTMLSelectElement>("gesture");
+
+  /** `faceLink` is what a program needs to move one's face. */
+  constructor(
+    private readonly microphone: Microphone | undefined,
+    faceLink: string,
+    wishes: Wishes,
+  ) {
+    this.showMute();
+    this.mute.addEventListener("click", () => {
+      this.microphone!.isOpen = !this.microphone!.isOpen;
+      wishes.say({ kind: "voice", open: this.microphone!.isOpen });
+      this.showMute();
+    });
+    find("neutral").addEventListener("click", () => wishes.neutral());
+    find("seat").addEventListener("click", () => wishes.sit());
+    this.select.replaceChildren(
+      ...ANIMATIONS.map((name, number) => new Option(number ? `${number} ${name}` : "Gesture …", String(number))),
+    );
+    this.select.addEventListener("change", () => {
+      wishes.gesture(Number(this.select.value), false);
+      this.select.blur();
+    });
+    addEventListener("keydown", ({ key, target, ctrlKey, metaKey, altKey }) => {
+      const typing = target instanceof HTMLElement && target.closest("input, textarea, select");
+      const number = Number(key);
+      if (!typing && !ctrlKey && !metaKey && !altKey && Number.isInteger(number) && number >= 0 && number < ANIMATIONS.length && key.trim()) {
+        wishes.gesture(number, true);
+      }
+    });
+    find("program").addEventListener("click", () => {
+      const command = `track --to 'room:${faceLink}'`;
+      void navigator.clipboard?.writeText(command).catch(() => undefined);
+      prompt("Copied. Run this on the machine with the camera or headset; whoever has this link moves your face:", command);
+    });
+    find("lock").addEventListener("click", () => wishes.lock());
+    find("consent").addEventListener("click", () => wishes.consent());
+    find("leave").addEventListener("click", () => wishes.leave());
+  }
+
+  gesture(number: number): void {
+    this.select.value = String(number);
+  }
+
+  seat(seated: boolean): void {
+    find("seat").textContent = seated ? "Stand up" : "Sit";
+  }
+
+  /** Show what the room allows, and what is known of who shares and who is recorded. */
+  show(welcome: Welcome, people: readonly Person[], locked: boolean): void {
+    const own = people.find(({ number }) => number === welcome.number);
+    const sharer = people.find(({ shares }) => shares);
+    const shared = find("shared");
+    shared.hidden = !sharer;
+    shared.textContent = sharer ? (sharer.id === welcome.id ? "You share the screen" : `${sharer.name} shares the screen`) : "";
+    const lock = find<HTMLButtonElement>("lock");
+    lock.hidden = !welcome.moderator;
+    lock.textContent = locked ? "Unlock the room" : "Lock the room";
+    const consent = find<HTMLButtonElement>("consent");
+    consent.hidden = !welcome.recording;
+    consent.textContent = own?.recorded ? "Record me no longer" : "Agree to be recorded";
+    const mark = find("mark");
+    mark.hidden = !welcome.replay && !own?.recorded;
+    mark.textContent = welcome.replay ? "Replay" : "You are recorded";
+  }
+
+  private showMute(): void {
+    this.mute.textContent = this.microphone ? (this.microphone.isOpen ? "Mute me" : "Unmute me") : "No microphone";
+    this.mute.disabled = !this.microphone;
+    this.mute.setAttribute("aria-pressed", String(this.microphone ? !this.microphone.isOpen : false));
+  }
+}
