@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from regress.runtime.sample import Sample
+from regress.runtime.stages.stage import Chain
 from track.errors import InputError
 from track.messages import Command, Moment, Step
 from track.profile.profile import LARGEST_GAIN, Profile
@@ -140,26 +141,36 @@ class Session:
             sample = pictures.read(TICK_S if self._person.settling else None)
             if sample is None:
                 break
-            for answer in self.answer(sample, pictures.now_s if self._timed else None):
-                if screen is not None:
-                    screen.publish(self.moment(answer))
+            self._show(self.answer(sample, pictures.now_s if self._timed else None), screen)
+        self._show(self.finish(), screen)
+
+    def _show(self, answers: Sequence[Sample], screen: Screen | None) -> None:
+        for answer in answers if screen is not None else ():
+            screen.publish(self.moment(answer))
 
     def answer(self, sample: Sample, now_s: Callable[[], float] | None = None) -> list[Sample]:
         """What goes to the sinks for a frame: one sample, or as many as a filter that looks ahead gives."""
         self._obey()
-        came = bool(sample.pictures) or sample.points is not None
+        if not sample.pictures and sample.points is None:
+            return [*self.finish(), *self._sent([sample])]
         samples = [sample]
-        if came:
-            for name, stage in self.pipeline.stages.items():
-                with self.measures.stage(name):
-                    samples = [ready for given in samples for ready in stage.feed(given)]
+        for name, stage in self.pipeline.stages.items():
+            with self.measures.stage(name):
+                samples = [ready for given in samples for ready in stage.feed(given)]
+        answers = self._sent(samples)
+        self.measures.frame(time.monotonic(), None if now_s is None else now_s() - sample.time_s)
+        return answers
+
+    def finish(self) -> list[Sample]:
+        """What a filter that looks ahead still holds goes to the sinks: no other picture is there for it."""
+        return self._sent(Chain(self.pipeline.stages.values()).finish())
+
+    def _sent(self, samples: Sequence[Sample]) -> list[Sample]:
         answers = [self._finished(each) for each in samples]
         for answer in answers:
             with self.measures.stage("sinks"):
                 for sink in self.sinks:
                     sink.send(answer)
-        if came:
-            self.measures.frame(time.monotonic(), None if now_s is None else now_s() - sample.time_s)
         return answers
 
     def moment(self, sample: Sample) -> Moment:
