@@ -2,7 +2,7 @@
 
 import queue
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from typing import Protocol
@@ -62,7 +62,9 @@ class Session:
     sinks
         Take every answer.
     profile
-        Of the person and camera; `keep` is given each new one.
+        Of the person and camera, as it is used.
+    kept
+        What the profile's file holds, where options go before that; `keep` is given each new one of it.
     say
         Told what a person should know, a sentence each.
     keep
@@ -82,13 +84,14 @@ class Session:
         sinks: Sequence[Sink],
         profile: Profile,
         say: Callable[[str], None],
+        kept: Profile | None = None,
         keep: Callable[[Profile], None] = lambda profile: None,
         new_recording: Callable[[], Sink] | None = None,
         mirror: bool | None = None,
         timed: bool = True,
     ) -> None:
         self.pipeline, self.sinks, self.profile = pipeline, list(sinks), profile
-        self._say, self._keep = say, keep
+        self._say, self._keep, self._kept = say, keep, profile if kept is None else kept
         self._person = Person(profile, mirrored=profile.mirror if mirror is None else mirror)
         self.measures, self._telling = Measures(), FaultTelling(say)
         self._commands: queue.Queue[Command] = queue.Queue(MOST_COMMANDS)
@@ -238,21 +241,41 @@ class Session:
             self.pipeline.use_neutral(self.profile.neutral)
 
     def _take(self, outcome: Outcome) -> None:
-        """Use what calibration found from the next frame on, and keep it."""
-        self._change(**learnt(outcome, self.profile, self.pipeline))
+        """Use what calibration found from the next frame on, and keep it beside all that it was found with."""
+        kept = outcome.ranges is None or self._neutral_is_kept
+        self._use(learnt(outcome, self.profile, self.pipeline))
+        if kept:
+            self._kept = self.profile
+            self._keep(self._kept)
+        else:
+            self._say(f"{outcome.name} is not kept: it was read without the neutral face of the profile")
+
+    @property
+    def _neutral_is_kept(self) -> bool:
+        """Whether what is read now is read beside the neutral face that the profile's file has."""
+        return self.profile.neutral == self._kept.neutral
 
     def _change(self, **changes: object) -> None:
+        """Use other values from the next frame on, and keep them; of the file nothing else changes."""
+        self._use(changes)
+        self._kept = self._kept.model_copy(update=changes)
+        self._keep(self._kept)
+
+    def _use(self, changes: Mapping[str, object]) -> None:
         self.profile = self.profile.model_copy(update=changes)
         self._person.use(self.profile)
         self.pipeline.use_eyes(self.profile.eyes)
-        self._keep(self.profile)
 
     def _look(self, sample: Sample) -> None:
         if sample.gaze is None or np.isnan(sample.gaze).any():
             return
         self._looks.append(sample.gaze)
         if len(self._looks) == CENTRE_FRAMES:
-            self._change(gaze=tuple(float(angle) for angle in np.median(self._looks, axis=0)))
+            gaze = tuple(float(angle) for angle in np.median(self._looks, axis=0))
+            if self._neutral_is_kept:
+                self._change(gaze=gaze)
+            else:
+                self._use({"gaze": gaze})
             self._looks = None
             self._say("the eyes are centred on where they looked")
 
