@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from regress.runtime.sample import Sample
+from regress.runtime.sample import NO_EYES, Sample
 from regress.runtime.stages.stage import Chain
 from track.errors import InputError
 from track.messages import Command, Moment, Step
@@ -211,15 +211,16 @@ class Session:
 
     def _finished(self, sample: Sample) -> Sample:
         """A frame behind the pipeline, as the person and the avatar want it."""
+        if self._calibration is not None:
+            self._calibrate(sample)
         if sample.weights is None:
-            sample = replace(sample, weights=self._person.unknown())
+            eyes = NO_EYES if self.pipeline.measures_eyes else None
+            sample = replace(sample, weights=self._person.unknown(), eyes=eyes)
         self._first_s = sample.time_s if self._first_s is None else self._first_s
         self._last_s = sample.time_s
         self._faces += not np.isnan(sample.weights).any()
         if self._looks is not None:
             self._look(sample)
-        if self._calibration is not None:
-            self._calibrate(sample)
         self._telling.step(sample.time_s, self.pipeline.sentences(sample))
         with self.measures.stage("person"):
             return self._person.step(sample)
