@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 _NAMED = re.compile(r"([A-Za-z0-9][A-Za-z0-9_.-]{0,63})=(.+)", re.DOTALL)
 
+_NOTHING_READ = {"ranges": {}, "rests": {}}
+"""Of a profile whose neutral face or model is not the one that its ranges were read with."""
+
 ONE = "camera"
 """What the camera of a landmark model is called."""
 
@@ -145,8 +148,10 @@ def open_cameras(wishes: Wishes, texts: dict[str, str]) -> "Capture":
 
 def open_profile(
     wishes: Wishes, pipeline: "Pipeline", titles: dict[str, str], say: Callable[[str], None]
-) -> tuple[Profile, Path]:
-    """The person's profile for these cameras and this model, and where it lies; a new one where there is none.
+) -> tuple[Profile, Profile, Path]:
+    """The person's profile as these options and this model use it, as its file has it, and where that lies.
+
+    Where there is no file both are new.
 
     Raises
     ------
@@ -156,24 +161,26 @@ def open_profile(
     camera = " ".join(titles.values())
     path = profile_path(wishes.profile, camera)
     profile = Profile(person=person_of(path)[:64], camera=camera[:200])
+    stored = profile
     if path.is_file():
-        profile = fitted(read_profile(path), pipeline, path, say)
+        stored = read_profile(path)
+        profile = fitted(stored, pipeline, path, say)
     elif wishes.profile is not None and wishes.profile.endswith(".toml"):
         say(f"{path} does not exist yet; calibrating makes it")
     if wishes.placement is not None:
         profile = profile.model_copy(update={"placement": pipeline.read_placement(wishes.placement)})
     profile = _told(wishes.headset, profile, pipeline, say)
     if wishes.neutral in ("auto", "none"):
-        profile = profile.model_copy(update={"neutral": None, "ranges": {}})
+        profile = profile.model_copy(update={"neutral": None, **_NOTHING_READ})
     elif wishes.neutral is not None:
         profile = profile.model_copy(
-            update={"neutral": _neutral_file(wishes.neutral, pipeline), "ranges": {}}
+            update={"neutral": _neutral_file(wishes.neutral, pipeline), **_NOTHING_READ}
         )
     elif profile.neutral is None:
         say(
             "no neutral face is known yet, so movements are guessed: calibrate on the page, or by `track calibrate`"
         )
-    return profile, path
+    return profile, stored, path
 
 
 def fitted(profile: Profile, pipeline: "Pipeline", path: Path, say: Callable[[str], None]) -> Profile:
@@ -192,9 +199,9 @@ def fitted(profile: Profile, pipeline: "Pipeline", path: Path, say: Callable[[st
             f"{path} is a profile for a {mark.kind} model, and this one is a {pipeline.mark.kind} model; "
             f"--profile names another"
         )
-    if profile.ranges:
+    if profile.ranges or profile.rests:
         say(f"{path}: its ranges were read by another model and are left out; calibrate again")
-    return profile.model_copy(update={"ranges": {}, "model": None})
+    return profile.model_copy(update={**_NOTHING_READ, "model": None})
 
 
 def _told(headset: str | None, profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:

@@ -80,7 +80,7 @@ def open_session(
     closing.callback(pipeline.close)
     capture = open_cameras(wishes, texts)
     closing.callback(capture.close)
-    profile, path = open_profile(wishes, pipeline, capture.titles, say)
+    profile, stored, path = open_profile(wishes, pipeline, capture.titles, say)
     if must_keep:
         keep = partial(write_profile, path)
     else:
@@ -92,6 +92,7 @@ def open_session(
         sinks=sinks,
         profile=profile,
         say=say,
+        kept=stored,
         keep=keep,
         new_recording=lambda: _open(f"csv:{_free_name()}", say),
         mirror=options.mirror,

@@ -120,14 +120,15 @@ class Calibration:
         Parameters
         ----------
         sample
-            Before the person's ranges.
+            Before the person's ranges; without weights where no picture came, as slow cameras have it between two.
         signature : (k,) float64 or None
             What of the frame must keep still; None where there is no face.
         """
         if not self._state:
             self._count_down(time_s, FIRST_COUNTDOWN_S)
         if self._state == "recording":
-            self._record(sample, signature)
+            if sample.weights is not None:
+                self._record(sample, signature)
             self._wait_for_slow_pictures(time_s)
         if time_s >= self._until_s:
             self._go_on(time_s)
@@ -135,7 +136,7 @@ class Calibration:
         return Step(name=self.name, state=self._state, seconds_left=left, text=self._text)
 
     def _record(self, sample: Sample, signature: np.ndarray | None) -> None:
-        if signature is None or sample.weights is None or np.isnan(sample.weights).any():
+        if signature is None or np.isnan(sample.weights).any():
             self._missed += 1
         else:
             self._frames.append((sample, signature))
@@ -196,6 +197,8 @@ class Calibration:
         count = len(self._frames)
         came = count + self._missed
         if came < FEWEST_FRAMES:
+            if came == 0:
+                return f"No picture came in {LONGEST_S:g} seconds"
             return (
                 f"Only {came} pictures came in {LONGEST_S:g} seconds, and {FEWEST_FRAMES} are needed: "
                 "camera or machine is too slow"

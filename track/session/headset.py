@@ -48,6 +48,7 @@ class HeadsetPipeline(Pipeline):
 
     least_movement = LEAST_MOVEMENT
     faces = tuple(FACES)
+    measures_eyes = True
 
     def __init__(self, folder: str | Path, *, fps: float, filter_name: str) -> None:
         self._predictor = load_headset_predictor(folder)

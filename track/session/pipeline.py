@@ -41,6 +41,8 @@ class Pipeline:
         Names of `track.session.faces.FACES` that it sees enough of.
     listens
         Whether it can be told where cameras are.
+    measures_eyes
+        Whether its samples have ``eyes``.
     """
 
     stages: dict[str, Stage]
@@ -48,6 +50,7 @@ class Pipeline:
     least_movement: float
     faces: tuple[str, ...] = OF_ALL
     listens: bool = False
+    measures_eyes: bool = False
 
     def signature(self, sample: Sample) -> np.ndarray | None:
         """What of a frame must keep still while a neutral face is recorded; None where there is no face."""

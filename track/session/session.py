@@ -2,14 +2,15 @@
 
 import queue
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
 
-from regress.runtime.sample import Sample
+from regress.runtime.sample import NO_EYES, Sample
+from regress.runtime.stages.stage import Chain
 from track.errors import InputError
 from track.messages import Command, Moment, Step
 from track.profile.profile import LARGEST_GAIN, Profile
@@ -61,7 +62,9 @@ class Session:
     sinks
         Take every answer.
     profile
-        Of the person and camera; `keep` is given each new one.
+        Of the person and camera, as it is used.
+    kept
+        What the profile's file holds, where options go before that; `keep` is given each new one of it.
     say
         Told what a person should know, a sentence each.
     keep
@@ -81,13 +84,14 @@ class Session:
         sinks: Sequence[Sink],
         profile: Profile,
         say: Callable[[str], None],
+        kept: Profile | None = None,
         keep: Callable[[Profile], None] = lambda profile: None,
         new_recording: Callable[[], Sink] | None = None,
         mirror: bool | None = None,
         timed: bool = True,
     ) -> None:
         self.pipeline, self.sinks, self.profile = pipeline, list(sinks), profile
-        self._say, self._keep = say, keep
+        self._say, self._keep, self._kept = say, keep, profile if kept is None else kept
         self._person = Person(profile, mirrored=profile.mirror if mirror is None else mirror)
         self.measures, self._telling = Measures(), FaultTelling(say)
         self._commands: queue.Queue[Command] = queue.Queue(MOST_COMMANDS)
@@ -140,26 +144,36 @@ class Session:
             sample = pictures.read(TICK_S if self._person.settling else None)
             if sample is None:
                 break
-            for answer in self.answer(sample, pictures.now_s if self._timed else None):
-                if screen is not None:
-                    screen.publish(self.moment(answer))
+            self._show(self.answer(sample, pictures.now_s if self._timed else None), screen)
+        self._show(self.finish(), screen)
+
+    def _show(self, answers: Sequence[Sample], screen: Screen | None) -> None:
+        for answer in answers if screen is not None else ():
+            screen.publish(self.moment(answer))
 
     def answer(self, sample: Sample, now_s: Callable[[], float] | None = None) -> list[Sample]:
         """What goes to the sinks for a frame: one sample, or as many as a filter that looks ahead gives."""
         self._obey()
-        came = bool(sample.pictures) or sample.points is not None
+        if not sample.pictures and sample.points is None:
+            return [*self.finish(), *self._sent([sample])]
         samples = [sample]
-        if came:
-            for name, stage in self.pipeline.stages.items():
-                with self.measures.stage(name):
-                    samples = [ready for given in samples for ready in stage.feed(given)]
+        for name, stage in self.pipeline.stages.items():
+            with self.measures.stage(name):
+                samples = [ready for given in samples for ready in stage.feed(given)]
+        answers = self._sent(samples)
+        self.measures.frame(time.monotonic(), None if now_s is None else now_s() - sample.time_s)
+        return answers
+
+    def finish(self) -> list[Sample]:
+        """What a filter that looks ahead still holds goes to the sinks: no other picture is there for it."""
+        return self._sent(Chain(self.pipeline.stages.values()).finish())
+
+    def _sent(self, samples: Sequence[Sample]) -> list[Sample]:
         answers = [self._finished(each) for each in samples]
         for answer in answers:
             with self.measures.stage("sinks"):
                 for sink in self.sinks:
                     sink.send(answer)
-        if came:
-            self.measures.frame(time.monotonic(), None if now_s is None else now_s() - sample.time_s)
         return answers
 
     def moment(self, sample: Sample) -> Moment:
@@ -197,15 +211,16 @@ class Session:
 
     def _finished(self, sample: Sample) -> Sample:
         """A frame behind the pipeline, as the person and the avatar want it."""
+        if self._calibration is not None:
+            self._calibrate(sample)
         if sample.weights is None:
-            sample = replace(sample, weights=self._person.unknown())
+            eyes = NO_EYES if self.pipeline.measures_eyes else None
+            sample = replace(sample, weights=self._person.unknown(), eyes=eyes)
         self._first_s = sample.time_s if self._first_s is None else self._first_s
         self._last_s = sample.time_s
         self._faces += not np.isnan(sample.weights).any()
         if self._looks is not None:
             self._look(sample)
-        if self._calibration is not None:
-            self._calibrate(sample)
         self._telling.step(sample.time_s, self.pipeline.sentences(sample))
         with self.measures.stage("person"):
             return self._person.step(sample)
@@ -227,21 +242,41 @@ class Session:
             self.pipeline.use_neutral(self.profile.neutral)
 
     def _take(self, outcome: Outcome) -> None:
-        """Use what calibration found from the next frame on, and keep it."""
-        self._change(**learnt(outcome, self.profile, self.pipeline))
+        """Use what calibration found from the next frame on, and keep it beside all that it was found with."""
+        kept = outcome.ranges is None or self._neutral_is_kept
+        self._use(learnt(outcome, self.profile, self.pipeline))
+        if kept:
+            self._kept = self.profile
+            self._keep(self._kept)
+        else:
+            self._say(f"{outcome.name} is not kept: it was read without the neutral face of the profile")
+
+    @property
+    def _neutral_is_kept(self) -> bool:
+        """Whether what is read now is read beside the neutral face that the profile's file has."""
+        return self.profile.neutral == self._kept.neutral
 
     def _change(self, **changes: object) -> None:
+        """Use other values from the next frame on, and keep them; of the file nothing else changes."""
+        self._use(changes)
+        self._kept = self._kept.model_copy(update=changes)
+        self._keep(self._kept)
+
+    def _use(self, changes: Mapping[str, object]) -> None:
         self.profile = self.profile.model_copy(update=changes)
         self._person.use(self.profile)
         self.pipeline.use_eyes(self.profile.eyes)
-        self._keep(self.profile)
 
     def _look(self, sample: Sample) -> None:
         if sample.gaze is None or np.isnan(sample.gaze).any():
             return
         self._looks.append(sample.gaze)
         if len(self._looks) == CENTRE_FRAMES:
-            self._change(gaze=tuple(float(angle) for angle in np.median(self._looks, axis=0)))
+            gaze = tuple(float(angle) for angle in np.median(self._looks, axis=0))
+            if self._neutral_is_kept:
+                self._change(gaze=gaze)
+            else:
+                self._use({"gaze": gaze})
             self._looks = None
             self._say("the eyes are centred on where they looked")
 

@@ -84,8 +84,8 @@ class Camera:
         return picture
 
     def now_s(self) -> float:
-        """What the clock of its pictures shows."""
-        return self._source.now_s()
+        """What the clock of its pictures' times shows, which goes on where the source's own was set."""
+        return self._source.now_s() + self._clock.added_s
 
     def trouble(self) -> Enum | None:
         """What is wrong with it, that it gives nothing included."""
@@ -155,15 +155,21 @@ class Camera:
 
 
 class RisingClock:
-    """Makes times rise strictly: one that goes back is taken for a clock that was set, and all after it go with it."""
+    """Makes times rise strictly: one that goes back is taken for a clock that was set, and all after it go with it.
+
+    Attributes
+    ----------
+    added_s
+        By how much the times now given are later than those told.
+    """
 
     def __init__(self) -> None:
         self._last_s: float | None = None
-        self._step_s, self._added_s = _STEP_S, 0.0
+        self._step_s, self.added_s = _STEP_S, 0.0
 
     def step(self, time_s: float) -> tuple[float, bool]:
-        """The next time, and whether it had to be made."""
-        given_s = time_s + self._added_s
+        """The next time, and whether the one that was told is wrong; one that is not known is made."""
+        given_s = time_s + self.added_s
         if self._last_s is None and abs(given_s) < _LATEST_S:
             self._last_s = given_s
             return given_s, False
@@ -174,5 +180,5 @@ class RisingClock:
         else:
             self._last_s = last_s + self._step_s
             if math.isfinite(time_s):
-                self._added_s = self._last_s - time_s
-        return self._last_s, not told
+                self.added_s = self._last_s - time_s
+        return self._last_s, not (told or math.isnan(time_s))

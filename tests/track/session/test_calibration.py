@@ -7,7 +7,9 @@ import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.sample import Sample
+from tests.track.session.faces import frames, new_session
 from track.errors import InputError
+from track.messages import Command
 from track.session.calibration import (
     COUNTDOWN_S,
     FEWEST_FRAMES,
@@ -185,3 +187,29 @@ def test_a_blink_is_no_movement():
     values = rng.normal(0, 0.003, (60, 136))
     values[28:32, 80:90] += 0.06
     assert steadiness(values, least=LEAST).still
+
+
+@pytest.mark.parametrize("fps", [2.2, 3.0, 3.9])
+def test_a_camera_s_pauses_between_two_pictures_are_no_missed_faces(fps):
+    """A capture gives samples without pictures there, thirty a second once the avatar goes to rest."""
+    session = new_session()
+    session.ask(Command(verb="calibrate", value="neutral"))
+    time_s, last = 0.0, -1
+    while session.step_of_calibration is None or session.calibrating:
+        number = int(time_s * fps)
+        if number > last:
+            session.answer(frames(number % 60, number % 60 + 1, first_s=time_s)[0])
+        else:
+            session.answer(Sample(time_s=time_s, pictures={}))
+        last, time_s = number, time_s + 1 / FPS
+        assert time_s < 20
+    assert session.step_of_calibration.state == "done"
+    assert session.profile.neutral is not None
+
+
+def test_a_camera_that_gives_nothing_is_told_as_such():
+    calibration = Calibration(("neutral",), least=LEAST)
+    steps = [calibration.step(row / FPS, Sample(pictures={}), None) for row in range(12 * FPS)]
+    assert {step.text for step in steps if step.state == "again"} == {
+        "No picture came in 6 seconds; once more"
+    }

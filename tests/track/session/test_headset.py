@@ -1,6 +1,7 @@
 """A headset's session: neutral pictures through the profile, and what the network traces, for the page."""
 
 import base64
+import csv
 import itertools
 import struct
 import zlib
@@ -12,12 +13,14 @@ import pytest
 from facegen.conventions import BLENDSHAPES
 from regress.runtime.headset.person import OwnEye
 from regress.runtime.sample import EyeMeasures, Sample
+from regress.runtime.writers.csv_table import EYE_COLUMNS
 from tests.track.session.test_chaos import FPS, HEADSET, headset_frames, headset_session
 from track.errors import InputError
 from track.messages import Command
 from track.profile.profile import NeutralFace, Profile, read_profile, write_profile
 from track.session.calibration import Outcome
 from track.session.ranges import Ranges, by_lids
+from track.sinks.targets import open_sink, parse_target
 
 
 def _chunk(name: bytes, content: bytes) -> bytes:
@@ -44,6 +47,21 @@ def test_a_neutral_face_is_the_same_after_a_profile_s_file(tmp_path):
         plain.answer(sample)
         other.answer(sample)
     np.testing.assert_array_equal(plain.sinks[0].weights, other.sinks[0].weights)
+
+
+def test_a_recording_s_columns_stay_where_no_picture_comes(tmp_path):
+    """Before the first picture, and between two: openness and pupils have cells there too, which are empty."""
+    session = headset_session()
+    session.sinks.append(open_sink(parse_target(f"csv:{tmp_path / 'a.csv'}"), pytest.fail))
+    nothing = Sample(time_s=-0.1, pictures={})
+    for sample in (nothing, *headset_frames()[:3], replace(nothing, time_s=0.5)):
+        session.answer(sample)
+    session.close()
+    with open(tmp_path / "a.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    assert {len(row) for row in rows} == {len(rows[0])}
+    eyes = [rows[0].index(name) for name in EYE_COLUMNS]
+    assert [all(row[column] for column in eyes) for row in rows[1:]] == [False, True, True, True, False]
 
 
 def test_points_are_traced_where_somebody_looks():
