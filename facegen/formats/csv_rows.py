@@ -1,7 +1,9 @@
 """Reads CSV files of numbers over time: a header, then a row a frame, of which nothing but the row at hand is kept."""
 
 import csv
+import math
 import os
+import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -129,19 +131,29 @@ class _Lines:
         return line
 
 
+_NO_NUMBER = re.compile(r"[+-]?(?:nan\((?:ind|snan)\)|1\.#(?:ind|qnan|snan)0*)|na", re.IGNORECASE)
+"""How C programs on Windows write NaN, OpenFace among them, and R a missing value."""
+
+
 def number_in(cell: str) -> float:
-    """A cell's number; NaN where it is empty.
+    """A cell's number; NaN where it is empty or says so.
 
     Raises
     ------
     ValueError
         Where it holds something else.
     """
-    return float(cell.strip() or "nan")
+    text = cell.strip()
+    try:
+        return float(text or "nan")
+    except ValueError:
+        if _NO_NUMBER.fullmatch(text):
+            return math.nan
+        raise
 
 
 def numbers_in(row: Sequence[str], columns: Sequence[int]) -> np.ndarray:
-    """Numbers (k,) float64 of a row's cells in these columns; NaN where they are empty.
+    """Numbers (k,) float64 of a row's cells in these columns; NaN where they are empty or say so.
 
     Raises
     ------

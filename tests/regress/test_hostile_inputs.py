@@ -281,6 +281,15 @@ def test_a_line_without_an_end_takes_no_memory():
     assert peak < 2e6
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "cp1252"])
+def test_a_byte_order_mark_costs_no_frame(encoding):
+    """As Windows writes and reads text, whatever the locale is."""
+    line = " ".join(map(str, range(136))) + "\r\n"
+    stream = io.TextIOWrapper(io.BytesIO(b"\xef\xbb\xbf" + 2 * line.encode()), encoding=encoding)
+    samples = list(read_lines(text_lines(stream)))
+    assert [sample.faults for sample in samples] == [{}, {}]
+
+
 NUMBERS = ("inf", "-inf", "nan", "1e999", "1e300", "-1e300")
 
 

@@ -144,6 +144,16 @@ def test_openface_frames_without_success_have_no_face(tmp_path: Path):
     assert frames.time_s == pytest.approx([0, 1 / 30, 2 / 30])
 
 
+@pytest.mark.parametrize("cell", ["-nan(ind)", "nan(ind)", "-1.#IND00", "1.#QNAN", "nan", "-nan", "NA"])
+def test_frames_whose_points_are_written_as_no_number_have_no_face(cell: str, tmp_path: Path):
+    """OpenFace's programs for Windows write the first of them where tracking fails (its issue 301)."""
+    path = _openface(tmp_path / "a.csv")
+    header, first, second, third = path.read_text().splitlines()
+    lost = [*second.split(", ")[:4], *[cell] * len(COLUMNS)]
+    path.write_text("\n".join([header, first, ", ".join(lost), third]) + "\n")
+    assert read_frames(path).usable.tolist() == [True, False, True]
+
+
 def test_pyfeat_rows_with_empty_cells_have_no_face(tmp_path: Path):
     frames = read_frames(_pyfeat(tmp_path / "a.csv", empty=(0,)))
     assert frames.usable.tolist() == [False, True, True]

@@ -104,7 +104,9 @@ def compare(
     with contextlib.ExitStack() as closing:
         phone = Phone(int(match[1] or PORT))
         closing.callback(phone.close)
-        session, capture = open_session(wishes, texts, [tracked], say, closing, options=RunOptions())
+        # the phone's left is the person's, whatever their avatar shows
+        options = RunOptions(mirror=False)
+        session, capture = open_session(wishes, texts, [tracked], say, closing, options=options)
         say(
             f"port {phone.port} waits for the phone; act for {seconds:g} s: talk, smile, blink, raise your brows"
         )

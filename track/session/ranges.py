@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
+from regress.runtime.headset.parts import side_of
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
 from regress.runtime.stages.stage import Stage
@@ -65,7 +66,9 @@ def by_lids(profile: Profile) -> np.ndarray:
     """(2,) bool: eyes whose blink the network does not read when they are shut, while traced lids do."""
     found = np.zeros(2, dtype=bool)
     for camera, eye in profile.eyes.items():
-        side = 0 if camera.startswith("left") else 1
+        side = {"left": 0, "right": 1}.get(side_of(camera) or "")
+        if side is None:
+            continue
         shut = eye.shut_mm is not None and eye.rest_mm is not None and eye.shut_mm < SHUT * eye.rest_mm
         found[side] = shut and ("eyeBlinkLeft", "eyeBlinkRight")[side] not in profile.ranges
     return found

@@ -49,14 +49,28 @@ class Recordings:
         except OutputError as error:
             self._say(str(error))
 
+    def give_up(self, sink: Sink, error: OutputError) -> bool:
+        """End the recording of the page that is under way, if it is this sink, as no more can be written to it."""
+        if sink is not self._recording:
+            return False
+        self._recording = None
+        self._sinks.remove(sink)
+        self._say(str(error))
+        self._finishing.submit(self._finish, sink, told=True)
+        return True
+
     def close(self) -> None:
         """Wait until what has ended is written; one that is under way is closed as a sink."""
         self._finishing.shutdown()
 
-    def _finish(self, recording: Sink) -> None:
-        """Give a recording its name, in another thread: a disk takes a frame's time and more."""
+    def _finish(self, recording: Sink, *, told: bool = False) -> None:
+        """Give a recording its name, in another thread: a disk takes a frame's time and more.
+
+        ``told`` says that its fault is known already.
+        """
         try:
             recording.close()
             self._say(f"recorded {recording.title}")
         except OutputError as error:
-            self._say(str(error))
+            if not told:
+                self._say(str(error))

@@ -11,7 +11,7 @@ import numpy as np
 
 from regress.runtime.sample import NO_EYES, Sample
 from regress.runtime.stages.stage import Chain
-from track.errors import InputError
+from track.errors import InputError, OutputError
 from track.messages import Command, Moment, Step
 from track.profile.profile import LARGEST_GAIN, Profile
 from track.session.calibration import Calibration, Outcome
@@ -172,9 +172,16 @@ class Session:
         answers = [self._finished(each) for each in samples]
         for answer in answers:
             with self.measures.stage("sinks"):
-                for sink in self.sinks:
-                    sink.send(answer)
+                for sink in list(self.sinks):
+                    self._send(sink, answer)
         return answers
+
+    def _send(self, sink: Sink, answer: Sample) -> None:
+        try:
+            sink.send(answer)
+        except OutputError as error:
+            if not self._recordings.give_up(sink, error):
+                raise
 
     def moment(self, sample: Sample) -> Moment:
         """What the page shows of an answer."""

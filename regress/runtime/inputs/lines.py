@@ -27,9 +27,12 @@ _NOT_TEXT = "\ufffd"
 
 
 def text_lines(stream: TextIO) -> Iterator[str]:
-    """Lines of a stream as they come, in bounded memory; bytes that are no text become what no number has."""
+    """Lines of a stream as they come, in bounded memory; bytes that are no text become what no number has.
+
+    They are UTF-8 on every system, and a byte order mark, as editors on Windows write it, is no part of the first one.
+    """
     if isinstance(stream, io.TextIOWrapper):
-        stream.reconfigure(errors="replace")
+        stream.reconfigure(encoding="utf-8-sig", errors="replace")
     while line := stream.readline(MOST_CHARACTERS):
         whole = len(line) < MOST_CHARACTERS or line.endswith("\n")
         yield line if whole else "a line that is too long"

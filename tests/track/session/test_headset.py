@@ -176,3 +176,13 @@ def test_a_blink_that_the_network_does_not_read_is_what_lids_say():
     assert said[BLENDSHAPES.index("eyeBlinkLeft")] == pytest.approx(0.9)
     assert said[BLENDSHAPES.index("eyeBlinkRight")] == 0
     assert not by_lids(profile.model_copy(update={"ranges": {"eyeBlinkLeft": 0.8}})).any()
+
+
+@pytest.mark.parametrize("spelled", ["left_eye", "eye_l", "eye_left", "lefteye", "l_eye"])
+def test_lids_are_of_the_side_that_a_camera_s_name_says(spelled):
+    """However it is spelled, as networks have it; the other eye's network goes on reading its blink."""
+    shut = OwnEye(shut_mm=1.0, rest_mm=10.0)
+    other = spelled.replace("left", "right").replace("l_", "r_").replace("_l", "_r")
+    profile = Profile(person="anna", camera="eyes", eyes={spelled: shut, other: OwnEye(rest_mm=10.0)})
+    np.testing.assert_array_equal(by_lids(profile), [True, False])
+    np.testing.assert_array_equal(by_lids(profile.model_copy(update={"eyes": {other: shut}})), [False, True])

@@ -181,6 +181,35 @@ def test_a_recording_of_the_page_that_cannot_be_written_stops_nothing(new_record
     assert len(session.sinks) == 1
 
 
+class Filling(Kept):
+    """A disk that is full after two rows, and then still is."""
+
+    def send(self, sample: Sample) -> None:
+        if len(self.samples) == 2:
+            full()
+        super().send(sample)
+
+    def close(self) -> None:
+        full()
+
+
+def test_a_disk_that_gets_full_ends_the_recording_of_the_page_and_nothing_else():
+    said = []
+    session = new_session(new_recording=Filling, said=said)
+    session.ask(Command(verb="record", value=True))
+    for sample in frames(0, 6):
+        (answer,) = session.answer(sample)
+    assert not session.moment(answer).settings["recording"]
+    session.close()
+    assert said.count("track-001.csv: no space left") == 1
+    assert len(session.sinks[0].samples) == 6
+    session.sinks.append(Filling())
+    for sample in frames(6, 8):
+        session.answer(sample)
+    with pytest.raises(OutputError):  # what was asked for on the command line is not given up
+        session.answer(frames(8, 9)[0])
+
+
 @pytest.mark.parametrize(
     "command",
     [
