@@ -63,7 +63,7 @@ def _people(files: list[str]) -> np.ndarray:
             if mesh.type == "MESH"
             for corner in mesh.bound_box
         )
-        _aim(camera, yaw_deg=20, target=(0.0, 0.0, 0.9), distance=5.0, field_deg=22)
+        _aim(camera, yaw_deg=20, target=(0.0, 0.0, 0.9), distance=5.0, field_deg=25)
         whole = _picture(300, 460)
         _aim(camera, yaw_deg=15, target=(0.0, 0.0, top - 0.17), distance=2.2, field_deg=11.5)
         columns.append(np.vstack([_labelled(_picture(300, 300), Path(file).stem), whole]))

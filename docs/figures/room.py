@@ -19,8 +19,8 @@ import cv2
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(Path(__file__).parent)]
 
-from room_page import come_in, dressed, stand  # noqa: E402
-from room_people import dressed_guest  # noqa: E402
+from room_page import be, come_in, dressed, stand  # noqa: E402
+from room_people import BLUE, PURPLE, SAND, WINE, dressed_guest, secret_of  # noqa: E402
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES  # noqa: E402
 from room.places import read_place  # noqa: E402
@@ -51,21 +51,59 @@ HANDS = {
 """Held out, thumbs up, as of somebody who explains."""
 
 OTHERS = {
-    "Bea": {"at": (-0.47, -0.74), "shapes": SMILE, "flags": 2, "animation": 0, "avatar": "nora"},
-    "Carl": {"at": (-0.01, -0.98), "shapes": WORD, "flags": 11, "animation": 0, "avatar": "omar", **HANDS},
-    "Dana": {"at": (0.5, -0.72), "shapes": WONDER, "flags": 2, "animation": 0, "avatar": "mei"},
-    "Emil": {"at": (0.95, -0.86), "shapes": SMILE, "flags": 2, "animation": 5, "avatar": "leo"},
+    "Bea": {"at": (-0.32, -0.76), "shapes": SMILE, "flags": 2, "animation": 0, "avatar": "nora"},
+    "Carl": {"at": (0.22, -0.98), "shapes": WORD, "flags": 11, "animation": 0, "avatar": "omar", **HANDS},
+    "Dana": {"at": (1.5, -0.4), "shapes": WONDER, "flags": 2, "animation": 0, "avatar": "mei"},
+    "Emil": {"at": (0.95, -0.92), "shapes": SMILE, "flags": 2, "animation": 5, "avatar": "leo"},
 }
 """Where each stands in metres, what their face does, speaking (1), tracked (2) and hands (8), and the gesture."""
 
+STUDIED = {
+    "Bea": {
+        "at": (-0.97, -0.56),
+        "heading": 1.0,
+        "shapes": SMILE,
+        "flags": 6,
+        "animation": 0,
+        "avatar": "nora",
+    },
+    "Carl": {
+        "at": (0.0, -1.12),
+        "heading": 0.0,
+        "shapes": WORD,
+        "flags": 7,
+        "animation": 0,
+        "avatar": "omar",
+    },
+    "Dana": {
+        "at": (0.97, -0.56),
+        "heading": -1.0,
+        "shapes": WONDER,
+        "flags": 6,
+        "animation": 5,
+        "avatar": "nora",
+    },
+}
+"""Who sits (4) at the far side of the table of the meeting that is recorded."""
+
+STUDIED_FROM = (0.0, 2.7)
+
+LOOKS_OF = {"Ada": (PURPLE, 1), "Bea": (WINE, 2), "Carl": (SAND, 0), "Dana": (BLUE, 5)}
+"""Colours of clothes and of hair; the others brought theirs."""
+
 LINES = ("Good to see you all.", "Shall we begin?", "What does the scan say?", "One question first!")
 
-EYE = (0.37, 0.9)
-LOOKS = {"heading": math.pi - 0.08, "pitch": -0.045}
+EYE = (0.75, 1.75)
+LOOKS = {"heading": math.pi - 0.135, "pitch": -0.03}
+"""So that everybody stands between the left edge and the list at the right, clear of the cloth at the table's head."""
+
+
+STEP_S = 0.1
+"""Between states: who stands still needs no more."""
 
 
 async def _stay(guest: Guest, described: dict) -> None:
-    """Thirty times a second, as a page does; all look at who looks at them."""
+    """Say the same again and again; all look at who looks at them, or where they are told."""
     weights = [0.0] * len(BLENDSHAPES)
     for name, weight in described["shapes"].items():
         weights[BLENDSHAPE_INDEX[name]] = weight
@@ -73,24 +111,28 @@ async def _stay(guest: Guest, described: dict) -> None:
     state = {
         "weights": tuple(weights),
         "floor_m": (x, z),
-        "heading": math.atan2(EYE[0] - x, EYE[1] - z),
+        "heading": described.get("heading", math.atan2(EYE[0] - x, EYE[1] - z)),
         "flags": described["flags"],
         "animation": described["animation"],
         **{hand: described[hand] for hand in HANDS if hand in described},
     }
     step = 0
     while True:
-        await guest.move(**state, sequence=step, time_ms=33 * step)
+        await guest.move(**state, sequence=step, time_ms=round(1000 * STEP_S) * step)
         step += 1
-        await asyncio.sleep(1 / 30)
+        await asyncio.sleep(STEP_S)
 
 
-async def settle(tab: Tab) -> None:
-    """Wait until arms and faces are where they go; the window is small, as software draws slowly."""
-    await tab.ask(
-        "void (globalThis.drawn = 0, (function next() { drawn++; requestAnimationFrame(next); })())"
-    )
-    await tab.until("drawn >= 30", 240)
+async def draw(tab: Tab, path: Path, *, width: int, height: int) -> None:
+    """Let arms and faces go where they go, undrawn, and draw once: software takes seconds for each picture."""
+    await tab.ask("void (meeting.drawing = false, globalThis.clock = performance.now())")
+    await tab.ask("void (performance.now = () => globalThis.clock)")
+    for size, steps in (((160, 100), 20), ((width, height), 3)):
+        await tab.look(width=size[0], height=size[1])
+        for _ in range(steps):
+            await tab.ask("(clock += 100, new Promise((moved) => requestAnimationFrame(() => moved())))")
+    await tab.ask("void meeting.view.draw()")
+    await tab.picture(path)
 
 
 async def main() -> None:
@@ -100,25 +142,26 @@ async def main() -> None:
         staying, guests = [], []
         for name, described in OTHERS.items():
             guest = await dressed_guest(
-                place, name=name, avatar=described["avatar"], moderator=name == "Carl"
+                place,
+                name=name,
+                avatar=described["avatar"],
+                secret=secret_of(name, *LOOKS_OF.get(name, (0, 0))),
+                moderator=name == "Carl",
             )
             staying.append(asyncio.create_task(_stay(guest, described)))
             await guest.say(kind="voice", open=True)
             guests.append(guest)
         async with browser.open(_link(place)) as tab:
-            await tab.look(width=320, height=200)
+            await be(tab, secret_of("Ada", *LOOKS_OF["Ada"]))
+            await tab.look(width=160, height=100)
             await come_in(tab, "Ada")
             await stand(tab, x=EYE[0], z=EYE[1], **LOOKS)
             for guest, line in zip(guests, LINES, strict=True):
                 await guest.say(kind="chat", text=line)
             await dressed(tab)
-            await settle(tab)
-            await tab.look(**SIZE)
-            await tab.ask("void (drawn = 0)")
-            await tab.until("drawn >= 3", 240)
             with tempfile.TemporaryDirectory() as folder:
                 page = Path(folder) / "page.png"
-                await tab.picture(page)
+                await draw(tab, page, **SIZE)
                 cv2.imwrite(str(OUT), cv2.imread(str(page)), [cv2.IMWRITE_WEBP_QUALITY, 88])
             print(f"{OUT.relative_to(ROOT)}; complaints: {tab.complaints}")
         for task in staying:
@@ -135,36 +178,36 @@ async def replayed() -> None:
         path = Path(folder) / "meeting.jsonl"
         asked, shown = (str(Path(folder) / name) for name in ("asked.png", "shown.png"))
         recorder = Recorder(path, room="meeting", hertz=HERTZ, ended=sys.exit)
+        rooms = {"": read_place("meeting")}
         async with chromium(
             "--use-fake-ui-for-media-stream", "--use-fake-device-for-media-stream"
         ) as browser:
-            async with open_room(recorder=recorder) as place, browser.open(_link(place)) as tab:
-                staying = [
-                    asyncio.create_task(
-                        _stay(await place.guest(name=name, recorded=True, avatar=each["avatar"]), each)
-                    )
-                    for name, each in OTHERS.items()
-                ]
+            async with (
+                open_room(recorder=recorder, places=rooms) as place,
+                browser.open(_link(place)) as tab,
+            ):
+                staying = []
+                for name, each in STUDIED.items():
+                    secret = secret_of(name, *LOOKS_OF[name])
+                    guest = await place.guest(name=name, recorded=True, avatar=each["avatar"], secret=secret)
+                    staying.append(asyncio.create_task(_stay(guest, each)))
                 await tab.look(width=520, height=880)
-                await tab.until("document.querySelector('#recording').checkVisibility()")
+                await tab.until("document.querySelector('#recording').checkVisibility()", 120)
                 await tab.ask("document.querySelector('#join').elements.name.value = 'Ada'")
                 await asyncio.sleep(25)
                 await tab.picture(Path(asked))
                 for task in staying:
                     task.cancel()
-            async with open_room(replayed=path) as place, browser.open(_link(place)) as tab:
-                await tab.look(width=1080, height=880)
-                await tab.until("document.querySelector('#join select[name=avatar]')?.value")
-                await tab.ask(
-                    "(() => { const form = document.querySelector('#join'); form.elements.name.value = 'Viewer';"
-                    " if (form.elements.voice.checked) form.elements.voice.click(); form.requestSubmit(); })()"
-                )
-                await tab.until(f"meeting.known?.size === {len(OTHERS) + 1}", 30)
-                looking = f"{{ x: {EYE[0]}, z: {EYE[1] + 0.7}, heading: Math.PI - 0.2, pitch: -0.05 }}"
-                await tab.until("meeting.placed")
-                await tab.ask(f"void Object.assign(meeting.walk, {looking})")
-                await asyncio.sleep(8)
-                await tab.picture(Path(shown))
+            async with (
+                open_room(replayed=path, places=rooms) as place,
+                browser.open(_link(place)) as tab,
+            ):
+                await tab.look(width=160, height=100)
+                await come_in(tab, "Viewer")
+                await tab.until(f"meeting.known?.size === {len(STUDIED) + 1}", 120)
+                await stand(tab, x=STUDIED_FROM[0], z=STUDIED_FROM[1], heading=math.pi - 0.17, pitch=-0.12)
+                await dressed(tab)
+                await draw(tab, Path(shown), width=1080, height=880)
         both = cv2.hconcat([cv2.imread(asked), cv2.imread(shown)])
         cv2.imwrite(str(STUDIES), both, [cv2.IMWRITE_WEBP_QUALITY, 88])
         print(STUDIES.relative_to(ROOT))

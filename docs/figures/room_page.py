@@ -7,6 +7,14 @@ from tests.browser import Tab
 BARE = "nav, aside, #mirror, #state { display: none !important }"
 
 
+async def be(tab: Tab, secret: str) -> None:
+    """Load the page again as the person of a secret, so that who looks wears the same colours in every picture."""
+    keep = f"sessionStorage.setItem('secret of meeting', {json.dumps(secret)}); globalThis.again = true"
+    await tab.call("Page.addScriptToEvaluateOnNewDocument", source=keep)
+    await tab.call("Page.reload")
+    await tab.until("globalThis.again")
+
+
 async def come_in(tab: Tab, name: str, avatar: str = "") -> None:
     """Fill in the form and wait for the room's answer."""
     await tab.until("document.querySelector('#join select[name=avatar]')?.value")
