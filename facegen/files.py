@@ -42,6 +42,8 @@ def output_errors(path: Path) -> Iterator[None]:
         ):  # Windows knows no quota by this name
             raise OutputError(f"{path}: no space left; free some and run the same command again") from error
         reason = os.strerror(error.errno) if error.errno else str(error)
+        if error.errno == errno.EISDIR:
+            raise OutputError(f"{path}: is a folder; name the file to write") from error
         if error.errno == errno.ENOENT and not path.parent.exists():
             raise OutputError(
                 f"{path}: there is no folder {path.parent}; make it, or name another"
@@ -49,8 +51,8 @@ def output_errors(path: Path) -> Iterator[None]:
         raise OutputError(f"{path}: cannot be written ({reason}); choose another folder") from error
 
 
-def refuse_ending(out: Path, *endings: str, what: str) -> None:
-    """Refuse a name given as ``--out`` that promises another kind of file than what is written.
+def refuse_ending(out: Path, *endings: str, what: str, option: str = "--out") -> None:
+    """Refuse a name given as ``option`` that promises another kind of file than what is written.
 
     A device or a pipe (``/dev/stdout``) takes what comes; a folder is left to whoever writes.
 
@@ -60,7 +62,7 @@ def refuse_ending(out: Path, *endings: str, what: str) -> None:
         If ``out`` ends with none of ``endings``, whatever the case of its letters.
     """
     if out.suffix.lower() not in endings and (os.path.isfile(out) or not os.path.exists(out)):
-        raise InputError(f"--out is {out}; {what} ends with {' or '.join(endings)}: name such a file")
+        raise InputError(f"{option} is {out}; {what} ends with {' or '.join(endings)}: name such a file")
 
 
 @contextlib.contextmanager

@@ -52,9 +52,7 @@ def sample_ranges(text: str, *, total: int, where: str, what: str = "sample") ->
     pieces = parse_ranges(text, where=where)
     for piece in pieces:
         if piece[-1] >= total:
-            raise InputError(
-                f"{where}: {what} {piece[-1]} does not exist; this dataset has {what}s 0-{total - 1}"
-            )
+            raise InputError(f"{where}: {what} {piece[-1]} does not exist; there are {what}s 0-{total - 1}")
     if len(pieces) == 1 and pieces[0].step == 1:
         return pieces[0]
     count = sum(map(len, pieces))

@@ -32,7 +32,7 @@ _KEYBOARD_INTERRUPT = 130
 _IMPORTS = "<frozen importlib._bootstrap>"
 """File of the code that is at work while a module loads."""
 
-_STOPPED = "stopped; run the same command again"
+STOPPED = "stopped; run the same command again"
 
 
 def program(name: str, *, about: str, libraries: tuple[str, ...]) -> "typer.Typer":
@@ -123,7 +123,7 @@ def end_on_stops(name: str) -> None:
         while frame is not None:
             if frame.f_code.co_filename == _IMPORTS:
                 # compiled modules make an error of their own of what is raised while they load; nothing is half-made
-                say(f"{name}: {_STOPPED}")
+                say(f"{name}: {STOPPED}")
                 os._exit(ExitCode.DRAINED)
             frame = frame.f_back
         raise KeyboardInterrupt
@@ -166,7 +166,7 @@ def _called(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
     except Exception as error:
         return _fault(app, error)
     if code == _KEYBOARD_INTERRUPT:
-        say(f"{name}: {_STOPPED}")
+        say(f"{name}: {STOPPED}")
         return ExitCode.DRAINED
     return code if isinstance(code, int) else ExitCode.OK
 

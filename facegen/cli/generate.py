@@ -1,7 +1,6 @@
 """Defines ``facegen generate``."""
 
 import os
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -11,6 +10,7 @@ from facegen.children import answer_stops, ignore_stops
 from facegen.cli.tables import print_table
 from facegen.console import counted, progress, say
 from facegen.errors import ExitCode
+from facegen.program import STOPPED
 
 
 def generate(
@@ -125,9 +125,10 @@ def generate(
 
 def _leave(_signal: int, _frame: object) -> None:
     """End while modules load and there is nothing to drain: some make an error of their own of any exception."""
+    say(f"facegen: {STOPPED}")
     os._exit(ExitCode.DRAINED)
 
 
 def _stop_early(_signal: int, _frame: object) -> None:
     """End between the first file and the first worker, whose supervisor answers stops itself."""
-    sys.exit(int(ExitCode.DRAINED))
+    raise KeyboardInterrupt

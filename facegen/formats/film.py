@@ -8,6 +8,9 @@ import numpy as np
 from facegen.console import silent_stderr
 from facegen.errors import FormatError
 
+FILMS = (".mp4", ".avi", ".mkv", ".mov", ".webm", ".m4v")
+"""Endings of films that can be read."""
+
 _VP9, _MPEG4_PART_2 = "VP90", "mp4v"
 
 

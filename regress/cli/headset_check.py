@@ -36,7 +36,7 @@ def check(
     Example: regress headset check headset-tracking3 --left-eye take/left --right-eye take/right --out placement.toml
     """
     from facegen.console import say
-    from facegen.files import write_whole
+    from facegen.files import refuse_ending, write_whole
     from regress.cli.headset_input import camera_paths
     from regress.runtime.headset.faults import fault_sentences
     from regress.runtime.headset.fitness import judge
@@ -46,6 +46,8 @@ def check(
     from regress.runtime.headset.recordings import read_recording, recorded_size
     from regress.runtime.ready_made import HEADSET
 
+    if sheet is not None:
+        refuse_ending(sheet, ".png", what="a sheet", option="--sheet")
     chosen = model or HEADSET
     predictor = load_headset_predictor(chosen)
     short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}

@@ -216,6 +216,7 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
     (folder / "body.json").write_text('{"annotations": [{"id": 1, "image_id": 1, "keypoints": [1, 2, 2]}]}')
     (folder / "S1_landmarks.txt").write_text("1 2 3\n")
     (folder / "take.mp4").write_bytes(b"")
+    (folder / "take.wav").write_bytes(b"")
     (folder / "bare").mkdir(exist_ok=True)
     _openface(folder / "unseen.csv", success=(0, 0, 0))
     said = {
@@ -236,7 +237,8 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
         "none.json": "no annotation",
         "body.json": "no 204 numbers",
         "S1_landmarks.txt": "1 lines of 3",
-        "take.mp4": "no known format",
+        "take.mp4": f"is a film, and landmarks of it are needed; track --fast --no-page --camera {folder}/take.mp4",
+        "take.wav": "no known format",
         "bare": "holds no .pts file",
         "unseen.csv": "no usable frame",
         "missing.pts": "does not exist",

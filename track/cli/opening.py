@@ -1,5 +1,6 @@
 """Opens what a person named on the command line: cameras, model, profile, sinks."""
 
+import contextlib
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -123,14 +124,19 @@ def open_pipeline(wishes: Wishes, texts: dict[str, str], say: Callable[[str], No
 
     (text,) = texts.values()
     name = wishes.detector or ("points" if text == "-" else "mediapipe")
-    return LandmarkPipeline(
-        wishes.model or LANDMARKS,
-        detector=open_detector(name, wishes.detector_file),
-        detector_name=name,
-        filter_name=wishes.filter_name,
-        auto=wishes.neutral == "auto",
-        say=say,
-    )
+    with contextlib.ExitStack() as refused:
+        detector = open_detector(name, wishes.detector_file)
+        refused.callback(detector.close)  # left open, MediaPipe's prints a traceback as Python ends
+        pipeline = LandmarkPipeline(
+            wishes.model or LANDMARKS,
+            detector=detector,
+            detector_name=name,
+            filter_name=wishes.filter_name,
+            auto=wishes.neutral == "auto",
+            say=say,
+        )
+        refused.pop_all()
+        return pipeline
 
 
 def open_cameras(wishes: Wishes, texts: dict[str, str]) -> "Capture":

@@ -41,8 +41,10 @@ def run(
         ),
     ] = None,
     record: Annotated[
-        Path | None,
-        typer.Option("--record", help="Recording to write: .csv, or .glb and .vrma of an animation."),
+        list[Path] | None,
+        typer.Option(
+            "--record", help="Recording to write, again for several: .csv, or .glb and .vrma of an animation."
+        ),
     ] = None,
     neutral: NeutralOption = None,
     filter_name: FilterOption = "groups",
@@ -105,7 +107,7 @@ def run(
         wishes,
         RunOptions(
             to=to or (),
-            record=record,
+            record=record or (),
             retarget=retarget,
             mirror=mirror,
             page=page,

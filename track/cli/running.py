@@ -33,7 +33,7 @@ class RunOptions:
     """What was asked for besides cameras and model; names are those of the options of ``track run``."""
 
     to: Sequence[str] = ()
-    record: Path | None = None
+    record: Sequence[Path] = ()
     retarget: str | None = None
     mirror: bool | None = None
     page: bool = True
@@ -113,16 +113,16 @@ def open_sinks(
         Where one is not known, or its place cannot be used.
     """
     written = list(options.to)
-    if options.record is not None:
-        if options.record.suffix not in RECORDINGS:
-            raise InputError(f"--record {options.record}: a recording ends with {', '.join(RECORDINGS)}")
-        written.append(f"{RECORDINGS[options.record.suffix]}:{options.record}")
+    for path in options.record:
+        if path.suffix not in RECORDINGS:
+            raise InputError(f"--record {path}: a recording ends with {', '.join(RECORDINGS)}")
+        written.append(f"{RECORDINGS[path.suffix]}:{path}")
     if options.retarget is not None:
         written = [f"{each},names={options.retarget}" if each.startswith(NAMED) else each for each in written]
     sinks = []
     for each in written:
         sinks.append(_open(each, say, closing))
-        say(f"sending {sinks[-1].title}")
+        say(f"sending {sinks[-1].title}{', in place of the file that is there' * _replaces(each)}")
     return sinks
 
 
@@ -140,6 +140,14 @@ def _open(written: str, say: Callable[[str], None], closing: contextlib.ExitStac
     if closing is not None:
         closing.push(tell_whole)
     return sink
+
+
+def _replaces(written: str) -> bool:
+    """Whether a sink writes to a name that a file has."""
+    from track.sinks.targets import parse_target
+
+    target = parse_target(written)
+    return target.port is None and target.path.is_file()
 
 
 def _free_name() -> Path:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import cv2
 
+from facegen.formats.film import FILMS
 from track.errors import CameraError
 from track.sources.opencv import grabbed, opened
 from track.sources.source import Picture, Source
@@ -106,9 +107,12 @@ def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
 
 
 def _why_not(wanted: str, webcams: list[Webcam]) -> str:
+    known = any(wanted == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams)
+    if not known and (Path(wanted).suffix.lower() in FILMS or len(Path(wanted).parts) > 1):
+        return f"there is no file {wanted}; give a film or a folder of pictures that is there, or a webcam's number"
     if not webcams:
         return f"there is no camera {wanted} here, nor a file of this name; plug one in, or say --camera FILM"
     listed = ", ".join(f"{webcam.number} ({webcam.name})" for webcam in webcams)
-    if any(wanted == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams):
+    if known:
         return f"camera {wanted} gives no picture: another program may be using it; cameras here: {listed}"
     return f"there is no camera {wanted}, nor a file of this name; cameras here: {listed}"

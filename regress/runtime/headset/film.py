@@ -11,11 +11,10 @@ import cv2
 import numpy as np
 
 from facegen.files import output_errors, whole_file
-from facegen.formats.film import check_film_path, encode_film
+from facegen.formats.film import FILMS, check_film_path, encode_film
 from facegen.formats.ppm import read_ppm_stream
 from regress.errors import InputError, OutputError
 from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.recordings import FILMS
 
 _GREY = 40
 """Of what surrounds the pictures, and of a camera that has none."""

@@ -167,7 +167,9 @@ def line_up(
             )
     source = ", ".join(dict.fromkeys(recording.source for recording in recordings.values()))
     if not any(fault is None for name in sizes for fault in faults[name]):
-        raise InputError(f"{source}: no picture is usable: {'; '.join(notes)}")
+        shaped = any(fault is Fault.SHAPE for name in sizes for fault in faults[name])
+        help_ = "; `regress headset check` finds a placement for pictures of any shape" if shaped else ""
+        raise InputError(f"{source}: no picture is usable: {'; '.join(notes)}{help_}")
     return Footage(
         cameras=tuple(sizes),
         numbers=numbers,

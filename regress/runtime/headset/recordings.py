@@ -15,7 +15,7 @@ import numpy as np
 
 from facegen.documents import read_bytes, unreadable
 from facegen.formats import FormatError
-from facegen.formats.film import check_film_path
+from facegen.formats.film import FILMS, check_film_path
 from facegen.formats.picture_size import MOST_PIXELS, picture_size
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault
@@ -27,8 +27,6 @@ from regress.runtime.headset.pictures import (
     read_picture,
 )
 from regress.runtime.headset.placement import CameraPlacement
-
-FILMS = (".mp4", ".avi", ".mkv", ".mov", ".webm", ".m4v")
 
 MOST_FRAMES = 500_000
 """Of one camera's recording, which is held in memory: 92 minutes at 90 a second, 4.6 GB at 96 x 96."""

@@ -2,12 +2,14 @@
 
 import dataclasses
 import os
+import shlex
 import stat
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from facegen.documents import unreadable
+from facegen.formats.film import FILMS
 from regress.errors import InputError
 from regress.runtime.inputs import arrays, ck_plus, coco, dlib_xml, pts, tables
 from regress.runtime.inputs.frames import Frames
@@ -79,6 +81,11 @@ def read_frames(path: str | os.PathLike[str]) -> Frames:
 def _reader_of(path: Path) -> Reader:
     reader = next((reader for reader in READERS.values() if reader.matches(path)), None)
     if reader is None:
+        if path.suffix.lower() in FILMS:
+            raise InputError(
+                f"{path} is a film, and landmarks of it are needed; "
+                f"track --fast --no-page --camera {shlex.quote(str(path))} --record weights.csv finds them itself"
+            )
         known = ", ".join(reader.description for reader in READERS.values())
         raise InputError(f"{path} is of no known format; {known} can be read")
     return reader

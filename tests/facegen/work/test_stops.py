@@ -19,7 +19,7 @@ CHILD = [sys.executable, "-c", "import time; time.sleep(0.5); print('lives')"]
 @pytest.mark.blender
 @pytest.mark.usefixtures("anny")
 @pytest.mark.parametrize("tenths", range(3, 34, 3))
-def test_a_stop_in_the_first_seconds_is_silent(tmp_path, tenths):
+def test_a_stop_in_the_first_seconds_is_one_sentence(tmp_path, tenths):
     arguments = ["generate", "datasets/tiny.toml", "--out", str(tmp_path / "out"), "--workers", "2"]
     process = subprocess.Popen(
         [sys.executable, "-m", "facegen", *arguments, "--grace", "0"],
@@ -36,7 +36,36 @@ def test_a_stop_in_the_first_seconds_is_silent(tmp_path, tenths):
     assert process.returncode == 75, said
     assert "Traceback" not in said
     assert "Exception" not in said
+    assert "run the same command" in said
     assert not list((tmp_path / "out").glob("tmp/*"))
+
+
+STOPPED_AT = """
+import importlib, os, signal
+stop = lambda *_, **__: os.kill(os.getpid(), signal.{number})
+setattr(importlib.import_module("{module}"), "{name}", stop)
+from facegen.cli import main
+main()
+"""
+
+
+@pytest.mark.usefixtures("anny")
+@pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
+@pytest.mark.parametrize(("module", "name"), [("facegen.store", "resolve"), ("facegen.work", "generate")])
+def test_a_stop_before_the_first_worker_is_told(tmp_path, module, name, number):
+    program = STOPPED_AT.format(module=module, name=name, number=number)
+    command = [
+        sys.executable,
+        "-c",
+        program,
+        "generate",
+        "datasets/tiny.toml",
+        "--out",
+        str(tmp_path / "out"),
+    ]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 75
+    assert done.stderr.splitlines()[-1] == "facegen: stopped; run the same command again"
 
 
 def test_a_child_that_is_born_deaf_hears_no_stop():

@@ -174,6 +174,16 @@ def test_the_program_says_it_and_predict_takes_what_it_writes(run, take: Take, t
     assert np.corrcoef(answers["plain"], answers["placed"])[0, 1] > 0.95
 
 
+def test_a_sheet_of_another_ending_is_refused_before_anything_is_judged(run, tmp_path: Path):
+    out, sheet = tmp_path / "placement.toml", tmp_path / "sheet.txt"
+    code, _, told = run(
+        "headset", "check", "headset-tracking3", "--mouth", "none", "--out", out, "--sheet", sheet
+    )
+    assert code == 2
+    assert f"--sheet is {sheet}; a sheet ends with .png" in told
+    assert not list(tmp_path.iterdir())
+
+
 def test_what_cannot_be_judged_is_refused(predictor: HeadsetPredictor, take: Take, tmp_path: Path, run):
     with pytest.raises(InputError, match="left_eye has 5 usable frames; at least 20"):
         judge(predictor, {"left_eye": take["left_eye"][:5]})

@@ -279,6 +279,12 @@ def test_footage_without_a_usable_picture_is_refused():
         line_up({"mouth": found}, SIZES)
 
 
+def test_pictures_of_another_shape_alone_are_told_what_helps():
+    found = recording("mouth", np.zeros((3, HEIGHT, WIDTH), dtype=np.uint8), faults=(Fault.SHAPE,) * 3)
+    with pytest.raises(InputError, match="`regress headset check` finds a placement"):
+        line_up({"mouth": found}, SIZES)
+
+
 def test_what_is_at_fault_leaves_no_picture():
     stacks = {name: pictures([100] * 30, seed=seed) for seed, name in enumerate(("left_eye", "mouth"))}
     stacks["mouth"][5:25] = stacks["mouth"][4]

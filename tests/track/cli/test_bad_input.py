@@ -55,6 +55,14 @@ def refused(capsys, monkeypatch, *words: str) -> str:
 
 CASES = {
     "no camera": (["--camera", "97", "--detector", "points", "--no-page"], "97"),
+    "a film that is not there": (
+        ["--camera", "take.mp4", "--detector", "points", "--no-page"],
+        "there is no file take.mp4",
+    ),
+    "a folder that is not there": (
+        ["--camera", "no/pictures", "--detector", "points"],
+        "there is no file no/pictures",
+    ),
     "a file that is no film": (["--camera", TEXT, "--detector", "points", "--no-page"], TEXT),
     "no model file and no network": (["--camera", "0", "--no-page"], "TRACK_DETECTOR_FILE"),
     "no detector of that name": (["--camera", "-", "--detector", "eyes"], "no detector 'eyes'"),

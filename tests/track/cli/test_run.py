@@ -7,11 +7,14 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
 from tests.track.session.faces import SAMPLES, frames
 from track.cli import main
+from track.cli.opening import Wishes, open_pipeline
+from track.errors import InputError
 from track.messages import Command
 from track.session.session import Session
 
@@ -50,6 +53,30 @@ def test_a_film_moves_a_face_into_a_table(home, capsys, monkeypatch):
     table = rows("take.csv")
     assert len(table) == 100
     assert max(float(row["jawOpen"]) for row in table) > 0.2
+
+
+def test_several_recordings_are_all_written_and_one_that_is_replaced_is_told(home, capsys, monkeypatch):
+    Path("take.csv").write_text("the former one")
+    words = [*CAMERAS, "--fast", "--no-page", "--record", "take.csv", "--record", "take.vrma"]
+    monkeypatch.setattr(sys, "argv", ["track", *words])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    told = capsys.readouterr().err.splitlines()
+    assert ended.value.code == 0
+    assert told[:2] == [
+        "sending csv to take.csv, in place of the file that is there",
+        "sending vrma to take.vrma",
+    ]
+    assert len(rows("take.csv")) == 100
+    assert Path("take.vrma").read_bytes().startswith(b"glTF")
+
+
+def test_a_detector_is_closed_where_the_rest_cannot_be_opened(monkeypatch):
+    closed = []
+    monkeypatch.setattr("track.detectors.points.PointsDetector.close", lambda self: closed.append(self))
+    with pytest.raises(InputError, match="no filter 'smooth'"):
+        open_pipeline(Wishes(cameras=("-",), filter_name="smooth"), {"camera": "-"}, pytest.fail)
+    assert len(closed) == 1
 
 
 def test_a_film_that_is_over_takes_the_page_along_and_says_so(home, capsys, monkeypatch):
