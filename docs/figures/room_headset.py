@@ -16,8 +16,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(Path(__file__).parent)]
 
-from room_page import come_in, draw, only_the_room, stand  # noqa: E402
-from room_people import WINE, secret_of  # noqa: E402
+from room_page import come_in, only_the_room, stand  # noqa: E402
 
 from tests.browser import chromium  # noqa: E402
 from tests.room.guests import open_room  # noqa: E402
@@ -45,16 +44,15 @@ async def shown(folder: Path) -> list[np.ndarray]:
     """The face in the room at each frame, BGR."""
     async with open_room() as place, chromium("--use-fake-ui-for-media-stream") as browser:
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
-        ada = await place.guest(name="Ada", avatar="nora", secret=secret_of("Ada", WINE, 2))
+        ada = await place.guest(name="Ada", avatar="nora")
         await ada.move(floor_m=(0.0, -2.2))
         async with browser.open(link) as tab:
-            await tab.look(width=160, height=160)
+            await tab.look(width=SIZE, height=SIZE)
             await come_in(tab, "Eve")
             await only_the_room(tab)
             await stand(tab, x=0.0, z=-1.68, heading=np.pi, pitch=-0.1)
             face = "[...meeting.known.values()].find(({ person }) => person.name === 'Ada')"
-            await tab.until(f"{face}?.figure.avatar.name === 'nora'", 240)
-            await tab.ask("void (meeting.drawing = false)")
+            await tab.until(f"{face}?.figure.avatar.name === 'nora'", 60)
             await tab.ask(KEEP % face)
             words = [word for name in CAMERAS for word in ("--camera", f"{name}={FILMS / name}")]
             options = ("--no-page", "--to", f"room:{link}.{ada.secret}")
@@ -63,11 +61,10 @@ async def shown(folder: Path) -> list[np.ndarray]:
             pictures = []
             for frame in FRAMES:
                 await tab.ask(f"void (globalThis.held = nearest({frame + 1}))")
+                await asyncio.sleep(2)
                 path = folder / f"{frame}.png"
-                await draw(
-                    tab, path, width=2 * SIZE, height=2 * SIZE
-                )  # so that strands of hair come out soft
-                pictures.append(cv2.resize(cv2.imread(str(path)), (SIZE, SIZE), interpolation=cv2.INTER_AREA))
+                await tab.picture(path)
+                pictures.append(cv2.imread(str(path)))
                 print(f"frame {frame}: state {await tab.ask('held.sequence')}", file=sys.stderr)
             print(f"complaints: {tab.complaints}", file=sys.stderr)
             return pictures
