@@ -19,14 +19,14 @@ import cv2
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(Path(__file__).parent)]
 
-from room_page import be, come_in, dressed, stand  # noqa: E402
+from room_page import be, come_in, draw, dressed, stand  # noqa: E402
 from room_people import BLUE, PURPLE, SAND, WINE, dressed_guest, secret_of  # noqa: E402
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES  # noqa: E402
 from room.places import read_place  # noqa: E402
 from room.recording import Recorder  # noqa: E402
 from room.server.hall import HERTZ  # noqa: E402
-from tests.browser import Tab, chromium  # noqa: E402
+from tests.browser import chromium  # noqa: E402
 from tests.room.guests import Guest, Place, open_room  # noqa: E402
 
 OUT = ROOT / "docs/pictures/room.webp"
@@ -86,7 +86,7 @@ STUDIED = {
 }
 """Who sits (4) at the far side of the table of the meeting that is recorded."""
 
-STUDIED_FROM = (0.0, 2.7)
+STUDIED_FROM = (0.0, 2.5)
 
 LOOKS_OF = {"Ada": (PURPLE, 1), "Bea": (WINE, 2), "Carl": (SAND, 0), "Dana": (BLUE, 5)}
 """Colours of clothes and of hair; the others brought theirs."""
@@ -121,18 +121,6 @@ async def _stay(guest: Guest, described: dict) -> None:
         await guest.move(**state, sequence=step, time_ms=round(1000 * STEP_S) * step)
         step += 1
         await asyncio.sleep(STEP_S)
-
-
-async def draw(tab: Tab, path: Path, *, width: int, height: int) -> None:
-    """Let arms and faces go where they go, undrawn, and draw once: software takes seconds for each picture."""
-    await tab.ask("void (meeting.drawing = false, globalThis.clock = performance.now())")
-    await tab.ask("void (performance.now = () => globalThis.clock)")
-    for size, steps in (((160, 100), 20), ((width, height), 3)):
-        await tab.look(width=size[0], height=size[1])
-        for _ in range(steps):
-            await tab.ask("(clock += 100, new Promise((moved) => requestAnimationFrame(() => moved())))")
-    await tab.ask("void meeting.view.draw()")
-    await tab.picture(path)
 
 
 async def main() -> None:
@@ -207,7 +195,7 @@ async def replayed() -> None:
                 await tab.until(f"meeting.known?.size === {len(STUDIED) + 1}", 120)
                 await stand(tab, x=STUDIED_FROM[0], z=STUDIED_FROM[1], heading=math.pi - 0.17, pitch=-0.12)
                 await dressed(tab)
-                await draw(tab, Path(shown), width=1080, height=880)
+                await draw(tab, Path(shown), width=1280, height=880)
         both = cv2.hconcat([cv2.imread(asked), cv2.imread(shown)])
         cv2.imwrite(str(STUDIES), both, [cv2.IMWRITE_WEBP_QUALITY, 88])
         print(STUDIES.relative_to(ROOT))

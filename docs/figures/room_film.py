@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(Path(__file__).parent)]
 
 from room_page import come_in, dressed, only_the_room, stand  # noqa: E402
-from room_people import dressed_guest  # noqa: E402
+from room_people import PURPLE, SAND, dressed_guest, secret_of  # noqa: E402
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES  # noqa: E402
 from room.places import read_place  # noqa: E402
@@ -78,7 +78,7 @@ def ada(time_s: float) -> dict[str, object]:
     """Waits, turns to who comes, waves, speaks."""
     waves, speaks = 1.6 < time_s < 3.5, 4.0 < time_s < 6.3
     return {
-        "floor_m": (-0.14, -0.85),
+        "floor_m": (-0.22, -0.85),
         "heading": 0.1 + 0.25 * ease(time_s, 0.5, 1.6),
         "shapes": face(
             time_s,
@@ -108,7 +108,7 @@ def ben(time_s: float) -> dict[str, object]:
     speaks = 6.7 < time_s < 9.0
     gesture = Animation.NOD if 2.9 < time_s < 3.7 or 5.2 < time_s < 6.4 else 0
     return {
-        "floor_m": (1.8 - 1.12 * walked, -1.08),
+        "floor_m": (1.8 - 1.12 * walked, -1.2),
         "heading": -math.pi / 2 + 1.15 * ease(time_s, 2.2, 3.0),
         "shapes": face(
             time_s,
@@ -125,10 +125,10 @@ def ben(time_s: float) -> dict[str, object]:
 
 
 def mei(time_s: float) -> dict[str, object]:
-    """Stands behind the two, looks at who comes, then at who speaks, and nods."""
+    """Stands behind and between the two, looks at who comes, then at who speaks, and nods."""
     turn = 0.4 * ease(time_s, 0.5, 1.2) - 0.75 * ease(time_s, 3.6, 4.3) + 0.75 * ease(time_s, 6.6, 7.3)
     return {
-        "floor_m": (0.33, -1.6),
+        "floor_m": (0.21, -1.6),
         "heading": 0.0,
         "shapes": face(
             time_s,
@@ -167,10 +167,11 @@ async def picture(tab: Tab, folder: Path, time_ms: int) -> Image.Image:
     """Let the page's clock go on to a moment, draw, and look."""
     newest = "[...meeting.known.values()].filter(({ person }) => person.name !== 'Eve').every"
     await tab.until(f"{newest}(({{ newest }}) => newest?.time_ms >= {time_ms})")
-    await tab.ask(f"void (globalThis.clock = {time_ms})")
-    await tab.ask("void (meeting.drawing = true)")  # and not between: software would draw without an end
-    await tab.ask("new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(() => drawn())))")
-    await tab.ask("void (meeting.drawing = false)")
+    # the page itself draws nothing: software would draw without an end
+    await tab.ask(
+        f"(globalThis.clock = {time_ms}, new Promise((moved) => requestAnimationFrame(() => moved())))"
+    )
+    await tab.ask("void meeting.view.draw()")
     path = folder / "picture.png"
     await tab.picture(path)
     return Image.open(io.BytesIO(path.read_bytes())).convert("RGB")
@@ -182,8 +183,8 @@ async def film(folder: Path) -> list[Image.Image]:
     async with open_room(places=operating) as place, chromium("--use-fake-ui-for-media-stream") as browser:
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
         people = [
-            (await place.guest(name="Ada", avatar="nora"), ada),
-            (await place.guest(name="Ben", avatar="omar"), ben),
+            (await place.guest(name="Ada", avatar="nora", secret=secret_of("Ada", PURPLE, 1)), ada),
+            (await place.guest(name="Ben", avatar="omar", secret=secret_of("Ben", SAND)), ben),
             (await dressed_guest(place, name="Mei", avatar="mei"), mei),
         ]
         for guest, act in people:
@@ -192,6 +193,7 @@ async def film(folder: Path) -> list[Image.Image]:
         async with browser.open(link) as tab:
             await tab.look(width=SIZE[0], height=SIZE[1])
             await come_in(tab, "Eve")
+            await tab.ask("void (meeting.drawing = false)")
             await only_the_room(tab)
             await stand(tab, **EYE)
             await dressed(tab)

@@ -1,6 +1,7 @@
 """Brings somebody into a room's page for pictures: without a microphone, and with nothing on it but the room."""
 
 import json
+from pathlib import Path
 
 from tests.browser import Tab
 
@@ -45,3 +46,15 @@ async def only_the_room(tab: Tab) -> None:
         f" void document.adoptedStyleSheets[0].replaceSync({json.dumps(BARE)})"
     )
     await tab.ask("void (document.querySelector('#mirror').hidden = true)")
+
+
+async def draw(tab: Tab, path: Path, *, width: int, height: int) -> None:
+    """Let arms and faces go where they go, undrawn, and draw once: software takes seconds for each picture."""
+    await tab.ask("void (meeting.drawing = false, globalThis.clock = performance.now())")
+    await tab.ask("void (performance.now = () => globalThis.clock)")
+    for size, steps in (((160, 100), 20), ((width, height), 3)):
+        await tab.look(width=size[0], height=size[1])
+        for _ in range(steps):
+            await tab.ask("(clock += 100, new Promise((moved) => requestAnimationFrame(() => moved())))")
+    await tab.ask("void meeting.view.draw()")
+    await tab.picture(path)

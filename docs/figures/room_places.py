@@ -14,7 +14,10 @@ from pathlib import Path
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
+sys.path[:0] = [str(ROOT), str(Path(__file__).parent)]
+
+from room_page import be, come_in, draw, dressed, stand  # noqa: E402
+from room_people import BLUE, PURPLE, SAND, WINE, secret_of  # noqa: E402
 
 from facegen.conventions import BLENDSHAPES  # noqa: E402
 from room.places import read_place  # noqa: E402
@@ -24,9 +27,10 @@ from tests.room.guests import open_room  # noqa: E402
 STANDING, SITTING, POINTING = (0, 2), (0, 6), (7, 2)
 """Animation and flags of the state message."""
 SMILE = tuple(0.5 if name.startswith("mouthSmile") else 0.0 for name in BLENDSHAPES)
+SIZE = {"width": 1280, "height": 720}
 VIEWS = {
     "operating": (
-        "{ x: 0.3, z: 2.3, heading: Math.PI - 0.03, pitch: -0.05 }",
+        {"x": -0.1, "z": 2.9, "heading": math.pi - 0.17, "pitch": -0.05},
         (
             ("Bea", "nora", (0.05, -0.78), 0.0, STANDING),
             ("Carl", "omar", (0.75, 0.78), math.pi, POINTING),
@@ -34,7 +38,7 @@ VIEWS = {
         ),
     ),
     "meeting": (
-        "{ x: 1.2, z: 2.4, heading: Math.PI + 0.35, pitch: -0.08 }",
+        {"x": 1.2, "z": 2.4, "heading": math.pi + 0.31, "pitch": -0.08},
         (
             ("Bea", "nora", (0.0, -1.12), 0.0, SITTING),
             ("Carl", "omar", (0.97, -0.56), -1.0, SITTING),
@@ -42,13 +46,10 @@ VIEWS = {
         ),
     ),
 }
-JOIN = """(() => {
-    const form = document.querySelector("#join");
-    form.elements.name.value = "Ada";
-    if (form.elements.voice.checked) form.elements.voice.click();
-    form.requestSubmit();
-})()"""
-COUNT = "void (globalThis.drawn = 0, (function next() { drawn++; requestAnimationFrame(next); })())"
+"""Where who looks stands, so that nobody is cut off or below the list at the right; then the others."""
+
+COLOURED = {"Ada": (PURPLE, 1), "Bea": (WINE, 2), "Carl": (SAND, 0), "Dana": (BLUE, 5)}
+"""Colours of clothes and of hair."""
 
 
 async def stay(guest, floor_m: tuple[float, float], heading: float, doing: tuple[int, int]) -> None:
@@ -69,27 +70,23 @@ async def stay(guest, floor_m: tuple[float, float], heading: float, doing: tuple
 
 
 async def picture_of(name: str) -> Image.Image:
-    """A place, 1600 x 900 pixels, as somebody sees it who has just come in."""
-    stand, people = VIEWS[name]
+    """A place, as somebody sees it who has just come in."""
+    view, people = VIEWS[name]
     browsing = chromium("--use-fake-ui-for-media-stream")
     async with open_room(places={"": read_place(name)}) as place, browsing as browser:
         tasks = []
         for who, avatar, floor_m, heading, doing in people:
-            guest = await place.guest(name=who, avatar=avatar)
+            guest = await place.guest(name=who, avatar=avatar, secret=secret_of(who, *COLOURED[who]))
             tasks.append(asyncio.create_task(stay(guest, floor_m, heading, doing)))
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
         async with browser.open(link) as tab:
-            await tab.look(width=1600, height=900)
-            await tab.until("document.querySelector('#join select[name=avatar]')?.value", 60)
-            await tab.ask(JOIN)
-            await tab.until("globalThis.meeting?.placed", 60)
-            everybody = "[...meeting.known.values()].every(({ figure }) => figure.avatar.name !== 'plain')"
-            await tab.until(everybody, 180)
-            await tab.ask(f"void Object.assign(meeting.walk, {stand})")
-            await tab.ask(COUNT)
-            await tab.until("drawn >= 12", 120)
+            await be(tab, secret_of("Ada", *COLOURED["Ada"]))
+            await tab.look(width=160, height=100)
+            await come_in(tab, "Ada")
+            await stand(tab, **view)
+            await dressed(tab)
             with tempfile.TemporaryDirectory() as folder:
-                await tab.picture(Path(folder, "page.png"))
+                await draw(tab, Path(folder, "page.png"), **SIZE)
                 seen = Image.open(Path(folder, "page.png")).convert("RGB")
         for task in tasks:
             task.cancel()
@@ -98,10 +95,11 @@ async def picture_of(name: str) -> Image.Image:
 
 def main() -> None:
     """Draw both places, one above the other."""
-    pages = [asyncio.run(picture_of(name)).resize((1000, 562), Image.Resampling.LANCZOS) for name in VIEWS]
-    both = Image.new("RGB", (1000, 2 * 562 + 8), (255, 255, 255))
+    pages = [asyncio.run(picture_of(name)) for name in VIEWS]
+    width, height = pages[0].size
+    both = Image.new("RGB", (width, 2 * height + 8), (255, 255, 255))
     for number, page in enumerate(pages):
-        both.paste(page, (0, number * 570))
+        both.paste(page, (0, number * (height + 8)))
     both.save(ROOT / "docs/pictures/room-places.webp", quality=82, method=6)
 
 
