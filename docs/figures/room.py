@@ -190,11 +190,15 @@ async def replayed() -> None:
                 open_room(replayed=path, places=rooms) as place,
                 browser.open(_link(place)) as tab,
             ):
+                await be(tab, secret_of("Ada", *LOOKS_OF["Ada"]))
                 await tab.look(width=160, height=100)
                 await come_in(tab, "Viewer")
                 await tab.until(f"meeting.known?.size === {len(STUDIED) + 1}", 120)
                 await stand(tab, x=STUDIED_FROM[0], z=STUDIED_FROM[1], heading=math.pi - 0.17, pitch=-0.12)
                 await dressed(tab)
+                # the page loads in the midst of a replay, or between two
+                seen = "[...meeting.known.values()].every(({ figure }) => figure.root.visible)"
+                await tab.until(f"meeting.replaying.time > 4 && {seen}", 240)
                 await draw(tab, Path(shown), width=1280, height=880)
         both = cv2.hconcat([cv2.imread(asked), cv2.imread(shown)])
         cv2.imwrite(str(STUDIES), both, [cv2.IMWRITE_WEBP_QUALITY, 88])
