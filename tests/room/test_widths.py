@@ -12,10 +12,10 @@ from tests.room.test_page import come_in
 
 pytestmark = [needs_chromium, pytest.mark.slow]
 
-SIZES = ((360, 640), (400, 780), (800, 600), (1600, 900))
+SIZES = ((360, 640), (400, 780), (800, 600), (1080, 700), (1600, 900))
 NAMES = ("Bea", "Dr. Maximiliana Featherstone-Ogilvy", "Carl")
-PARTS = ("#mirror", "nav", "nav > div", "#leave", "aside", "#people", "#lines", "#chat")
-APART = ("#mirror", "nav > div", "#leave", "aside")
+PARTS = ("#mirror", "nav", "nav > div", "#leave", "aside", "#people", "#lines", "#chat", "#replay")
+APART = ("#mirror", "nav > div", "#leave", "aside", "#replay")
 BOXES = """Object.fromEntries(%s.map((part) => {
   const { left, top, right, bottom } = document.querySelector(part).getBoundingClientRect();
   return [part, [left, top, right, bottom]];
@@ -61,6 +61,7 @@ async def observe() -> list[str]:
             await come_in(tab, "Ada")
             await guest.say(kind="chat", text="And one that Ada reads.")
             await tab.until("document.querySelector('#lines li')")
+            await tab.ask("document.querySelector('#replay').hidden = false")  # as in a replay
             for width, height in SIZES:
                 await tab.look(width=width, height=height)
                 seen = await boxes(tab, *PARTS)
