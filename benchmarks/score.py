@@ -2,7 +2,7 @@
 
     python benchmarks/score.py landmarks-2 --data datasets/out/default                      # the set's own rows again
     python benchmarks/score.py landmarks-2 --data datasets/out/default --predictions mine.npy --title mine
-    python benchmarks/score.py headset-3 --data datasets/out/headset-arrays --model models/mine
+    python benchmarks/score.py headset-4 --data datasets/out/headset-arrays --model models/mine
 
 A set is a file of ``benchmarks/sets``: spec, hashes of the data, split, and rows. Data with another hash are refused.
 ``--check`` compares the set's own rows with what is measured, and ends with 1 where one differs in the third decimal.
