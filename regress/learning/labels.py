@@ -147,7 +147,10 @@ def _words(path: Path, name: str, column: pa.ChunkedArray) -> np.ndarray:
     if longest is None or longest > LONGEST_WORD:
         raise InputError(f"{path}: column {name!r} must have texts of at most {LONGEST_WORD} characters")
     words = np.asarray(known.to_pylist(), dtype=str)
-    return words[np.concatenate([chunk.indices.to_numpy() for chunk in column.chunks])]
+    chosen = np.concatenate([chunk.indices.to_numpy() for chunk in column.chunks])
+    if chosen.min() < 0 or chosen.max() >= len(words):  # damaged bytes
+        raise InputError(f"{path}: column {name!r} names texts that it does not hold; make the file again")
+    return words[chosen]
 
 
 def _list(path: Path, table: pa.Table, name: str, width: int, *, gaps: bool) -> np.ndarray:

@@ -121,7 +121,8 @@ def read_dataset(
         digest.update(content)
         read.append(read_labels(shard, columns, most_rows=SHARD_ROWS, damaged=_REPAIR, content=content))
     labels = {name: np.concatenate([shard[name] for shard in read]) for name in columns.names}
-    landmarks = labels[points].astype(np.float64).reshape(-1, LANDMARK_COUNT, 2)
+    with np.errstate(invalid="ignore"):  # a signalling NaN, of changed bytes, is a NaN like others
+        landmarks = labels[points].astype(np.float64).reshape(-1, LANDMARK_COUNT, 2)
     has_face = ~np.isnan(landmarks).all(
         axis=(1, 2)
     )  # frames in which the detector finds no face teach nothing
