@@ -1,6 +1,5 @@
 """The wheel, alone in clean environments of other Pythons: it installs, predicts, and says what it lacks."""
 
-import csv
 import os
 import re
 import shutil
@@ -16,9 +15,16 @@ import pytest
 from regress.runtime.ready_made import HEADSET, LANDMARKS, ready_made_models
 from tests.regress.headset.takes import pictures, write_take
 from tests.regress.headset.tiny import write_tiny_model
+from tests.samples import (
+    FACE,
+    PICTURES,
+    SAMPLES,
+    assert_face_as_recorded,
+    assert_headset_as_recorded,
+    rows,
+)
 
 ROOT = Path(__file__).parents[1]
-SAMPLES = ROOT / "docs" / "samples"
 
 ENVIRONMENTS = {
     "3.10-numpy1": ("3.10", "numpy<2"),
@@ -29,12 +35,6 @@ ENVIRONMENTS = {
 """Python, and what is asked of NumPy: 1.26 is the newest that Blender's module takes, and 3.13 has none of it."""
 
 PACKAGES = ("facegen", "regress", "track", "room")
-
-AGREEMENT = 1e-5
-"""Largest difference of a weight from the recorded one; tables have six decimals."""
-
-RECORDED_EVERY = 10
-"""Rows of the landmarks' answers that docs/samples keeps (docs/samples/collect.py)."""
 
 IMPORT_ALL = """
 import importlib, pkgutil
@@ -123,12 +123,6 @@ def installed(
     return run
 
 
-def rows(path: Path) -> tuple[list[str], np.ndarray]:
-    with open(path, newline="") as file:
-        header, *lines = csv.reader(file)
-    return header, np.array([[float(cell or "nan") for cell in line] for line in lines])
-
-
 def test_the_wheel_holds_programs_and_models_and_no_tests(wheel: Path):
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
@@ -152,17 +146,12 @@ def test_the_wheel_alone_predicts_as_recorded(installed, tmp_path: Path):
     assert (version.returncode, version.stdout.startswith("regress ")) == (0, True), version.stderr
     assert LANDMARKS in installed("regress", "models", cwd=tmp_path).stdout
     done = installed(
-        *("regress", "predict", SAMPLES / "talking-face.csv", "--neutral", "1-30", "--out", "weights.csv"),
+        *("regress", "predict", *FACE, "--out", "weights.csv"),
         cwd=tmp_path,
     )
     assert (done.returncode, done.stdout) == (0, "")
     assert done.stderr.startswith("weights.csv: 1800 frames of 52 weights")
-    (header, weights), (recorded_header, recorded) = (
-        rows(path) for path in (tmp_path / "weights.csv", SAMPLES / "talking-face.weights.csv")
-    )
-    assert header == recorded_header
-    np.testing.assert_allclose(weights[::RECORDED_EVERY], recorded, rtol=0, atol=AGREEMENT)
-    assert np.ptp(recorded[:, header.index("jawOpen")]) > 0.1
+    assert_face_as_recorded(tmp_path / "weights.csv")
 
 
 def test_the_wheel_alone_predicts_from_pictures(installed, tmp_path: Path):
@@ -175,18 +164,9 @@ def test_the_wheel_alone_predicts_from_pictures(installed, tmp_path: Path):
     np.testing.assert_allclose(weights[:, header.index("jawOpen")], [0.2, 0.4, 0.6], atol=0.01)
     if HEADSET not in ready_made_models():
         pytest.skip(f"{HEADSET} is not in this clone; a small network answered")
-    takes = [word for name in stacks for word in ("--camera", f"{name}={SAMPLES / 'headset' / name}")]
-    done = installed(
-        *("regress", "headset", "predict", *takes, "--neutral", "0", "--out", "sample.csv"), cwd=tmp_path
-    )
+    done = installed(*("regress", "headset", "predict", *PICTURES, "--out", "sample.csv"), cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    (header, weights), (recorded_header, recorded) = (
-        rows(path) for path in (tmp_path / "sample.csv", SAMPLES / "headset.weights.csv")
-    )
-    assert header == recorded_header
-    degrees = np.array([name.endswith("_deg") for name in header])
-    np.testing.assert_allclose(weights[:, ~degrees], recorded[:, ~degrees], rtol=0, atol=AGREEMENT)
-    np.testing.assert_allclose(weights[:, degrees], recorded[:, degrees], rtol=0, atol=1e-3)
+    assert_headset_as_recorded(tmp_path / "sample.csv")
 
 
 def test_all_that_runs_imports_and_what_is_absent_is_named(installed, tmp_path: Path):

@@ -15,6 +15,7 @@ from regress.runtime import ready_made
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.model import KEYPOINTS
 from regress.runtime.ready_made import HEADSET, LANDMARKS, model_folder, ready_made_models
+from tests.samples import FACE, PICTURES, assert_face_as_recorded, assert_headset_as_recorded
 
 
 @pytest.fixture
@@ -60,6 +61,13 @@ def test_predict_takes_the_ready_made_model_by_itself_by_name_and_by_folder(run,
     assert answers[0][0] == 0
     assert len(answers[0][1].splitlines()) == 4
     assert len(set(answers)) == 1
+
+
+def test_the_samples_hold_what_the_models_answer_today(run, tmp_path: Path):
+    assert run("predict", *FACE, "--out", tmp_path / "face.csv")[0] == 0
+    assert_face_as_recorded(tmp_path / "face.csv")
+    assert run("headset", "predict", *PICTURES, "--out", tmp_path / "headset.csv")[0] == 0
+    assert_headset_as_recorded(tmp_path / "headset.csv")
 
 
 def test_a_model_given_is_the_one_that_answers(run, points: Path, quick_model_folder: Path):
