@@ -9,8 +9,9 @@ finds from the frames alone, with levels of their own; and as they come, squeeze
 of what is lost without. A network's right eye is its left one in a mirror, so each film goes in as either.
 
 The pupil's error is the median distance after an affine fit to the marks (six numbers for 28 frames), r the correlation
-of x and of y with them. A shut eye is told from an open one by eyeBlink and by the traced lids' distance; AUC 1 is
-without an error. Prints Markdown, which stands in docs/real-eyes.md.
+of x and of y with them. A frame without a pupil is told from the others by eyeBlink and by the traced lids' distance;
+AUC 1 is without an error. Film b's eye is shut there. Film a's looks far up, with its white in sight, and eyeBlink has
+no reason to rise. Prints Markdown, which stands in docs/your-camera.md.
 """
 
 import argparse
@@ -33,7 +34,7 @@ from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_pre
 
 FILMS = ("film_a", "film_b")
 SHUT = {"film_a": ("000588", "000616"), "film_b": ("000408",)}
-"""Frames with no pupil to be seen between the lids, by eye."""
+"""Frames with no pupil to be seen between the lids, by eye: film_a's look up under the lid, film_b's is shut."""
 HALF = {"film_a": (), "film_b": ("000456", "001152", "001176")}
 """Frames that are neither open nor shut, by eye; they are left out where shut is told from open."""
 CAMERA = "left_eye"
