@@ -171,7 +171,7 @@ async def picture(tab: Tab, folder: Path, time_ms: int) -> Image.Image:
     await tab.ask(
         f"(globalThis.clock = {time_ms}, new Promise((moved) => requestAnimationFrame(() => moved())))"
     )
-    await tab.ask("void meeting.view.draw()")
+    await tab.ask("void meeting.stage.view.draw()")
     path = folder / "picture.png"
     await tab.picture(path)
     return Image.open(io.BytesIO(path.read_bytes())).convert("RGB")
@@ -193,7 +193,7 @@ async def film(folder: Path) -> list[Image.Image]:
         async with browser.open(link) as tab:
             await tab.look(width=SIZE[0], height=SIZE[1])
             await come_in(tab, "Eve")
-            await tab.ask("void (meeting.drawing = false)")
+            await tab.ask("void (meeting.stage.drawing = false)")
             await only_the_room(tab)
             await stand(tab, **EYE)
             await dressed(tab)

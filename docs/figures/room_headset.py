@@ -32,7 +32,7 @@ KEEP = """(() => {
   const kept = [];
   const { playback } = %s;
   playback.push = (message) => void (message.flags & 2 && kept.push(message));
-  const before = { ...meeting.sent, floor_m: [0, -2.2], heading: 0, head_m: [0, 0, 0] };
+  const before = { ...meeting.presence.sent, floor_m: [0, -2.2], heading: 0, head_m: [0, 0, 0] };
   playback.at = () => globalThis.held ?? kept.at(-1) ?? before;
   const off = (each, sequence) => Math.abs(each.sequence - sequence);
   globalThis.nearest = (sequence) => [...kept].sort((a, b) => off(a, sequence) - off(b, sequence))[0];

@@ -24,7 +24,7 @@ async def come_in(tab: Tab, name: str, avatar: str = "") -> None:
         f" form.elements.avatar.value = {json.dumps(avatar)} || form.elements.avatar.value;"
         " if (form.elements.voice.checked) form.elements.voice.click(); form.requestSubmit(); })()"
     )
-    await tab.until("globalThis.meeting?.own && meeting.placed", 240)
+    await tab.until("globalThis.meeting?.own && meeting.presence.placed", 240)
 
 
 async def dressed(tab: Tab) -> None:
@@ -36,7 +36,7 @@ async def dressed(tab: Tab) -> None:
 async def stand(tab: Tab, *, x: float, z: float, heading: float, pitch: float = 0.0) -> None:
     """Put whoever looks to a place, in metres and radians, also where the table is."""
     where = json.dumps({"x": x, "z": z, "heading": heading, "pitch": pitch})
-    await tab.ask(f"void Object.assign(meeting.walk, {where}, {{ update() {{}} }})")
+    await tab.ask(f"void Object.assign(meeting.presence.walk, {where}, {{ update() {{}} }})")
 
 
 async def only_the_room(tab: Tab) -> None:
@@ -50,11 +50,11 @@ async def only_the_room(tab: Tab) -> None:
 
 async def draw(tab: Tab, path: Path, *, width: int, height: int) -> None:
     """Let arms and faces go where they go, undrawn, and draw once: software takes seconds for each picture."""
-    await tab.ask("void (meeting.drawing = false, globalThis.clock = performance.now())")
+    await tab.ask("void (meeting.stage.drawing = false, globalThis.clock = performance.now())")
     await tab.ask("void (performance.now = () => globalThis.clock)")
     for size, steps in (((160, 100), 20), ((width, height), 3)):
         await tab.look(width=size[0], height=size[1])
         for _ in range(steps):
             await tab.ask("(clock += 100, new Promise((moved) => requestAnimationFrame(() => moved())))")
-    await tab.ask("void meeting.view.draw()")
+    await tab.ask("void meeting.stage.view.draw()")
     await tab.picture(path)

@@ -31,3 +31,4 @@ def replay(
         say("room: a replay; Ctrl-C stops it, and its links end with it")
 
     serve(Rooms(keys, limits=Limits(), relays=Relays(), replayed=survey), address, started=started)
+    say("room: stopped; its links have ended")

@@ -110,6 +110,7 @@ def serve(
     finally:
         if recorder:
             recorder.close()
+    say("room: stopped; " + ("its links open again with the same --keys" if keys else "its links have ended"))
 
 
 def _recorder(record: Path | None, names: list[str]) -> "Recorder | None":

@@ -16,7 +16,7 @@ from room.server.metrics import Metrics
 from room.server.replay import Replay
 from room.server.switchboard import Switchboard
 from room.server.turn import Relays
-from room.server.voices import instance_of, voice_room
+from room.server.voice_room import instance_of, voice_room
 
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.telegraph import Telegraph

@@ -44,7 +44,7 @@ class Address:
 
 
 def serve(rooms: Rooms, address: Address, *, started: Callable[[str], None]) -> None:
-    """Answer until Ctrl-C or SIGTERM, then tell everybody and end.
+    """Answer until Ctrl-C or SIGTERM, then tell everybody and return: that is how a server ends as it should.
 
     Parameters
     ----------
@@ -60,7 +60,8 @@ def serve(rooms: Rooms, address: Address, *, started: Callable[[str], None]) -> 
     InputError
         If the address cannot be listened at, or the certificate cannot be used.
     """
-    asyncio.run(_serve(rooms, address, _tls(address), started))
+    with suppress(KeyboardInterrupt):  # where a loop takes no signals; everybody was told on the way out
+        asyncio.run(_serve(rooms, address, _tls(address), started))
 
 
 async def _serve(
@@ -83,7 +84,6 @@ async def _serve(
         await _stopped(rooms.stopped)
     finally:
         await runner.cleanup()
-    raise KeyboardInterrupt  # everybody was told; now the program ends as it does whenever it is stopped
 
 
 async def _stopped(stopped: asyncio.Event) -> None:

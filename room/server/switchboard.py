@@ -6,7 +6,8 @@ from collections.abc import Callable
 from room.protocol.answers import Answer, Engine
 from room.protocol.texts import Candidate, Description
 from room.server.janus import Janus
-from room.server.voices import VoiceRoom, Voices, clear
+from room.server.voice_room import VoiceRoom, clear
+from room.server.voices import Voices
 from room.state import Meeting
 
 

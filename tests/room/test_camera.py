@@ -31,7 +31,7 @@ MEETING = """(() => {
   form.requestSubmit();
 })()"""
 FACE = """(() => {
-  const face = meeting.camera.found;  // the last one, also where a busy machine sees one a second
+  const face = meeting.presence.camera.found;  // the last one, also where a busy machine sees one a second
   return face && { weights: [...face.weights], head: face.head, tracked: face.tracked };
 })()"""
 
@@ -47,16 +47,16 @@ async def by_the_page(folder: Path, picture: np.ndarray) -> tuple[dict, dict]:
             await tab.until("document.querySelector('#join select[name=avatar]')?.value")
             await tab.ask(MEETING)
             await tab.until("globalThis.meeting?.own", 30)
-            await tab.ask("void (meeting.drawing = false)")
-            await tab.until("meeting.camera?.found", 60)
+            await tab.ask("void (meeting.stage.drawing = false)")
+            await tab.until("meeting.presence.camera?.found", 60)
             await asyncio.sleep(2)
             before = await tab.ask(FACE)
-            assert "neutral face" in await tab.ask("meeting.camera.word")
+            assert "neutral face" in await tab.ask("meeting.presence.camera.word")
             await tab.ask("document.querySelector('#neutral').click()")
-            await tab.until("meeting.camera.word === ''", 30)
+            await tab.until("meeting.presence.camera.word === ''", 30)
             await asyncio.sleep(1)
             after = await tab.ask(FACE)
-            await tab.until("meeting.sent.flags & 2")  # others are told that a camera sees this face
+            await tab.until("meeting.presence.sent.flags & 2")  # others are told that a camera sees this face
             assert {address.split("/")[2] for address in tab.asked if address.startswith(("http", "ws"))} == {
                 place.address.split("/")[2]
             }

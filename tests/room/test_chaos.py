@@ -131,17 +131,22 @@ def test_people_of_a_killed_server_go_on_by_another_one_where_they_stood(tmp_pat
     asyncio.run(run())
 
 
-def test_a_stopped_server_says_so_and_ends_in_time(tmp_path):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_stopped_server_says_so_and_ends_well_and_in_time(tmp_path, number):
     async def run() -> None:
         port = free_port()
         with server(tmp_path, port) as process:
             place = _place(tmp_path, port)
             ada = await place.guest()
-            process.terminate()
+            process.send_signal(number)
             code, _ = await ada.end()
             assert code == 1012, "service restart: pages come back by themselves"
-            assert await asyncio.to_thread(process.wait, 10) == 75
-            assert "Traceback" not in process.stderr.read()
+            assert await asyncio.to_thread(process.wait, 10) == 0
+            said = process.stderr.read().splitlines()
+            assert said == [
+                "room: open; Ctrl-C stops it",
+                "room: stopped; its links open again with the same --keys",
+            ]
             await place.session.close()
 
     asyncio.run(run())

@@ -4,6 +4,7 @@ import asyncio
 import os
 import re
 import shutil
+import signal
 import socket
 import ssl
 import stat
@@ -17,6 +18,7 @@ from typer.testing import CliRunner
 
 from room.cli import app
 from room.errors import InputError
+from tests.room.recordings import recorded
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -150,8 +152,24 @@ def test_a_server_opens_though_an_engine_is_away_and_says_so(options, words, tmp
             assert any(words in line for line in run.stderr)
         finally:
             run.terminate()
-            assert run.wait(10) == 75
+            assert run.wait(10) == 0
             run.communicate()
+
+
+@pytest.mark.parametrize("command", ["serve", "replay"])
+def test_what_is_stopped_on_purpose_ends_well(command, tmp_path):
+    words = (command, recorded(tmp_path / "meeting.jsonl")) if command == "replay" else (command,)
+    with subprocess.Popen(
+        (sys.executable, "-m", "room", *words, "--port", "0"),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    ) as run:
+        assert "Ctrl-C stops it" in run.stderr.readline()
+        run.send_signal(signal.SIGINT)
+        _, said = run.communicate(timeout=30)
+    assert (run.returncode, said) == (0, "room: stopped; its links have ended\n")
 
 
 @pytest.mark.skipif(shutil.which("openssl") is None, reason="makes the certificate")
@@ -178,7 +196,7 @@ def test_https_serves_the_page_and_the_room(tmp_path):
             asyncio.run(_visit(link, certificate))
         finally:
             run.terminate()
-            assert run.wait(10) == 75
+            assert run.wait(10) == 0
             run.communicate()
 
 

@@ -23,14 +23,14 @@ pytestmark = [
 ]
 
 SEEN = """new Promise((done) => {
-  const { xr } = meeting.view.renderer;
+  const { xr } = meeting.stage.view.renderer;
   xr.getSession().requestAnimationFrame((_, frame) => {
     const found = {};
     for (const { handedness, gripSpace, hand } of xr.getSession().inputSources) {
       const space = xr.getReferenceSpace();
       const pose = hand ? frame.getJointPose(hand.get('wrist'), space) : frame.getPose(gripSpace, space);
       if (!pose) continue;
-      const world = meeting.view.rig.matrixWorld.clone().multiply({ elements: pose.transform.matrix });
+      const world = meeting.stage.view.rig.matrixWorld.clone().multiply({ elements: pose.transform.matrix });
       found[handedness] = { at: world.elements.slice(12, 15), arm: world.elements.slice(4, 7) };
     }
     done(found);
@@ -91,7 +91,7 @@ async def hands(folder: Path) -> dict[str, dict]:
         for tab in (ada, ben):
             await tab.call("Page.bringToFront")
             await tab.until(f"{other('Ada')}?.figure.avatar.model.getObjectByName('mixamorigLeftHand')", 30)
-        await ada.ask("void Object.assign(meeting.walk, { x: 2, z: -2, heading: 0.7 })")
+        await ada.ask("void Object.assign(meeting.presence.walk, { x: 2, z: -2, heading: 0.7 })")
 
         async def settled() -> dict:
             await in_front(ada)
@@ -125,12 +125,12 @@ async def look(tab: Tab, folder: Path) -> None:
         return
     x, z = 2 + 1.25 * math.sin(0.7), -2 + 1.25 * math.cos(0.7)
     await tab.ask(
-        f"void Object.assign(meeting.walk, {{ x: {x}, z: {z}, heading: {0.7 + math.pi}, pitch: -0.2 }})"
+        f"void Object.assign(meeting.presence.walk, {{ x: {x}, z: {z}, heading: {0.7 + math.pi}, pitch: -0.2 }})"
     )
-    await tab.ask("void (meeting.drawing = true)")
+    await tab.ask("void (meeting.stage.drawing = true)")
     await asyncio.sleep(6)
     await tab.picture(Path(wanted))
-    await tab.ask("void (meeting.drawing = false)")
+    await tab.ask("void (meeting.stage.drawing = false)")
 
 
 @pytest.fixture(scope="module")

@@ -49,7 +49,7 @@ async def enter(tab: Tab, address: str, script: str) -> None:
     await tab.until("!document.querySelector('#headset').hidden")
     await tab.ask("void device.position.set(0, 1.6, 0)")
     await tab.ask("document.querySelector('#headset').click()")
-    await tab.until("meeting.headset.worn && meeting.headset.update(0)", 90)
+    await tab.until("meeting.presence.headset.worn && meeting.presence.headset.update(0)", 90)
 
 
 async def worn(folder: Path) -> dict[str, object]:
@@ -69,7 +69,7 @@ async def worn(folder: Path) -> dict[str, object]:
             await asyncio.sleep(2.0)
             return ben.states[number]
 
-        await tab.ask("void Object.assign(meeting.walk, { x: 2, z: -2, heading: 0 })")
+        await tab.ask("void Object.assign(meeting.presence.walk, { x: 2, z: -2, heading: 0 })")
         found: dict[str, object] = {"stands": (await seen()).floor_m}
         # a step of 30 cm to the own left, which is -x for WebXR and +x for who looks along +z, and a bow of 20 cm
         await tab.ask("void device.position.set(-0.3, 1.4, 0)")
@@ -96,7 +96,7 @@ async def worn(folder: Path) -> dict[str, object]:
         found["walked"] = [round(b - a, 3) for a, b in zip(turned.floor_m, walked.floor_m, strict=True)]
         found["looks"] = turned.heading + 2 * math.atan2(turned.rotation[1], turned.rotation[3])
         await tab.ask("document.querySelector('#headset').click()")
-        await tab.until("!meeting.headset.worn")
+        await tab.until("!meeting.presence.headset.worn")
         left = await seen()
         found["left behind"] = math.dist(left.floor_m, walked.floor_m)
         # Chromium's own part is switched off, and it wonders about the word for it in our headers

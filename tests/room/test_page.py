@@ -61,7 +61,7 @@ async def come_in(tab: Tab, name: str) -> None:
     )
     await tab.until("globalThis.meeting?.own", 60)  # with the first shaders, on a busy machine
     await tab.ask(
-        "void (meeting.drawing = false)"
+        "void (meeting.stage.drawing = false)"
     )  # software draws two rooms no faster than it detects voices
 
 
@@ -70,7 +70,7 @@ def other(name: str) -> str:
     return f"[...meeting.known.values()].find(({{ person }}) => person.name === {json.dumps(name)})"
 
 
-FACE = """void (meeting.idle.update = () => ({
+FACE = """void (meeting.presence.idle.update = () => ({
   weights: Float32Array.from(%s), gaze: [0.1, 0.05, 0.1, 0.05], head: [0.2, 0.1, 0], head_m: [0, 0, 0], tracked: true,
 }))"""
 """Lets a page send a face, as a camera would."""
@@ -160,11 +160,11 @@ async def sides(ada: Tab, ben: Tab) -> dict[str, float]:
     for tab in (ada, ben):
         await tab.until(CONNECTED, 30)
         await tab.until("meeting.voice.loopback.used", 10)
-    await ada.ask("void Object.assign(meeting.walk, { x: 0, z: -2.2, heading: 0 })")
+    await ada.ask("void Object.assign(meeting.presence.walk, { x: 0, z: -2.2, heading: 0 })")
     await ada.ask(EARS)
     found = {}
     for side, x in (("left", 2.0), ("right", -2.0)):
-        await ben.ask(f"void Object.assign(meeting.walk, {{ x: {x}, z: -2.2, heading: 0 }})")
+        await ben.ask(f"void Object.assign(meeting.presence.walk, {{ x: {x}, z: -2.2, heading: 0 }})")
         await asyncio.sleep(1.0)
         left, right = await ada.ask("listen()")
         found[side] = left / right if side == "left" else right / left
@@ -226,7 +226,7 @@ async def restarted(folder: Path) -> dict[str, object]:
                 tabs.append(await stack.enter_async_context(browser.open(link)))
                 await come_in(tabs[-1], name)
             ada, ben = tabs
-            await ada.ask("void Object.assign(meeting.walk, { x: 2.5, z: -1.5, heading: 1 })")
+            await ada.ask("void Object.assign(meeting.presence.walk, { x: 2.5, z: -1.5, heading: 1 })")
             for tab in tabs:
                 await tab.until(CONNECTED, 30)
                 await tab.ask(

@@ -15,9 +15,12 @@ from room.protocol import MESSAGE_BYTES, Flag, Message, check, decode, encode
 from room.protocol.message import FLOOR_STEPS, GAZE_STEPS, MOST_MESSAGE_BYTES, TURN_STEPS, WEIGHT_STEPS
 from room.protocol.steps import METRE_STEPS, UNIT_STEPS
 from room.protocol.tick import pack, unpack
+from room.server.hall import HERTZ
 
 FILE = Path(room.protocol.vectors.__file__).with_name("vectors.json")
 VECTORS = json.loads(FILE.read_text(encoding="utf-8"))
+WEBSOCKET_BYTES = 4
+"""Before up to 64 kB from a server."""
 ROUNDING = 1e-9
 """What floats lose beside the half step: the largest number, 327.67, has an ulp of 6e-14."""
 
@@ -72,6 +75,13 @@ def test_a_tick_packs_and_unpacks(vector):
     for damaged in (content[:-1], content + b"\0", b"\0" + content[1:], content[:1] + b"\0" + content[2:]):
         with pytest.raises(FormatError):
             unpack(damaged)
+
+
+@pytest.mark.parametrize("people", [1, 8, 64, 200])
+def test_a_person_seen_costs_at_most_25_kbit_a_second(people):
+    """Of those without a headset, whose hands cost 6.7 more; the head that WebSocket puts before a tick counts too."""
+    tick = pack([(number, encode(Message())) for number in range(people)], time_ms=0)
+    assert (len(tick) + WEBSOCKET_BYTES) * 8 * HERTZ / people <= 25_000
 
 
 def floats(most: float, count: int) -> st.SearchStrategy[tuple[float, ...]]:

@@ -81,11 +81,11 @@ def test_consent_is_asked_before_and_a_replay_moves_as_recorded(tmp_path):
             seen = "[...meeting.known.values()].find(({ person }) => person.replayed)?.newest?.floor_m"
             floor = json.loads(await tab.ask(f"JSON.stringify(Array.from({seen} ?? []))"))
             assert tuple(floor) in {state.floor_m for state in states}
-            away = f"Math.hypot(meeting.walk.x - {floor[0]}, meeting.walk.z - {floor[1]}) > 0.69"
-            await tab.until(f"meeting.placed && {away}")
+            away = f"Math.hypot(meeting.presence.walk.x - {floor[0]}, meeting.presence.walk.z - {floor[1]}) > 0.69"
+            await tab.until(f"meeting.presence.placed && {away}")
             assert "replay" in await tab.ask("document.querySelector('#people').textContent")
             assert await tab.ask("meeting.voice.lines.peers.size") == 0, "nobody calls who cannot answer"
-            await tab.ask("void (meeting.drawing = true)")
+            await tab.ask("void (meeting.stage.drawing = true)")
             await tab.look(width=960, height=600)
             await asyncio.sleep(1.0)
             await tab.picture(tmp_path / "replay.png")

@@ -204,16 +204,18 @@ def test_a_picture_a_pdf_and_a_window_reach_the_other_and_a_moderator_ends_them(
                 await ben.until("!meeting.board.shown")
                 # the pointer: on a key, seen by the other where the own view looks
                 await ada.ask(
-                    "void Object.assign(meeting.walk, { x: 0, z: 2.4, heading: Math.PI, pitch: 0.1 })"
+                    "void Object.assign(meeting.presence.walk, { x: 0, z: 2.4, heading: Math.PI, pitch: 0.1 })"
                 )
                 await ada.ask("dispatchEvent(new KeyboardEvent('keydown', { key: '7', code: 'Digit7' }))")
-                await ben.ask("void (meeting.drawing = true)")
+                await ben.ask("void (meeting.stage.drawing = true)")
                 number = await ada.ask("meeting.own.number")
-                await ben.until(f"meeting.pointers.beams.get({number})", 30)
+                await ben.until(f"meeting.stage.pointers.beams.get({number})", 30)
                 await asyncio.sleep(1.5)
-                found["dot"] = await ben.ask(f"meeting.pointers.beams.get({number}).dot.position.toArray()")
+                found["dot"] = await ben.ask(
+                    f"meeting.stage.pointers.beams.get({number}).dot.position.toArray()"
+                )
                 await ada.ask("dispatchEvent(new KeyboardEvent('keydown', { key: '7', code: 'Digit7' }))")
-                await ben.until(f"!meeting.pointers.beams.get({number})", 30)
+                await ben.until(f"!meeting.stage.pointers.beams.get({number})", 30)
                 found["complaints"] = ada.complaints + ben.complaints
         return found
 

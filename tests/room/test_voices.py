@@ -11,7 +11,7 @@ import pytest
 from room.protocol.answers import Engine, Signal
 from room.server import Keys
 from room.server.janus import Janus
-from room.server.voices import instance_of, voice_room
+from room.server.voice_room import instance_of, voice_room
 from tests.room.engines import API_SECRET, free_port, janus, needs_janus
 from tests.room.guests import Guest, Place, open_room
 

@@ -1,0 +1,42 @@
+/** What is seen: the room, the people in it and where they point, drawn as often as the browser asks for a picture. */
+
+import type { People } from "./people.js";
+import type { Place } from "./place.js";
+import { Pointers } from "./pointers.js";
+import type { Presence } from "./presence.js";
+import { FLAG } from "./protocol.js";
+import { View } from "./view.js";
+
+export class Stage {
+  readonly view: View;
+  readonly pointers: Pointers;
+  /** Whether pictures are drawn; tests without a graphics card leave the processor to the rest. */
+  drawing = true;
+  private drawn = performance.now();
+
+  /** Throws where the browser gives no WebGL. */
+  constructor(canvas: HTMLCanvasElement, glass: HTMLCanvasElement, place: Place) {
+    this.view = new View(canvas, glass, place);
+    this.pointers = new Pointers(this.view.scene, place);
+  }
+
+  /** One picture, as one sees the others from where one stands. */
+  draw(people: People, presence: Presence): void {
+    const now = performance.now();
+    const seconds = Math.min(0.1, (now - this.drawn) / 1000);
+    this.drawn = now;
+    presence.look(this.view, seconds);
+    for (const [number, { person, playback, figure }] of people.known) {
+      const shown = playback.at(now);
+      if (!figure || !shown) continue;
+      figure.root.visible = true;
+      const self = number === people.own;
+      // one's own picture shows what is sent, as a mirror that lags is worse than none; but a program's face only comes back
+      const mine = self && person.face === "page" ? presence.sent : undefined;
+      figure.show(mine ?? shown, seconds, this.view.eye);
+      this.pointers.show(number, mine ?? shown, figure, this.view.eye, self);
+      if (!self) figure.call(person, (shown.flags & FLAG.tracked) !== 0);
+    }
+    if (this.drawing) this.view.draw();
+  }
+}
