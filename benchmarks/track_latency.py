@@ -4,10 +4,11 @@
     python benchmarks/track_latency.py --headset --seconds 600        # three cameras of 96 pixels, 120 a second
     python benchmarks/track_latency.py --headset --page               # the same while a tab looks and wants pictures
 
-Cameras are virtual: pictures are in memory and come at their times, as a driver would give them. Answers go by VMC, and
-are received by a socket of this process. The tab of --page is another process, which reads what the page is sent.
-Figures are of all frames behind the first two seconds, not of the last ones alone. A picture is lost where no frame has
-it: because nobody read it in time, or because a newer one took its place. Figures of runs stand in docs/track.md and
+Cameras are virtual: pictures are in memory and come at their times, as a driver would give them; --buffers says how
+many wait there for whoever reads them. Answers go by VMC, and are received by a socket of this process. The tab of
+--page is another process, which reads what the page is sent. Figures are of all frames behind the first two seconds,
+not of the last ones alone. A picture is lost where no frame has it: because its buffer was filled anew before anybody
+read it (lost_by_driver), or because newer ones took its place. Figures of runs stand in docs/track.md and
 docs/track-headset.md.
 
 On a machine that others use as well, `chrt -f 5` before the command (Linux, as root) makes it go first: what is left of
@@ -47,26 +48,43 @@ WARM_S = 2.0
 SAMPLES = Path(__file__).resolve().parents[1] / "docs" / "samples" / "headset"
 
 
-class VirtualCamera(Source):
-    """Gives pictures at a rate, there and back; a picture that is not read in time is lost, as a driver's is."""
+BUFFERS = 4
+"""In which a driver keeps pictures that nobody has read yet: so many OpenCV asks of Video4Linux."""
 
-    def __init__(self, title: str, pictures: list[np.ndarray], fps: float) -> None:
-        self.title, self._pictures, self._fps = title, pictures, fps
+REMEMBERED = 64
+"""Pictures of a camera that can still be told from one another."""
+
+
+class VirtualCamera(Source):
+    """Gives pictures at a rate, there and back; one whose buffer is needed before it was read is lost.
+
+    Attributes
+    ----------
+    recent
+        The last pictures, by their ``id``: each with its number, and how many were lost before it.
+    """
+
+    def __init__(self, title: str, pictures: list[np.ndarray], fps: float, buffers: int) -> None:
+        self.title, self._pictures, self._fps, self._buffers = title, pictures, fps, buffers
         self._start_s = time.monotonic()
-        self.given = self.lost = 0
-        self._last = -1
+        self._last, self._lost = -1, 0
+        self.recent: dict[int, tuple[np.ndarray, int, int]] = {}
 
     def read(self) -> Picture:
         """The next picture, when its time has come."""
-        number = max(self._last + 1, int((time.monotonic() - self._start_s) * self._fps))
-        self.lost += number - self._last - 1
+        newest = int((time.monotonic() - self._start_s) * self._fps)
+        number = max(self._last + 1, newest - self._buffers + 1)
+        self._lost += number - self._last - 1
         self._last = number
         due_s = self._start_s + number / self._fps
         time.sleep(max(0.0, due_s - time.monotonic()))
-        self.given += 1
         period = 2 * len(self._pictures) - 2
         place = number % period
-        return Picture(time_s=due_s, pixels=self._pictures[min(place, period - place)])
+        pixels = self._pictures[min(place, period - place)].view()
+        self.recent[id(pixels)] = pixels, number, self._lost
+        if len(self.recent) > REMEMBERED:
+            del self.recent[next(iter(self.recent))]
+        return Picture(time_s=due_s, pixels=pixels)
 
     def now_s(self) -> float:
         return time.monotonic()
@@ -95,7 +113,7 @@ class Receiver(threading.Thread):
 
 
 class Counted:
-    """A capture that counts from a moment on how many pictures its cameras had, and how many came in frames.
+    """A capture that counts from a moment on which pictures of its cameras came in frames, and which did not.
 
     Parameters
     ----------
@@ -111,20 +129,23 @@ class Counted:
         self._capture, self.now_s = capture, capture.now_s
         self._cameras, self._begin = cameras, begin
         self._begins_s = time.monotonic() + WARM_S
-        self._last: dict[str, np.ndarray] = {}
-        self._had_before: int | None = None
-        self.had = self.taken = 0
+        self._last: dict[str, tuple[int, int]] = {}
+        self._counts = False
+        self.taken = self.lost = self.lost_by_driver = 0
 
     def read(self, within_s: float | None = None) -> Sample | None:
         """The next moment."""
         sample = self._capture.read(within_s)
-        had = sum(each.given + each.lost for each in self._cameras.values())
-        fresh = [name for name, picture in sample.pictures.items() if picture is not self._last.get(name)]
-        self._last |= sample.pictures
-        if self._had_before is not None:
-            self.had, self.taken = had - self._had_before, self.taken + len(fresh)
-        elif time.monotonic() > self._begins_s:
-            self._had_before = had
+        for name, picture in sample.pictures.items():
+            _, number, lost_before = self._cameras[name].recent[id(picture)]
+            last, last_lost = self._last.get(name, (number - 1, lost_before))
+            self._last[name] = number, lost_before
+            if self._counts and number != last:  # a late camera's last picture comes again
+                self.taken += 1
+                self.lost += number - last - 1
+                self.lost_by_driver += lost_before - last_lost
+        if not self._counts and time.monotonic() > self._begins_s:
+            self._counts = True
             self._begin()
         return sample
 
@@ -207,7 +228,7 @@ def measure(arguments: argparse.Namespace) -> dict[str, object]:
 
     def opener(name: str):
         def open_camera() -> VirtualCamera:
-            cameras[name] = VirtualCamera(name, pictures[name], fps)
+            cameras[name] = VirtualCamera(name, pictures[name], fps, arguments.buffers)
             return cameras[name]
 
         return open_camera
@@ -231,8 +252,9 @@ def measure(arguments: argparse.Namespace) -> dict[str, object]:
     receiver.over = True
     receiver.join()
     return {
-        "pictures": counted.had,
-        "pictures_lost": counted.had - counted.taken,
+        "pictures": counted.taken + counted.lost,
+        "pictures_lost": counted.lost,
+        "lost_by_driver": counted.lost_by_driver,
         "frames": summary.frames,
         "datagrams": receiver.count,
         "seconds": wall_s,
@@ -257,6 +279,9 @@ def main() -> None:
     kind.add_argument("--headset", action="store_true", help="the sample of docs/samples/headset")
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--fps", type=float, help="pictures a second; 30 of a film, 120 of a headset")
+    parser.add_argument(
+        "--buffers", type=int, default=BUFFERS, help="in which a driver keeps what nobody has read yet"
+    )
     parser.add_argument("--page", action="store_true", help="with a tab that looks and wants pictures")
     parser.add_argument("--json", action="store_true")
     found = measure(arguments := parser.parse_args())

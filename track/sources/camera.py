@@ -1,4 +1,4 @@
-"""Reads one source in a thread of its own, keeps its newest picture, and opens it again when it went away."""
+"""Reads one source in a thread of its own, keeps its newest pictures, and opens it again when it went away."""
 
 import math
 import threading
@@ -8,6 +8,7 @@ from dataclasses import replace
 from enum import Enum
 
 from track.errors import InputError
+from track.sources.backlog import Backlog
 from track.sources.faults import CameraFault, PictureWatch
 from track.sources.source import Picture, Source
 
@@ -43,12 +44,10 @@ class Camera:
 
     Attributes
     ----------
-    newest
-        The newest picture that nobody took, at times that rise; its pixels are None where it is of no use.
+    waiting
+        Pictures that nobody took, at times that rise; pixels are None where they are of no use.
     came_s
-        When it came, by ``time.monotonic``.
-    untaken_s
-        When the first picture came that nobody took, not even a newer one.
+        When the last picture came, by ``time.monotonic``.
     fault
         What is wrong just now.
     ended
@@ -63,11 +62,11 @@ class Camera:
         self._opener, self._news, self._pauses_s = opener, news, pauses_s
         self._source = opener()
         self.title, self.live, self.endless = self._source.title, self._source.live, self._source.endless
-        self.newest: Picture | None = None
+        self.waiting = Backlog()
         self.fault: Enum | None = None
         self.ended = False
         self.error: InputError | None = None
-        self.came_s = self.untaken_s = time.monotonic()
+        self.came_s = time.monotonic()
         self._clock = RisingClock()
         self._watch = PictureWatch(moving=self.endless)
         self._stop = threading.Event()
@@ -77,9 +76,9 @@ class Camera:
         """Begin to read."""
         self._thread.start()
 
-    def take(self) -> Picture | None:
-        """The newest picture, once."""
-        picture, self.newest = self.newest, None
+    def take(self) -> Picture:
+        """The first picture that waits, once."""
+        picture = self.waiting.take()
         self._news.notify_all()
         return picture
 
@@ -132,19 +131,18 @@ class Camera:
         fault = useless or picture.fault or (CameraFault.DISORDER if disorder else None)
         picture = replace(picture, time_s=time_s, fault=fault, pixels=None if useless else picture.pixels)
         with self._news:
-            while not self.live and self.newest is not None and not self._stop.is_set():
+            while not self.live and self.waiting and not self._stop.is_set():
                 self._news.wait()
-            self.came_s = time.monotonic()
-            if self.newest is None:
-                self.untaken_s = self.came_s
-            self.newest, self.fault = picture, fault
+            self.came_s, self.fault = time.monotonic(), fault
+            self.waiting.add(picture, self.came_s)
             self._news.notify_all()
 
     def _open_again(self, tries: int) -> None:
         """Wait for the camera, with growing pauses between tries."""
         self._source.close()
         with self._news:
-            self.newest, self.fault = None, CameraFault.UNPLUGGED
+            self.waiting.clear()
+            self.fault = CameraFault.UNPLUGGED
             self._news.notify_all()
         while not self._stop.wait(self._pauses_s[min(tries, len(self._pauses_s) - 1)]):
             try:

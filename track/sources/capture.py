@@ -1,4 +1,4 @@
-"""Makes samples of cameras: at each moment the newest picture of each, paired by their times."""
+"""Makes samples of cameras: one picture of each, paired by their times, and the newest ones for a slow reader."""
 
 import threading
 import time
@@ -8,6 +8,7 @@ from enum import Enum
 import numpy as np
 
 from regress.runtime.sample import Sample
+from track.sources.backlog import LONGEST_S, of_one_moment
 from track.sources.camera import PAUSES_S, Camera, Opener
 from track.sources.faults import CameraFault
 from track.sources.source import Picture
@@ -29,7 +30,7 @@ _LEAST_S = 1e-6
 
 
 class Capture:
-    """Cameras behind threads, which keep the newest picture only; films that are not live wait and lose none.
+    """Cameras behind threads, which keep the newest pictures only; films that are not live wait and lose none.
 
     Use as a context manager, or call `close`: no thread survives it.
 
@@ -68,6 +69,7 @@ class Capture:
         self._start_s = time.monotonic() if any(each.endless for each in self._cameras.values()) else 0.0
         self._latest: dict[str, Picture] = {}
         self._last_s, self._count = -np.inf, 0
+        self._caught_up_s = -np.inf
         self._stopped = False
         for camera in self._cameras.values():
             camera.start()
@@ -110,7 +112,10 @@ class Capture:
                 wait_s = self._wait_s(until_s) if self.live else self._wait_for_all_s()
                 if wait_s is not None and wait_s <= 0:
                     return self._sample()
+                caught_up = not any(camera.waiting for camera in self._cameras.values())
                 self._news.wait(_LOOK_EVERY_S if wait_s is None else wait_s)
+                if caught_up:
+                    self._caught_up_s = time.monotonic()
 
     def now_s(self) -> float:
         """What the clock of the samples' times shows now: less a sample's time, how old it is."""
@@ -119,7 +124,7 @@ class Capture:
     @property
     def over(self) -> bool:
         """Whether every picture of all cameras was taken, and no other one can come."""
-        return all(camera.ended and camera.newest is None for camera in self._cameras.values())
+        return all(camera.ended and not camera.waiting for camera in self._cameras.values())
 
     def stop(self) -> None:
         """Let `read` give nothing more; from any thread or signal, which may not wait for a lock."""
@@ -132,35 +137,46 @@ class Capture:
 
     def _raise_errors(self) -> None:
         for camera in self._cameras.values():
-            if camera.error is not None and camera.newest is None:
+            if camera.error is not None and not camera.waiting:
                 raise camera.error
 
     def _wait_s(self, until_s: float) -> float:
         """How long a moment of live cameras is still waited for."""
-        new = [camera for camera in self._cameras.values() if camera.newest is not None]
-        expected = [
-            camera
-            for camera in self._cameras.values()
-            if camera.newest or not (camera.ended or camera.trouble())
-        ]
-        if new and len(new) == len(expected):
+        new = [camera for camera in self._cameras.values() if camera.waiting]
+        if new and not self._awaited():
             return 0.0
         if new:
-            until_s = min(camera.untaken_s for camera in new) + WAIT_S
+            until_s = min(camera.waiting.came_s for camera in new) + WAIT_S
         return until_s - time.monotonic()
+
+    def _awaited(self) -> bool:
+        """Whether a camera has no picture yet from which one is expected."""
+        return any(
+            not (camera.waiting or camera.ended or camera.trouble()) for camera in self._cameras.values()
+        )
 
     def _wait_for_all_s(self) -> float | None:
         """The same of films that wait: None is as long as it takes."""
-        there = all(camera.newest is not None or camera.ended for camera in self._cameras.values())
-        return 0.0 if there else None
+        return 0.0 if all(camera.waiting or camera.ended for camera in self._cameras.values()) else None
+
+    def _next(self) -> list[str]:
+        """Names of cameras whose first pictures make the next sample; the newest ones, for a reader who is behind."""
+        waiting = {name: camera.waiting for name, camera in self._cameras.items() if camera.waiting}
+        if not waiting:
+            return []
+        if not self.live:
+            latest_s = min(each.time_s for each in waiting.values()) + WAIT_S
+            return [name for name, each in waiting.items() if each.time_s <= latest_s]
+        behind = time.monotonic() - self._caught_up_s > LONGEST_S
+        if behind or self._awaited():  # another camera was waited for in vain
+            for each in waiting.values():
+                each.leave_newest()
+            return list(waiting)
+        return of_one_moment(waiting)
 
     def _sample(self) -> Sample:
-        """A sample of the pictures that are new, and of those before that are not too old."""
-        new = {name: camera for name, camera in self._cameras.items() if camera.newest is not None}
-        if not self.live:
-            earliest_s = min(camera.newest.time_s for camera in new.values())
-            new = {name: each for name, each in new.items() if each.newest.time_s <= earliest_s + WAIT_S}
-        taken = {name: camera.take() for name, camera in new.items()}
+        """A sample of the pictures that are next, and of those before that are not too old."""
+        taken = {name: self._cameras[name].take() for name in self._next()}
         self._latest |= taken
         newest_s = max((each.time_s for each in self._latest.values()), default=0.0)
         now_s = max(each.time_s for each in taken.values()) - self._start_s if taken else self.now_s()

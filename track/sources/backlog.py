@@ -1,0 +1,87 @@
+"""Pictures that nobody took yet: they wait in line for a moment, so that a pause of the machine loses none."""
+
+from collections import deque
+from collections.abc import Mapping
+from statistics import median
+
+from track.sources.source import Picture
+
+LONGEST_S = 0.05
+"""Pictures wait in line for so long at most, and only for a reader who found the line empty no longer ago: a pause is
+caught up, and who is always behind gets the newest picture alone, no later than without a line."""
+
+_TOGETHER = 0.75
+"""Of the time from one picture to the next, by which pictures of two cameras may differ that go together. More than a
+half: two cameras that are half a step apart would else make two samples of each moment."""
+
+_STEPS = 9
+"""Whose median is a camera's: some are too long where a picture was lost, or too short behind a pause."""
+
+
+class Backlog:
+    """What one camera gave and nobody took, the oldest first; when it came is by ``time.monotonic``."""
+
+    def __init__(self) -> None:
+        self._waiting: deque[tuple[float, Picture]] = deque()
+        self._steps_s: deque[float] = deque(maxlen=_STEPS)
+        self._last_s: float | None = None
+
+    def __len__(self) -> int:
+        return len(self._waiting)
+
+    @property
+    def came_s(self) -> float:
+        """When the first picture in line came."""
+        return self._waiting[0][0]
+
+    @property
+    def time_s(self) -> float:
+        """When it was taken, by the camera's clock."""
+        return self._waiting[0][1].time_s
+
+    @property
+    def step_s(self) -> float:
+        """From one picture to the next, lately; infinite where it is not known yet."""
+        return median(self._steps_s) if self._steps_s else float("inf")
+
+    def add(self, picture: Picture, came_s: float) -> None:
+        """Put a picture at the end; those that came more than `LONGEST_S` before it go."""
+        if self._last_s is not None:
+            self._steps_s.append(picture.time_s - self._last_s)
+        self._last_s = picture.time_s
+        while self._waiting and self.came_s < came_s - LONGEST_S:
+            self._waiting.popleft()
+        self._waiting.append((came_s, picture))
+
+    def take(self) -> Picture:
+        """The first picture in line, once."""
+        return self._waiting.popleft()[1]
+
+    def leave_newest(self) -> None:
+        """Let all go but the picture that came last."""
+        while len(self._waiting) > 1:
+            self._waiting.popleft()
+
+    def clear(self) -> None:
+        """Let all go: the camera went away."""
+        self._waiting.clear()
+        self._last_s = None
+
+
+def of_one_moment(backlogs: Mapping[str, Backlog]) -> list[str]:
+    """Names of those whose first pictures go together: the earliest one's, and all that were taken or came beside it.
+
+    So a camera that lost a picture is waited for by its next one, and does not run ahead of the others from then on.
+
+    Parameters
+    ----------
+    backlogs
+        By the camera's name; none is empty.
+    """
+    first = min(backlogs.values(), key=lambda each: each.time_s)
+    apart_s = _TOGETHER * first.step_s
+    return [
+        name
+        for name, each in backlogs.items()
+        if min(each.time_s - first.time_s, abs(each.came_s - first.came_s)) <= apart_s
+    ]
