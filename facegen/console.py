@@ -30,8 +30,8 @@ def say(message: str) -> None:
 
 
 def counted(count: int, one: str, many: str = "") -> str:
-    """A number with its noun: ``"1 file"``, ``"2 files"``; ``many`` where it is not ``one`` with an s."""
-    return f"{count} {one if count == 1 else many or f'{one}s'}"
+    """A number with its noun: ``"1 file"``, ``"2,000 files"``; ``many`` where it is not ``one`` with an s."""
+    return f"{count:,} {one if count == 1 else many or f'{one}s'}"
 
 
 def one_line(message: str) -> str:

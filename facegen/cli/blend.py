@@ -21,9 +21,11 @@ def blend(
 
     Example: facegen blend datasets/tiny.toml --sample 1 --view mouth --out mouth.blend
     """
+    from facegen.files import refuse_ending
     from facegen.spec import load_spec
     from facegen.store import resolve
     from facegen.work import save_blend
 
+    refuse_ending(out, ".blend", what="a file of Blender")
     save_blend(resolve(load_spec(spec), out.parent), sample, out, view=view)
     print(out)

@@ -50,4 +50,4 @@ def develop(
         made = develop_dataset(
             opened, out, settings, numbers, on_progress=lambda done: show("samples developed", done, total)
         )
-    print(f"{out}: {counted(made, 'sample')} developed, {total - made} there already")
+    print(f"{out}: {counted(made, 'sample')} developed, {total - made:,} there already")

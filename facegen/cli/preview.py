@@ -67,6 +67,7 @@ def preview(
         raise InputError(
             "preview shows either the folder of a dataset or --weights FILE.csv; give one of them"
         )
+    _check_name(out, moving=weights is not None or clip is not None)
     if weights is not None:
         from facegen.formats.weight_table import read_weight_table
         from facegen.preview import play_weights
@@ -87,16 +88,23 @@ def preview(
         print(out)
 
 
+def _check_name(out: Path, *, moving: bool) -> None:
+    """Refuse a name that promises another kind of file, before anything is read."""
+    from facegen.preview import ANIMATION_SUFFIXES, FILM_SUFFIXES, SHEETS
+
+    suffixes = (STRIP, *FILM_SUFFIXES, *ANIMATION_SUFFIXES) if moving else (*SHEETS, PAGE)
+    if out.suffix.lower() not in suffixes and not (moving and out == PIPE):
+        hint = "" if moving else "; for a film name a clip with --clip"
+        raise InputError(f"--out: {out} ends in none of {', '.join(suffixes)}{hint}")
+
+
 def _play(performance: "Performance", out: Path, frames: str | None, height_px: int, landmarks: bool) -> None:
     """Write a strip, a film, or pictures to standard output."""
     from facegen.files import whole_file
     from facegen.formats.ppm import ppm_bytes
-    from facegen.preview import ANIMATION_SUFFIXES, FILM_SUFFIXES, clip_strip, pictures, write_film
+    from facegen.preview import clip_strip, pictures, write_film
     from facegen.spec import sample_numbers
 
-    suffixes = (STRIP, *FILM_SUFFIXES, *ANIMATION_SUFFIXES)
-    if out != PIPE and out.suffix.lower() not in suffixes:
-        raise InputError(f"--out: {out} ends in none of {', '.join(suffixes)}")
     if frames is not None:
         total = len(performance.time_s)
         performance = performance.rows(sample_numbers(frames, total=total, where="--frames", what="frame"))
@@ -136,14 +144,10 @@ def _statistics(dataset: Path, out: Path) -> None:
 def _sheet(dataset: Path, out: Path, samples: str | None, columns: int, landmarks: bool) -> None:
     """Write a contact sheet."""
     from facegen.files import whole_file
-    from facegen.preview import SHEETS, contact_sheet
+    from facegen.preview import contact_sheet
     from facegen.spec import sample_numbers
     from facegen.store import open_dataset
 
-    if out.suffix.lower() not in SHEETS:
-        raise InputError(
-            f"--out: {out} ends in none of {', '.join((*SHEETS, PAGE))}; for a film name a clip with --clip"
-        )
     opened = open_dataset(dataset)
     made = {int(number) for number in opened.keypoints()["sample"].to_numpy()}
     if samples is not None:

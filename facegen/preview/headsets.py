@@ -124,7 +124,7 @@ def _draw_view(canvas: FigureCanvasAgg, axes: Axes, wearer: Wearer, view: View) 
     # over a fisheye's picture no measure of depth is exactly linear; triangles are small
     nearness = 1.0 / (distance if camera.model == "fisheye" else np.where(in_front, vertices[:, 2], np.inf))
     depth = nearest_triangles(pixels, nearness, triangles, shape=(camera.height, camera.width))
-    picture = shade(vertices * (1.0, -1.0, -1.0), triangles, part, depth)
+    picture = shade(vertices * (1.0, -1.0, -1.0), triangles, part, depth, viewer=np.zeros(3))
     axes.imshow(picture * transmission(camera)[..., None], interpolation="nearest")
     landmarks_px, seen = seen_landmarks(wearer, view)
     axes.plot(*landmarks_px[seen].T, ".", color="#0040ff", ms=3)

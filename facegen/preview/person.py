@@ -78,7 +78,7 @@ def _cached_skin(rig: Rig, look: Look) -> np.ndarray:
         rig.vertices, lips, np.ones(len(lips)), look.colours, style, rig=rig, neutral=rig.vertices, rng=rng
     )
     hair = np.array(look.colours.hair)
-    cover = 0.92 * _brow_cover(rig)[:, None]
+    cover = 0.92 * brow_cover(rig)[:, None]
     colour = colour * (1.0 - cover) + cover * (0.75 * hair + 0.25 * colour)
     for part, inner in INSIDE.items():
         faces = rig.faces[rig.part == part]
@@ -86,7 +86,8 @@ def _cached_skin(rig: Rig, look: Look) -> np.ndarray:
     return np.clip(colour, 0.0, 1.0)
 
 
-def _brow_cover(rig: Rig) -> np.ndarray:
+@lru_cache(maxsize=4)
+def brow_cover(rig: Rig) -> np.ndarray:
     """Share (V,) of the skin that brows cover: along their landmarks, thick at the nose, thin outwards."""
     marks = np.einsum("ln,lnc->lc", rig.landmark_weights, rig.vertices[rig.landmark_vertices])
     cover = np.zeros(len(rig.vertices))

@@ -7,7 +7,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, Part
 from facegen.geometry import rotation_from_angles
-from facegen.preview.person import Person, draw_person
+from facegen.preview.person import Person, brow_cover, draw_person
 from facegen.raster import Nearest, faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import IRIS_RADIUS_M, lid_support_radius
@@ -32,6 +32,8 @@ HEAD_MIDDLE_M = 0.075
 """How far behind the eyes the middle of a head lies."""
 SHEET_PX = 500
 """Width of a picture of `draw_portraits`, in which numbers of the lips find room."""
+BROW_COVER = 0.4
+"""Share of a triangle that a brow covers, from which it counts as brow."""
 HIDDEN_M = 4e-3
 """A landmark this far behind what is drawn is hidden; jaw points on the silhouette lie a little behind it."""
 
@@ -65,7 +67,11 @@ def drawn_mesh(
     """Vertices, triangles and part per triangle of evaluated face ``index`` with its eyeballs."""
     shown = rig.part != Part.LASHES  # without a texture they would be a solid strip before the eye
     triangles, source = triangles_of(rig.faces[shown]), faces_of_triangles(rig.faces[shown])
-    vertices, all_triangles, parts = [faces.vertices[index]], [triangles], [rig.part[shown][source]]
+    part = rig.part[shown][source]
+    if not (part == Part.BROWS).any():  # a rig whose source marks none
+        brow = brow_cover(rig)[triangles].mean(axis=1) > BROW_COVER
+        part = np.where(brow & (part == Part.SKIN), Part.BROWS, part)
+    vertices, all_triangles, parts = [faces.vertices[index]], [triangles], [part]
     for eye in range(2):
         v, t, p = eyeball_mesh(faces.eye_center[index, eye], faces.eye_radius[index, eye], gaze[eye])
         all_triangles.append(t + sum(map(len, vertices)))
@@ -74,8 +80,19 @@ def drawn_mesh(
     return np.concatenate(vertices), np.concatenate(all_triangles), np.concatenate(parts)
 
 
-def shade(vertices: np.ndarray, triangles: np.ndarray, part: np.ndarray, depth: Nearest) -> np.ndarray:
-    """Picture (h, w, 3) in [0, 1] of a z-buffer, lit from the camera's upper left."""
+def shade(
+    vertices: np.ndarray,
+    triangles: np.ndarray,
+    part: np.ndarray,
+    depth: Nearest,
+    *,
+    viewer: np.ndarray | None = None,
+) -> np.ndarray:
+    """Picture (h, w, 3) in [0, 1] of a z-buffer, lit from the camera's upper left.
+
+    Triangles that show their back to a ``viewer`` (3,) near by are lit as their fronts: between lid and eyeball the
+    lid's inside is seen, as specks that would be nearly black.
+    """
     corner = vertices[triangles]
     flat = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     normal = np.zeros_like(vertices)
@@ -83,6 +100,8 @@ def shade(vertices: np.ndarray, triangles: np.ndarray, part: np.ndarray, depth: 
         np.add.at(normal, triangles[:, k], flat)
     smooth = normal[triangles].sum(axis=1)
     smooth /= np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
+    if viewer is not None:
+        smooth *= np.where(((viewer - corner[:, 0]) * flat).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
     light = np.array([-0.35, 0.45, 0.82])
     lit = np.round(24.0 * (0.25 + 0.75 * np.maximum(smooth @ light, 0.0))) / 24.0  # few tones: small files
     palette = np.ones((max(Part) + 1, 3))

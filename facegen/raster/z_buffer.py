@@ -1,5 +1,6 @@
-"""A z-buffer in NumPy: which triangle is nearest at each pixel's centre, and how near."""
+"""A z-buffer: which triangle is nearest at each pixel's centre, and how near."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,15 +27,14 @@ def nearest_triangles(
     vertices_px
         (V, 2) column and row of the vertices, pixel centres at whole numbers; NaN leaves a triangle out.
     value
-        (V,) what is compared. It must be linear over the picture: 1/z for a pinhole, z towards the viewer for a
-        parallel projection.
+        (V,) what is compared, finite where ``vertices_px`` are. It must be linear over the picture: 1/z for a
+        pinhole, z towards the viewer for a parallel projection.
     triangles
         (T, 3) vertex indices.
     shape
         Height and width of the picture.
     """
-    best = np.full(shape[0] * shape[1], -np.inf)
-    hit = np.full(shape[0] * shape[1], -1, np.int64)
+    best, hit = np.full(shape, -np.inf), np.full(shape, -1, np.int64)
     corners, values = vertices_px[triangles], value[triangles]
     limit = np.array([shape[1] - 1, shape[0] - 1], np.float64)
     first = np.maximum(np.ceil(corners.min(axis=1)), 0.0)
@@ -42,7 +42,34 @@ def nearest_triangles(
     size = np.maximum(size, 0.0).astype(np.int64)
     first = np.nan_to_num(first).astype(np.int64)
     across, down = (np.ascontiguousarray(corners[..., axis].T) for axis in range(2))
-    area = _area(across, down)
+    _filler()(first, size, across, down, _area(across, down), values, best, hit)
+    return Nearest(value=best, triangle=hit)
+
+
+def _filler() -> Callable[..., None]:
+    """What fills triangles: the compiled loop, or the same in NumPy where Numba is not installed."""
+    try:
+        from facegen.raster.filling import fill
+    except ModuleNotFoundError as error:
+        if error.name != "numba":
+            raise
+        return fill_in_numpy
+    return fill
+
+
+def fill_in_numpy(
+    first: np.ndarray,
+    size: np.ndarray,
+    across: np.ndarray,
+    down: np.ndarray,
+    area: np.ndarray,
+    values: np.ndarray,
+    best: np.ndarray,
+    hit: np.ndarray,
+) -> None:
+    """`facegen.raster.filling.fill` in whole-array steps: the same bytes, at several times the cost."""
+    width = best.shape[1]
+    best, hit = best.reshape(-1), hit.reshape(-1)
     for some in _batches(size.prod(axis=1)):
         triangle = np.repeat(some, size[some].prod(axis=1))
         local = _counted(size[some].prod(axis=1))
@@ -50,7 +77,7 @@ def nearest_triangles(
         row = first[triangle, 1] + local // size[triangle, 0]
         wa, wb, wc = _weights(column, row, across[:, triangle], down[:, triangle], area[triangle])
         inside = (wa >= 0.0) & (wb >= 0.0) & (wc >= 0.0)
-        triangle, pixel = triangle[inside], row[inside] * shape[1] + column[inside]
+        triangle, pixel = triangle[inside], row[inside] * width + column[inside]
         base, wb, wc = values[triangle, 0], wb[inside], wc[inside]
         here = (
             base + wb * (values[triangle, 1] - base) + wc * (values[triangle, 2] - base)
@@ -58,7 +85,6 @@ def nearest_triangles(
         np.maximum.at(best, pixel, here)
         front = here == best[pixel]
         hit[pixel[front]] = triangle[front]
-    return Nearest(value=best.reshape(shape), triangle=hit.reshape(shape))
 
 
 def nearest_along_z(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from facegen.console import say
-from facegen.files import write_whole
+from facegen.files import refuse_ending, write_whole
 from regress.errors import InputError
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ _MOST_BYTES = 1024**2
 
 def edges(
     points: Annotated[Path, typer.Argument(help="68 points in 3D, head frame, metres: .npy or .json.")],
-    out: Annotated[Path, typer.Option("--out", help="File to write.")],
+    out: Annotated[Path, typer.Option("--out", help="File to write, .json.")],
     name: Annotated[str, typer.Option("--name", help="Whose face it is.")] = "anny mean face",
     source: Annotated[str, typer.Option("--source", help="How the points were made.")] = "",
     tilt_deg: Annotated[
@@ -33,6 +33,7 @@ def edges(
     """
     from regress.learning.reference_shape import TILT_DEG, make_reference_shape, reference_shape_json
 
+    refuse_ending(out, ".json", what="a reference shape")
     tilt_deg = TILT_DEG if tilt_deg is None else tilt_deg
     try:
         shape = make_reference_shape(_read(points), name=name, source=source, tilt_deg=tilt_deg)

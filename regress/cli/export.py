@@ -35,10 +35,10 @@ def export(
     from regress.runtime.inputs import read_frames
     from regress.runtime.model import load_model, symmetrised
 
-    formats = _possible() if chosen == "all" else [chosen]
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     if neutral is not None:
         loaded = loaded.calibrate(sound_rows(read_frames(neutral)).points)
+    formats = _possible() if chosen == "all" else [chosen]
     for path in export_model(loaded, out, name=name, formats=formats):
         typer.echo(f"{path} ({path.stat().st_size:,} bytes)")
 

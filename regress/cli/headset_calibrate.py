@@ -70,6 +70,7 @@ def calibrate(
     Example: regress headset calibrate --rest minute/rest --shut minute/shut --jaw-open minute/jaw --out anna.json
     """
     from facegen.console import say
+    from facegen.files import refuse_ending
     from regress.cli.headset_minute import read_minute
     from regress.runtime.headset.guided import person_of
     from regress.runtime.headset.person import write_person
@@ -78,6 +79,7 @@ def calibrate(
 
     if out is None:
         raise InputError("--out is needed: the person's file, as anna.json")
+    refuse_ending(out, ".json", what="a person's file")
     predictor = load_headset_predictor(model or HEADSET)
     minute = read_minute(
         predictor,

@@ -48,6 +48,8 @@ def check(
 
     if sheet is not None:
         refuse_ending(sheet, ".png", what="a sheet", option="--sheet")
+    if out is not None:
+        refuse_ending(out, ".toml", what="a placement")
     chosen = model or HEADSET
     predictor = load_headset_predictor(chosen)
     short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}

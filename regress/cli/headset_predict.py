@@ -201,7 +201,13 @@ def predict(
         mirror=mirror,
         retarget=retarget,
     )
-    check_targets(table_format, out=out, gltf=gltf, retargeted=retarget is not None)
+    check_targets(
+        table_format,
+        out=out,
+        gltf=gltf,
+        retargeted=retarget is not None,
+        tables={"--confidence": trust, "--points": points, "--eyes": eyes},
+    )
     if looked_at and eyes is None:
         raise InputError("--looked-at is for the gaze of --eyes; give --eyes too")
     if video is not None and retarget is not None:

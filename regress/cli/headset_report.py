@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from facegen.console import say
-from facegen.files import write_whole
+from facegen.files import refuse_ending, write_whole
 from regress.cli.evaluate import SplitOption
 from regress.errors import InputError, ModelError
 
@@ -59,6 +59,9 @@ def report(
     from regress.runtime.headset.predictor import load_headset_predictor
     from regress.timing import time_headset
 
+    refuse_ending(out, ".html", ".htm", what="a report")
+    if figures is not None:
+        refuse_ending(figures, ".json", what="a file of figures", option="--figures")
     predictor = load_headset_predictor(model)
     rivals = [(name, load_headset_predictor(path)) for name, path in _titled("--against", against)]
     fewer = [(name, load_headset_predictor(path)) for name, path in _titled("--curve", curve)]

@@ -125,7 +125,13 @@ def predict(
     )
     smoothed = smooth > 1 or cutoff_hz is not None or smooth_landmarks_hz is not None
     auto_filter = filter_name is LandmarkFilterName.auto and not smoothed and loaded.recipe != PAPER_RECIPE
-    check_targets(table_format, out=out, gltf=gltf, retargeted=retarget is not None)
+    check_targets(
+        table_format,
+        out=out,
+        gltf=gltf,
+        retargeted=retarget is not None,
+        tables={"--confidence": trust},
+    )
     camera = camera_settings(
         wanted=head or TABLES[table_format.value].has_head,
         picture=picture,

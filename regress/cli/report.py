@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from facegen.console import say
-from facegen.files import write_whole
+from facegen.files import refuse_ending, write_whole
 from regress.errors import InputError
 
 
@@ -36,6 +36,9 @@ def report(
         raise InputError(
             "--figures has nothing to write without a dataset to measure on; give --data as well"
         )
+    refuse_ending(out, ".html", ".htm", what="a report")
+    if figures is not None:
+        refuse_ending(figures, ".json", what="a file of figures", option="--figures")
     trained = load_model(model)
     measured = None if data is None else measure(trained, data)
     typer.echo(write_report(trained, out, measured))

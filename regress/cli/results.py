@@ -17,9 +17,16 @@ STANDARD_OUTPUT = Path("-")
 
 
 def check_targets(
-    table_format: TableFormat, *, out: Path | None, gltf: Path | None, retargeted: bool
+    table_format: TableFormat,
+    *,
+    out: Path | None,
+    gltf: Path | None,
+    retargeted: bool,
+    tables: dict[str, Path | None],
 ) -> None:
-    """Refuse options that cannot all be had.
+    """Refuse options that cannot all be had, and names that promise another kind of file than what is written.
+
+    ``tables`` are the files of other options, by option.
 
     Raises
     ------
@@ -34,6 +41,11 @@ def check_targets(
         raise InputError(f"--gltf {gltf} needs --out for the animated avatar")
     if gltf is not None:
         refuse_ending(out, ".glb", ".vrm", what="an animated avatar")
+    elif out not in (None, STANDARD_OUTPUT):
+        refuse_ending(out, ".csv", what="a table of weights")
+    for option, path in tables.items():
+        if path is not None:
+            refuse_ending(path, ".csv", what="a table", option=option)
 
 
 def needs_times(table_format: TableFormat, gltf: Path | None) -> bool:

@@ -19,9 +19,13 @@ def ready_made_models() -> dict[str, Path]:
     return {path.parent.name: path.parent for path in sorted(FOLDER.glob("*/model.json"))}
 
 
-def ready_made_names(file: str) -> str:
-    """Names of the ready-made models that have a file, weights.npz or network.onnx, for a sentence."""
-    return ", ".join(name for name, folder in ready_made_models().items() if (folder / file).is_file())
+def ready_made_names() -> str:
+    """Names of the ready-made models, for a sentence: those of landmarks, and those of headsets."""
+    of_headsets = {name: (folder / "network.onnx").is_file() for name, folder in ready_made_models().items()}
+    landmarks = ", ".join(name for name, headset in of_headsets.items() if not headset)
+    return (
+        f"{landmarks}, or of headsets {', '.join(name for name, headset in of_headsets.items() if headset)}"
+    )
 
 
 def model_folder(model: str | os.PathLike[str]) -> Path:

@@ -60,7 +60,7 @@ def serve(
     record: Annotated[
         Path | None,
         typer.Option(
-            help="New file for the states of those who agree: no voice, no pictures. For the one room of --room."
+            help="New .jsonl for the states of those who agree: no voice, no pictures. For the one room of --room."
         ),
     ] = None,
 ) -> None:
@@ -120,6 +120,8 @@ def _recorder(record: Path | None, names: list[str]) -> "Recorder | None":
 
     if record is None:
         return None
+    if record.suffix.lower() != ".jsonl":
+        raise InputError(f"--record is {record}; a recording ends with .jsonl: name such a file")
     if len(names) != 1:
         raise InputError(f"--record takes one room, and --room names {len(names)}; start a server for each")
     return Recorder(record, room=names[0], hertz=HERTZ, ended=lambda text: say(f"room: {text}"))

@@ -78,7 +78,7 @@ def read_headset_model(folder: str | os.PathLike[str]) -> HeadsetModel:
             )
         raise ModelError(
             f"{needed} does not exist; a headset model is a folder with model.json and network.onnx, or the name of a "
-            f"ready-made one: {ready_made_names('network.onnx')}"
+            f"ready-made one: {ready_made_names()}"
         )
     try:
         document = read_document(path)

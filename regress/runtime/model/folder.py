@@ -71,7 +71,7 @@ def load_model(folder: str | os.PathLike[str]) -> Model:
             raise ModelError(f"{folder} is a model of headset pictures; `regress headset` commands take it")
         raise ModelError(
             f"{path} does not exist; a model is a folder with model.json and weights.npz, or the name of a ready-made "
-            f"one: {ready_made_names('weights.npz')}"
+            f"one: {ready_made_names()}"
         )
     document = _read_document(document_path)
     arrays = _read_arrays(weights_path, document.weights_sha256)

@@ -164,7 +164,7 @@ def test_a_folder_in_place_of_a_spec_is_told(tmp_path):
     for words in (
         ["spec", "check"],
         ["generate", "--out", "none"],
-        ["blend", "--sample", "0", "--out", "none"],
+        ["blend", "--sample", "0", "--out", "none.blend"],
     ):
         refusal = CliRunner().invoke(app, [*words, str(tmp_path)]).exception
         assert isinstance(refusal, InputError)

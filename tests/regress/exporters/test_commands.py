@@ -80,3 +80,10 @@ def test_export_without_the_learn_extra_leaves_onnx_out_and_says_so(
     suffixes = {path.suffix for path in (tmp_path / "out").iterdir()}
     assert suffixes == {".h", ".c", ".json", ".npz", ".js", ".ts"}
     assert "pip install 'facegen[learn]'" in capsys.readouterr().err
+
+
+def test_a_wrong_model_is_told_alone_without_the_learn_extra_too(run, capsys, monkeypatch):
+    monkeypatch.setattr(import_module("regress.cli.export"), "find_spec", lambda name: None)
+    assert run("export", "landmark-default") == 2
+    (said,) = capsys.readouterr().err.splitlines()
+    assert said.endswith("ready-made one: landmarks-default, or of headsets headset-any, headset-tracking3")
