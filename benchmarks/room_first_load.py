@@ -7,7 +7,7 @@ came, packed: what the page's text names and its worklet, the place, each avatar
 puts these there, and packs with Brotli. Browsers take it by https, and from their own machine.
 
 Last result, 2026-11-24, Python 3.11, Node 20.20, one avatar and the face parts: meeting 7.96 MB, operating 8.43 MB by
-Brotli, 9.52 and 10.12 MB by gzip. Without a camera 6.36 or 7.60 MB less are loaded.
+Brotli, 9.53 and 10.12 MB by gzip. Without a camera 6.36 or 7.60 MB less are loaded.
 """
 
 import asyncio
@@ -56,7 +56,7 @@ async def visited(session: aiohttp.ClientSession, place: Place) -> dict[str, int
     parts = {"page": page, "place": [f"{room}/place.glb"]}
     for path in sorted(STATIC.glob("avatars/*.glb")):
         parts[f"avatar {path.stem}"] = [f"{place.address}/static/avatars/{path.name}"]
-    face = [path for path in sorted((STATIC / "face").rglob("*")) if path.is_file()]
+    face = [path for path in sorted((STATIC / "face").rglob("*")) if path.is_file() and path.name[0] != "."]
     if face:
         worker = [f"{place.address}/static/face.worker.js"]
         parts["face"] = worker + [

@@ -4,9 +4,9 @@
 
 Each person is a headless Chromium of its own on this machine, which draws nothing, and repeats three seconds of sound:
 a burst like a voice, and silence. Counted are the processor time of each browser's processes, what its connections sent
-and received (RTP and what goes with it, without IP's own headers), and each burst from the speaker's meter to the
-listener's. Both meters are the page's own. Medians over people, pairs and bursts. Needs Chromium, and Janus for its
-rows.
+and received (RTP and what goes with it, without IP's own headers), and each burst from a meter at the speaker's
+microphone to one of the same kind at the listener's. Medians over people, pairs and bursts. Needs Chromium, and Janus
+for its rows.
 Last result: see docs/room-operators.md, with machine, versions and date.
 """
 
@@ -35,13 +35,30 @@ from tests.room.test_page import AWAKE, come_in  # noqa: E402
 MOST_WAIT_S = 60.0
 """For all lines between people, after the last one came in; what is not there then is told as not heard."""
 
+SETTLE_S = 5.0
+"""From the last line that stands to what counts: receivers kept more in hand while pages were loaded."""
+
+EARLIEST_S = -0.1
+"""A speaker's page that stood still for a moment notes its own burst later than others hear it."""
+
 LATEST_S = 1.5
 """A burst that begins later at the listener is taken for the next one, and this one for lost."""
 
 NAMES = ("Ada", "Ben", "Cy", "Dan", "Eva", "Fay", "Gil", "Hal")
 
+STILL = "void meeting.stage.view.renderer.setAnimationLoop(null)"
+"""Asks for no more pictures: also undrawn ones cost software a part of a core."""
+
 WATCH = """void (() => {
   globalThis.bursts = { '': [] };
+  const { context } = meeting.voice;
+  const meter = new AnalyserNode(context, { fftSize: 2048 });
+  context.createMediaStreamSource(meeting.microphone.stream).connect(meter);
+  const samples = new Float32Array(meter.fftSize);
+  const own = () => {
+    meter.getFloatTimeDomainData(samples);
+    return samples.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0);
+  };
   const loud = {};
   const note = (id, level) => {
     const now = level > 0.01;
@@ -50,11 +67,11 @@ WATCH = """void (() => {
     loud[id] = now ? Date.now() : loud[id] && Date.now() - loud[id] < 600 ? loud[id] : 0;
   };
   setInterval(() => {
-    note('', meeting.microphone?.level ?? 0);
+    note('', own());
     for (const [id, sound] of meeting.voice.sounds) note(id, sound.peak());
   }, 10);
 })()"""
-"""Notes when sound begins at the own microphone and from each of the others, every ten milliseconds."""
+"""Notes when sound begins at the own microphone and from each of the others, every ten milliseconds, by like meters."""
 
 CONNECTED = "[...meeting.voice.sounds.keys()].filter((id) => meeting.voice.state(id) === 'connected').length"
 
@@ -139,10 +156,12 @@ async def hold(people: int, *, by_janus: bool, seconds: float, folder: Path) -> 
             tabs.append(await stack.enter_async_context(browser.open(link)))
             await tabs[-1].look(width=480, height=360)
             await come_in(tabs[-1], name)
+            await tabs[-1].ask(STILL)
             await tabs[-1].ask(WATCH)
         end = time.monotonic() + MOST_WAIT_S
         while time.monotonic() < end and await lines(tabs) < people * (people - 1):
             await asyncio.sleep(0.5)
+        await asyncio.sleep(SETTLE_S)
         before = [taken_s(each) for each in (*browsers(), *([engine] if engine else []))]
         carried = [await tab.ask(BYTES) for tab in tabs]
         begun, begun_ms = time.monotonic(), await tabs[0].ask("Date.now()")
@@ -189,7 +208,7 @@ async def lines(tabs: list[Tab]) -> int:
 
 def delays_ms(spoken: list[int], heard: list[int]) -> list[float]:
     """Of each burst that came through, how much later it began at the listener."""
-    found = ([at - begun for at in heard if 0 <= at - begun < 1000 * LATEST_S] for begun in spoken)
+    found = ([at - begun for at in heard if EARLIEST_S <= (at - begun) / 1000 < LATEST_S] for begun in spoken)
     return [min(each) for each in found if each]
 
 

@@ -9,6 +9,7 @@ Chromium, and the rig (`make rig`) for two of the people.
 """
 
 import asyncio
+import base64
 import math
 import sys
 import tempfile
@@ -22,6 +23,7 @@ sys.path[:0] = [str(ROOT), str(Path(__file__).parent)]
 from room_page import be, come_in, draw, dressed, stand  # noqa: E402
 from room_people import BLUE, PURPLE, SAND, WINE, dressed_guest, secret_of  # noqa: E402
 
+from blender_assets.rooms.pictures import scan  # noqa: E402
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES  # noqa: E402
 from room.places import read_place  # noqa: E402
 from room.recording import Recorder  # noqa: E402
@@ -96,7 +98,14 @@ LINES = ("Good to see you all.", "Shall we begin?", "What does the scan say?", "
 EYE = (0.75, 1.75)
 LOOKS = {"heading": math.pi - 0.135, "pitch": -0.03}
 """So that everybody stands between the left edge and the list at the right, clear of the cloth at the table's head."""
-
+SHARE = """((encoded) => {
+  const content = Uint8Array.from(atob(encoded), (each) => each.charCodeAt(0));
+  const file = new File([content], 'scan.jpg', { type: 'image/jpeg' });
+  const carried = new DataTransfer(); carried.items.add(file);
+  const input = document.querySelector('#file');
+  input.files = carried.files; input.dispatchEvent(new Event('change'));
+})"""
+"""Puts a picture on the wall, as who looks would by "Share ..."; the words of an empty screen are cut by heads."""
 
 STEP_S = 0.1
 """Between states: who stands still needs no more."""
@@ -146,6 +155,8 @@ async def main() -> None:
             await stand(tab, x=EYE[0], z=EYE[1], **LOOKS)
             for guest, line in zip(guests, LINES, strict=True):
                 await guest.say(kind="chat", text=line)
+            await tab.ask(f"{SHARE}('{base64.b64encode(scan()).decode()}')")
+            await tab.until("meeting.board.shown")
             await dressed(tab)
             with tempfile.TemporaryDirectory() as folder:
                 page = Path(folder) / "page.png"

@@ -34,7 +34,7 @@ SETTLE_S = 1.0
 """Before the first picture: arms sink from how they were modelled."""
 SIZE = (560, 360)
 MOST_BYTES = 500_000
-EYE = {"x": 0.12, "z": 0.5, "heading": math.pi, "pitch": -0.06}
+EYE = {"x": 0.02, "z": 0.5, "heading": math.pi, "pitch": -0.06}
 STATES_PER_PICTURE = 3
 """30 a second, about as many as a page sends: limbs and faces are shown between them."""
 
