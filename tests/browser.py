@@ -130,7 +130,7 @@ async def chromium(*options: str) -> AsyncIterator["Browser"]:
                 assert process.poll() is None, "Chromium ended at once"
                 await asyncio.sleep(0.05)
             async with aiohttp.ClientSession() as session:
-                yield Browser(session, int(told.read_text().split("\n")[0]))
+                yield Browser(session, int(told.read_text().split("\n")[0]), process)
         finally:
             process.terminate()
             process.wait(START_S)
@@ -139,8 +139,12 @@ async def chromium(*options: str) -> AsyncIterator["Browser"]:
 class Browser:
     """A running browser; `open` gives a tab."""
 
-    def __init__(self, session: aiohttp.ClientSession, port: int) -> None:
-        self._session, self._address = session, f"http://127.0.0.1:{port}"
+    def __init__(self, session: aiohttp.ClientSession, port: int, process: subprocess.Popen) -> None:
+        self._session, self._address, self._process = session, f"http://127.0.0.1:{port}", process
+
+    def kill(self) -> None:
+        """End it at once, as a crash or a full memory does; its pages say nothing more."""
+        self._process.kill()
 
     @asynccontextmanager
     async def open(self, address: str) -> AsyncIterator[Tab]:

@@ -16,7 +16,7 @@ from facegen.conventions import BLENDSHAPES
 from regress.runtime.sample import Sample
 from room.server import new_keys
 from tests.browser import Tab, chromium, needs_chromium
-from tests.room.guests import Place, open_room
+from tests.room.guests import Guest, Place, open_room
 from tests.room.speech import write_bursts
 from track.sinks.targets import open_sink, parse_target
 
@@ -258,6 +258,51 @@ def test_a_server_that_starts_again_has_its_people_back_and_voices_never_stop(tm
     assert found["place"] == [2.5, -1.5]
     assert found["same voices"] == [True, True]
     assert found["connected"] == [True, True]
+
+
+async def pauses(guest: Guest, seconds: float) -> list[float]:
+    """Seconds between the ticks that somebody is sent meanwhile."""
+    came_s, ticks, end = [time.monotonic()], guest.ticks, time.monotonic() + seconds
+    while time.monotonic() < end:
+        await asyncio.sleep(0.005)
+        if guest.ticks > ticks:
+            came_s.append(time.monotonic())
+            ticks = guest.ticks
+    return list(np.diff([*came_s, end]))
+
+
+async def killed() -> dict[str, object]:
+    """What is noticed of a browser that is killed: by another page, and by somebody who counts ticks."""
+    async with open_room() as place, chromium(*AWAKE) as hers, chromium(*AWAKE) as his:
+        link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+        async with his.open(link) as ben, AsyncExitStack() as stack:
+            ada = await stack.enter_async_context(hers.open(link))
+            await come_in(ada, "Ada")
+            await come_in(ben, "Ben")
+            await ben.until(f"{other('Ada')}?.person.present && {other('Ada')}.newest")
+            await ben.ask("void (globalThis.before = meeting.own)")
+            cem = await place.guest(name="Cem")
+            counting = asyncio.create_task(pauses(cem, 5.0))
+            await asyncio.sleep(1.0)
+            hers.kill()
+            start = time.monotonic()
+            await ben.until(f"!{other('Ada')}?.person.present")
+            return {
+                "away": time.monotonic() - start,
+                "pauses": await counting,
+                "same": await ben.ask("before === meeting.own && meeting.known.size === 3"),
+                "complaints": ben.complaints,
+            }
+
+
+def test_of_a_killed_browser_the_others_see_that_its_person_is_away():
+    found = asyncio.run(killed())
+    print(f"away after {found['away']:.2f} s, longest pause {max(found['pauses']):.2f} s")
+    assert found["away"] < 3
+    assert len(found["pauses"]) > 60, "ticks of Ben's page come on"
+    assert max(found["pauses"]) < 1
+    assert found["same"]
+    assert found["complaints"] == []
 
 
 async def moved_by_track(folder: Path) -> tuple[dict[str, float], np.ndarray, list[str]]:
