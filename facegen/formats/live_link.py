@@ -34,7 +34,11 @@ ROTATIONS: tuple[str, ...] = tuple(
 )
 """The last nine columns: angles of head and eyes."""
 
-_TIMECODE = re.compile(r"(\d{1,9}):(\d{1,9}):(\d{1,9}):(\d{1,9}(?:\.\d{1,20})?)")
+_TIMECODE = re.compile(r"(\d{1,9}):(\d{1,9}):(\d{1,9})([:;])(\d{1,9}(?:\.\d{1,20})?)")
+
+_DROPPED = 4
+"""Numbers that drop-frame timecode, ``HH:MM:SS;FF``, leaves out in each minute but every tenth: so 59.94 frames a
+second keep step with the clock (SMPTE ST 12-1)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +50,7 @@ class LiveLinkTake:
     weights : (n, 52) float64
         In ``BLENDSHAPES`` order and as recorded: some devices give -0.02 to 1.4. Empty cells are NaN.
     timecodes
-        As in the file, ``HH:MM:SS:FF.mmm``.
+        As in the file, ``HH:MM:SS:FF.mmm``, or ``HH:MM:SS;FF.mmm`` of drop-frame timecode.
     time_s : (n,) float64
         Seconds from the first row.
     """
@@ -131,8 +135,12 @@ def _timecode_seconds(timecodes: Sequence[str], path: Path) -> np.ndarray:
         match = _TIMECODE.fullmatch(timecode)
         if match is None:
             raise FormatError(f"{path}: row {row + 2} has timecode {timecode!r}; HH:MM:SS:FF.mmm is needed")
-        hours, minutes, whole, frames = (float(group) for group in match.groups())
-        seconds[row] = hours * 3600 + minutes * 60 + whole + frames / TIMECODE_RATE
+        hours, minutes, whole, frames = (float(match[group]) for group in (1, 2, 3, 5))
+        minutes += hours * 60
+        seconds[row] = minutes * 60 + whole + frames / TIMECODE_RATE
+        if match[4] == ";":
+            seconds[row] -= _DROPPED * (minutes - minutes // 10) / TIMECODE_RATE
+            seconds[row] *= 1.001
     day = 24 * 3600
     # A take across midnight starts again at 00:00:00.
     seconds += day * np.cumsum(np.concatenate([[0], np.diff(seconds) < -day / 2]))

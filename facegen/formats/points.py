@@ -8,6 +8,8 @@
     357.417253 308.455774
     ...
     }
+
+What stands behind ``#`` or ``//`` is a comment.
 """
 
 import os
@@ -24,6 +26,8 @@ MOST_BYTES = 16 * 1024**2
 
 _HEADER = re.compile(r"version: \d+ n_points: (\d{1,9})")
 """What stands before the braces, with one blank where the file has any number of them or line ends."""
+
+_COMMENT = re.compile(r"(?:#|//).*")
 
 
 def read_pts(path: str | os.PathLike[str]) -> np.ndarray:
@@ -45,7 +49,8 @@ def read_pts(path: str | os.PathLike[str]) -> np.ndarray:
         Where the file is not a ``.pts`` file, or holds another number of points than it says.
     """
     path = Path(path)
-    head, brace, rest = read_text(path, most_bytes=MOST_BYTES).partition("{")
+    text = _COMMENT.sub("", read_text(path, most_bytes=MOST_BYTES))
+    head, brace, rest = text.partition("{")
     body, end, after = rest.rpartition("}")
     match = _HEADER.fullmatch(" ".join(head.replace(":", ": ").split()))
     if match is None or not (brace and end) or after.strip():

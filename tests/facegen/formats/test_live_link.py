@@ -48,6 +48,17 @@ def test_time_comes_from_60_timecode_frames_a_second_and_passes_midnight(tmp_pat
     assert np.allclose(read_live_link(tmp_path / "a.csv", fps=30).time_s, [0, 1 / 30, 2 / 30])
 
 
+def test_drop_frame_timecode_has_steps_of_one_frame_over_a_minute_and_over_the_tenth(tmp_path: Path):
+    """59.94 frames a second: behind 00:00:59;59 comes 00:01:00;04, and behind 00:09:59;59 comes 00:10:00;00."""
+    for codes in (
+        ["00:00:59;58", "00:00:59;59", "00:01:00;04", "00:01:00;05"],
+        ["00:09:59;58", "00:09:59;59", "00:10:00;00", "00:10:00;01"],
+    ):
+        rows = [[code, "61", *["0"] * 52] for code in codes]
+        take = read_live_link(_write(tmp_path / "a.csv", list(BLENDSHAPES), rows))
+        assert np.allclose(take.time_s, np.arange(4) * 1001 / 60000)
+
+
 def test_what_is_no_recording_is_refused(tmp_path: Path):
     path = tmp_path / "a.csv"
     path.write_text("a,b\n1,2\n")

@@ -47,6 +47,15 @@ def test_what_is_no_pts_file_is_refused(tmp_path: Path, text: str, said: str):
     assert "bad.pts" in str(caught.value)
 
 
+@pytest.mark.parametrize("mark", ["#", "//"])
+def test_comments_are_passed_over(tmp_path: Path, mark: str):
+    path = tmp_path / "a.pts"
+    path.write_text(
+        f"{mark} by {{hand}}\nversion: 1 {mark} of 2\nn_points: 2\n{{\n{mark} eyes\n1 2\n3 4 {mark} left\n}}\n"
+    )
+    assert read_pts(path).tolist() == [[0, 1], [2, 3]]
+
+
 def test_binary_is_refused(tmp_path: Path):
     path = tmp_path / "bad.pts"
     path.write_bytes(b"\xff\xfe\x00\x81")
