@@ -9,6 +9,7 @@ import sys
 import time
 from pathlib import Path
 
+import psutil
 import pytest
 
 from tests.track.session.faces import SAMPLES, frames
@@ -28,6 +29,18 @@ CAMERAS = [
 def rows(path) -> list[dict[str, str]]:
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
+
+
+def wait_until_idle(running: subprocess.Popen) -> None:
+    """Wait until a process hardly works for two seconds on end: it waits for something, however busy the machine is."""
+    process = psutil.Process(running.pid)
+    until_s = time.monotonic() + 60
+    while time.monotonic() < until_s:
+        before_s = sum(process.cpu_times()[:2])
+        time.sleep(2)
+        if sum(process.cpu_times()[:2]) - before_s < 0.05:
+            return
+    pytest.fail("the process does not come to rest")
 
 
 @pytest.fixture
@@ -139,10 +152,10 @@ def test_ctrl_c_ends_a_wait_for_the_next_line(home):
     until_s = time.monotonic() + 60
     while not list(home.glob(".part-*")) and time.monotonic() < until_s:
         time.sleep(0.1)
-    time.sleep(4)
+    wait_until_idle(running)
     running.send_signal(signal.SIGINT)
     try:
-        running.wait(timeout=10)
+        running.wait(timeout=30)
     finally:
         running.kill()
         told = running.stderr.read()
