@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, Part
+from facegen.headsets import load_headset
+from facegen.preview import headsets
 from facegen.preview.portraits import drawn_mesh, shade
 from facegen.raster import nearest_along_z
 from facegen.rigs import evaluate
@@ -40,3 +42,16 @@ def test_a_back_that_is_seen_is_lit_as_its_front_for_a_viewer_near_by():
     assert (tone(back, near) == tone(front, near)).all()
     assert (tone(front, near) == tone(front, None)).all()
     assert (tone(back, None) < 0.5 * tone(front, None)).all(), "a far viewer's figures keep holes dark"
+
+
+def test_a_headsets_cameras_see_no_unlit_backs_at_the_lids(anny, monkeypatch: pytest.MonkeyPatch):
+    def views() -> np.ndarray:
+        figure = headsets.draw_headset(load_headset("tracking3"), anny)
+        return np.array([axes.images[0].get_array() for axes in figure.axes[3:5]])
+
+    lit = views()
+    monkeypatch.setattr(headsets, "shade", lambda *mesh, viewer=None: shade(*mesh))
+    unlit = views()
+    backs = (lit != unlit).any(axis=-1)
+    assert (backs.sum(axis=(1, 2)) > 20).all(), "both eyes' cameras see some"
+    assert np.median(lit[backs].max(axis=-1)) > 1.5 * np.median(unlit[backs].max(axis=-1))
