@@ -1,10 +1,11 @@
 """Looks into the bytes of an .onnx file before anything runs it: which operators it has, and what else it would open.
 
-onnx itself is no part of what runs a model; the wire format of protobuf is four lines of its documentation
-(https://protobuf.dev/programming-guides/encoding), and the field numbers are those of onnx.proto.
+onnx itself is no part of what runs a model; the field numbers are those of onnx.proto.
 """
 
 from collections.abc import Iterator
+
+from regress.runtime.protobuf import fields
 
 MOST_NODES = 100_000
 """Of a graph: a network has some 800."""
@@ -79,36 +80,10 @@ def _tensor_fault(tensor: memoryview, *, sparse: bool) -> str | None:
 
 def _named(message: memoryview, names: dict[int, str]) -> Iterator[tuple[str, memoryview | int]]:
     """Fields of a message that have a name here."""
-    place = 0
-    while place < len(message):
-        key, place = _varint(message, place)
-        number, kind = key >> 3, key & 7
-        value: memoryview | int
-        if kind == 0:
-            value, place = _varint(message, place)
-        else:
-            if kind == 2:
-                size, place = _varint(message, place)
-            elif kind in (1, 5):
-                size = 8 if kind == 1 else 4
-            else:
-                raise ValueError(f"a field of kind {kind}")
-            value, place = message[place : place + size], place + size
-            if place > len(message):
-                raise ValueError("a field ends behind its message")
-        if number in names:
-            if (kind == 0) != (names[number] == "location"):
-                raise ValueError("a field of another kind")
-            yield names[number], value
-
-
-def _varint(message: memoryview, place: int) -> tuple[int, int]:
-    """A number of seven bits a byte, least first, and the place behind it."""
-    value = 0
-    for shift in range(0, 70, 7):
-        byte = message[place]
-        place += 1
-        value |= (byte & 0x7F) << shift
-        if byte < 0x80:
-            return value, place
-    raise ValueError("a number of more than ten bytes")
+    for field in fields(message):
+        name = names.get(field.number)
+        if name is None:
+            continue
+        if isinstance(field.value, int) != (name == "location"):
+            raise ValueError("a field of another kind")
+        yield name, field.value

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from regress.errors import ModelError
 
 if TYPE_CHECKING:
-    import onnxruntime
+    from onnxruntime import InferenceSession as Session
 
 _OPT_OUT = "ORT_DISABLE_TELEMETRY"
 """From 1.29 on, onnxruntime's wheels collect events in a database under the user's cache, mark the session in a file of
@@ -17,7 +17,7 @@ the temporary folder, and upload both to Microsoft. This variable stops all of t
 ``disable_telemetry_events`` comes after the first event and the files."""
 
 
-def open_session(graph: bytes) -> "onnxruntime.InferenceSession":
+def open_session(graph: bytes) -> "Session":
     """Open the bytes of an .onnx file on one core of the CPU.
 
     This module alone imports onnxruntime: the import takes a fifth of a second, which commands without a graph need

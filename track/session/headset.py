@@ -29,9 +29,6 @@ LEAST_MOVEMENT = 0.15
 """Of a weight, as the network reads it without a neutral face: what calm frames of a take differ by
 (regress.runtime.headset.neutral)."""
 
-TRACED_EVERY_S = 1 / 15
-"""Tracing costs another run of the network's encoders, and the page gets fifteen pictures a second."""
-
 
 class HeadsetPipeline(Pipeline):
     """Grey pictures at the network's size, cameras in their places, network, filter.
@@ -55,8 +52,6 @@ class HeadsetPipeline(Pipeline):
         self.mark = ModelMark(kind="headset", sha256=self._predictor.model.network_sha256)
         self._fps = fps
         self._reader = EyeReader(self._predictor)
-        self._traced: dict[str, np.ndarray] = {}
-        self._traced_s = np.inf
         self.stages = {"grey": _Grey()}
         self.use_placement({})
         # what training's pictures looked like says nothing of pictures that are not levelled yet
@@ -133,14 +128,10 @@ class HeadsetPipeline(Pipeline):
         )
 
     def points(self, sample: Sample) -> Mapping[str, np.ndarray]:
-        """What the network traces in each picture, as often as anybody could look at it."""
-        if not sample.pictures:
-            return {}
-        if not 0 <= sample.time_s - self._traced_s < TRACED_EVERY_S:
-            pictures = {name: picture[None] for name, picture in sample.pictures.items()}
-            traced = self._predictor.graph.trace(pictures)
-            self._traced, self._traced_s = {name: points[0] for name, points in traced.items()}, sample.time_s
-        return {name: points for name, points in self._traced.items() if name in sample.pictures}
+        """What the network traced in each picture of the last frame."""
+        return {
+            name: points for name, points in self._networks.traced.items() if name in (sample.pictures or {})
+        }
 
     def sentences(self, sample: Sample) -> dict[str, str]:
         """Faults by camera, and a seat that changed."""

@@ -20,6 +20,7 @@ from regress.runtime.headset.estimates import (
 from regress.runtime.headset.folder import MOST_GRAPH_BYTES
 from regress.runtime.headset.graph_interface import GraphInterface
 from regress.runtime.headset.model import CameraInput
+from regress.runtime.headset.neutral_codes import NEUTRAL, PICTURES, NeutralCodes, cut_network
 from regress.runtime.onnx_file import graph_fault
 from regress.runtime.onnx_session import open_session, session_errors
 
@@ -44,6 +45,11 @@ class HeadsetGraph:
     ModelError
         Where the graph is not run (`graph_fault`), onnxruntime cannot read it, or its inputs and outputs are not those
         of the cameras.
+
+    Attributes
+    ----------
+    listens
+        Whether it can be told where its cameras are.
     """
 
     def __init__(
@@ -61,19 +67,20 @@ class HeadsetGraph:
         self._cameras = cameras
         self._interface = GraphInterface(cameras, points or {})
         inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
-        self._interface.check(inputs, self._session.get_overridable_initializers(), outputs)
+        defaults = self._session.get_overridable_initializers()
+        self._interface.check(inputs, defaults, outputs)
         self._outputs = {value.name for value in outputs}
-        self._told: np.ndarray | None = None
+        self.listens = CAMERA_INPUT in {value.name for value in defaults}
+        self._told: dict[str, np.ndarray] = {}
+        self._codes: NeutralCodes | None = None
+        halves = cut_network(data, self._session, cameras)
+        if halves is not None:
+            self._session, self._codes = halves
 
     @property
     def outputs(self) -> frozenset[str]:
         """Names of all that it answers with."""
         return frozenset(self._outputs)
-
-    @property
-    def listens(self) -> bool:
-        """Whether it can be told where its cameras are."""
-        return CAMERA_INPUT in {value.name for value in self._session.get_overridable_initializers()}
 
     def told(self, terms: Mapping[str, np.ndarray]) -> "HeadsetGraph":
         """The same graph, told of cameras: ``CAMERA_TERMS`` (14,) by name; of those left out it knows nothing.
@@ -93,7 +100,9 @@ class HeadsetGraph:
             if camera.name in terms:
                 row[:-1], row[-1] = np.asarray(terms[camera.name], np.float32).reshape(len(CAMERA_TERMS)), 1.0
         other = copy.copy(self)
-        other._told = table
+        other._told = {CAMERA_INPUT: table}
+        if self._codes is not None:
+            other._codes = self._codes.with_others(other._told)
         return other
 
     def run(
@@ -188,8 +197,8 @@ class HeadsetGraph:
         with_neutral = np.full(rows, float(neutral is not None), np.float32)
         if calibrated is not None:
             with_neutral *= np.asarray(calibrated, np.float32)
-        compared = zip(cameras, (seen * with_neutral[:, None]).any(axis=0), strict=True)
-        lost = [name for name, needed in compared if needed and name not in neutral]
+        needed = zip(cameras, (seen * with_neutral[:, None]).any(axis=0), strict=True)
+        lost = [name for name, is_needed in needed if is_needed and name not in neutral]
         if lost:
             raise InputError(
                 f"no neutral pictures are given of {', '.join(lost)}; a calibrated frame needs them of every camera "
@@ -198,20 +207,24 @@ class HeadsetGraph:
         blocks = []
         for start in range(0, max(rows, 1), _BLOCK_ROWS):
             block = slice(start, start + _BLOCK_ROWS)
-            feed = {"present": seen[block], "calibrated": with_neutral[block]}
-            for camera in self._cameras:
-                blank = np.zeros((len(with_neutral[block]), camera.height, camera.width), np.uint8)
-                feed[f"pictures_{camera.name}"] = _rows(pictures, camera.name, block, blank)
-                feed[f"neutral_{camera.name}"] = _rows(neutral or {}, camera.name, block, blank)
-            if self._told is not None:
-                feed[CAMERA_INPUT] = self._told
+            count = len(with_neutral[block])
+            compared = None if neutral is None else {name: one[block] for name, one in neutral.items()}
+            feed = {"present": seen[block], "calibrated": with_neutral[block], **self._told}
+            feed |= self._whole(PICTURES, {name: one[block] for name, one in pictures.items()}, count)
             with session_errors("network.onnx cannot be run"):
+                if self._codes is None:
+                    feed |= self._whole(NEUTRAL, compared or {}, count)
+                else:
+                    feed |= self._codes.of(compared, count)
                 blocks.append(self._session.run(names, feed))
-            self._interface.check_answers(
-                dict(zip(names, blocks[-1], strict=True)), rows=len(with_neutral[block])
-            )
-        return [np.concatenate(arrays) for arrays in zip(*blocks, strict=True)]
+            self._interface.check_answers(dict(zip(names, blocks[-1], strict=True)), rows=count)
+        return blocks[0] if len(blocks) == 1 else [np.concatenate(one) for one in zip(*blocks, strict=True)]
 
-
-def _rows(arrays: dict[str, np.ndarray], name: str, block: slice, blank: np.ndarray) -> np.ndarray:
-    return np.ascontiguousarray(arrays[name][block]) if name in arrays else blank
+    def _whole(self, kind: str, pictures: Mapping[str, np.ndarray], count: int) -> dict[str, np.ndarray]:
+        """Inputs of all cameras; black pictures (count, h, w) of those that are left out."""
+        return {
+            kind + one.name: np.ascontiguousarray(pictures[one.name])
+            if one.name in pictures
+            else np.zeros((count, one.height, one.width), np.uint8)
+            for one in self._cameras
+        }

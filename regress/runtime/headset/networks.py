@@ -67,6 +67,11 @@ class HeadsetNetworks(Stage):
         self.reseated: list[str] = []
         """Labels of the frames from which the seat was no longer that of the neutral pictures."""
 
+    @property
+    def traced(self) -> dict[str, np.ndarray]:
+        """Pixels (P, 2) of the points of the last frame, by camera; with a reader alone."""
+        return {name: points[0] for name, points in self._points.items()}
+
     def use_neutral(self, pictures: Mapping[str, np.ndarray] | None) -> None:
         """Compare frames with these neutral pictures (h, w) uint8 by camera from now on; None: with none."""
         self._neutral = pictures
@@ -102,8 +107,7 @@ class HeadsetNetworks(Stage):
 
     def _with_eyes(self, sample: Sample, pictures: Mapping[str, np.ndarray]) -> Sample:
         """The sample with its eyes measured, a gaze that meets in front, and the person's own ends."""
-        points = {name: traced[0] for name, traced in self._points.items()}
-        eyes, gaze = self._reader.read(pictures, points, sample.gaze)
+        eyes, gaze = self._reader.read(pictures, self.traced, sample.gaze)
         weights = sample.weights if self._ends is None else self._ends.apply(sample.weights, eyes)
         weights = weights.copy()
         weights[LOOKS] = look_weights(gaze)
