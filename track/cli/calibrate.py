@@ -75,7 +75,7 @@ def calibrate(
             if line != self.said:
                 self.said = line
                 say(line)
-            if not session.calibrating:
+            if not session.adjusting.calibrating:
                 session.stop()
 
     with contextlib.ExitStack() as closing:
@@ -83,7 +83,8 @@ def calibrate(
         session.ask(Command(verb="calibrate", value=faces))
         with ended_by_signals(session, capture):
             session.run(capture, Prompt())
-        if session.calibrating:
+        if session.adjusting.calibrating:
             raise InputError("the pictures ended before calibration did; everything found before it is kept")
-        if session.step_of_calibration is not None and session.step_of_calibration.state == "cancelled":
-            raise InputError(f"{session.step_of_calibration.text}")
+        step = session.adjusting.step
+        if step is not None and step.state == "cancelled":
+            raise InputError(step.text)

@@ -2,7 +2,7 @@
 
 import queue
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from typing import Protocol
@@ -12,14 +12,11 @@ import numpy as np
 from regress.runtime.sample import NO_EYES, Sample
 from regress.runtime.stages.stage import Chain
 from track.errors import InputError, OutputError
-from track.messages import Command, Moment, Step
-from track.profile.profile import LARGEST_GAIN, Profile
-from track.session.calibration import Calibration, Outcome
-from track.session.faces import faces_of
+from track.messages import Command, Moment
+from track.profile.profile import Profile
+from track.session.adjusting import Adjusting
 from track.session.fault_telling import FaultTelling
 from track.session.measures import Measures, Summary
-from track.session.outcomes import learnt
-from track.session.person import Person
 from track.session.pipeline import Pipeline
 from track.session.recordings import Recordings
 from track.session.undisturbed import undisturbed
@@ -27,9 +24,6 @@ from track.sinks.sink import Sink
 
 TICK_S = 1 / 30
 """Between answers while no picture comes, so that avatars go to rest in small steps."""
-
-CENTRE_FRAMES = 15
-"""Frames of one look, half a second, whose median gaze is taken for straight ahead."""
 
 MOST_COMMANDS = 1000
 """Waiting for the next frame: a person on the page sends some a second, whoever sends more is not listened to."""
@@ -90,24 +84,13 @@ class Session:
         mirror: bool | None = None,
         timed: bool = True,
     ) -> None:
-        self.pipeline, self.sinks, self.profile = pipeline, list(sinks), profile
-        self._say, self._keep, self._kept = say, keep, profile if kept is None else kept
-        self._person = Person(profile, mirrored=profile.mirror if mirror is None else mirror)
+        self.pipeline, self.sinks, self._say = pipeline, list(sinks), say
+        self.adjusting = Adjusting(pipeline, profile, kept=kept, keep=keep, mirror=mirror, say=say)
         self.measures, self._telling = Measures(), FaultTelling(say)
         self._commands: queue.Queue[Command] = queue.Queue(MOST_COMMANDS)
-        self._calibration: Calibration | None = None
-        self._step: Step | None = None
-        self._looks: list[np.ndarray] | None = None
         self._recordings = Recordings(self.sinks, new_recording, say)
         self._pictures_wanted, self._timed, self._stopped = False, timed, False
         self._faces, self._first_s, self._last_s = 0, None, 0.0
-        if profile.told_cameras and pipeline.listens:
-            pipeline.use_cameras(profile.told_cameras)
-        if profile.placement:
-            pipeline.use_placement(profile.placement)
-        pipeline.use_eyes(profile.eyes)
-        if profile.neutral is not None:
-            pipeline.use_neutral(profile.neutral)
 
     def ask(self, command: Command) -> None:
         """Take a command, from any thread; it is done before the next frame."""
@@ -121,14 +104,9 @@ class Session:
         self._stopped = True
 
     @property
-    def step_of_calibration(self) -> Step | None:
-        """Where calibration is; None where there was none."""
-        return self._step
-
-    @property
-    def calibrating(self) -> bool:
-        """Whether a calibration is under way."""
-        return self._calibration is not None
+    def profile(self) -> Profile:
+        """Of the person and camera, as it is used now."""
+        return self.adjusting.profile
 
     def run(
         self, pictures: Pictures, screen: Screen | None = None, *, seconds: float | None = None
@@ -141,7 +119,7 @@ class Session:
     def _run(self, pictures: Pictures, screen: Screen | None, seconds: float | None) -> None:
         until_s = None if seconds is None else time.monotonic() + seconds
         while not self._stopped and (until_s is None or time.monotonic() < until_s):
-            sample = pictures.read(TICK_S if self._person.settling else None)
+            sample = pictures.read(TICK_S if self.adjusting.person.settling else None)
             if sample is None:
                 break
             self._show(self.answer(sample, pictures.now_s if self._timed else None), screen)
@@ -193,9 +171,9 @@ class Session:
             fps=fps,
             latency_ms=latency_ms,
             faults=self._telling.now,
-            step=self._step,
+            step=self.adjusting.step,
             settings={
-                "mirror": self._person.mirrored,
+                "mirror": self.adjusting.person.mirrored,
                 "recording": self._recordings.under_way,
                 "calibrated": self.profile.neutral is not None,
                 "profile": self.profile.person,
@@ -218,74 +196,17 @@ class Session:
 
     def _finished(self, sample: Sample) -> Sample:
         """A frame behind the pipeline, as the person and the avatar want it."""
-        if self._calibration is not None:
-            self._calibrate(sample)
+        self.adjusting.watch(sample)
+        person = self.adjusting.person
         if sample.weights is None:
             eyes = NO_EYES if self.pipeline.measures_eyes else None
-            sample = replace(sample, weights=self._person.unknown(), eyes=eyes)
+            sample = replace(sample, weights=person.unknown(), eyes=eyes)
         self._first_s = sample.time_s if self._first_s is None else self._first_s
         self._last_s = sample.time_s
         self._faces += not np.isnan(sample.weights).any()
-        if self._looks is not None:
-            self._look(sample)
         self._telling.step(sample.time_s, self.pipeline.sentences(sample))
         with self.measures.stage("person"):
-            return self._person.step(sample)
-
-    def _calibrate(self, sample: Sample) -> None:
-        calibration = self._calibration
-        self._step = calibration.step(sample.time_s, sample, self.pipeline.signature(sample))
-        for outcome in calibration.outcomes():
-            self._take(outcome)
-        if calibration.finished:
-            self._calibration = None
-            if calibration.name == "neutral" and not calibration.kept:
-                self._use_known_neutral()
-            self._say(f"calibration: {self._step.text.lower()}")
-
-    def _use_known_neutral(self) -> None:
-        """What was known before a calibration that gave no neutral face."""
-        if self.profile.neutral is not None:
-            self.pipeline.use_neutral(self.profile.neutral)
-
-    def _take(self, outcome: Outcome) -> None:
-        """Use what calibration found from the next frame on, and keep it beside all that it was found with."""
-        kept = outcome.ranges is None or self._neutral_is_kept
-        self._use(learnt(outcome, self.profile, self.pipeline))
-        if kept:
-            self._kept = self.profile
-            self._keep(self._kept)
-        else:
-            self._say(f"{outcome.name} is not kept: it was read without the neutral face of the profile")
-
-    @property
-    def _neutral_is_kept(self) -> bool:
-        """Whether what is read now is read beside the neutral face that the profile's file has."""
-        return self.profile.neutral == self._kept.neutral
-
-    def _change(self, **changes: object) -> None:
-        """Use other values from the next frame on, and keep them; of the file nothing else changes."""
-        self._use(changes)
-        self._kept = self._kept.model_copy(update=changes)
-        self._keep(self._kept)
-
-    def _use(self, changes: Mapping[str, object]) -> None:
-        self.profile = self.profile.model_copy(update=changes)
-        self._person.use(self.profile)
-        self.pipeline.use_eyes(self.profile.eyes)
-
-    def _look(self, sample: Sample) -> None:
-        if sample.gaze is None or np.isnan(sample.gaze).any():
-            return
-        self._looks.append(sample.gaze)
-        if len(self._looks) == CENTRE_FRAMES:
-            gaze = tuple(float(angle) for angle in np.median(self._looks, axis=0))
-            if self._neutral_is_kept:
-                self._change(gaze=gaze)
-            else:
-                self._use({"gaze": gaze})
-            self._looks = None
-            self._say("the eyes are centred on where they looked")
+            return person.step(sample)
 
     def close(self) -> None:
         """Let sinks and stages go: recordings are written whole, each whether or not another one can be."""
@@ -307,25 +228,9 @@ class Session:
                 self._say(str(error))
 
     def _do(self, command: Command) -> None:
-        verb, value = command.verb, command.value
-        if verb == "calibrate":
-            asked = "all" if value is None or value is True else str(value)
-            names = faces_of(asked, self.pipeline.faces)
-            self._calibration = Calibration(names, least=self.pipeline.least_movement)
-            if "neutral" in names:
-                self.pipeline.forget_neutral()
-        elif verb == "cancel" and self._calibration is not None:
-            self._step, self._calibration = self._calibration.cancel(), None
-            self._use_known_neutral()
-        elif verb == "mirror":
-            self._person.mirrored = bool(value)
-            self._change(mirror=self._person.mirrored)
-        elif verb == "gain" and command.shape is not None and isinstance(value, (int, float)):
-            gain = float(np.clip(value, 0.0, LARGEST_GAIN))
-            self._change(gains={**self.profile.gains, command.shape: gain})
-        elif verb == "recentre":
-            self._looks = []
-        elif verb == "record":
-            self._recordings.record(bool(value))
-        elif verb == "picture":
-            self._pictures_wanted = bool(value)
+        if command.verb == "record":
+            self._recordings.record(bool(command.value))
+        elif command.verb == "picture":
+            self._pictures_wanted = bool(command.value)
+        else:
+            self.adjusting.do(command)

@@ -65,7 +65,7 @@ def calibrate(session, face: str) -> None:
     session.pipeline.stages = {"given": Given()}
     session.ask(Command(verb="calibrate", value=face))
     count = 0
-    while count == 0 or session.calibrating:
+    while count == 0 or session.adjusting.calibrating:
         session.answer(replace(still, time_s=count / 30))
         count += 1
 

@@ -195,7 +195,7 @@ def test_a_camera_s_pauses_between_two_pictures_are_no_missed_faces(fps):
     session = new_session()
     session.ask(Command(verb="calibrate", value="neutral"))
     time_s, last = 0.0, -1
-    while session.step_of_calibration is None or session.calibrating:
+    while session.adjusting.step is None or session.adjusting.calibrating:
         number = int(time_s * fps)
         if number > last:
             session.answer(frames(number % 60, number % 60 + 1, first_s=time_s)[0])
@@ -203,7 +203,7 @@ def test_a_camera_s_pauses_between_two_pictures_are_no_missed_faces(fps):
             session.answer(Sample(time_s=time_s, pictures={}))
         last, time_s = number, time_s + 1 / FPS
         assert time_s < 20
-    assert session.step_of_calibration.state == "done"
+    assert session.adjusting.step.state == "done"
     assert session.profile.neutral is not None
 
 

@@ -85,12 +85,12 @@ def test_a_neutral_face_that_is_not_found_leaves_the_known_one(ends):
     shut = headset_frames()[90]
     session.ask(Command(verb="calibrate", value="neutral"))
     session.answer(replace(shut, time_s=0.0))
-    assert session.calibrating
+    assert session.adjusting.calibrating
     if ends == "cancelled":
         session.ask(Command(verb="cancel"))
-    while session.calibrating:  # by pictures that come once in two seconds
+    while session.adjusting.calibrating:  # by pictures that come once in two seconds
         session.answer(replace(shut, time_s=2.0 * next(clock)))
-    assert session.step_of_calibration.state == "cancelled"
+    assert session.adjusting.step.state == "cancelled"
     start_s = 2.0 * next(clock)
     for row in range(2 * FPS):
         sample = replace(shut, time_s=start_s + row / FPS)
@@ -142,11 +142,11 @@ def test_a_guided_minute_gives_rest_ends_lids_and_a_new_seat_keeps_them(tmp_path
             found.append(sample)
         return tuple(found)
 
-    session._take(Outcome(name="neutral", samples=answered(rest)))
-    session._take(
+    session.adjusting.take(Outcome(name="neutral", samples=answered(rest)))
+    session.adjusting.take(
         Outcome(name="eyes_shut", samples=answered(shut), ranges={"eyeBlinkLeft": 0.9, "eyeBlinkRight": 0.9})
     )
-    session._take(Outcome(name="look_around", samples=answered(rest), ranges={}))
+    session.adjusting.take(Outcome(name="look_around", samples=answered(rest), ranges={}))
     profile = read_profile(write_profile(tmp_path / "anna.toml", session.profile))
     assert profile == session.profile
     assert set(profile.eyes) == {"left_eye", "right_eye"}
@@ -160,7 +160,7 @@ def test_a_guided_minute_gives_rest_ends_lids_and_a_new_seat_keeps_them(tmp_path
     closed = [session.answer(sample)[0] for sample in later(shut)]
     assert np.max([each.eyes.openness for each in closed[1:]]) < 0.3
     # the same person in another seat: the neutral face is new, own full movements stay
-    session._take(Outcome(name="neutral", samples=answered(rest)))
+    session.adjusting.take(Outcome(name="neutral", samples=answered(rest)))
     assert session.profile.ranges == profile.ranges
 
 

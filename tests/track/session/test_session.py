@@ -68,10 +68,10 @@ def test_calibration_finds_the_neutral_face_and_keeps_it():
     still = frames(0, 60)
     states = []
     time_s = 0.0
-    while session.step_of_calibration is None or session.calibrating:
+    while session.adjusting.step is None or session.adjusting.calibrating:
         sample = still[int(time_s * 30) % 60]
         session.answer(frames_at(sample, time_s))
-        states.append(session.step_of_calibration.state)
+        states.append(session.adjusting.step.state)
         time_s += 1 / 30
         assert time_s < 20
     assert [state for state, before in zip(states, [None, *states], strict=False) if state != before] == [
@@ -91,11 +91,11 @@ def test_who_moves_is_asked_once_more_and_nothing_is_kept():
     texts = set()
     for sample in frames(120, 900):  # talks all the time
         session.answer(sample)
-        step = session.step_of_calibration
+        step = session.adjusting.step
         if step.state == "again":
             texts.add(step.text)
     assert any(text.startswith("You moved") and text.endswith("once more") for text in texts)
-    assert session.step_of_calibration.state == "cancelled"
+    assert session.adjusting.step.state == "cancelled"
     assert stored == []
 
 

@@ -1,0 +1,164 @@
+"""Does what a person asks for while frames come: calibration, mirror, gains and the gaze's centre, used and kept."""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from regress.runtime.sample import Sample
+from track.messages import Command, Step
+from track.profile.profile import LARGEST_GAIN, Profile
+from track.session.calibration import Calibration, Outcome
+from track.session.faces import faces_of
+from track.session.outcomes import learnt
+from track.session.person import Person
+from track.session.pipeline import Pipeline
+
+CENTRE_FRAMES = 15
+"""Frames of one look, half a second, whose median gaze is taken for straight ahead."""
+
+
+class Adjusting:
+    """A profile in use, and all that changes it.
+
+    Parameters
+    ----------
+    pipeline
+        From pictures to weights; told of the profile.
+    profile
+        Of the person and camera, as it is used.
+    kept
+        What the profile's file holds, where options go before that; `keep` is given each new one of it.
+    keep
+        Stores a profile that has changed, and returns at once: it is called between two frames.
+    mirror
+        Goes before the profile's.
+    say
+        Told what a person should know, a sentence each.
+
+    Attributes
+    ----------
+    profile
+        As it is used now.
+    person
+        Makes the pipeline's answers this person's.
+    step
+        Where calibration is; None where there was none.
+    """
+
+    def __init__(
+        self,
+        pipeline: Pipeline,
+        profile: Profile,
+        *,
+        kept: Profile | None,
+        keep: Callable[[Profile], None],
+        mirror: bool | None,
+        say: Callable[[str], None],
+    ) -> None:
+        self.profile = profile
+        self.step: Step | None = None
+        self.person = Person(profile, mirrored=profile.mirror if mirror is None else mirror)
+        self._pipeline, self._say, self._keep = pipeline, say, keep
+        self._kept = profile if kept is None else kept
+        self._calibration: Calibration | None = None
+        self._looks: list[np.ndarray] | None = None
+        if profile.told_cameras and pipeline.listens:
+            pipeline.use_cameras(profile.told_cameras)
+        if profile.placement:
+            pipeline.use_placement(profile.placement)
+        pipeline.use_eyes(profile.eyes)
+        self._use_known_neutral()
+
+    @property
+    def calibrating(self) -> bool:
+        """Whether a calibration is under way."""
+        return self._calibration is not None
+
+    def do(self, command: Command) -> None:
+        """Obey a command; one that means something else is left to others.
+
+        Raises
+        ------
+        InputError
+            Where calibration is asked for a face that there is not.
+        """
+        verb, value = command.verb, command.value
+        if verb == "calibrate":
+            self._begin("all" if value is None or value is True else str(value))
+        elif verb == "cancel" and self._calibration is not None:
+            self.step, self._calibration = self._calibration.cancel(), None
+            self._use_known_neutral()
+        elif verb == "mirror":
+            self.person.mirrored = bool(value)
+            self._change(mirror=self.person.mirrored)
+        elif verb == "gain" and command.shape is not None and isinstance(value, (int, float)):
+            gain = float(np.clip(value, 0.0, LARGEST_GAIN))
+            self._change(gains={**self.profile.gains, command.shape: gain})
+        elif verb == "recentre":
+            self._looks = []
+
+    def watch(self, sample: Sample) -> None:
+        """Take from the pipeline's answer to a frame what was asked for."""
+        if self._calibration is not None:
+            self._calibrate(sample)
+        if self._looks is not None and sample.gaze is not None and not np.isnan(sample.gaze).any():
+            self._looks.append(sample.gaze)
+            if len(self._looks) == CENTRE_FRAMES:
+                self._centre(np.median(self._looks, axis=0))
+
+    def _begin(self, faces: str) -> None:
+        names = faces_of(faces, self._pipeline.faces)
+        self._calibration = Calibration(names, least=self._pipeline.least_movement)
+        if "neutral" in names:
+            self._pipeline.forget_neutral()
+
+    def _calibrate(self, sample: Sample) -> None:
+        calibration = self._calibration
+        self.step = calibration.step(sample.time_s, sample, self._pipeline.signature(sample))
+        for outcome in calibration.outcomes():
+            self.take(outcome)
+        if calibration.finished:
+            self._calibration = None
+            if calibration.name == "neutral" and not calibration.kept:
+                self._use_known_neutral()
+            self._say(f"calibration: {self.step.text.lower()}")
+
+    def take(self, outcome: Outcome) -> None:
+        """Use what calibration found from the next frame on, and keep it beside all that it was found with."""
+        kept = outcome.ranges is None or self._neutral_is_kept
+        self._use(learnt(outcome, self.profile, self._pipeline))
+        if kept:
+            self._kept = self.profile
+            self._keep(self._kept)
+        else:
+            self._say(f"{outcome.name} is not kept: it was read without the neutral face of the profile")
+
+    def _centre(self, gaze: np.ndarray) -> None:
+        self._looks = None
+        centre = tuple(float(angle) for angle in gaze)
+        if self._neutral_is_kept:
+            self._change(gaze=centre)
+        else:
+            self._use({"gaze": centre})
+        self._say("the eyes are centred on where they looked")
+
+    def _use_known_neutral(self) -> None:
+        """What is known without a calibration that gives a neutral face."""
+        if self.profile.neutral is not None:
+            self._pipeline.use_neutral(self.profile.neutral)
+
+    @property
+    def _neutral_is_kept(self) -> bool:
+        """Whether what is read now is read beside the neutral face that the profile's file has."""
+        return self.profile.neutral == self._kept.neutral
+
+    def _change(self, **changes: object) -> None:
+        """Use other values from the next frame on, and keep them; of the file nothing else changes."""
+        self._use(changes)
+        self._kept = self._kept.model_copy(update=changes)
+        self._keep(self._kept)
+
+    def _use(self, changes: Mapping[str, object]) -> None:
+        self.profile = self.profile.model_copy(update=changes)
+        self.person.use(self.profile)
+        self._pipeline.use_eyes(self.profile.eyes)
