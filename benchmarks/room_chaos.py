@@ -10,14 +10,15 @@ that comes, thirty a second, and each packet of her voice. Then something is kil
 - `janus`: Janus, by which all voices go.
 - `browser`: the browser of a third person, beside them.
 
-After --away seconds it is started again (the browser is not). Pauses are the longest time without a state, and without a
-packet; in a room with nothing killed (`nothing`) timers and the machine give the same figures. Times until back count
-from the moment at which the new process listens: until Ada's next state, and the next packet of her voice.
+After --away seconds it is started again (the browser is not). Pauses are the longest time without a state, and without
+a packet; `nothing` has those of a room in which nothing is killed. Times until back count from the moment at which the
+new process listens: until Ada's next state, and the next packet of her voice.
 Last result: see docs/measurements/room.md, with machine, versions and date. Needs Chromium, redis-server and Janus.
 """
 
 import argparse
 import asyncio
+import itertools
 import os
 import sys
 import tempfile
@@ -96,7 +97,7 @@ class Noticed:
 def longest(times_ms: list[float], begun: float, ended: float) -> float:
     """Seconds of the longest pause from begin to end."""
     inside = [begun, *(at for at in times_ms if begun < at < ended), ended]
-    return max(b - a for a, b in zip(inside, inside[1:], strict=False)) / 1000
+    return max(b - a for a, b in itertools.pairwise(inside)) / 1000
 
 
 def back(times_ms: list[float], since: float) -> float | None:
