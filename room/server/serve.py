@@ -2,8 +2,8 @@
 
 import asyncio
 import os
+import platform
 import signal
-import socket
 import ssl
 from collections.abc import Callable
 from contextlib import suppress
@@ -47,7 +47,7 @@ class Address:
     def name(self) -> str:
         """What stands for the host in an address: nobody can open 0.0.0.0, so of all interfaces this machine's name."""
         if self.host in ("0.0.0.0", "::"):
-            return socket.gethostname()
+            return platform.node()
         return f"[{self.host}]" if ":" in self.host else self.host
 
 

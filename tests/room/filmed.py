@@ -222,8 +222,11 @@ def spans(weights: list[list[float]]) -> dict[str, float]:
 
 
 def delays_ms(heard: list, shown: list, *, begin: bool) -> tuple[list[float], int]:
-    """From each begin or end of a sound to the sign's, and how many there were, but for what is still under way."""
-    changes = [at for loud, at in heard if loud is begin and at < heard[-1][1] - 1000 * LATEST_S]
+    """From each begin or end of a sound to the sign's, and how many there were.
+
+    The first one may be that of a burst in whose middle listening began, and the last ones may be still under way.
+    """
+    changes = [at for loud, at in heard if loud is begin and at < heard[-1][1] - 1000 * LATEST_S][1:]
     later = (
         [at - changed for on, at in shown if on is begin and 0 <= at - changed < 1000 * LATEST_S]
         for changed in changes

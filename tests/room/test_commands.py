@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import platform
 import re
 import shutil
 import signal
@@ -175,7 +176,7 @@ def test_what_is_stopped_on_purpose_ends_well(command, tmp_path):
 @pytest.mark.parametrize(
     ("options", "start"),
     [
-        (("--host", "0.0.0.0"), f"http://{socket.gethostname()}:"),
+        (("--host", "0.0.0.0"), f"http://{platform.node()}:"),
         (("--host", "0.0.0.0", "--origin", "https://rooms.example"), "https://rooms.example/room/"),
         (("--host", "127.0.0.1"), "http://127.0.0.1:"),
     ],
