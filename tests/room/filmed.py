@@ -7,6 +7,7 @@ heard there.
 import asyncio
 import json
 import re
+from collections.abc import Sequence
 from contextlib import AsyncExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -154,20 +155,23 @@ async def meet(films: tuple[Path, Path], *, seconds: float, folder: Path) -> tup
     async with AsyncExitStack() as stack:
         place = await stack.enter_async_context(open_room())
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
-        tabs: list[Tab] = []
-        for name, film in zip(NAMES, films, strict=True):
+
+        async def come(name: str, film: Path) -> Tab:
             write_film(film, folder / f"{name}.mjpeg")
             options = (
                 f"--use-file-for-fake-video-capture={folder / f'{name}.mjpeg'}",
                 f"--use-file-for-fake-audio-capture={folder / 'speech.wav'}",
             )
             browser = await stack.enter_async_context(chromium(*AWAKE, *options))
-            tabs.append(await stack.enter_async_context(browser.open(link)))
-            await tabs[-1].look(width=480, height=360)
-            await tabs[-1].until("document.querySelector('#join select[name=avatar]')?.value")
-            await tabs[-1].ask(COME_IN % json.dumps(name))
-            await tabs[-1].until("globalThis.meeting?.own", READY_S)
-            await tabs[-1].ask("void (meeting.stage.drawing = false)")
+            tab = await stack.enter_async_context(browser.open(link))
+            await tab.look(width=480, height=360)
+            await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+            await tab.ask(COME_IN % json.dumps(name))
+            await tab.until("globalThis.meeting?.own", READY_S)
+            await tab.ask("void (meeting.stage.drawing = false)")
+            return tab
+
+        tabs = await asyncio.gather(*map(come, NAMES, films))
         await ready(tabs)
         for tab, seen in zip(tabs, reversed(NAMES), strict=True):
             await tab.ask(HEARD)
@@ -183,7 +187,7 @@ async def meet(films: tuple[Path, Path], *, seconds: float, folder: Path) -> tup
     )
 
 
-async def ready(tabs: list[Tab]) -> None:
+async def ready(tabs: Sequence[Tab]) -> None:
     """Wait until both see, hear and know each other, and have said what their neutral face is."""
     for tab in tabs:
         await tab.until(
@@ -199,7 +203,7 @@ async def ready(tabs: list[Tab]) -> None:
         await tab.until("meeting.presence.camera.found.calibrated", READY_S)
 
 
-async def sides(tabs: list[Tab]) -> list[dict[str, float]]:
+async def sides(tabs: Sequence[Tab]) -> list[dict[str, float]]:
     """For each listener and each side on which the other stands, energy at that ear over energy at the other."""
     found: list[dict[str, float]] = [{}, {}]
     for tab in tabs:
