@@ -23,6 +23,9 @@ from tests.room.test_page import AWAKE, CONNECTED, EARS, HEARD, SHOWN, other
 
 NAMES = ("Ada", "Ben")
 
+BURST_S = VOICED_S + SILENT_S
+"""From one burst in the microphone to the next."""
+
 CAMERA_HZ = 30
 """At which Chromium's fake camera plays a film of JPEGs, whatever film it was before."""
 
@@ -271,6 +274,3 @@ def direction(said: dict, had: dict, seconds: float, ears: dict[str, float]) -> 
         ends=ends,
         ears=ears,
     )
-
-
-BURST_S = VOICED_S + SILENT_S
