@@ -82,6 +82,10 @@ def main() -> None:
     options = parser.parse_args()
     if options.seconds < 3 * BURST_S:
         parser.error(f"--seconds: three bursts take {3 * BURST_S:.0f} seconds")
+    if absent := [str(film) for film in options.film if not film.is_file()]:
+        parser.error(f"--film: {', '.join(absent)} is not there")
+    if not (ROOT / "room/server/static/face/face.js").exists():
+        parser.error("pages see no face before `make room-face` was run")
     with tempfile.TemporaryDirectory() as folder:
         print(report(asyncio.run(meet(tuple(options.film), seconds=options.seconds, folder=Path(folder)))))
     print(f"\nload {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
