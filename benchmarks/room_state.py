@@ -4,7 +4,7 @@
     python benchmarks/room_state.py --people 64,200 --servers 2
 
 Bots speak WebSocket by hand, so that two processes of them can be 200 people: they walk over frames, answer pings, and
-but for one in each process look into none. Last result: see docs/room-operators.md, with machine, versions and date.
+but for one in each process look into none. Last result: see docs/measurements/room.md, with machine, versions and date.
 """
 
 import argparse

@@ -7,7 +7,7 @@ a burst like a voice, and silence. Counted are the processor time of each browse
 and received (RTP and what goes with it, without IP's own headers), and each burst from a meter at the speaker's
 microphone to one of the same kind at the listener's. Medians over people, pairs and bursts. Needs Chromium, and Janus
 for its rows.
-Last result: see docs/room-operators.md, with machine, versions and date.
+Last result: see docs/measurements/room.md, with machine, versions and date.
 """
 
 import argparse

@@ -2,10 +2,13 @@
 
     python docs/figures/room_headset.py
 
-`track` runs as a process of its own on the films of docs/samples/headset. Needs Chromium.
+`track` runs as a process of its own on the films of docs/samples/headset: first on the rest at their beginning, for the
+neutral face, and then on the whole of them. Pictures come slower than they were filmed, so that a machine with other
+work leaves none out. Needs Chromium.
 """
 
 import asyncio
+import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -25,8 +28,11 @@ OUT = ROOT / "docs/pictures/room-headset.jpg"
 FILMS = ROOT / "docs/samples/headset"
 CAMERAS = ("left_eye", "right_eye", "mouth")
 FRAMES = (8, 34, 73, 92)
-"""At rest, a funnel, a pucker, a blink."""
+"""At rest, a funnel, a pucker, shut eyes."""
 SIZE = 360
+REST = 10
+"""Frames at the beginning of the films."""
+RATE = ("--fps", "5")
 
 KEEP = """(() => {
   const kept = [];
@@ -40,8 +46,31 @@ KEEP = """(() => {
 """Keeps what comes, to be drawn afterwards: software draws slower than the face moves."""
 
 
+async def run_track(*words: str) -> None:
+    """Run `track` to its end."""
+    track = await asyncio.create_subprocess_exec(sys.executable, "-m", "track", *words, cwd=ROOT)
+    if await track.wait():
+        raise SystemExit("track did not end well")
+
+
+def cameras(films: Path) -> list[str]:
+    """The options that name the three films of a folder."""
+    return [word for name in CAMERAS for word in ("--camera", f"{name}={films / name}")]
+
+
+def write_rest(films: Path) -> None:
+    """Films of half a minute of rest."""
+    for name in CAMERAS:
+        (films / name).mkdir(parents=True)
+        for frame in range(150):
+            shutil.copy(FILMS / name / f"{frame % REST:03}.png", films / name / f"{frame:03}.png")
+
+
 async def shown(folder: Path) -> list[np.ndarray]:
     """The face in the room at each frame, BGR."""
+    profile = ("--profile", str(folder / "ada.toml"))
+    write_rest(folder / "rest")
+    await run_track("calibrate", "neutral", *cameras(folder / "rest"), *profile, *RATE)
     async with open_room() as place, chromium("--use-fake-ui-for-media-stream") as browser:
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
         ada = await place.guest(name="Ada", avatar="nora")
@@ -54,10 +83,8 @@ async def shown(folder: Path) -> list[np.ndarray]:
             face = "[...meeting.known.values()].find(({ person }) => person.name === 'Ada')"
             await tab.until(f"{face}?.figure.avatar.name === 'nora'", 60)
             await tab.ask(KEEP % face)
-            words = [word for name in CAMERAS for word in ("--camera", f"{name}={FILMS / name}")]
             options = ("--no-page", "--to", f"room:{link}.{ada.secret}")
-            track = await asyncio.create_subprocess_exec(sys.executable, "-m", "track", *words, *options)
-            await track.wait()
+            await run_track(*cameras(FILMS), *profile, *RATE, *options)
             pictures = []
             for frame in FRAMES:
                 await tab.ask(f"void (globalThis.held = nearest({frame + 1}))")

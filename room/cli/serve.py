@@ -37,7 +37,10 @@ def serve(
         list[str] | None, typer.Option(help="turn:HOST:PORT of a coturn, with --turn-secret.")
     ] = None,
     turn_secret: Annotated[Path | None, typer.Option(help="File of coturn's static-auth-secret.")] = None,
-    origin: Annotated[list[str] | None, typer.Option(help="https://HOST of a proxy in front.")] = None,
+    origin: Annotated[
+        list[str] | None,
+        typer.Option(help="https://HOST that people type, where it is another name or a proxy's."),
+    ] = None,
     redis: Annotated[
         str | None,
         typer.Option(
@@ -98,7 +101,7 @@ def serve(
     def started(where: str) -> None:
         if keys and not known:  # a command that was refused has written nothing
             keep_keys(held, keys)
-        print_links(held, names, where)
+        print_links(held, names, origin[0] if origin else where)
         if not cert and host not in ("127.0.0.1", "::1", "localhost"):
             say(
                 "room: browsers give no camera and no microphone to http pages of other machines: --cert and --key"

@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import platform
 import signal
 import ssl
 from collections.abc import Callable
@@ -42,6 +43,13 @@ class Address:
         """``https`` or ``http``."""
         return "https" if self.certificate else "http"
 
+    @property
+    def name(self) -> str:
+        """What stands for the host in an address: nobody can open 0.0.0.0, so of all interfaces this machine's name."""
+        if self.host in ("0.0.0.0", "::"):
+            return platform.node()
+        return f"[{self.host}]" if ":" in self.host else self.host
+
 
 def serve(rooms: Rooms, address: Address, *, started: Callable[[str], None]) -> None:
     """Answer until Ctrl-C or SIGTERM, then tell everybody and return: that is how a server ends as it should.
@@ -80,7 +88,7 @@ async def _serve(
                 f"{address.host}:{address.port}: cannot be listened at ({reason}); name another --host or --port"
             ) from None
         port = runner.addresses[0][1]
-        started(f"{address.scheme}://{f'[{address.host}]' if ':' in address.host else address.host}:{port}")
+        started(f"{address.scheme}://{address.name}:{port}")
         await _stopped(rooms.stopped)
     finally:
         await runner.cleanup()

@@ -123,6 +123,7 @@ def test_people_of_a_killed_server_go_on_by_another_one_where_they_stood(tmp_pat
             assert again.states[again.number].floor_m == (3.0, 4.0)
             await again.move(floor_m=(5.0, 4.0))
             await ben.until(lambda: ben.states[ada.number].floor_m == (5.0, 4.0))
+            print(f"back by another server after {time.monotonic() - start:.2f} s")
             assert time.monotonic() - start < BACK_S
             assert not ben.all(Left)
             for place in (north, south):
@@ -215,6 +216,7 @@ def test_many_who_talk_nonsense_disturb_nobody(tmp_path):
                 )
                 worst = max(worst, time.monotonic() - start)
             await floods
+            print(f"longest wait in the flood {worst:.2f} s")
             assert worst < 1.0, "a pause at most"
             assert not ada.socket.closed
             assert not ben.socket.closed

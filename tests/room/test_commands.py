@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import platform
 import re
 import shutil
 import signal
@@ -170,6 +171,28 @@ def test_what_is_stopped_on_purpose_ends_well(command, tmp_path):
         run.send_signal(signal.SIGINT)
         _, said = run.communicate(timeout=30)
     assert (run.returncode, said) == (0, "room: stopped; its links have ended\n")
+
+
+@pytest.mark.parametrize(
+    ("options", "start"),
+    [
+        (("--host", "0.0.0.0"), f"http://{platform.node()}:"),
+        (("--host", "0.0.0.0", "--origin", "https://rooms.example"), "https://rooms.example/room/"),
+        (("--host", "127.0.0.1"), "http://127.0.0.1:"),
+    ],
+)
+def test_links_name_what_others_can_open(options, start):
+    with subprocess.Popen(
+        (sys.executable, "-m", "room", "serve", "--port", "0", *options),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    ) as run:
+        link = run.stdout.readline().split("\t")[2]
+        run.terminate()
+        run.communicate()
+    assert link.startswith(start), link
 
 
 @pytest.mark.skipif(shutil.which("openssl") is None, reason="makes the certificate")

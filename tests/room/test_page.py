@@ -213,7 +213,7 @@ async def observe(folder: Path) -> dict[str, object]:
 
 
 async def restarted(folder: Path) -> dict[str, object]:
-    """A server that goes away for a second under two people who are talking."""
+    """A server that goes away under two people who are talking, for so long that pages try less often."""
     write_bursts(folder / "speech.wav")
     keys = new_keys()
     camera = f"--use-file-for-fake-audio-capture={folder / 'speech.wav'}"
@@ -235,7 +235,7 @@ async def restarted(folder: Path) -> dict[str, object]:
             await ben.until(f"{other('Ada')}.newest?.floor_m[0] === 2.5")
         for tab in tabs:
             await tab.until("document.querySelector('#state').textContent.includes('broke')")
-        await asyncio.sleep(1.0)
+        await asyncio.sleep(4.8)
         async with open_room(keys=keys, port=port):
             start = time.monotonic()
             for tab in tabs:

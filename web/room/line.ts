@@ -3,8 +3,8 @@
 import { decode, encode, unpack, ProtocolError, type Message } from "./protocol.js";
 import type { Answer, Said, Welcome } from "./texts.js";
 
-/** A server that starts again is back in a second: short waits first. */
-const WAITS_MS = [200, 400, 800, 1000, 2000, 4000];
+/** A server that starts again is back in a second: short waits first, and never so long that people miss three seconds of it. */
+const WAITS_MS = [200, 400, 800, 1000, 2000];
 
 export interface Handlers {
   welcome(welcome: Welcome): void;

@@ -1,0 +1,53 @@
+"""Two browsers with films before their cameras and speech in their microphones meet by the page, as people do."""
+
+import asyncio
+import statistics
+from pathlib import Path
+
+import pytest
+
+from tests.browser import needs_chromium
+from tests.room.filmed import BURST_S, Direction, meet
+
+ROOT = Path(__file__).resolve().parents[2]
+FILM = ROOT / "docs/samples/acting-avatar.webm"
+
+pytestmark = [
+    needs_chromium,
+    pytest.mark.slow,
+    pytest.mark.skipif(
+        not (ROOT / "room/server/static/face/face.js").exists(), reason="`make room-face` has not been run"
+    ),
+]
+
+
+@pytest.fixture(scope="module")
+def directions(tmp_path_factory: pytest.TempPathFactory) -> tuple[Direction, Direction]:
+    return asyncio.run(meet((FILM, FILM), seconds=4 * BURST_S, folder=tmp_path_factory.mktemp("filmed")))
+
+
+def test_each_sees_the_face_of_the_other_move_as_its_camera_says(directions):
+    for one in directions:
+        assert one.faces > one.seconds / 2, "at least one in two seconds, on a busy machine"
+        assert one.tracked > 0.5 * one.sent, "others are told that a camera sees this face"
+        assert one.arrived > 0.95 * one.sent
+        assert one.differences.max() <= 0.02
+        assert len(one.moved()) >= 8, one.spans_sent
+        still = [name for name in one.moved() if one.spans_shown.get(name, 1) < one.spans_sent[name] / 2]
+        assert not still, "what moves is seen to move"
+
+
+def test_each_hears_the_other_from_the_side_where_they_stand(directions):
+    for one in directions:
+        assert set(one.ears) == {"left", "right"}
+        assert min(one.ears.values()) > 1.5
+
+
+def test_each_sees_the_sign_of_the_other_in_time(directions):
+    for one in directions:
+        print(f"on {one.on_ms}, off {one.off_ms}")
+        assert len(one.on_ms) == one.begins
+        assert one.begins >= 2
+        assert len(one.off_ms) == one.ends
+        assert statistics.median(one.on_ms) <= 200
+        assert statistics.median(one.off_ms) <= 700
