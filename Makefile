@@ -142,6 +142,7 @@ $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
 $(READY): pyproject.toml requirements.lock | $(BIN)/python
+	@echo "installing what requirements.lock names into $(VENV), 1.9 GB: some minutes without a word"
 	$(LOCKED) requirements.lock
 	$(SELF)
 	@touch $@
