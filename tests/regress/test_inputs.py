@@ -244,7 +244,7 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
         "not.xml": "is not XML",
         "other.xml": "no image with a box",
         "high.xml": "a part 68",
-        "other.json": "not a COCO keypoints file",
+        "other.json": "not a COCO keypoints file: must be a table",
         "none.json": "no annotation",
         "body.json": "no 204 numbers",
         "S1_landmarks.txt": "1 lines of 3",

@@ -187,7 +187,7 @@ def open_profile(
         )
     elif profile.neutral is None and not wishes.calibrating:
         say(
-            f"no neutral face is known yet of {profile.person} before this camera, so movements are guessed: "
+            f"no neutral face is known yet for profile {profile.person} and this camera, so movements are guessed: "
             "calibrate on the page, or by `track calibrate`"
         )
     return profile, stored, path

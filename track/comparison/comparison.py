@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.console import counted
 from facegen.conventions import BLENDSHAPES
 from track.comparison.alignment import MOVING, Alignment, align, at
 from track.errors import InputError
@@ -87,7 +86,7 @@ def compare_weights(
     ):
         if len(times_s) < 2:
             raise InputError(
-                f"the {what} gave {counted(len(times_s), 'frame')} with a face, and two or more are needed: {do}"
+                f"the {what} gave {len(times_s)} frames with a face, and two or more are needed: {do}"
             )
     alignment = align(tracked_s, tracked, truth_s, truth)
     if not alignment.certain:
