@@ -142,6 +142,9 @@ $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
 $(READY): pyproject.toml requirements.lock | $(BIN)/python
+	@$(BIN)/python -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || \
+	  { echo "$(VENV) is of another Python than 3.11, which make needs; leave it, and add VENV=.venv-3.11 to the command" >&2; exit 2; }
+	@echo "installing what requirements.lock names into $(VENV), 1.9 GB: some minutes without a word"
 	$(LOCKED) requirements.lock
 	$(SELF)
 	@touch $@

@@ -122,6 +122,7 @@ def _bars(unit: str) -> Iterator[ProgressCall]:
 def _plain_lines(unit: str) -> ProgressCall:
     opened = time.monotonic()
     started: dict[str, float] = {}
+    first: dict[str, tuple[int, float]] = {}
     last = opened
 
     def write(stage: str, done: int, total: int) -> None:
@@ -129,16 +130,23 @@ def _plain_lines(unit: str) -> ProgressCall:
         now = time.monotonic()
         # the first stage began with the command, a later one with its first call
         elapsed = now - started.setdefault(stage, now if started else opened)
+        # what is there already, or took its time to begin with, says nothing of the pace
+        before, since = first.setdefault(stage, (done, now))
         if done == total or now - last >= LINE_EVERY_S:
             last = now
-            left = (
-                f", about {elapsed / done * (total - done):.0f} s left"
-                if done < total and done * elapsed
-                else ""
-            )
-            say(f"{stage}: {done} of {total}{unit}, {elapsed:.0f} s{left}")
+            left = ""
+            if before < done < total and now > since:
+                left = f", about {_spoken((now - since) / (done - before) * (total - done))} left"
+            say(f"{stage}: {done} of {total}{unit}, {_spoken(elapsed)}{left}")
 
     return write
+
+
+def _spoken(seconds: float) -> str:
+    """A length of time as people say it."""
+    if seconds < 120:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
 def _openjd_lines(stage: str, done: int, total: int) -> None:

@@ -218,6 +218,9 @@ def _misused(app: "typer.Typer", error: Any) -> int:
     else:
         # Typer's copy of click puts pydantic's words before its own
         message = error.format_message().replace("Value error, ", "").rstrip(".")
+        message = message.removesuffix(" (Possible options: --help)").replace(
+            ": Input should be", ": it should be"
+        )
         say(f"{app.info.name}: {message}; see {_command(app)} --help")
     return InputError.exit_code
 

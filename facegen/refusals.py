@@ -57,6 +57,7 @@ def _sentence(entry: dict[str, Any], record: type) -> str:
     message = re.sub(r"^(Input|\w+) should", "must", entry["msg"].removeprefix("Value error, "))
     message = message.replace("must be a valid integer", "must be a whole number")
     message = message.replace("must be a valid", "must be a").replace("must be an object", "must be a table")
+    message = re.sub(r"must be a dictionary or an instance of \w+", "must be a table", message)
     message = message.replace(" after validation", "")  # which says nothing to who wrote the file
     value = _as_text(entry["input"])
     if not path:

@@ -9,6 +9,7 @@ References
    implementation note suggests and Blender, three.js and Ready Player Me write them.
 """
 
+import json
 import struct
 import warnings
 from collections.abc import Iterator
@@ -106,7 +107,7 @@ def damage_told(path: Path) -> Iterator[None]:
             yield
     except FormatError as error:
         raise error if str(path) in str(error) else FormatError(f"{path}: {error}") from error
-    except UnicodeDecodeError as error:
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
         raise FormatError(f"{path} cannot be read as a glTF 2.0 file (it is neither GLB nor JSON)") from error
     # by where the damage lies
     except (

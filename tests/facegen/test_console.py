@@ -127,9 +127,23 @@ def test_plain_lines_come_at_the_end_of_a_stage_and_seldom_before(capsys, monkey
     captured = capsys.readouterr()
     assert captured.out == ""
     assert captured.err.splitlines() == [
-        "rows: 2 of 4 steps, 11 s, about 11 s left",
+        "rows: 2 of 4 steps, 11 s, about 14 s left",
         "rows: 4 of 4 steps, 20 s",
         "columns: 1 of 1 steps, 0 s",
+    ]
+
+
+def test_what_a_stage_began_with_says_nothing_of_its_pace(capsys, monkeypatch):
+    """The first of 1,000 frames may wait a minute for what the others share; a resumed run has most of them already."""
+    clock = iter([0.0, 60.0, 100.0, 4000.0])
+    monkeypatch.setattr(time, "monotonic", lambda: next(clock))
+    with progress() as show:
+        for done in (1, 41, 600):
+            show("frames", done, 1000)
+    assert capsys.readouterr().err.splitlines() == [
+        "frames: 1 of 1000, 60 s",
+        "frames: 41 of 1000, 100 s, about 16 min left",
+        "frames: 600 of 1000, 67 min, about 44 min left",
     ]
 
 

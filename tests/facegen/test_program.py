@@ -132,8 +132,9 @@ def test_memory_that_runs_out_is_told(tmp_path):
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("make", "--count", "many"), "masks: Invalid value for '--count': "),
-        (("make", "--cuont", "1"), "masks: No such option: --cuont"),
+        (("make", "--count", "many"), "masks: Invalid value for '--count': it should be a "),
+        (("make", "--cuont", "1"), "masks: No such option: --cuont (Possible options: --count"),
+        (("make", "--helm"), "masks: No such option: --helm; see"),
         (("fly",), "masks: No such command 'fly'; see"),
         (("make", "--count"), "masks: Option '--count' requires an argument; see"),
         (("make", "--count", "1" * 5000), "masks: Invalid value for '--count': "),

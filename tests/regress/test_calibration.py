@@ -42,8 +42,10 @@ def test_the_median_of_neutral_frames_counts_and_missing_ones_do_not(quick_model
     )
     with pytest.raises(InputError, match="no neutral frame is usable"):
         quick_model.calibrate(frames[-1:])
+    one = quick_model.calibrate(FACES[0])  # a single face needs no count
+    assert np.array_equal(one.predict(FACES), quick_model.calibrate(FACES[:1]).predict(FACES))
     with pytest.raises(InputError, match=r"\(m, 68, 2\) is needed"):
-        quick_model.calibrate(FACES[0])
+        quick_model.calibrate(FACES[0, :67])
 
 
 def test_a_model_without_calibrated_networks_says_so(quick_model: Model, dataset: KeypointDataset):

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from facegen.conventions import LANDMARK_COUNT
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from facegen.errors import FormatError
 from facegen.formats import write_pts
 from regress.errors import InputError
@@ -102,6 +102,12 @@ def test_every_format_of_the_table_gives_the_points_back(name: str, tmp_path: Pa
     assert np.allclose(frames.points, expected, atol=1e-4)
     assert frames.points.dtype == np.float64
     assert frames.usable.all()
+
+
+def test_an_array_of_one_face_needs_no_count(tmp_path: Path):
+    """As the exports' page keeps a neutral face."""
+    np.save(tmp_path / "neutral.npy", FACES[0])
+    assert np.array_equal(read_frames(tmp_path / "neutral.npy").points, FACES[:1])
 
 
 def test_a_folder_goes_by_number_not_by_letter(tmp_path: Path):
@@ -218,6 +224,11 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
     (folder / "take.mp4").write_bytes(b"")
     (folder / "take.wav").write_bytes(b"")
     (folder / "bare").mkdir(exist_ok=True)
+    (folder / "seen").mkdir(exist_ok=True)
+    (folder / "seen" / "1.png").write_bytes(b"")
+    (folder / "weights.csv").write_text(",".join(["frame", *BLENDSHAPES]) + "\n")
+    (folder / "cut.json").write_text("{")
+    (folder / "lines.txt").write_text(" ".join(["1"] * 136) + "\n")
     _openface(folder / "unseen.csv", success=(0, 0, 0))
     said = {
         "short.pts": "holds 67 points",
@@ -233,13 +244,17 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
         "not.xml": "is not XML",
         "other.xml": "no image with a box",
         "high.xml": "a part 68",
-        "other.json": "not a COCO keypoints file",
+        "other.json": "not a COCO keypoints file: must be a table",
         "none.json": "no annotation",
         "body.json": "no 204 numbers",
         "S1_landmarks.txt": "1 lines of 3",
         "take.mp4": f"is a film, and landmarks of it are needed; track --fast --no-page --camera {folder}/take.mp4",
         "take.wav": "no known format",
         "bare": "holds no .pts file",
+        "seen": f"holds pictures and no .pts file; track --fast --no-page --camera {folder}/seen",
+        "weights.csv": "is a table of weights already",
+        "cut.json": "cut.json is not a COCO keypoints file: is not JSON",
+        "lines.txt": f"regress predict - < {folder}/lines.txt",
         "unseen.csv": "no usable frame",
         "missing.pts": "does not exist",
     }

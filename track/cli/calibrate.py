@@ -47,6 +47,7 @@ def calibrate(
     from track.cli.running import RunOptions, ended_by_signals, open_session
     from track.errors import InputError
     from track.messages import Command, Moment
+    from track.profile.places import profile_path
     from track.session.faces import faces_of
 
     wishes = Wishes(
@@ -60,6 +61,7 @@ def calibrate(
         headset=headset,
         fast=fast,
         fps=fps,
+        calibrating=True,
     )
     faces_of(faces)
     texts = camera_texts(wishes.cameras, headset=is_headset(wishes))
@@ -69,22 +71,35 @@ def calibrate(
 
         said = ""
 
+        def __init__(self) -> None:
+            self.good: list[str] = []
+
         def publish(self, moment: Moment) -> None:
+            if not session.adjusting.calibrating:  # how it ended the session has said
+                session.stop()
+                return
             step = moment.step
-            line = f"{step.name.replace('_', ' ')}: {step.state}" + (f": {step.text}" if step.text else "")
+            name = step.name.replace("_", " ")
+            line = f"{name}: {step.state}" + (f": {step.text}" if step.text else "")
             if line != self.said:
                 self.said = line
                 say(line)
-            if not session.adjusting.calibrating:
-                session.stop()
+                self.good += [name] if step.state == "done" else []
 
+    prompt = Prompt()
     with contextlib.ExitStack() as closing:
         session, capture = open_session(wishes, texts, [], say, closing, options=RunOptions())
         session.ask(Command(verb="calibrate", value=faces))
         with ended_by_signals(session, capture):
-            session.run(capture, Prompt())
+            session.run(capture, prompt)
         if session.adjusting.calibrating:
-            raise InputError("the pictures ended before calibration did; everything found before it is kept")
+            found = (
+                f"{', '.join(prompt.good)} found before it stays"
+                if prompt.good
+                else "nothing was found before it"
+            )
+            raise InputError(f"the pictures ended before calibration did; {found}")
         step = session.adjusting.step
         if step is not None and step.state == "cancelled":
             raise InputError(step.text)
+        say(f"kept in {profile_path(profile, ' '.join(capture.titles.values()))}")

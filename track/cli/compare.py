@@ -4,6 +4,7 @@ import contextlib
 import dataclasses
 import json
 import re
+import shlex
 import time
 from pathlib import Path
 from typing import Annotated
@@ -60,7 +61,7 @@ def compare(
     from track.cli.running import RunOptions, ended_by_signals, open_session
     from track.comparison.comparison import compare_weights
     from track.comparison.phone import PORT, Phone
-    from track.comparison.take import write_take
+    from track.comparison.take import check_place, write_take
     from track.errors import InputError
     from track.sinks.sink import Sink
 
@@ -82,6 +83,8 @@ def compare(
             f"--keep {keep}: "
             + ("is there already" if keep.exists() else "a take is of points, not of a headset")
         )
+    if keep is not None:
+        check_place(keep)  # before a person acts for a minute
 
     class Tracked(Sink):
         """Keeps what a filter and the person's profile have made of each frame, by this machine's clock."""
@@ -122,17 +125,29 @@ def compare(
             weights=found.truth,
             neutral=np.zeros((0, 68, 2)) if neutral_points is None else neutral_points,
         )
-        say(f"kept {keep}; regress evaluate MODEL {keep} judges any model on it")
-    delay_ms = 1000 * found.alignment.delay_s
+        say(f"kept {keep}; {judging(keep, calibrated=neutral_points is not None)} judges any model on it")
     if as_json:
         shapes = {name: dataclasses.asdict(figures) for name, figures in found.shapes.items()}
-        summary = {"delay_ms": delay_ms, "frames": len(found.rows), "median_r": found.median_r}
+        summary = {
+            "delay_ms": 1000 * found.alignment.delay_s,
+            "frames": len(found.rows),
+            "median_r": found.median_r,
+        }
         typer.echo(json.dumps({**summary, "shapes": shapes}, allow_nan=False))
         return
     typer.echo(f"{'shape':<20} {'r':>6} {'MAE':>6} {'moved':>6}")
     for name, figures in found.shapes.items():
         if figures.r is not None:
             typer.echo(f"{name:<20} {figures.r:6.2f} {figures.mae:6.3f} {figures.moved:6.3f}")
-    typer.echo(
-        f"{counted(len(found.rows), 'frame')}; the phone is {delay_ms:.0f} ms later; median r {found.median_r:.2f}"
-    )
+    when = delay_in_words(found.alignment.delay_s)
+    typer.echo(f"{counted(len(found.rows), 'frame')}; the phone is {when}; median r {found.median_r:.2f}")
+
+
+def delay_in_words(delay_s: float) -> str:
+    """By how much something is later, or earlier."""
+    return f"{abs(1000 * delay_s):.0f} ms {'earlier' if delay_s < 0 else 'later'}"
+
+
+def judging(take: Path, *, calibrated: bool) -> str:
+    """The command that judges a model on a take, which has a neutral face or not."""
+    return f"regress evaluate MODEL {shlex.quote(str(take))}" + (" --calibrated" if calibrated else "")

@@ -38,6 +38,8 @@ class Wishes:
         Options' values.
     fast, loop, fps
         Pace of kept pictures, and whether they come again and again.
+    calibrating
+        Whether a neutral face is about to be asked for, so that nobody is told to calibrate.
     """
 
     cameras: Sequence[str] = ()
@@ -52,6 +54,7 @@ class Wishes:
     fast: bool = False
     loop: bool = False
     fps: float = 30.0
+    calibrating: bool = False
 
 
 def camera_texts(cameras: Sequence[str], *, headset: bool) -> dict[str, str]:
@@ -182,9 +185,10 @@ def open_profile(
         profile = profile.model_copy(
             update={"neutral": _neutral_file(wishes.neutral, pipeline), **_NOTHING_READ}
         )
-    elif profile.neutral is None:
+    elif profile.neutral is None and not wishes.calibrating:
         say(
-            "no neutral face is known yet, so movements are guessed: calibrate on the page, or by `track calibrate`"
+            f"no neutral face is known yet for profile {profile.person} and this camera, so movements are guessed: "
+            "calibrate on the page, or by `track calibrate`"
         )
     return profile, stored, path
 

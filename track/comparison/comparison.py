@@ -76,9 +76,18 @@ def compare_weights(
     InputError
         Where one is empty, or they do not fit together.
     """
-    for what, times_s in (("camera", tracked_s), ("phone", truth_s)):
+    for what, times_s, do in (
+        ("camera", tracked_s, "sit before it in good light"),
+        (
+            "phone",
+            truth_s,
+            "enter this machine's address and that port in Live Link Face, and start it there first",
+        ),
+    ):
         if len(times_s) < 2:
-            raise InputError(f"the {what} gave {len(times_s)} frames with a face, which cannot be compared")
+            raise InputError(
+                f"the {what} gave {len(times_s)} frames with a face, and two or more are needed: {do}"
+            )
     alignment = align(tracked_s, tracked, truth_s, truth)
     if not alignment.certain:
         raise InputError(

@@ -13,6 +13,26 @@ SHARD_ROWS = 10_000
 """Of a file of rows, as datasets have them."""
 
 
+def check_place(folder: Path) -> None:
+    """See that a take can be written, before there is one.
+
+    Raises
+    ------
+    InputError
+        Where something of that name is there.
+    OutputError
+        Where there is no folder to make it in.
+    ModuleNotFoundError
+        Without the extra ``learn``.
+    """
+    import pyarrow.parquet  # noqa: F401
+
+    if folder.exists():
+        raise InputError(f"{folder} is there already; name a new folder for the take")
+    if not folder.parent.is_dir():
+        raise OutputError(f"{folder}: cannot be made, as there is no folder {folder.parent}")
+
+
 def write_take(folder: Path, *, points: np.ndarray, weights: np.ndarray, neutral: np.ndarray) -> Path:
     """Write a dataset; its folder must not be there yet.
 
@@ -37,10 +57,7 @@ def write_take(folder: Path, *, points: np.ndarray, weights: np.ndarray, neutral
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    if folder.exists():
-        raise InputError(f"{folder} is there already; name a new folder for the take")
-    if not folder.parent.is_dir():
-        raise OutputError(f"{folder}: cannot be made, as there is no folder {folder.parent}")
+    check_place(folder)
     faces = np.concatenate([neutral, points]).astype(np.float32).reshape(-1, 2 * LANDMARK_COUNT)
     labels = np.concatenate([np.zeros((len(neutral), len(BLENDSHAPES))), weights]).astype(np.float32)
     columns = {

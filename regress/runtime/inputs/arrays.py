@@ -1,4 +1,4 @@
-"""NumPy files of landmarks, (n, 68, 2), or (n, 70, 2) with the irises."""
+"""NumPy files of landmarks, (n, 68, 2), or (n, 70, 2) with the irises; one face may stand without its n."""
 
 from pathlib import Path
 
@@ -22,6 +22,8 @@ def read_array(path: Path) -> Frames:
     """Frames in the array's order; labels count from 0."""
     points = load_npy(path, most_bytes=_MOST_BYTES)
     known = ((LANDMARK_COUNT, 2), (LANDMARK_COUNT + 2, 2))
+    if points.shape in known:
+        points = points[None]
     if points.ndim != 3 or points.shape[1:] not in known or not 0 < len(points) <= MOST_FRAMES:
         raise InputError(
             f"{path} has shape {points.shape}; (n, {LANDMARK_COUNT}, 2) is needed, n from 1 to {MOST_FRAMES:,}, "

@@ -54,7 +54,8 @@ def read_coco(path: Path) -> Frames:
     try:
         document = checked(_Coco, load_json(path, most_bytes=_MOST_BYTES))
     except InputError as error:
-        raise InputError(f"{path} is not a COCO keypoints file: {error}") from error
+        reason = str(error).removeprefix(f"{path}: ")
+        raise InputError(f"{path} is not a COCO keypoints file: {reason}") from error
     if not document.annotations:
         raise InputError(f"{path} has no annotation")
     names = {

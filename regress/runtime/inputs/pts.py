@@ -1,6 +1,7 @@
 """iBUG ``.pts`` files: one face each, alone or folders of them in the order of their names."""
 
 import re
+import shlex
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,9 @@ from facegen.conventions import LANDMARK_COUNT
 from facegen.formats import read_pts
 from regress.errors import InputError
 from regress.runtime.inputs.frames import Frames, stacked
+
+_PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".webp")
+"""Of a folder for which landmarks are still to be found."""
 
 
 def is_pts(path: Path) -> bool:
@@ -28,6 +32,11 @@ def read_folder(path: Path) -> Frames:
     """
     files = sorted((file for file in path.rglob("*") if is_pts(file)), key=lambda file: _natural(path, file))
     if not files:
+        if any(file.suffix.lower() in _PICTURES for file in path.iterdir()):
+            raise InputError(
+                f"{path} holds pictures and no .pts file; track --fast --no-page --camera {shlex.quote(str(path))} "
+                "--record weights.csv finds landmarks itself, and regress headset predict reads a headset's cameras"
+            )
         raise InputError(f"{path} holds no .pts file")
     points = stacked(map(_face, files), path)
     labels = tuple(file.relative_to(path).with_suffix("").as_posix() for file in files)

@@ -87,7 +87,9 @@ def _reader_of(path: Path) -> Reader:
                 f"track --fast --no-page --camera {shlex.quote(str(path))} --record weights.csv finds them itself"
             )
         known = ", ".join(reader.description for reader in READERS.values())
-        raise InputError(f"{path} is of no known format; {known} can be read")
+        piped = f"; lines of 136 numbers come by a pipe, as in regress predict - < {shlex.quote(str(path))}"
+        lines = piped if path.suffix.lower() == ".txt" else ""
+        raise InputError(f"{path} is of no known format; {known} can be read{lines}")
     return reader
 
 

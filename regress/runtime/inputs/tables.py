@@ -9,12 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.conventions import LANDMARK_COUNT
+from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from facegen.formats.csv_rows import CsvRows, number_in, numbers_in
 from regress.errors import InputError
 from regress.runtime.inputs.frames import Frames, split_irises, stacked
 
 _POINTS = tuple(f"{axis}_{index}" for index in range(LANDMARK_COUNT) for axis in "xy")
+_BY_AXIS = tuple(sorted(_POINTS, key=lambda name: name[0]))
 _IRISES = tuple(f"{axis}_{index}" for index in (LANDMARK_COUNT, LANDMARK_COUNT + 1) for axis in "xy")
 """Of the subject's right iris, then of the left one, where a table has them."""
 
@@ -36,7 +37,13 @@ def read_table(path: Path) -> Frames:
     ``frame``, or count from 0.
     """
     with CsvRows(path) as table:
-        missing = [name for axis in "xy" for name in _POINTS if name[0] == axis and name not in table.columns]
+        missing = [name for name in _BY_AXIS if name not in table.columns]
+        if missing == list(_BY_AXIS) and set(BLENDSHAPES) <= {
+            name[:1].lower() + name[1:] for name in table.columns
+        }:
+            raise InputError(
+                f"{path} is a table of weights already; the landmarks that they came from are needed"
+            )
         if missing:
             raise InputError(
                 f"{path} lacks {len(missing)} of the columns x_0 .. x_67, y_0 .. y_67, first {missing[0]}; "

@@ -101,8 +101,8 @@ class Model:
 
         Parameters
         ----------
-        neutral : (m, 68, 2) float
-            Neutral frames of the person, by the detector that will be used; the median of their features
+        neutral : (m, 68, 2) or (68, 2) float
+            Neutral frames of the person, or one, by the detector that will be used; the median of their features
             counts, so a blink among them does no harm. Frames with missing points are left out.
 
         Raises
@@ -116,6 +116,7 @@ class Model:
                 f"({self.recipe}) leaves them out"
             )
         points = np.asarray(neutral, dtype=np.float64)
+        points = points[None] if points.ndim == 2 else points
         if points.ndim != 3 or points.shape[1:] != (LANDMARK_COUNT, 2):
             raise InputError(f"neutral points have shape {points.shape}; (m, 68, 2) is needed")
         features = extract(self.calibrated.features, points[np.isfinite(points).all(axis=(1, 2))])

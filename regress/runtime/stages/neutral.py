@@ -94,7 +94,7 @@ def _judged(model: Model, faces: np.ndarray, calm: np.ndarray) -> tuple[bool, st
     if moved > _RESTLESS or (noises > _STILL_NOISES and moved > _STILL):
         return (
             False,
-            f"the face is not at rest: about the calmest frames too weights move by {moved:.2f}, "
+            f"the face is not at rest: even around its calmest frames weights move by {moved:.2f}, "
             f"{noises:.1f} times their noise",
         )
     return (

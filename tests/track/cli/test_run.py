@@ -176,6 +176,38 @@ def test_ctrl_c_ends_a_wait_for_the_next_line(home):
     assert len(rows(home / "take.csv")) == 40
 
 
+def calibrated(faces: str, *, seconds: float) -> subprocess.CompletedProcess:
+    """`track calibrate` by lines of points: the sample's resting face, over and over."""
+    rest = [" ".join(f"{value:.2f}" for value in sample.points.ravel()) for sample in frames(0, 60)]
+    lines = [f"{number / 30:.4f} {rest[number % 60]}\n" for number in range(round(30 * seconds))]
+    words = ["calibrate", faces, "--camera", "-", "--fast"]
+    return subprocess.run(
+        [sys.executable, "-m", "track", *words],
+        input="".join(lines),
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+
+
+def test_who_calibrates_is_not_told_to_and_learns_where_it_is_kept(home):
+    ended = calibrated("neutral", seconds=8)
+    *steps, done, kept = ended.stderr.splitlines()
+    assert ended.returncode == 0, ended.stderr
+    assert [step.split(": ")[1] for step in steps] == ["countdown", "recording", "done"]
+    assert done == "calibration: done"
+    assert Path(kept.removeprefix("kept in ")).is_file()
+
+
+@pytest.mark.parametrize(
+    ("seconds", "found"), [(4, "nothing was found before it"), (8, "neutral found before it stays")]
+)
+def test_pictures_that_end_too_soon_leave_what_was_found(seconds, found, home):
+    ended = calibrated("all", seconds=seconds)
+    assert ended.returncode == 2
+    assert ended.stderr.endswith(f"track: the pictures ended before calibration did; {found}\n")
+
+
 def test_a_profile_that_cannot_be_kept_ends_no_session_but_calibration(home, capsys, monkeypatch):
     (home / "file").write_text("no folder")
     for name in ("XDG_CONFIG_HOME", "HOME", "APPDATA", "LOCALAPPDATA"):

@@ -76,7 +76,8 @@ def test_another_face_is_told_from_the_same_one():
 
 
 @pytest.mark.parametrize(
-    ("camera", "phone", "words"), [(0, 100, "the camera gave 0"), (100, 0, "the phone gave 0")]
+    ("camera", "phone", "words"),
+    [(0, 100, "the camera gave 0 frames"), (100, 0, "the phone gave 0 frames .* Live Link Face")],
 )
 def test_a_side_that_gave_nothing_is_named(camera, phone, words):
     times_s, weights = talk()

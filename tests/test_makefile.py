@@ -1,0 +1,27 @@
+"""`make` in a clone that somebody has used before."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.mark.skipif(shutil.which("make") is None, reason="there is no make on this machine")
+def test_an_environment_of_another_python_is_named_and_left_alone(tmp_path):
+    """A page of ours makes `.venv` by any Python from 3.10 on; pip then ended with a traceback."""
+    python = tmp_path / "bin" / "python"
+    python.parent.mkdir()
+    python.write_text("#!/bin/sh\nexit 1\n")
+    python.chmod(0o755)
+    ended = subprocess.run(
+        ["make", "--no-print-directory", "--directory", ROOT, f"VENV={tmp_path}", "setup"],
+        capture_output=True,
+        text=True,
+    )
+    assert ended.returncode == 2
+    assert ended.stderr.startswith(f"{tmp_path} is of another Python than 3.11")
+    assert "VENV=.venv-3.11" in ended.stderr
+    assert sorted(tmp_path.rglob("*")) == [python.parent, python]
