@@ -1,6 +1,7 @@
 """Runs a session for a command: opens what was asked for, lets Ctrl-C end it, and closes everything."""
 
 import contextlib
+import math
 import signal
 import threading
 import webbrowser
@@ -10,12 +11,14 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from facegen.console import ProgressCall, counted, progress
 from track.cli.opening import Wishes, camera_texts, is_headset, open_cameras, open_pipeline, open_profile
 from track.errors import InputError
 from track.profile.keeper import ProfileKeeper
 from track.profile.profile import write_profile
 
 if TYPE_CHECKING:
+    from track.messages import Moment
     from track.session.measures import Summary
     from track.session.session import Screen, Session
     from track.sinks.sink import Sink
@@ -51,13 +54,43 @@ def run_session(wishes: Wishes, options: RunOptions, say: Callable[[str], None])
         sinks = open_sinks(options, say, closing)
         session, capture = open_session(wishes, texts, sinks, say, closing, options=options, must_keep=False)
         screen = _open_page(options, session, texts, say, closing) if options.page else None
-        with ended_by_signals(session, capture):
+        with ended_by_signals(session, capture), contextlib.ExitStack() as showing:
+            if screen is None and wishes.fast and capture.length_s is not None:
+                screen = _Progress(capture, showing.enter_context(progress(unit="s")))
             summary = session.run(capture, screen, seconds=options.seconds)
-        if screen is not None and capture.over:
+        if options.page and capture.over:
             *others, last = capture.titles.values()
             told = f"{', '.join(others)} and {last} are" if others else f"{last} is"
             say(f"{told} over, and so is the page; --loop plays again and again")
+        say(how_it_went(summary))
         return summary
+
+
+class _Progress:
+    """Shows how much of a film has been read."""
+
+    def __init__(self, capture: "Capture", told: ProgressCall) -> None:
+        self._told, self._length_s, self._title = (
+            told,
+            math.ceil(capture.length_s),
+            ", ".join(capture.titles.values()),
+        )
+        self._shown_s = 0
+
+    def publish(self, moment: "Moment") -> None:
+        """Once a second of the film."""
+        done_s = min(math.ceil(moment.sample.time_s), self._length_s)
+        if done_s > self._shown_s:
+            self._shown_s = done_s
+            self._told(self._title, done_s, self._length_s)
+
+
+def how_it_went(summary: "Summary") -> str:
+    """A session in a sentence."""
+    told = f"{counted(summary.frames, 'frame')}, a face in {summary.faces:,}"
+    if summary.frames and summary.latency_ms:
+        told += f"; {summary.fps:.0f} a second, {summary.latency_ms['p50']:.0f} ms from picture to avatar"
+    return told
 
 
 def open_session(

@@ -52,6 +52,8 @@ class Capture:
         What a person calls each camera, by its name.
     live
         Whether pictures come by themselves.
+    length_s
+        How long all films last; None where one has no end, or does not say when.
     """
 
     def __init__(self, openers: Mapping[str, Opener], *, pauses_s: tuple[float, ...] = PAUSES_S) -> None:
@@ -65,6 +67,8 @@ class Capture:
             raise
         self.titles = {name: camera.title for name, camera in self._cameras.items()}
         self.live = any(camera.live for camera in self._cameras.values())
+        lengths_s = [camera.length_s for camera in self._cameras.values()]
+        self.length_s = None if None in lengths_s else max(lengths_s, default=None)
         # a machine's clock counts from its start, a film's from the film's
         self._start_s = time.monotonic() if any(each.endless for each in self._cameras.values()) else 0.0
         self._latest: dict[str, Picture] = {}

@@ -48,6 +48,8 @@ class Film(Source):
             raise CameraError(f"{path} is no film that can be read; .mp4, .avi, .mkv, .mov and .webm can")
         fps = self._film.get(cv2.CAP_PROP_FPS)
         self._step_s = 1 / fps if math.isfinite(fps) and fps > 0 else 1 / _TYPICAL_FPS
+        count = self._film.get(cv2.CAP_PROP_FRAME_COUNT)
+        self.length_s = count * self._step_s if math.isfinite(count) and count > 0 and not again else None
         self._next_s = self._last_s = self._before_s = 0.0
         self._begun_s: float | None = None
 

@@ -49,6 +49,7 @@ class Folder(Source):
         self._waiting = self._listed()
         if not self._waiting:
             raise CameraError(f"{folder} holds no picture; files that end in {', '.join(PICTURES)} are read")
+        self.length_s = None if again else len(self._waiting) * self._step_s
         self._next_s = self._last_s = 0.0
         self._begun_s: float | None = None
 

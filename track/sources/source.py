@@ -42,6 +42,8 @@ class Source:
         Whether pictures come by themselves: a live source loses what nobody read, a kept one waits.
     endless
         Whether no end is foreseen: a camera that gives no more has a fault and is opened again, a film is over.
+    length_s
+        How long all of its pictures last; None where no end is foreseen, or nobody knows it.
     ends_within_s
         How long `read` may go on after someone wants it closed.
     """
@@ -49,6 +51,7 @@ class Source:
     title: str
     live: bool = True
     endless: bool = True
+    length_s: float | None = None
     ends_within_s: float = (
         15.0  # a driver that hangs gives up after ten seconds (OpenCV's wait for Video4Linux)
     )

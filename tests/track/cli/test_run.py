@@ -100,6 +100,16 @@ def test_a_film_that_is_over_takes_the_page_along_and_says_so(home, capsys, monk
     assert "left_eye, right_eye and mouth are over, and so is the page; --loop" in capsys.readouterr().err
 
 
+def test_a_film_that_is_read_fast_shows_how_far_and_how_it_went(home, capsys, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["track", *CAMERAS, "--fast", "--fps", "25", "--no-page"])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 0
+    *_, progress, end = capsys.readouterr().err.splitlines()
+    assert progress.startswith("left_eye, right_eye, mouth: 4 of 4 s, ")
+    assert end == "100 frames, a face in 100"
+
+
 @pytest.mark.parametrize("looped", [True, False])
 def test_a_loop_ends_by_the_clock_alone(looped, home, capsys, monkeypatch):
     """A hundred pictures are over in a second when read fast; the same ones again and again are not."""

@@ -69,7 +69,7 @@ def kept(monkeypatch, profile: Path, *words) -> dict[str, tuple[float, ...]]:
     from track.session.session import Session
 
     def change(self, *arguments, **options):
-        self._keep(self.profile)
+        self.adjusting._keep(self.profile)
         return self.summary()
 
     with monkeypatch.context() as patch:
