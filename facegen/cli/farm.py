@@ -189,7 +189,9 @@ def logs(
         paths = farm.engine_logs(folder) + sorted((dataset / "quarantine").glob("*/*.log"))
     if not paths:
         raise InputError(
-            f"{dataset}: has no logs{f' of {task}' if task else ''} (names are like sample-000123)"
+            f"{dataset}: has no logs of {task}: no attempt at it was made here, or logs/ was emptied"
+            if task
+            else f"{dataset}: has no logs: no engine has run a task, and nothing failed for good"
         )
     for path in paths:
         lines = last_lines(path, tail)

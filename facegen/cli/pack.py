@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from facegen.console import counted, progress
+from facegen.errors import InputError
 
 
 def pack(
@@ -55,7 +56,15 @@ def pack(
         exr=exr,
     )
     opened = open_dataset(dataset)
-    name = name or ("webdataset" if opened.folder.rendered() else "keypoints")
+    if name is None and not opened.folder.rendered():
+        name = "keypoints"
+        for flag, value in (("--no-exr" if exr is False else "--exr", exr), ("--views", views)):
+            if value is not None:
+                raise InputError(
+                    f"{dataset}: holds no rendered sample, so it is packed as keypoints, and {flag} is about pictures; "
+                    f"render some, or leave {flag} out"
+                )
+    name = name or "webdataset"
     plan = plan_pack(opened, name, options)
     with progress() as show:
         packed = write_pack(plan, out, on_progress=lambda done: show("files packed", done, len(plan.parts)))

@@ -149,7 +149,7 @@ def write_pack(
 def _checked(form: PackFormat, name: str, options: Options) -> Options:
     for key, value in asdict(options).items():
         if value is not None and key not in form.options | {"samples", "split"}:
-            flag = "--" + key.replace("_", "-")
+            flag = "--no-exr" if value is False else "--" + key.replace("_", "-")
             raise InputError(f"{flag}: the format {name!r} does not take this; it takes {_flags(form)}")
     if options.shard_size is None and form.shard_size:
         options = replace(options, shard_size=form.shard_size)

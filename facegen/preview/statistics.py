@@ -29,7 +29,7 @@ class Measure:
     sex: str
     people: int
     mean: float
-    sd: float
+    sd: float | None
     low: float
     high: float
 
@@ -135,7 +135,7 @@ def _measures(dataset: Dataset, column: dict[str, np.ndarray]) -> tuple[Measure,
             sex=sex,
             people=int(of.sum()),
             mean=float(values[of].mean()),
-            sd=float(values[of].std()),
+            sd=float(values[of].std()) if of.sum() > 1 else None,
             low=float(np.percentile(values[of], 1)),
             high=float(np.percentile(values[of], 99)),
         )

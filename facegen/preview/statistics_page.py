@@ -51,6 +51,8 @@ def _weights(statistics: Statistics) -> str:
     grid = figure.subplots(-(-len(BLENDSHAPES) // columns), columns, sharex=True)
     for axes in grid.ravel()[len(BLENDSHAPES) :]:
         axes.axis("off")
+    for axes in grid.ravel()[len(BLENDSHAPES) - columns : len(BLENDSHAPES)]:
+        axes.tick_params(labelbottom=True)
     for axes, name, values in zip(grid.ravel(), BLENDSHAPES, statistics.weights.T, strict=False):
         shares = np.histogram(values[values > 0], _BINS)[0] / len(values)
         axes.bar(_BINS[:-1], shares, width=_BINS[1], align="edge", color=_BLUE)

@@ -39,6 +39,8 @@ _ARRAYS = (
     *("upper_lid", "lower_lid", "lid_vertices"),
 )
 
+_BUILT_FROM = {"ict": " --path CLONE (a clone of ICT-FaceKit; the shipped specs want --modes 24 as well)"}
+"""What `facegen rig build` must be told of a rig, beside its name."""
 
 _Count = Annotated[int, Field(ge=1, le=10_000_000)]
 
@@ -103,7 +105,7 @@ def read_record(name: str, folder: Path | None = None) -> dict:
         built = ", ".join(sorted(file.stem for file in folder.glob("*.npz"))) or "none"
         known = name in VERSIONS
         cure = (
-            f"make it with: facegen rig build {name}"
+            f"make it with: facegen rig build {name}{_BUILT_FROM.get(name, '')}"
             if known
             else "make one of your own head with: facegen rig add"
         )

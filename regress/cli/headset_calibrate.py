@@ -98,6 +98,5 @@ def calibrate(
         say(note)
     write_person(out, person)
     said = ", ".join(f"{name} {value:.2f}" for name, value in person.full.items())
-    say(
-        f"{out}: a full movement reads {said or 'nothing'}; give it to `regress headset predict --person {out}`"
-    )
+    learned = f"a full movement reads {said}" if said else "only the face at rest was learned from"
+    say(f"{out}: {learned}; give it to `regress headset predict --person {out}`")

@@ -41,6 +41,7 @@ def check(
     from regress.runtime.headset.faults import fault_sentences
     from regress.runtime.headset.fitness import judge
     from regress.runtime.headset.fitness_sheet import fitness_sheet
+    from regress.runtime.headset.placement import CameraPlacement
     from regress.runtime.headset.placement_file import Placement, write_placement
     from regress.runtime.headset.predictor import load_headset_predictor
     from regress.runtime.headset.recordings import read_recording, recorded_size
@@ -103,8 +104,11 @@ def check(
                 network_sha256=found_with.network_sha256,
             ),
         )
+        needed = any(place != CameraPlacement() for place in cameras.values())
         say(
             f"placement in {out}; look at --sheet, then give it to `regress headset predict --placement {out}`"
+            if needed
+            else f"placement in {out}: all of each picture, as without it, so predict needs none; look at --sheet"
         )
     if sheet is not None:
         write_whole(sheet, fitness_sheet(predictor, footage, judged))

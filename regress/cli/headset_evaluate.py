@@ -22,6 +22,7 @@ def evaluate(
 
     Example: regress headset evaluate models/headset datasets/out/headset-test-arrays
     """
+    from facegen.console import say
     from regress.learning.headset.arrays import read_arrays
     from regress.learning.headset.evaluation import evaluate as evaluate_model
     from regress.runtime.headset.figures import evaluation_to_json
@@ -41,6 +42,8 @@ def evaluate(
                 cells = (_cell(getattr(figures, column)) for column in _COLUMNS)
                 typer.echo(f"{_said(name):<24} " + " ".join(cells))
             typer.echo("")
+    if evaluation.few:
+        say(evaluation.few)
     cameras, shapes = evaluation.cameras, evaluation.shapes
     calibrated = [name for name in ("uncalibrated", "same_seat") if name in shapes[BLENDSHAPES[0]]]
     typer.echo(f"{'R2':<20} " + " ".join(f"{_said(name):>16}" for name in (*calibrated, *cameras)))

@@ -102,7 +102,7 @@ def read_minute(
         span = _RANGE.fullmatch(text)
         if span and whole is not None:
             footage = whole
-            chosen = (whole.numbers >= int(span[1])) & (whole.numbers <= int(span[2]))
+            chosen = _within(whole.numbers, int(span[1]), int(span[2]), f"{option} {text}")
         else:
             footage = read(_cameras_in(Path(text), predictor, option))
             chosen = np.ones(len(footage.numbers), dtype=bool)
@@ -152,6 +152,13 @@ def read_minute(
         notes=tuple(dict.fromkeys(notes)),
         labels=None if labelled is None else (dict(labelled.pictures), known),
     )
+
+
+def _within(numbers: np.ndarray, first: int, last: int, option: str) -> np.ndarray:
+    """Which frames of a take lie between two that it has."""
+    if not numbers.min() <= first <= last <= numbers.max():
+        raise InputError(f"{option}: the take has frames {numbers.min()}-{numbers.max()}")
+    return (numbers >= first) & (numbers <= last)
 
 
 def _given(footage: "Footage") -> dict[str, np.ndarray]:

@@ -120,6 +120,7 @@ def write_headset_report(
         temporal=temporal_table(model.temporal) if model.temporal and model.temporal.scores else None,
         timings=[(how, f"{microseconds / 1000:.2f} ms") for how, microseconds in timings],
         hidden=_hidden(judged[0].figures),
+        few=judged[0].figures.few.replace("R2", "R²"),
         provenance=_provenance(model),
         seen_r2=SEEN_R2,
         partly_r2=PARTLY_R2,

@@ -136,6 +136,11 @@ class HeadsetPipeline(Pipeline):
     def sentences(self, sample: Sample) -> dict[str, str]:
         """Faults by camera, and a seat that changed."""
         found = super().sentences(sample)
+        for name in (name for name, fault in sample.faults.items() if fault is Fault.SHAPE):
+            width, height = self._predictor.sizes[name]
+            found[name] += (
+                f" (the model's is {width}x{height}); `regress headset check` finds a --placement for it"
+            )
         if self._networks.reseated:
             found["seat"] = "the headset has moved since it was calibrated; a new neutral face sets it right"
         return found

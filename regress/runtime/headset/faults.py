@@ -36,6 +36,8 @@ What is read from a file is judged as it would be live, so the repeats before co
 _TOLD_RUNS = 8
 """Runs of frames that a sentence lists; the count in front of them is of all."""
 
+_RESHAPE = "`regress headset check` finds a placement for pictures of any shape"
+
 
 class Fault(Enum):
     """What is wrong with a camera in a frame; the value says what it has there."""
@@ -102,8 +104,12 @@ def fault_sentences(camera: str, numbers: Sequence[int], faults: Sequence[Fault 
     for fault in Fault:
         frames = [int(number) for number, other in zip(numbers, faults, strict=True) if other is fault]
         if frames:
-            which = "all of them" if len(frames) == len(faults) else _listed(frames)
-            lines.append(f"{camera}: {len(frames)} of {len(faults)} frames have {fault.value}: {which}")
+            if len(frames) < len(faults):
+                said = f"{len(frames)} of {len(faults)} frames have {fault.value}: {_listed(frames)}"
+            else:
+                cure = f"; {_RESHAPE}" if fault is Fault.SHAPE else ""
+                said = f"all of its {len(faults)} frames have {fault.value}{cure}"
+            lines.append(f"{camera}: {said}")
     return lines
 
 

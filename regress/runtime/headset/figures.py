@@ -98,6 +98,10 @@ class DeviationFigures:
     correlation: float | None
 
 
+FEW_ROWS = 200
+"""Frames of a split below which a shape may hardly move in any of them."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Evaluation:
     """All figures of a network on one split of arrays, unrounded; fields with a default are younger than some models.
@@ -160,6 +164,16 @@ class Evaluation:
                 raise ValueError(f"{what} are not all of the same conditions, uncalibrated among them")
         if not self.floors.keys() <= {"mean", "rest"}:
             raise ValueError("floors may be mean and rest")
+
+    @property
+    def few(self) -> str:
+        """A sentence where these frames are too few for R2 by shape; else empty."""
+        if self.rows >= FEW_ROWS:
+            return ""
+        return (
+            f"Of {self.rows:,} frames R2 by shape says little: a shape that hardly moves in them gets a large negative "
+            f"number. Measure {FEW_ROWS} or more."
+        )
 
 
 _GROUPED = ("components", "people_mm")

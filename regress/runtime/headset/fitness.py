@@ -67,9 +67,8 @@ def judge(predictor: HeadsetPredictor, footage: Mapping[str, np.ndarray]) -> lis
                 f"the model does not say how the pictures of {name} looked in training; train it with this version"
             )
         if len(pictures) < FEWEST_FRAMES:
-            raise InputError(
-                f"{name} has {len(pictures)} usable frames; at least {FEWEST_FRAMES} are needed, best 100-300"
-            )
+            usable = f"{len(pictures)} usable frame{'' if len(pictures) == 1 else 's'}"
+            raise InputError(f"{name} has {usable}; at least {FEWEST_FRAMES} are needed, best 100-300")
     told = _told_by_typical(predictor, footage)
     judged = [_judge_camera(predictor, name, pictures, told.get(name)) for name, pictures in footage.items()]
     return _told_apart(judged, footage)

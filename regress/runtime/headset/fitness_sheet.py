@@ -8,7 +8,6 @@ import numpy as np
 from regress.runtime.headset.fitness import CameraFitness
 from regress.runtime.headset.levels import level_table
 from regress.runtime.headset.predictor import HeadsetPredictor
-from regress.runtime.headset.typical import typical_picture
 
 _ACROSS, _SIDE, _GAP, _LINE = 6, 192, 4, 20
 _INK, _PAPER, _ALARM = (235, 235, 235), (38, 34, 30), (90, 150, 255)
@@ -23,7 +22,8 @@ def fitness_sheet(
     """A PNG in colour with a block for each camera.
 
     Each has six frames, evenly chosen, as they were recorded, with the view's frame and what the network traces in it;
-    below them the same as the network sees them, and at the end the mean picture of its training.
+    below them the same as the network sees them, and at the end the mean picture of its training. Networks of drawn
+    headsets have no such picture.
     """
     blocks = [_block(predictor, footage[one.camera], one) for one in judged]
     width = max(block.shape[1] for block in blocks)
@@ -53,12 +53,13 @@ def _block(predictor: HeadsetPredictor, pictures: np.ndarray, one: CameraFitness
         above.append(cell)
         below.append(seen)
     typical = predictor.typical.get(one.camera)
-    shown = typical if typical is not None else typical_picture(views, np.arange(len(views)))
-    below.append(_cell(shown))
-    above.append(np.full_like(below[-1], _PAPER))
+    caption = "above: as recorded, the view in green; below: as the network sees them"
+    if typical is not None:
+        below.append(_cell(typical))
+        above.append(np.full_like(below[-1], _PAPER))
+        caption += ", and its training's mean picture"
     rows = [_row(above), _row(below)]
     sentences = [finding.sentence for finding in one.findings] or [f"{one.camera}: its frames fit"]
-    caption = "above: as recorded, the view in green; below: as the network sees them, and its training's mean picture"
     lines = [(caption, _INK)]
     for sentence in sentences:
         colour = _ALARM if one.findings else _VIEW

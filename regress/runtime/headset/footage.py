@@ -167,9 +167,7 @@ def line_up(
             )
     source = ", ".join(dict.fromkeys(recording.source for recording in recordings.values()))
     if not any(fault is None for name in sizes for fault in faults[name]):
-        shaped = any(fault is Fault.SHAPE for name in sizes for fault in faults[name])
-        help_ = "; `regress headset check` finds a placement for pictures of any shape" if shaped else ""
-        raise InputError(f"{source}: no picture is usable: {'; '.join(notes)}{help_}")
+        raise InputError(f"{source}: no picture is usable: {'; '.join(notes)}")
     return Footage(
         cameras=tuple(sizes),
         numbers=numbers,

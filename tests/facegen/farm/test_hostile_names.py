@@ -188,6 +188,16 @@ def test_a_line_of_a_journal_that_is_none_counts_for_nothing(tmp_path, line):
     assert [attempt.cpu_seconds for attempt in read_journals(DatasetFolder(tmp_path))] == [2.0]
 
 
+@pytest.mark.parametrize(
+    ("task", "said"),
+    [(["sample-000123"], "has no logs of sample-000123: no attempt"), ([], "no engine has run")],
+)
+def test_a_task_without_logs_is_told_why(tmp_path, task, said):
+    refusal = CliRunner().invoke(app, ["farm", "logs", str(tmp_path), *task]).exception
+    assert isinstance(refusal, InputError)
+    assert said in str(refusal)
+
+
 @pytest.mark.parametrize("task", ["**a", "../../x", "sample-1", "*", "sample-" + "9" * 300])
 def test_a_task_that_no_farm_has_is_refused(tmp_path, task):
     refusal = CliRunner().invoke(app, ["farm", "logs", str(tmp_path), task]).exception

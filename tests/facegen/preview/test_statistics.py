@@ -5,7 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from facegen.cli import app
+from facegen.errors import InputError
 from facegen.preview import dataset_statistics, statistics_page
 from facegen.rigs import measures_mm
 from facegen.rigs.callipers import MEASURES
@@ -89,3 +92,25 @@ def test_the_page_is_one_file_and_equal_data_give_equal_text(dataset):
     assert len(re.findall(r'<div class="wide">\s*<(?:table|\?xml|svg)', page)) == page.count("<svg") + 1
     assert not re.search(r'(src|href)="http', page)
     assert "browInnerUp" in page
+
+
+def test_one_person_has_no_standard_deviation(anny, tmp_path):
+    spec = parse_spec(SPEC | {"people": 3}, where="test")
+    made = resolve(spec, tmp_path / "out")
+    generate(made, workers=1)
+    found = dataset_statistics(made)
+    assert all((measure.sd is None) == (measure.people == 1) for measure in found.measures)
+    assert {1, 2} == {measure.people for measure in found.measures}
+    assert "<td>–</td>" in statistics_page(made, found)
+
+
+@pytest.mark.parametrize(("flag", "value"), [("--no-exr", []), ("--exr", []), ("--views", ["left_eye"])])
+def test_options_of_pictures_are_refused_where_there_are_none(dataset, tmp_path, flag, value):
+    refusal = (
+        CliRunner()
+        .invoke(app, ["pack", str(dataset.folder.path), "--out", str(tmp_path / "packs"), flag, *value])
+        .exception
+    )
+    assert isinstance(refusal, InputError)
+    assert f"packed as keypoints, and {flag} is about pictures" in str(refusal)
+    assert not (tmp_path / "packs").exists()

@@ -70,6 +70,8 @@ def test_coefficients_of_the_population_are_standard_normal(anny: Rig) -> None:
 def test_a_rig_that_was_not_built_says_how_to_build_it(tmp_path: Path) -> None:
     with pytest.raises(MissingAsset, match="facegen rig build anny"):
         load_rig("anny", tmp_path)
+    with pytest.raises(MissingAsset, match="facegen rig build ict --path CLONE"):
+        load_rig("ict", tmp_path)
 
 
 def test_folder_comes_from_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -135,7 +135,8 @@ def test_files_of_other_things_are_refused(run, tmp_path: Path, person: Path, ch
     [
         (["--shut", SHUT], "--rest is needed"),
         (["--rest", SHUT], "eyeBlink"),
-        (["--rest", "900-950"], "--rest 900-950: no frame there"),
+        (["--rest", "900-950"], "--rest 900-950: the take has frames 0-99"),
+        (["--rest", "0-5000"], "--rest 0-5000: the take has frames 0-99"),
         (["--rest", "nowhere"], "no folder with left_eye"),
         (["--rest", REST, "--looked-at", "3:0:0"], "give --look too"),
         (["--rest", REST, "--look", REST, "--looked-at", "30:0:0"], "no frame of --look has this number"),
@@ -162,6 +163,7 @@ def test_folders_of_faces_are_takes_and_what_is_not_seen_is_said(run, tmp_path: 
     assert code == 0, said
     # the eyes were open: nothing is made of it
     assert "its range stays as it is" in said
+    assert f"{out}: only the face at rest was learned from" in said
     assert read_person(out).full == {}
     assert all(eye.shut_mm is None and eye.lids == 0 for eye in read_person(out).eyes.values())
 

@@ -113,7 +113,10 @@ def test_evaluation_prints_and_gives_all_figures(
     code, out, _ = run("headset", "evaluate", model, arrays_folder, "--json")
     assert code == 0
     predictor = load_headset_predictor(model)
-    assert json.loads(out) == evaluation_to_json(evaluate(predictor.graph, predictor.model, arrays))
+    found = evaluate(predictor.graph, predictor.model, arrays)
+    assert json.loads(out) == evaluation_to_json(found)
+    assert "frames R2 by shape says little" in found.few
+    assert found.few in run("headset", "evaluate", model, arrays_folder)[2]
     code, out, _ = run("headset", "evaluate", model, arrays_folder, "--split", "validation")
     assert code == 0
     lines = {line.partition("  ")[0]: line for line in out.splitlines()}

@@ -122,7 +122,7 @@ def test_a_camera_that_is_black_throughout_is_said_and_stops_a_strict_run(run, m
     stacks["mouth"][:] = 2
     options = write_take(tmp_path, stacks)
     code, out, said = run("headset", "predict", model, *options)
-    assert (code, said) == (0, "mouth: 5 of 5 frames have a black picture: all of them\n")
+    assert (code, said) == (0, "mouth: all of its 5 frames have a black picture\n")
     assert float(_rows(out)[0]["jawOpen"]) == 0
     assert run("headset", "predict", model, *options, "--strict")[0] == 2
     assert run("headset", "predict", model, *options[:4], "--strict")[0] == 0

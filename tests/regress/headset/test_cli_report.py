@@ -90,6 +90,9 @@ def test_the_page_is_whole_and_fetches_nothing(
     document = json.loads(figures.read_text())
     predictor = load_headset_predictor(many)
     found = evaluate(predictor.graph, predictor.model, arrays)
+    assert page.count(found.few.replace("R2", "R²")) == 1
+    assert found.few
+    assert not replace(found, rows=200).few
     assert document["data"] == dict.fromkeys(map(str, (arrays_folder, other)), evaluation_to_json(found))
     assert [(one["model"], one["people"]) for one in document["curve"]] == [("few", 5), ("many", 20)]
     assert f"{found.conditions['uncalibrated'].geometry_mm:.3f}" in page

@@ -12,6 +12,7 @@ import pytest
 from regress.errors import InputError
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.fitness import judge
+from regress.runtime.headset.fitness_sheet import fitness_sheet
 from regress.runtime.headset.misfits import Misfit
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import read_placement
@@ -110,6 +111,28 @@ def test_a_take_that_fits_is_left_as_it_is(predictor: HeadsetPredictor, take: Ta
     assert one.placement == CameraPlacement()
 
 
+def test_the_sheet_shows_a_mean_picture_of_training_where_there_is_one(
+    predictor: HeadsetPredictor, take: Take
+):
+    """`headset-any` has none, and the take's own mean was shown under that name."""
+    footage = {"left_eye": take["left_eye"][:20]}
+    across = {}
+    for model in (predictor, load_headset_predictor("headset-any")):
+        sheet = fitness_sheet(model, footage, judge(model, footage))
+        drawn = cv2.imdecode(np.frombuffer(sheet, np.uint8), cv2.IMREAD_COLOR)
+        across["left_eye" in model.typical] = drawn.shape[1]
+    assert across[True] - across[False] == 192 + 4
+
+
+def test_a_take_that_fits_needs_no_placement(run, take: Take, tmp_path: Path):
+    options = write_take(tmp_path, {"left_eye": take["left_eye"]})
+    code, _, told = run(
+        "headset", "check", "headset-tracking3", *options, "--out", tmp_path / "placement.toml"
+    )
+    assert code == 0
+    assert "so predict needs none" in told
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "x", "y", "roll_deg", "mirror"),
@@ -187,6 +210,8 @@ def test_a_sheet_of_another_ending_is_refused_before_anything_is_judged(run, tmp
 def test_what_cannot_be_judged_is_refused(predictor: HeadsetPredictor, take: Take, tmp_path: Path, run):
     with pytest.raises(InputError, match="left_eye has 5 usable frames; at least 20"):
         judge(predictor, {"left_eye": take["left_eye"][:5]})
+    with pytest.raises(InputError, match="left_eye has 1 usable frame; at least 20"):
+        judge(predictor, {"left_eye": take["left_eye"][:1]})
     older = load_headset_predictor(write_tiny_model(tmp_path / "older"))
     with pytest.raises(InputError, match="does not say how the pictures of left_eye looked in training"):
         judge(older, {"left_eye": take["left_eye"]})

@@ -150,7 +150,7 @@ def test_sentences_list_runs_and_end():
     assert line.startswith("mouth: 40 of 60 frames have a black picture: 1-2, 4-5, ")
     assert line.endswith(" and 12 more")
     assert fault_sentences("mouth", [1, 2], [Fault.BLACK] * 2) == [
-        "mouth: 2 of 2 frames have a black picture: all of them"
+        "mouth: all of its 2 frames have a black picture"
     ]
 
 
@@ -274,7 +274,7 @@ def test_footage_without_a_usable_picture_is_refused():
     black = np.zeros((3, HEIGHT, WIDTH), dtype=np.uint8)
     found = recording("mouth", black, faults=(Fault.BLACK,) * 3)
     with pytest.raises(
-        InputError, match=r"no picture is usable: .*mouth: 3 of 3 frames have a black picture: all"
+        InputError, match=r"no picture is usable: .*mouth: all of its 3 frames have a black picture"
     ):
         line_up({"mouth": found}, SIZES)
 

@@ -229,6 +229,13 @@ CAMERAS: dict[str, tuple[Disturbance, set[str]]] = {
         _pictures(lambda pictures, _: {**pictures, "left_eye": np.full((96, 96), 5, np.uint8)}),
         {"left_eye has a black picture"},
     ),
+    "mouth of another shape": (
+        _pictures(lambda pictures, _: {**pictures, "mouth": pictures["mouth"][:60]}),
+        {
+            "mouth has a picture of another shape (the model's is 96x96); "
+            "`regress headset check` finds a --placement for it"
+        },
+    ),
     "mouth frozen": (frozen_camera, {"mouth has the picture of before again, while other cameras go on"}),
     "brighter": (_pictures(brighter), set()),
     "eyes exchanged": (
