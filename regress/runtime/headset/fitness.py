@@ -24,7 +24,7 @@ FEWEST_FRAMES = 20
 _SAME_PICTURES = 0.97
 """Correlation over pixels and frames from which two cameras show one picture."""
 
-_PLACES = (Misfit.MIRRORED, Misfit.UPSIDE_DOWN, Misfit.PLACED, Misfit.LOST)
+_PLACES = (Misfit.MIRRORED, Misfit.UPSIDE_DOWN, Misfit.SIDEWAYS, Misfit.PLACED, Misfit.LOST)
 """What a placement makes good."""
 
 

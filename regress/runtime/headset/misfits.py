@@ -42,6 +42,7 @@ class Misfit(Enum):
     SOFT = "soft"
     MIRRORED = "mirrored, or of the other eye"
     UPSIDE_DOWN = "upside down"
+    SIDEWAYS = "on its side"
     EXCHANGED = "exchanged"
     OTHER = "of the other eye"
     TURNED = "turned or mixed up"
@@ -141,6 +142,13 @@ def place_findings(
             misfit=Misfit.UPSIDE_DOWN,
             sentence=f"{name} is upside down; turn the camera, or take --placement, which turns it",
         )
+    sideways = not upside_down and abs(placement.roll_deg) > 45
+    if sideways:
+        yield Finding(
+            camera=name,
+            misfit=Misfit.SIDEWAYS,
+            sentence=f"{name} lies on its side; turn the camera by a quarter, or take --placement, which turns it",
+        )
     if placement.mirror:
         yield Finding(
             camera=name,
@@ -148,7 +156,7 @@ def place_findings(
             sentence=f"{name} is mirrored, or of the other eye; check which camera is which, or take --placement, "
             f"which mirrors it",
         )
-    if told is not None and not (upside_down or placement.mirror):
+    if told is not None and not (upside_down or sideways or placement.mirror):
         yield turned(name, told)
     matrix = placement.picture_from_view(picture, view)
     brow = points.usual[points.brow] @ matrix[:, :2].T + matrix[:, 2]
@@ -161,7 +169,8 @@ def place_findings(
             sentence=f"{name} is cropped at the brow: {outside.sum()} of its {len(outside)} points lie outside, so its "
             f"shapes are guesses; tilt the camera up, or widen its view",
         )
-    roll_deg = placement.roll_deg - np.sign(placement.roll_deg) * 180 if upside_down else placement.roll_deg
+    turns = 180 if upside_down else 90 * sideways
+    roll_deg = placement.roll_deg - np.sign(placement.roll_deg) * turns
     across, down = placement.x - 0.5, (placement.y - 0.5) * picture[1] / picture[0]
     if (
         abs(np.log(placement.size)) > _SIZE

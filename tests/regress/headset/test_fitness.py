@@ -69,6 +69,10 @@ FAULTS: dict[str, tuple[Callable[[Take], Take], Misfit]] = {
     ),
     "mirrored": (lambda eyes: {"left_eye": eyes["left_eye"][:, :, ::-1]}, Misfit.MIRRORED),
     "upside down": (lambda eyes: {"left_eye": eyes["left_eye"][:, ::-1, ::-1]}, Misfit.UPSIDE_DOWN),
+    "on its side": (
+        lambda eyes: {"left_eye": np.ascontiguousarray(np.rot90(eyes["left_eye"], axes=(1, 2)))},
+        Misfit.SIDEWAYS,
+    ),
     "exchanged": (
         lambda eyes: {"left_eye": eyes["right_eye"], "right_eye": eyes["left_eye"]},
         Misfit.EXCHANGED,
