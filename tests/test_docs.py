@@ -49,6 +49,30 @@ def test_pictures_are_small_and_shown():
         assert path in shown, f"no page shows {path.name}"
 
 
+MOST_WORDS = 1500
+"""Of a page that is read from its start to its end; reference and measurements are looked into."""
+
+
+def test_each_page_stands_once_in_the_table_of_all_and_is_short_where_it_is_read_through():
+    listed: dict[str, str] = {}
+    head, _, *rows = re.findall(r"^\|(.*)\|$", _text(ROOT / "docs" / "README.md"), re.M)
+    kinds = [cell.strip() for cell in head.split("|")]
+    assert kinds[1:] == ["tutorial", "how-to", "reference", "measurements"]
+    for row in rows:
+        for kind, cell in zip(kinds, row.split("|"), strict=True):
+            for page in LINK.findall(cell):
+                assert page not in listed, f"docs/README.md has {page} twice"
+                listed[page] = kind
+    pages = {path.relative_to(ROOT / "docs").as_posix() for path in (ROOT / "docs").glob("**/*.md")}
+    assert set(listed) == pages - {"README.md", "samples/README.md"}
+    for page, kind in listed.items():
+        words = len(_text(ROOT / "docs" / page).split())
+        assert kind in ("reference", "measurements") or words <= MOST_WORDS, (
+            f"docs/{page} has {words:,} words"
+        )
+    assert len(_text(ROOT / "README.md").split()) <= 900
+
+
 @cache
 def _anchors(page: Path) -> set[str]:
     """Names that GitHub gives a page's headings."""

@@ -11,7 +11,7 @@ from facegen.conventions import Part
 from facegen.store import labels_reference
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reading-a-dataset.md"
-LABELS = PAGE.with_name("labels.md")
+FILES, LABELS = PAGE.with_name("dataset-files.md"), PAGE.with_name("labels.md")
 SNIPPETS = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL)
 
 
@@ -39,12 +39,12 @@ def test_snippets_run_and_say_what_the_page_says(rendered, tmp_path, monkeypatch
 @pytest.mark.slow
 def test_the_table_of_fields_names_every_field(rendered):
     record = rendered.sample(1)
-    page = PAGE.read_text(encoding="utf-8") + LABELS.read_text(encoding="utf-8")
+    page = FILES.read_text(encoding="utf-8") + LABELS.read_text(encoding="utf-8")
     view = record["views"]["left_eye"]
     fields = {*record, *record["keypoints"], *record["eyes"]["left"], *record["headset"], *view}
     fields -= {"name", "rig", "headset", "eyes", "views"}  # said in words, or by what is below them
     missing = sorted(field for field in fields if not re.search(rf"`[\w.]*\b{field}`", page))
-    assert not missing, f"docs/reading-a-dataset.md and docs/labels.md say nothing of {missing}"
+    assert not missing, f"docs/dataset-files.md and docs/labels.md say nothing of {missing}"
     assert json.dumps(record["weights"])
     assert Part.IRIS
 
