@@ -32,9 +32,9 @@ SOON_S = 0.1
 """Shortest time between two accounts of what changes while people are in."""
 
 ANSWERS_S = 3.0
-"""Time for the other processes to say who is there; one that is silent for so long is not waited for. All that answer are
-counted, so it passes only where one hangs: half a second was too short on a machine of load 15, and let a newcomer past
-a lock."""
+"""Time for the other processes to say who is there; one that is silent for so long is not waited for. All that answer
+are counted, so it passes only where one hangs: half a second was too short on a machine of load 15, and let a newcomer
+past a lock."""
 
 
 class Neighbours:
