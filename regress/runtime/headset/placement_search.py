@@ -113,12 +113,18 @@ def find_placement(predictor: HeadsetPredictor, camera: str, pictures: np.ndarra
     if as_it_is.unrest < _CALM and as_it_is.unsettled < _SETTLED:
         return as_it_is
     others = [CameraPlacement(mirror=mirror, size=size) for mirror in (False, True) for size in _SIZES]
-    best = min(map(search.best, others[:1] + others[2:]), key=lambda one: one.score)
+    upright = [as_it_is, *map(search.best, others[:1] + others[2:])]
+    best = min(upright[1:], key=_score)
     if best.score > _CLEARLY * as_it_is.score:
         best = as_it_is
-    turned = [one for one in map(search.best, _TURNED) if not search.holds(one.placement)]
-    surest = min(turned, key=lambda one: one.score, default=best)
-    found = surest if surest.score < _TURNED_SCORE * best.score else best
+    turned = min(
+        (one for one in map(search.best, _TURNED) if not search.holds(one.placement)),
+        key=_score,
+        default=best,
+    )
+    # a view that is held at the limits can have any score, and is none to compare with
+    rival = min((one for one in upright if not search.holds(one.placement)), key=_score, default=best)
+    found = turned if turned.score < min(best.score, _TURNED_SCORE * rival.score) else best
     if not search.holds(found.placement):
         return found
     return replace(found, placement=CameraPlacement(mirror=found.placement.mirror), lost=True)
@@ -237,6 +243,10 @@ class _Search:
             "deviation": float(np.mean(deviations)),
             "unrest": float(np.median(unrest / np.maximum(eye, 1.0))),
         }
+
+
+def _score(found: FoundPlacement) -> float:
+    return found.score
 
 
 def _distance(one: CameraPlacement, other: CameraPlacement) -> float:
