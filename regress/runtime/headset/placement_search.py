@@ -122,8 +122,9 @@ def find_placement(predictor: HeadsetPredictor, camera: str, pictures: np.ndarra
         key=_score,
         default=best,
     )
-    # a view that is held at the limits can have any score, and is none to compare with
-    rival = min((one for one in upright if not search.holds(one.placement)), key=_score, default=best)
+    rival = best
+    if search.holds(best.placement):  # its score is that of a view in which networks see what they like
+        rival = min((one for one in upright if not search.holds(one.placement)), key=_score, default=best)
     found = turned if turned.score < min(best.score, _TURNED_SCORE * rival.score) else best
     if not search.holds(found.placement):
         return found
