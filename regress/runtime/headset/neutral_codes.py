@@ -75,12 +75,11 @@ class NeutralCodes:
         return dict(zip(self._values, (np.repeat(code, rows, axis=0) for code in codes), strict=True))
 
     def _kept(self, pictures: dict[str, np.ndarray]) -> list[np.ndarray]:
-        if self._last is None or any(
-            not np.array_equal(one, self._last[0][name]) for name, one in pictures.items()
-        ):
+        last = self._last  # once: another thread may bring another person's
+        if last is None or any(not np.array_equal(one, last[0][name]) for name, one in pictures.items()):
             copies = {name: one.copy() for name, one in pictures.items()}
-            self._last = copies, self._encode(copies)
-        return self._last[1]
+            self._last = last = copies, self._encode(copies)
+        return last[1]
 
     def _encode(self, pictures: Mapping[str, np.ndarray]) -> list[np.ndarray]:
         rows = len(next(iter(pictures.values())))

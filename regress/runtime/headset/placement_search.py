@@ -60,10 +60,10 @@ _TURNED = tuple(
 """Starts for cameras that stand upside down or lie on their side; then a picture is often higher than wide."""
 
 _TURNED_SCORE = 0.75
-"""A turned view's score over the best upright one's, below which it is taken: cameras are seldom so, and a network that
-has not seen such eyes is now and then surer of them. Sixteen upright takes of rendered eyes have 1.0 or more, two films
-of real ones 1.1 or more. On their side or upside down, headset-tracking3 has .21 to .67 and .68 at most, where no
-upright start turned by itself; headset-any has .13 to .96, and misses five of twelve upside down."""
+"""A turned view's score over the best upright one's, below which it is taken: cameras are seldom so, and a network
+that has not seen such eyes is now and then surer of them. Eight upright takes of rendered eyes have 1.0 or more by
+either network, two films of real ones 1.1 or more. Turned, rendered ones have .21 to .67 by headset-tracking3, where no
+upright start turned by itself, and .13 to .96 by headset-any, which misses three of eight upside down (one probe)."""
 
 
 @dataclass(frozen=True, kw_only=True)
