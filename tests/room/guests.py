@@ -20,6 +20,7 @@ from room.server import Keys, Limits, Relays, Rooms, new_keys
 from room.server.janus import Janus
 from room.state import identity
 from room.state.meeting import COLOURS
+from tests.serving import end
 
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.telegraph import Telegraph
@@ -169,7 +170,7 @@ async def open_room(
         yield place
     finally:
         await place.session.close()
-        await runner.cleanup()
+        await end(runner)
         if recorder:
             recorder.close()
 

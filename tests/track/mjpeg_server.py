@@ -11,6 +11,8 @@ import cv2
 import numpy as np
 from aiohttp import web
 
+from tests.serving import end
+
 MANNERS: dict[str, tuple[str, bytes]] = {
     "plain": (
         "multipart/x-mixed-replace; boundary=frame",
@@ -98,7 +100,7 @@ def mjpeg_server(server: MjpegServer) -> Iterator[MjpegServer]:
         server.port = runner.addresses[0][1]
         ready.set()
         await over.wait()
-        await runner.cleanup()
+        await end(runner)
 
     thread = threading.Thread(target=loop.run_until_complete, args=[serve()])
     thread.start()

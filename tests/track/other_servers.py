@@ -11,6 +11,7 @@ import aiohttp
 import cv2
 from aiohttp import web
 
+from tests.serving import end
 from tests.track.virtual import noise
 
 
@@ -82,7 +83,7 @@ def aiohttp_server() -> Iterator[int]:
         ports.append(runner.addresses[0][1])
         ready.set()
         await over.wait()
-        await runner.cleanup()
+        await end(runner)
 
     thread = threading.Thread(target=loop.run_until_complete, args=[serve()])
     thread.start()

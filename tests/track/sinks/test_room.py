@@ -12,6 +12,7 @@ from aiohttp import web
 from room.protocol import Flag, Message, decode
 from room.protocol.answers import Changed
 from tests.room.guests import open_room
+from tests.serving import end
 from tests.track.sinks.receivers import acted, lost
 from track.errors import InputError
 from track.sinks.axes import head_pose
@@ -152,7 +153,7 @@ def test_what_is_no_word_of_a_room_ends_no_thread(word, monkeypatch):
             sink.send(acted())
             await asyncio.sleep(0.02)
         await asyncio.to_thread(sink.close)
-        await runner.cleanup()
+        await end(runner)
 
     asyncio.run(asyncio.wait_for(meet(), 10))
     assert len(told) <= 1
