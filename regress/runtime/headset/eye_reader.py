@@ -148,6 +148,8 @@ class EyeReader:
         self, camera: str, own: OwnEye, points: np.ndarray, diameter: float, direct_deg: np.ndarray
     ) -> np.ndarray:
         """Both answers (2,) in degrees, each set right, by their shares; the direct one where nothing is known."""
+        if own.traced is None and own.direct is None:
+            return direct_deg
         answers, shares = [], []
         traced = self.traced_gaze(camera, points, diameter)
         for answer, affine, share in (
@@ -163,8 +165,13 @@ class EyeReader:
 def diameter_of(points: np.ndarray, eye: EyePoints) -> float:
     """Of the iris, pixels; its points lie evenly on an ellipse."""
     iris = points[eye.iris]
-    return float(2 * np.linalg.norm(iris - iris.mean(axis=0), axis=1).mean())
+    return 2 * _mean_length(iris - iris.sum(axis=0) / len(iris))
 
 
 def _apart(points: np.ndarray, eye: EyePoints) -> float:
-    return float(np.linalg.norm(points[eye.upper] - points[eye.lower], axis=1).mean())
+    return _mean_length(points[eye.upper] - points[eye.lower])
+
+
+def _mean_length(rows: np.ndarray) -> float:
+    """Of vectors (n, 2); a third of the time of `numpy.linalg.norm` for as few."""
+    return float(np.hypot(rows[:, 0], rows[:, 1]).sum() / len(rows))

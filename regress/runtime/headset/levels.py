@@ -95,6 +95,7 @@ class Levels(Stage):
     ) -> None:
         self._looks = looks
         self._counts: dict[str, np.ndarray] = {}
+        self._seen: dict[str, tuple[float, float]] = {}
         self._tables: dict[str, np.ndarray] = {}
         self._fixed = {
             name: level_table(one.low, one.high, looks[name], fixed=True)
@@ -107,7 +108,7 @@ class Levels(Stage):
         """The sample with levelled pictures."""
         for name, picture in (sample.pictures or {}).items():
             if name in self._looks and name not in self._fixed:
-                self._tables[name] = self._table(name, picture)
+                self._see(name, picture)
         return replace(sample, pictures=self.levelled(sample.pictures or {}))
 
     def levelled(self, pictures: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -117,10 +118,13 @@ class Levels(Stage):
             for name, picture in pictures.items()
         }
 
-    def _table(self, name: str, picture: np.ndarray) -> np.ndarray:
+    def _see(self, name: str, picture: np.ndarray) -> None:
+        """Count a picture's levels; the table stays as long as their ends do."""
         seen = cv2.calcHist([picture], [0], None, [256], [0, 256]).ravel() / picture.size
         before = self._counts.get(name)
         self._counts[name] = counts = seen if before is None else seen + before * (1 - 1 / _MEMORY)
         shares = np.cumsum(counts)
         low, high = np.searchsorted(shares, shares[-1] * _ENDS)
-        return level_table(float(low), float(high), self._looks[name])
+        ends = float(low), float(high)
+        if self._seen.get(name) != ends:
+            self._seen[name], self._tables[name] = ends, level_table(*ends, self._looks[name])
