@@ -7,6 +7,11 @@ found from the frames alone the traced pupil is compared with the film's marks (
 y, and the median error in percent of the width, after an affine fit). Film b has no marks, so there it is compared with
 what the network traces in the film as it comes: that says how steady it is, not how right. Prints Markdown, which
 stands in docs/measurements/headset-networks.md.
+
+    python -m benchmarks.changed_eyes headset-tracking3 headset-any --real RECORDINGS --beyond
+
+has the films from nearer places at the right placement, that of the film as it comes: with what is repeated beyond the
+pictures' edges left as streaks, and faded.
 """
 
 import argparse
@@ -24,13 +29,25 @@ from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_pre
 
 Change = Callable[[Film], Film]
 
+NEARER = (1.0, 1.2, 1.35, 1.5, 1.7, 2.0)
+"""Of the films' own scale, for `--beyond`."""
+
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("models", nargs="+")
     parser.add_argument("--real", required=True, type=Path, help="Folder with eyes/film_a and eyes/film_b.")
+    parser.add_argument("--beyond", action="store_true", help="streaks and fades beyond the edges alone")
     arguments = parser.parse_args()
     films = [read_film(arguments.real / "eyes" / name) for name in FILMS]
+    if arguments.beyond:
+        print(
+            f"| network | times as near | {' | '.join(f'{film.name}: streaks | fades' for film in films)} |"
+        )
+        print("|---" * (2 + 2 * len(films)) + "|")
+        for model in arguments.models:
+            print("\n".join(beyond_rows(model, films)), flush=True)
+        return
     print(f"| network | change | {' | '.join(f'{film.name}: r (x, y), error %' for film in films)} |")
     print("|---" * (2 + len(films)) + "|")
     for model in arguments.models:
@@ -57,6 +74,27 @@ def told(predictor: HeadsetPredictor, film: Film) -> str:
     marked = np.isfinite(film.pupils).all(axis=1)
     r, error = pupil_figures(traced[marked], film.pupils[marked], film.pictures.shape[2])
     return f"{r[0]:.3f}, {r[1]:.3f}, {error:.2f}{''.join(f'; {word}' for word in words(found))}"
+
+
+def beyond_rows(model: str, films: list[Film]) -> Iterator[str]:
+    """Of a network: r (the lower one) and error in percent of the width that the eye's size then has."""
+    predictor = load_headset_predictor(model)
+    pupil = EyePoints.of(predictor, CAMERA).pupil
+    marked = [with_marks(predictor, film) for film in films]
+    places = [find_placement(predictor, CAMERA, film.pictures).placement for film in films]
+    for near in NEARER:
+        cells = []
+        for film, place in zip(marked, places, strict=True):
+            seen = film if near == 1 else moved(film, near)
+            at = replace(
+                place, x=0.5 + near * (place.x - 0.5), y=0.5 + near * (place.y - 0.5), size=near * place.size
+            )
+            known = np.isfinite(seen.pupils).all(axis=1)
+            for fades in (False, True):
+                traced = answer_to(predictor, seen, at, fades=fades).points[:, pupil]
+                r, error = pupil_figures(traced[known], seen.pupils[known], seen.pictures.shape[2])
+                cells.append(f"{r.min():.3f}, {error / near:.2f}")
+        yield f"| {model} | {near:g} | {' | '.join(cells)} |"
 
 
 def words(found: FoundPlacement) -> Iterator[str]:

@@ -116,12 +116,19 @@ class Answer:
 
 
 def answer_to(
-    predictor: HeadsetPredictor, film: Film, placed: CameraPlacement, *, squeezed: bool = False
+    predictor: HeadsetPredictor,
+    film: Film,
+    placed: CameraPlacement,
+    *,
+    squeezed: bool = False,
+    fades: bool = True,
 ) -> Answer:
     """What a network says of a film.
 
     Parameters
     ----------
+    fades
+        What lies beyond its edges, as views are; streaks otherwise.
     squeezed
         All of the picture, whatever its shape, in the network's square; only ``placed``'s mirror counts.
     """
@@ -136,7 +143,7 @@ def answer_to(
         linear = scale @ mirror
         matrix = np.column_stack([linear, scale @ (middle + 0.5) - 0.5 - linear @ middle])
     else:
-        views = np.stack([placed.view(one, width=width, height=height) for one in film.pictures])
+        views = np.stack([placed.view(one, width=width, height=height, fades=fades) for one in film.pictures])
         matrix = placed.picture_from_view(picture, (width, height))
     if CAMERA in predictor.model.looks:
         views = level_table(*levels_of(views), predictor.model.looks[CAMERA])[views]

@@ -1,6 +1,7 @@
 """Says which part of a camera's picture a network is to see, and takes pixels from one to the other."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Annotated, ClassVar
 
 import cv2
@@ -13,10 +14,16 @@ Share = Annotated[float, Interval(ge=-2, le=3)]
 Level = Annotated[float, Interval(ge=-255, le=510)]
 """A grey level; flat pictures are stretched from levels that no pixel has."""
 
+_FADES = (0.02, 0.08)
+"""Blurs of what lies beyond a picture's edges, of the view's width: each is whole from one and a half of it outside.
+
+Repeated edges alone are streaks, which networks take for lids and irises. Of eyes that fill the picture, faded streaks
+take a quarter off the pupil's error and half off its unrest (docs/measurements/headset-networks.md)."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class CameraPlacement:
-    """Where in a camera's picture the view lies that a network is to see; beyond the edges their pixels are repeated.
+    """Where in a camera's picture the view lies that a network is to see; beyond the edges their pixels fade out.
 
     Parameters
     ----------
@@ -60,17 +67,55 @@ class CameraPlacement:
         middle = np.array([self.x * picture[0], self.y * picture[1]]) - 0.5
         return np.column_stack([turn, middle - turn @ ((np.array(view) - 1) / 2)])
 
-    def view(self, picture: np.ndarray, *, width: int, height: int) -> np.ndarray:
-        """The view (height, width) of a picture (h, w) uint8; a finer picture is averaged, not sampled."""
-        matrix = self.picture_from_view((picture.shape[1], picture.shape[0]), (width, height))
+    def view(self, picture: np.ndarray, *, width: int, height: int, fades: bool = True) -> np.ndarray:
+        """The view (height, width) of a picture (h, w) uint8; a finer picture is averaged, not sampled.
+
+        What is repeated beyond the picture's edges fades out, or stays streaks all through.
+        """
+        size = picture.shape[1], picture.shape[0]
+        matrix = self.picture_from_view(size, (width, height))
         finer = self.size * picture.shape[1] / width
         if finer > 1:
             # each pixel of the view covers so many of the picture's: a Gaussian of half of that lets none alias
             picture = cv2.GaussianBlur(picture, (0, 0), 0.4 * np.sqrt(finer**2 - 1) + 1e-3)
-        return cv2.warpAffine(
+        seen = cv2.warpAffine(
             picture,
             matrix,
             (width, height),
             flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
             borderMode=cv2.BORDER_REPLICATE,
         )
+        shares = _shares(tuple(matrix.ravel()), size, (width, height)) if fades else None
+        return seen if shares is None else _faded(seen, shares)
+
+
+@lru_cache(maxsize=64)
+def _shares(
+    picture_from_view: tuple[float, ...], picture: tuple[int, int], view: tuple[int, int]
+) -> np.ndarray | None:
+    """How much of each blur every pixel of a view has (blurs, height, width) float32; None where all are 0."""
+    matrix = np.array(picture_from_view).reshape(2, 3)
+    across, down = np.meshgrid(np.arange(view[0]), np.arange(view[1]))
+    at = np.stack([across, down], axis=-1) @ matrix[:, :2].T + matrix[:, 2]
+    beyond = np.maximum(np.maximum(-at, at - (np.array(picture) - 1)), 0)
+    outside = np.hypot(*np.moveaxis(beyond, -1, 0)) / np.sqrt(abs(np.linalg.det(matrix[:, :2])))
+    shares = np.array([np.clip(outside / (blur * view[0]) - 0.5, 0, 1) for blur in _FADES])
+    return shares.astype(np.float32) if shares.any() else None
+
+
+def _faded(seen: np.ndarray, shares: np.ndarray) -> np.ndarray:
+    """A view (height, width) uint8 with shares of its blurs."""
+    seen = mixed = seen.astype(np.float32)
+    for blur, share in zip(_FADES, shares, strict=True):
+        mixed = mixed + share * (_blurred(seen, blur * seen.shape[1]) - mixed)
+    return np.rint(mixed).astype(np.uint8)
+
+
+def _blurred(seen: np.ndarray, sigma: float) -> np.ndarray:
+    """A Gaussian blur of a view (height, width) float32; a wide one of a smaller view, in a third of the time."""
+    height, width = seen.shape
+    shrunk = max(1, int(sigma / 2))
+    if shrunk == 1:
+        return cv2.GaussianBlur(seen, (0, 0), sigma)
+    small = cv2.resize(seen, (round(width / shrunk), round(height / shrunk)), interpolation=cv2.INTER_AREA)
+    return cv2.resize(cv2.GaussianBlur(small, (0, 0), sigma / shrunk), (width, height))

@@ -216,9 +216,11 @@ class _Search:
         return min(inside) < _AT_LIMIT
 
     def views(self, placement: CameraPlacement) -> np.ndarray:
-        """(n, height, width) uint8 that the network sees, levelled."""
+        """(n, height, width) uint8, levelled, with plain streaks beyond the edges: they make wrong places restless."""
         width, height = self._view
-        views = np.stack([placement.view(one, width=width, height=height) for one in self._pictures])
+        views = np.stack(
+            [placement.view(one, width=width, height=height, fades=False) for one in self._pictures]
+        )
         return level_table(*levels_of(views), self._predictor.model.looks[self._camera])[views]
 
     def _look(self, placement: CameraPlacement) -> tuple[np.ndarray, dict[str, float]]:

@@ -92,6 +92,31 @@ def test_beyond_the_edges_their_pixels_are_repeated():
     assert (seen[40:50, :15] > 100).all()
 
 
+def test_what_is_repeated_fades_the_more_the_farther_out_it_lies():
+    """Streaks look like lids to networks; within the picture and at its edge nothing is blurred."""
+    stripes = np.repeat(np.where(np.arange(60) // 4 % 2, 200, 40).astype(np.uint8)[:, None], 60, axis=1)
+    seen = CameraPlacement(size=2.0).view(stripes, width=120, height=120).astype(int)
+    contrast = np.ptp(seen[40:80], axis=0)
+    assert (contrast[30:91] == contrast[60]).all()
+    assert (np.diff(contrast[91:]) <= 0).all()
+    assert (np.diff(contrast[:30]) >= 0).all()
+    assert max(contrast[0], contrast[-1]) < 0.1 * contrast[60]
+    assert abs(seen[40:80, -1].mean() - stripes.mean()) < 10  # no darker and no lighter
+
+
+@given(placements)
+def test_a_view_within_its_picture_is_not_blurred(placement):
+    picture = np.random.default_rng(0).integers(0, 256, (60, 60), dtype=np.uint8)
+    inside = replace(placement, x=0.5, y=0.5, size=min(placement.size, 0.65), low=None, high=None)
+    plain = cv2.warpAffine(
+        picture,
+        inside.picture_from_view((60, 60), (96, 96)),
+        (96, 96),
+        flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+    )
+    np.testing.assert_array_equal(inside.view(picture, width=96, height=96), plain)
+
+
 @given(
     st.dictionaries(
         st.text(string.ascii_letters + string.digits + "_-.", max_size=20).map("c".__add__),
