@@ -17,8 +17,8 @@ Level = Annotated[float, Interval(ge=-255, le=510)]
 _FADES = (0.02, 0.08)
 """Blurs of what lies beyond a picture's edges, of the view's width: each is whole from one and a half of it outside.
 
-Repeated edges alone are streaks, which networks take for lids and irises. Of eyes that fill the picture, faded streaks
-take a quarter off the pupil's error and half off its unrest (docs/measurements/headset-networks.md)."""
+Repeated edges alone are streaks, which networks take for lids and irises. Where an eye fills its picture, fading them
+takes a fifth off the pupil's error (docs/measurements/headset-networks.md)."""
 
 
 @dataclass(frozen=True, kw_only=True)
