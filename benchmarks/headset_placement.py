@@ -25,7 +25,8 @@ from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.levels import level_table
 from regress.runtime.headset.looks import levels_of
 from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_search import find_placement, placement_of_points
+from regress.runtime.headset.placement_search import find_placement
+from regress.runtime.headset.placement_steps import placement_of_points
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 
 EYES = ("left_eye", "right_eye")

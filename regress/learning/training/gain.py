@@ -31,12 +31,19 @@ def stretched(model: Model, dataset: KeypointDataset) -> Model:
     """The model with offset and gain of its calibrated networks folded into their last layer."""
     about_zero = _finished(model, np.ones(len(model.outputs)))
     faces = as_detected(faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(_SEED))
-    truth = faces.weights[:, [BLENDSHAPE_INDEX[name] for name in model.outputs]].std(axis=0)
-    answered = predicted_outputs(about_zero, faces.points, faces.neutral).std(axis=0)
-    gain = np.clip(truth / np.where(answered > 0, answered, np.inf), 1.0, LARGEST_GAIN)
-    gain[[name.startswith("eyeLook") for name in model.outputs]] = 1.0
-    partner = [model.outputs.index(mirrored_name(name)) for name in model.outputs]
-    return _finished(model, (gain + gain[partner]) / 2)
+    truth = faces.weights[:, [BLENDSHAPE_INDEX[name] for name in model.outputs]]
+    return _finished(
+        model, gain_of(predicted_outputs(about_zero, faces.points, faces.neutral), truth, model.outputs)
+    )
+
+
+def gain_of(answers: np.ndarray, truth: np.ndarray, names: tuple[str, ...]) -> np.ndarray:
+    """Gains (K,) with which answers (n, K) spread as far as true weights (n, K); of both sides the same."""
+    spread = answers.std(axis=0)
+    gain = np.clip(truth.std(axis=0) / np.where(spread > 0, spread, np.inf), 1.0, LARGEST_GAIN)
+    gain[[name.startswith("eyeLook") for name in names]] = 1.0
+    partner = [names.index(mirrored_name(name)) for name in names]
+    return (gain + gain[partner]) / 2
 
 
 def _finished(model: Model, gain: np.ndarray) -> Model:

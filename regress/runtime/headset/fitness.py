@@ -15,7 +15,8 @@ from regress.runtime.headset.orientation import told_orientation
 from regress.runtime.headset.parts import mirror_partner
 from regress.runtime.headset.pictures import ASPECT
 from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_search import FoundPlacement, find_placement
+from regress.runtime.headset.placement_search import find_placement
+from regress.runtime.headset.placement_steps import FoundPlacement
 from regress.runtime.headset.predictor import HeadsetPredictor
 
 FEWEST_FRAMES = 20

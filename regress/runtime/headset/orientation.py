@@ -7,7 +7,7 @@ import numpy as np
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.parts import is_symmetric, mirror_partner
 from regress.runtime.headset.pictures import ASPECT
-from regress.runtime.headset.typical import typical_picture
+from regress.runtime.headset.typical import likeness, typical_picture
 
 _ALIKE, _MARGIN = 0.5, 0.1
 """Correlation from which pictures look like others, and how much less it is as they are.
@@ -40,7 +40,7 @@ def told_orientation(footage: Footage, typical: Mapping[str, np.ndarray]) -> lis
         if name not in typical or not len(rows):
             continue
         seen = typical_picture(footage.pictures[name], rows)
-        plain = _correlation(seen, typical[name])
+        plain = likeness(seen, typical[name])
         found = _likenesses(seen, name, typical, footage)
         what = max(found, key=found.__getitem__)
         if found[what] > _ALIKE and found[what] > plain + _MARGIN:
@@ -60,13 +60,11 @@ def _likenesses(
         other: footage.pictures[other].shape[2] / footage.pictures[other].shape[1] for other in typical
     }
     turns = _QUARTERS if abs(aspects[name] - 1) < ASPECT else {}
-    found = {what: _correlation(undo(seen), own) for what, undo in turns.items()}
+    found = {what: likeness(undo(seen), own) for what, undo in turns.items()}
     for other in typical:
         if other != name and abs(aspects[other] / aspects[name] - 1) < ASPECT:
-            found[f"those of {other}"] = _correlation(seen, typical[other])
-    mirrored, turned, flipped = (
-        _correlation(one, own) for one in (seen[:, ::-1], seen[::-1, ::-1], seen[::-1])
-    )
+            found[f"those of {other}"] = likeness(seen, typical[other])
+    mirrored, turned, flipped = (likeness(one, own) for one in (seen[:, ::-1], seen[::-1, ::-1], seen[::-1]))
     # Faces are symmetric: a mouth turned is a mouth in a mirror, and one eye in a mirror is the other.
     if is_symmetric((name,)):
         return found | {"its own upside down": max(turned, flipped), "its own in a mirror": mirrored}
@@ -75,10 +73,3 @@ def _likenesses(
     if other not in found:
         return found | {"its own in a mirror": mirrored}
     return found | {f"{other} or its own in a mirror": max(mirrored, found.pop(other))}
-
-
-def _correlation(one: np.ndarray, other: np.ndarray) -> float:
-    """Of grey levels; 0 where a picture has one only."""
-    one, other = (picture - picture.mean(dtype=np.float64) for picture in (one, other))
-    size = np.sqrt((one**2).sum() * (other**2).sum())
-    return float((one * other).sum() / size) if size > 0 else 0.0

@@ -1,4 +1,4 @@
-"""Makes a camera's typical picture: the small mean of its training pictures, by which `predict` knows the camera."""
+"""Makes a camera's typical picture, the small mean of its training pictures, and says how like it others are."""
 
 import numpy as np
 
@@ -29,3 +29,10 @@ def typical_picture(pictures: np.ndarray, rows: np.ndarray) -> np.ndarray:
     return np.rint(cv2.resize(mean, (TYPICAL_SIDE, TYPICAL_SIDE), interpolation=cv2.INTER_AREA)).astype(
         np.uint8
     )
+
+
+def likeness(one: np.ndarray, other: np.ndarray) -> float:
+    """Correlation of the grey levels of two pictures of one shape; 0 where one of them has a single level."""
+    one, other = (picture - picture.mean(dtype=np.float64) for picture in (one, other))
+    size = np.sqrt((one**2).sum() * (other**2).sum())
+    return float((one * other).sum() / size) if size > 0 else 0.0

@@ -16,11 +16,11 @@ from regress.runtime.headset.fitness_sheet import fitness_sheet
 from regress.runtime.headset.misfits import Misfit
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import read_placement
-from regress.runtime.headset.placement_search import (
+from regress.runtime.headset.placement_search import find_placement
+from regress.runtime.headset.placement_steps import (
     FoundPlacement,
+    Search,
     _is_as_drawn,
-    _Search,
-    find_placement,
     placement_of_points,
 )
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
@@ -227,7 +227,15 @@ def test_what_cannot_be_judged_is_refused(predictor: HeadsetPredictor, take: Tak
 
 
 @pytest.mark.parametrize(
-    ("x", "size", "lost"), [(0.1, 1.4, True), (0.5, 1.7, True), (0.5, 0.3, True), (0.4, 1.4, False)]
+    ("x", "size", "lost"),
+    [
+        (0.0, 1.4, True),
+        (0.5, 2.4, True),
+        (0.5, 0.3, True),
+        (0.4, 1.4, False),
+        (0.1, 1.4, False),  # these two are found where edges fade, further out
+        (0.5, 1.7, False),
+    ],
 )
 def test_a_search_that_is_held_at_its_limits_gives_the_whole_picture(
     predictor: HeadsetPredictor,
@@ -242,7 +250,7 @@ def test_a_search_that_is_held_at_its_limits_gives_the_whole_picture(
         placement = replace(start, x=x, size=size)
         return FoundPlacement(placement=placement, deviation=0.1, unrest=unrest, unsettled=0.1)
 
-    monkeypatch.setattr(_Search, "best", best)
+    monkeypatch.setattr(Search, "best", best)
     found = find_placement(predictor, "left_eye", take["left_eye"])
     assert found.lost == lost
     assert found.placement == (
@@ -251,6 +259,61 @@ def test_a_search_that_is_held_at_its_limits_gives_the_whole_picture(
     (one,) = judge(predictor, {"left_eye": take["left_eye"]})
     assert (Misfit.LOST in {finding.misfit for finding in one.findings}) == lost
     assert one.placement.mirror
+
+
+@pytest.mark.parametrize(
+    ("model", "plain", "faded", "taken"),
+    [
+        ("headset-tracking3", (180.0, 0.05), (0.0, 0.06), "faded"),  # cameras are seldom upside down
+        ("headset-tracking3", (180.0, 0.05), (180.0, 0.04), "plain"),
+        (
+            "headset-tracking3",
+            (0.0, 0.06),
+            (0.0, 0.05),
+            "plain",
+        ),  # streaks place eyes closer where they do not mislead
+        ("headset-tracking3", (0.0, 0.06), (0.0, 0.03), "faded"),
+        (
+            "headset-tracking3",
+            (0.0, 0.03),
+            (0.0, 0.01),
+            "plain",
+        ),  # what is not doubtful is not looked for again
+        ("headset-any", (180.0, 0.06), (0.0, 0.03), "plain"),
+    ],
+)
+def test_what_is_doubtful_is_looked_for_again_where_edges_fade(
+    take: Take,
+    monkeypatch: pytest.MonkeyPatch,
+    model: str,
+    plain: tuple[float, float],
+    faded: tuple[float, float],
+    taken: str,
+):
+    sizes = {False: 1.1, True: 1.2}
+
+    def best(self, start: CameraPlacement) -> FoundPlacement:
+        roll_deg, unrest = faded if self.fades else plain
+        if start.roll_deg != roll_deg:
+            unrest = 0.2
+        placement = replace(start, size=sizes[self.fades])
+        return FoundPlacement(placement=placement, deviation=0.1, unrest=unrest, unsettled=0.0)
+
+    monkeypatch.setattr(Search, "best", best)
+    found = find_placement(load_headset_predictor(model), "left_eye", take["left_eye"])
+    assert found.placement.size == sizes[taken == "faded"]
+    assert found.turned == ((faded if taken == "faded" else plain)[0] != 0)
+
+
+def test_of_two_places_as_good_the_one_that_looks_more_like_training_is_taken(
+    predictor: HeadsetPredictor, take: Take
+):
+    points = EyePoints.of(predictor, "left_eye")
+    search = Search(predictor, "left_eye", points, take["left_eye"][:8], fades=False)
+    upright, turned = (search.best(CameraPlacement(roll_deg=roll_deg)).likeness for roll_deg in (0.0, 180.0))
+    assert upright > turned + 0.2
+    found = {"placement": CameraPlacement(), "deviation": 0.1, "unrest": 0.02, "unsettled": 0.0}
+    assert FoundPlacement(**found, likeness=upright).score < FoundPlacement(**found, likeness=turned).score
 
 
 def test_a_step_says_how_far_out_the_eye_lies_whatever_the_limits_are(predictor: HeadsetPredictor):
@@ -266,7 +329,7 @@ def test_a_network_of_drawn_headsets_is_not_led_to_the_usual_eye(predictor: Head
     """It knows eyes of every size, so the picture as it comes is settled; far out it is led like any network."""
     for model, settled in ((load_headset_predictor("headset-any"), True), (predictor, False)):
         points = EyePoints.of(model, "left_eye")
-        search = _Search(model, "left_eye", points, take["left_eye"][:8])
+        search = Search(model, "left_eye", points, take["left_eye"][:8], fades=False)
         found = search.best(CameraPlacement(size=0.85, roll_deg=10.0))
         assert (found.unsettled == 0.0) == settled
     assert not _is_as_drawn(CameraPlacement(), CameraPlacement(size=1.6))
