@@ -108,9 +108,7 @@ def judged(name: str, predictor: HeadsetPredictor, takes: list[Take], rng: np.ra
         rendered = np.vstack([wide, [0, 0, 1]])
         if right[-1] and not predictor.model.camera_terms:
             points = EyePoints.of(predictor, take.camera)
-            whole = np.isfinite(take.labels[:, points.upper + points.lower + points.iris]).all(axis=(1, 2))
-            shown = take.labels[whole]
-            true = placement_of_points(CameraPlacement(), shown, points, picture=view, view=view)
+            true = placement_of_points(CameraPlacement(), take.labels, points, picture=view, view=view)
             straight = true.picture_from_view(view, view)
             through = rendered[:2] @ np.vstack([found.picture_from_view((width, height), view), [0, 0, 1]])
             middle = np.append((np.array(view) - 1) / 2, 1.0)

@@ -42,8 +42,7 @@ stop=0 again=0 pid=
 trap 'stop=1 again=1; [ -z "$pid" ] || kill -TERM "$pid" 2>/dev/null' USR1
 trap 'stop=1 again=0; [ -z "$pid" ] || kill -TERM "$pid" 2>/dev/null' TERM INT
 export PYTHONUNBUFFERED=1
-{setup}
-{prepare}rc=75
+{setup}{prepare}rc=75
 for attempt in {attempts}; do
   [ "$stop" = 0 ] || break
   {command} &
@@ -90,7 +89,7 @@ def sbatch_script(job: Job, step: str) -> str:
     finish = "" if step == "generate" else f'[ "$rc" = 0 ] && : > {done}\n'
     return _SCRIPT.format(
         directives="\n".join(f"#SBATCH {directive}" for directive in _directives(job, step, folder)),
-        setup=resources.env_setup or ":",
+        setup=f"{resources.env_setup}\n" if resources.env_setup else "",
         prepare=prepare,
         command=command,
         attempts=" ".join(map(str, range(1, TRIES + 1))),

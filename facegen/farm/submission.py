@@ -1,5 +1,6 @@
 """Submits a job: cuts what is missing into tasks, writes them as scripts or a bundle, hands them to the engine."""
 
+import shutil
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -125,8 +126,18 @@ def _engine(job: Job) -> Engine:
 
 
 def submit(job: Job) -> Submission:
-    """Hand a prepared job to its engine, and write down under which numbers."""
-    submission = _engine(job).submit(job)
+    """Hand a prepared job to its engine, and write down under which numbers.
+
+    Raises
+    ------
+    FacegenError
+        If the engine does not take it; then the job's folder is gone as well, and the next one has its name.
+    """
+    try:
+        submission = _engine(job).submit(job)
+    except FacegenError:
+        shutil.rmtree(job.folder, ignore_errors=True)
+        raise
     write_record(job.folder / "submission.json", submission)
     return submission
 

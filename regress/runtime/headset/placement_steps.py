@@ -98,20 +98,20 @@ def placement_of_points(
 ) -> CameraPlacement:
     """The placement at which points would lie as in training, if they lie so (n, P, 2) in the view of another one.
 
+    Points may be NaN where they are hidden, but those of iris and lids not in all frames.
+
     The size is the iris's, which is nearly the same in all people; the place is that of the lids' middle, and upright
     is the line between the eye's corners. It may lie anywhere, and be of any size.
     """
-    size = np.median(_diameters(seen[:, points.iris])) / _diameters(points.usual[None, points.iris])[0]
-    middle = np.nanmedian(seen, axis=0)
+    size = np.nanmedian(_diameters(seen[:, points.iris])) / _diameters(points.usual[None, points.iris])[0]
     lids = points.upper + points.lower
-    corners = [points.upper[0], points.upper[-1]]
-    turned = _angle(middle[corners]) - _angle(points.usual[corners])
+    middle = np.nanmedian(seen[:, lids], axis=0)
+    corners = [0, len(points.upper) - 1]
+    turned = _angle(middle[corners]) - _angle(points.usual[lids][corners])
     turn = size * np.array([[np.cos(turned), -np.sin(turned)], [np.sin(turned), np.cos(turned)]])
     matrix = placement.picture_from_view(picture, view)
     linear = matrix[:, :2] @ turn
-    offset = (
-        matrix[:, :2] @ (middle[lids].mean(axis=0) - turn @ points.usual[lids].mean(axis=0)) + matrix[:, 2]
-    )
+    offset = matrix[:, :2] @ (middle.mean(axis=0) - turn @ points.usual[lids].mean(axis=0)) + matrix[:, 2]
     at = linear @ ((np.array(view) - 1) / 2) + offset
     x, y = (at + 0.5) / picture
     wide = np.sqrt(abs(np.linalg.det(linear))) * view[0] / picture[0]

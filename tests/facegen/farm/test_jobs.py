@@ -1,6 +1,7 @@
 """Jobs one after the other, with an engine that says what the test tells it."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -115,3 +116,18 @@ def test_a_folder_that_was_never_submitted_has_nothing_to_cancel(tmp_path):
     refusal = farm("cancel", tmp_path / "mistyped").exception
     assert isinstance(refusal, InputError)
     assert "mistyped: was never submitted to a farm" in str(refusal)
+
+
+def test_a_job_that_no_engine_took_leaves_nothing(tmp_path, monkeypatch):
+    (tmp_path / "spec.toml").write_text(SPEC)
+    out = tmp_path / "out"
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    (programs / "bash").symlink_to(shutil.which("bash"))  # reads the scripts over
+    monkeypatch.setenv("PATH", str(programs))
+    refused = farm("submit", tmp_path / "spec.toml", "--out", out, "--engine", "slurm")
+    assert isinstance(refused.exception, InputError)
+    assert "sbatch: there is no such command here" in str(refused.exception)
+    assert not list((out / "farm").iterdir())
+    assert submit(tmp_path, engine="openjd") == out
+    assert [path.name for path in (out / "farm").iterdir()] == ["job-001"]

@@ -61,6 +61,12 @@ def test_bash_reads_the_scripts(step):
     assert subprocess.run(["bash", "-n"], input=sbatch_script(JOB, step), text=True).returncode == 0
 
 
+def test_without_a_setup_no_line_stands_for_one():
+    bare = sbatch_script(dataclasses.replace(JOB, resources=Resources()), "validate")
+    assert "export PYTHONUNBUFFERED=1\nrc=75\n" in bare
+    assert "export PYTHONUNBUFFERED=1\nmodule load python/3.11\nrc=75\n" in sbatch_script(JOB, "validate")
+
+
 def test_names_with_blanks_and_percents_survive():
     job = dataclasses.replace(JOB, out="/shared/my faces 50%", resources=Resources(python="/opt/my python"))
     script = sbatch_script(job, "generate")
