@@ -68,7 +68,8 @@ def find_placement(predictor: HeadsetPredictor, camera: str, pictures: np.ndarra
     if predictor.model.camera_terms or not (plain.lost or plain.turned or plain.score > _DOUBTFUL):
         return plain
     faded = _found(Search(predictor, camera, points, chosen, fades=True))
-    if plain.lost or (not faded.lost and (plain.turned > faded.turned or faded.score < _SURER * plain.score)):
+    upright_again = plain.turned and not faded.turned
+    if plain.lost or (not faded.lost and (upright_again or faded.score < _SURER * plain.score)):
         return faded
     return plain
 

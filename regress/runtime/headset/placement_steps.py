@@ -40,8 +40,8 @@ network of drawn headsets knows them all, and is only led to what lies further o
 films of real eyes 1.5 and 1.7 times as small as they came, and traced both worse."""
 
 _LIKENESS = 0.5
-"""How much the likeness to training's mean picture counts. With it two films on their side are traced with half of the
-error and a film upside down is told from one that comes near; from 1.0 on eyes in other headsets' places are missed."""
+"""How much the likeness to training's mean picture counts. With it a film of a real eye, on either side, is traced with
+half of the error or less; from 1.0 on eyes in other headsets' places are missed."""
 
 _UPRIGHT_DEG = 70.0
 """Roll up to which an eye stands upright: that of drawn headsets is 30 degrees at most, and a strap adds a few."""
