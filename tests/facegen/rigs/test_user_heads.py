@@ -18,9 +18,9 @@ from facegen.rigs import Rig, evaluate, load_rig
 from facegen.rigs.building import add_rig
 from facegen.rigs.gltf_mesh import blendshape_sources
 from facegen.rigs.human_eyes import EYE_RADIUS_M
+from facegen.rigs.lash_strips import lash_strips
 from facegen.sampling import draw_samples
 from facegen.sampling.plan import plan_dataset
-from facegen.scene.lashes import lash_strips
 from facegen.spec import parse_spec
 from facegen.store import column_array, keypoint_schema, keypoint_table, write_shard
 from tests.facegen.rigs.glb_head import write_head

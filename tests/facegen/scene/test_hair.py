@@ -5,8 +5,8 @@ import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_GROUPS, Part
 from facegen.rigs import evaluate
+from facegen.rigs.lash_strips import lash_strips
 from facegen.scene import draw_look
-from facegen.scene.lashes import lash_strips
 from facegen.scene.looks import hair_meshes
 from facegen.scene.strands import TUBE_SIDES, strand_tubes
 
