@@ -80,6 +80,9 @@ class HeadsetRecipe:
         Strength of photometric randomisation (gamma, gain, ramp, vignette, blur, noise, glints, saturation); 0 leaves
         it out. With wide ``shift``, ``scale`` and ``rotation_deg`` it decided on films of real eyes, where no synthetic
         figure shows a difference (docs/measurements/headset-networks.md).
+    patches
+        Standard deviation, in logarithms, of light and dark patches on randomised pictures; 0 draws none. They help in
+        headsets that were never seen, and cost looks far to the side (the same page).
     plain
         Share of training frames that are displaced little (`PLAIN_DISPLACEMENT`) and not randomised: what a wide
         ``shift`` and ``randomise`` cost on the headset's own pictures is less with them.
@@ -124,6 +127,7 @@ class HeadsetRecipe:
     scale: Size = 0.12
     rotation_deg: Size = 8.0
     randomise: Size = 1.0
+    patches: Size = 0.0
     plain: Share = 0.5
     camera_terms: bool = False
     terms_dropout: Share = 0.4

@@ -9,6 +9,7 @@ torch = pytest.importorskip("torch")
 
 from regress.learning.headset.training.photometry import (  # noqa: E402
     draw_blobs,
+    draw_patches,
     draw_photometry,
     saturated,
     softened,
@@ -56,6 +57,35 @@ def test_blobs_are_few_bounded_and_of_many_sizes():
     covered = (light > 0.5).float().mean(dim=(1, 2)).numpy()
     assert covered.max() < 3 * np.pi * 0.06**2 * 2.2
     assert np.percentile(covered, 90) > 5 * np.percentile(covered, 10)
+
+
+def test_patches_are_light_and_dark_alike_bounded_and_of_soft_and_sharp_edges():
+    levels = torch.log(draw_patches(np.random.default_rng(0), 400, SIZE, 0.35)).numpy()
+    assert levels.shape == (400, SIZE, SIZE)
+    amount = np.abs(levels).max(axis=(1, 2))
+    assert np.median(amount) > 0.1
+    assert amount.max() < 5 * 0.35
+    assert abs(np.median(levels)) < 0.02
+    steepest = np.abs(np.diff(levels, axis=2)).max(axis=(1, 2)) / amount
+    assert np.percentile(steepest, 90) > 2.5 * np.percentile(steepest, 10)
+
+
+def test_patches_are_as_strong_as_asked():
+    strong, weak = (
+        torch.log(draw_patches(np.random.default_rng(3), 8, SIZE, deviation)) for deviation in (0.4, 0.1)
+    )
+    assert torch.allclose(weak, 0.25 * strong, atol=1e-5)
+
+
+def test_patches_are_drawn_where_they_are_asked_for_and_change_nothing_else():
+    seen = torch.full((6, 3, SIZE, SIZE), 90.0)
+    before, none, some = (
+        draw_photometry(np.random.default_rng(7), seen, seen, 1.0, np.arange(6) == 0, **asked)
+        for asked in ({}, {"patches": 0.0}, {"patches": 0.4})
+    )
+    assert torch.equal(none[0], before[0])
+    assert torch.equal(some[0][0], seen[0]), "a plain frame stays"
+    assert not torch.equal(some[0][1:], none[0][1:])
 
 
 def test_softening_keeps_flat_pictures_and_spreads_a_point():

@@ -167,7 +167,9 @@ class Training:
     def _loss(self, batch: Batch, random: np.random.Generator) -> torch.Tensor:
         pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
         if self.recipe.randomise:
-            pictures, neutral = draw_photometry(random, pictures, neutral, self.recipe.randomise, batch.plain)
+            pictures, neutral = draw_photometry(
+                random, pictures, neutral, self.recipe.randomise, batch.plain, self.recipe.patches
+            )
         calibrated = torch.from_numpy(batch.calibrated)
         present = torch.from_numpy(batch.present)
         terms = torch.from_numpy(batch.terms)

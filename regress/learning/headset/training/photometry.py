@@ -20,6 +20,10 @@ _CLIPPED, _CLIP_PERCENT = 0.2, (70.0, 97.0)
 """Share of pictures that are saturated, and the range of percentiles at which: up to 28 % of the pixels of real
 near-eye frames are."""
 
+_PATCHED, _PATCH_CELLS, _PATCH_EDGE = 0.6, (4, 8), (0.5, 4.0)
+"""Share of pictures with light and dark patches, of how many cells of noise across they are made, and how sharp their
+edges are: rendered skin has one level, and networks take darker skin below shut lids for an eye."""
+
 
 def draw_photometry(
     random: np.random.Generator,
@@ -27,11 +31,13 @@ def draw_photometry(
     neutral: torch.Tensor,
     strength: float,
     plain: np.ndarray,
+    patches: float = 0.0,
 ) -> tuple[torch.Tensor, torch.Tensor]:
     """Randomised pictures and neutral pictures (n, cameras, size, size), grey levels in [0, 255].
 
     A frame's camera treats its neutral picture alike, but for the noise and the places of blobs. Frames that are
-    ``plain`` (n,) bool are given back as they are.
+    ``plain`` (n,) bool are given back as they are. ``patches`` is the standard deviation, in logarithms, of light and
+    dark patches at strength 1; 0 draws none.
     """
     count, cameras, size, _ = pictures.shape
 
@@ -51,6 +57,10 @@ def draw_photometry(
     soft, dotless, blobbed, clipped = (some(share) for share in (_BLUR, _DOTLESS, _BLOBBED, _CLIPPED))
     percent = torch.from_numpy(random.uniform(*_CLIP_PERCENT, (count, cameras)).astype(np.float32))
     sigma = _NOISE * torch.abs(normal(1, 1))
+    # drawn only where they are asked for, so that trainings without them are those of before
+    if patches and (patched := some(_PATCHED)).any():
+        light = light.expand(count, cameras, size, size).clone()
+        light[patched] *= draw_patches(random, int(patched.sum()), size, patches * strength)
 
     def treated(seen: torch.Tensor) -> torch.Tensor:
         seen = seen / 255
@@ -100,6 +110,21 @@ def saturated(pictures: torch.Tensor, percent: torch.Tensor) -> torch.Tensor:
     level = flat.gather(1, places[:, None])[..., None]
     # twice at most: what was dark but for a few pixels does not become noise
     return torch.minimum(pictures, level) * (flat[:, -1:, None] / level.clamp(min=1e-3)).clamp(max=2.0)
+
+
+def draw_patches(random: np.random.Generator, count: int, size: int, deviation: float) -> torch.Tensor:
+    """Factors (count, size, size) of light and dark patches, from smooth to edged.
+
+    A picture's factors lie between the exponentials of plus and minus a normal number of this standard deviation.
+    """
+    fewest, most = _PATCH_CELLS
+    cells = int(random.integers(fewest, most + 1))
+    level = random.standard_normal((count, 1, cells, cells))
+    edge = np.exp(random.uniform(*np.log(_PATCH_EDGE), (count, 1, 1)))
+    amount = deviation * np.abs(random.standard_normal((count, 1, 1)))
+    level, edge, amount = (torch.from_numpy(drawn.astype(np.float32)) for drawn in (level, edge, amount))
+    field = functional.interpolate(level, (size, size), mode="bicubic", align_corners=True)[:, 0]
+    return torch.exp(amount * torch.tanh(edge * field))
 
 
 def draw_blobs(random: np.random.Generator, count: int, size: int) -> torch.Tensor:
