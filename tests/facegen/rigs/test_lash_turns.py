@@ -50,7 +50,9 @@ def test_turning_turned_lashes_changes_nothing(anny):
 @pytest.mark.parametrize("name", ["anny", "ict"])
 @settings(deadline=None, max_examples=15)
 @given(seed=st.integers(0, 2**32 - 1))
-def test_lashes_of_a_shut_eye_hang_down_in_every_identity(name: str, seed: int, request: pytest.FixtureRequest):
+def test_lashes_of_a_shut_eye_hang_down_in_every_identity(
+    name: str, seed: int, request: pytest.FixtureRequest
+):
     rig = request.getfixturevalue(name)
     identity = np.random.default_rng(seed).normal(size=rig.components)
     opened, shut = _blinked(rig, identity, 0.0), _blinked(rig, identity, 1.0)
