@@ -214,6 +214,16 @@ def test_a_network_begins_as_the_one_that_it_starts_from(
         Training(arrays, other, start=folder)
 
 
+def test_a_recipe_says_how_strong_patches_are(arrays: HeadsetArrays):
+    losses = []
+    for patches in (0.0, 2.0):
+        training = Training(arrays, replace(QUICK, patches=patches, plain=0.0, randomise=1.0))
+        frames = TrainingFrames(arrays, training.recipe, arrays.rows("train"))
+        batch = next(iter(frames.draw_epoch(np.random.default_rng(0))))
+        losses.append(training._loss(batch, np.random.default_rng(1)).item())
+    assert losses[0] != losses[1]
+
+
 def test_plain_frames_keep_their_light_and_are_displaced_little(arrays: HeadsetArrays):
     random, plain = np.random.default_rng(0), np.arange(6) % 2 == 0
     seen = torch.from_numpy(arrays.pictures["mouth"][:6].astype(np.float32))[:, None]
