@@ -7,6 +7,7 @@
     │   ├── FormatError     2   a file whose content is not what its format says
     │   └── MissingAsset    2   a rig or headset that has not been built or does not exist
     ├── InvalidData         1   data on disk that does not agree with itself
+    ├── Unanswered          1   another program that gave no answer in time; it may have done what it was asked
     ├── WorkersFailed       1   worker processes that cannot start, or fail at nearly everything
     ├── OutputError        74   no space, or a place that cannot be written
     └── Drained            75   stopped on request; work remains
@@ -51,6 +52,10 @@ class MissingAsset(InputError):
 
 class InvalidData(FacegenError):
     """Data on disk that does not agree with itself."""
+
+
+class Unanswered(FacegenError):
+    """Another program that gave no answer in time; it may have done what it was asked."""
 
 
 class WorkersFailed(FacegenError):

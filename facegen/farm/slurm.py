@@ -11,7 +11,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from facegen.errors import FacegenError, InputError
+from facegen.errors import FacegenError, InputError, Unanswered
 from facegen.farm.commands import chunk_lines, generate_command, later_command
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, Submission
@@ -152,6 +152,8 @@ class Slurm:
         ------
         InputError
             If Slurm refuses; what was submitted before is cancelled.
+        Unanswered
+            If Slurm gives no answer in time; it may have taken the step.
         """
         ids: dict[str, str] = {}
         before = None
@@ -227,8 +229,8 @@ def _run(command: list[str]) -> str:
             "or look at the scripts with --dry-run"
         ) from None
     except subprocess.TimeoutExpired:
-        raise InputError(
-            f"{command[0]}: no answer within {_ASK_TIMEOUT_S} s; is the controller up?"
+        raise Unanswered(
+            f"{command[0]}: no answer within {_ASK_TIMEOUT_S} s (is the controller up?)"
         ) from None
     if done.returncode:
         raise InputError(f"{command[0]} refused: {done.stderr.strip() or f'exit code {done.returncode}'}")

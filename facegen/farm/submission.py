@@ -5,7 +5,7 @@ import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from facegen.errors import FacegenError, InputError
+from facegen.errors import FacegenError, InputError, Unanswered
 from facegen.farm.chunks import cut_chunks
 from facegen.farm.engine import Activity, Engine
 from facegen.farm.engines import ENGINES
@@ -132,9 +132,16 @@ def submit(job: Job) -> Submission:
     ------
     FacegenError
         If the engine does not take it; then the job's folder is gone as well, and the next one has its name.
+    Unanswered
+        If the engine may have taken it; what runs then finds its folder.
     """
     try:
         submission = _engine(job).submit(job)
+    except Unanswered as error:
+        raise Unanswered(
+            f"{error}; {job.name} may be queued all the same, so {job.folder} is kept: cancel what the queue has of "
+            f"{job.name}, then submit again"
+        ) from None
     except FacegenError:
         shutil.rmtree(job.folder, ignore_errors=True)
         raise

@@ -8,8 +8,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from facegen.cli import app
-from facegen.errors import InputError
-from facegen.farm import ENGINES, Activity, Job, Submission
+from facegen.errors import InputError, Unanswered
+from facegen.farm import ENGINES, Activity, Job, Submission, slurm
 from facegen.farm.job import asked_jobs
 from facegen.store import DatasetFolder, open_dataset
 from facegen.work import generate
@@ -131,3 +131,23 @@ def test_a_job_that_no_engine_took_leaves_nothing(tmp_path, monkeypatch):
     assert not list((out / "farm").iterdir())
     assert submit(tmp_path, engine="openjd") == out
     assert [path.name for path in (out / "farm").iterdir()] == ["job-001"]
+
+
+def test_a_job_that_an_engine_may_have_taken_keeps_its_folder(tmp_path, monkeypatch):
+    """A slow sbatch may have queued it, and its scripts' logs go there."""
+    (tmp_path / "spec.toml").write_text(SPEC)
+    out, programs = tmp_path / "out", tmp_path / "programs"
+    programs.mkdir()
+    (programs / "bash").symlink_to(shutil.which("bash"))
+    (programs / "sbatch").write_text(f"#!{shutil.which('bash')}\nexec {shutil.which('sleep')} 60\n")
+    (programs / "sbatch").chmod(0o755)
+    monkeypatch.setenv("PATH", str(programs))
+    monkeypatch.setattr(slurm, "_ASK_TIMEOUT_S", 0.2)
+    unanswered = farm("submit", tmp_path / "spec.toml", "--out", out, "--engine", "slurm")
+    assert isinstance(unanswered.exception, Unanswered)
+    assert f"job-001 may be queued all the same, so {out / 'farm' / 'job-001'} is kept" in str(
+        unanswered.exception
+    )
+    assert (out / "farm" / "job-001" / "generate.sh").is_file()
+    assert submit(tmp_path, engine="openjd") == out
+    assert sorted(path.name for path in (out / "farm").iterdir()) == ["job-001", "job-002"]
