@@ -103,7 +103,7 @@ wheel: | $(BIN)/python  ## Wheel and sdist in dist
 	$(BIN)/python -m build --outdir dist .
 
 test: $(TESTER) $(RIG)  ## All tests but those of farms
-	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools
+	$(BIN)/python -m pytest $(TWO) --durations 30 --durations-min 10 --ignore tests/real_tools
 
 test-farm: $(TESTER) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
 	$(BIN)/python -m pytest tests/real_tools

@@ -11,7 +11,7 @@ import typer
 from facegen.console import counted, progress, say
 from regress.errors import InputError
 from regress.learning.headset.architectures import ARCHITECTURES
-from regress.learning.headset.recipe import DRAWN_SETTINGS, WITHHOLDINGS, HeadsetRecipe, recipe_of
+from regress.learning.headset.recipe import DRAWN_SETTINGS, WITHHOLDINGS, HeadsetRecipe, recipe_of, sizes_of
 
 _PLAIN = HeadsetRecipe()
 
@@ -63,7 +63,7 @@ def train(
         typer.Option(
             "--start",
             metavar="MODEL",
-            help="Go on from a trained model, or a ready-made one by its name, in place of random numbers.",
+            help="Go on from a trained model, or a ready-made one by its name; the network has its sizes.",
         ),
     ] = None,
     settings: Annotated[
@@ -100,10 +100,13 @@ def train(
     importlib.import_module("torch")  # first, so that its extra is named: it brings what the others need
     from regress.learning.headset.arrays import read_arrays
     from regress.learning.headset.training import train_headset
+    from regress.runtime.headset.folder import read_headset_model
     from regress.runtime.ready_made import model_folder
 
     frames = read_arrays(arrays)
-    recipe = recipe_of({**(DRAWN_SETTINGS if frames.drawn else {}), **chosen})
+    started = None if start is None else model_folder(start)
+    begun = {} if started is None else sizes_of(read_headset_model(started).training.recipe)
+    recipe = recipe_of({**begun, **(DRAWN_SETTINGS if frames.drawn else {}), **chosen})
     for note in side_notes(tuple(camera.name for camera in frames.cameras)):
         say(note)
     began = time.monotonic()
@@ -112,7 +115,7 @@ def train(
             frames,
             recipe,
             out,
-            start=None if start is None else model_folder(start),
+            start=started,
             progress=lambda stage, *steps: draw(f"{out.name}: {stage}", *steps),
         )
     record = model.training

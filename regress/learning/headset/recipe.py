@@ -43,6 +43,9 @@ class HeadsetRecipe:
         learned half as fast.
     input_size
         Side in pixels to which encoders reduce the squares that they see; irises they look at again in the squares.
+    blocks
+        Residual blocks behind each convolution but the first. Networks of drawn headsets err as much on their training
+        people as on others: they lack depth, not people.
     code, hidden
         Numbers of each half of a camera's part code; hidden units of the holistic network.
     modulation
@@ -107,6 +110,7 @@ class HeadsetRecipe:
     matrix_learning_rate: Size = 0.02
     weight_decay: Size = 0.3
     input_size: Count = 64
+    blocks: CountOrNone = 0
     code: Count = 96
     hidden: Count = 192
     modulation: Share = 0.3
@@ -158,6 +162,15 @@ class HeadsetRecipe:
 
 DRAWN_SETTINGS: Mapping[str, Any] = {"camera_terms": True, "plain": 0.0}
 """What is another default where the arrays' headsets are drawn: no headset is the network's own."""
+
+
+_SIZES = ("input_size", "blocks", "code", "hidden", "skip", "second_look", "camera_terms")
+"""Settings in which a network is as the one that it begins as."""
+
+
+def sizes_of(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Of a trained network's settings, those that one takes over which begins as it; of former versions some lack."""
+    return {name: settings[name] for name in _SIZES if name in settings}
 
 
 def recipe_of(settings: Mapping[str, Any]) -> HeadsetRecipe:

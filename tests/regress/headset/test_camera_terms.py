@@ -110,6 +110,26 @@ def test_drawn_headsets_are_trained_for_with_another_recipe(run, told_arrays: He
         assert recipe[name] == value
 
 
+def test_a_network_has_the_sizes_of_the_one_that_it_begins_as(
+    run, told_arrays: HeadsetArrays, tmp_path: Path
+):
+    sizes = {"input_size": 16, "blocks": 1, "code": 8, "skip": 4, "camera_terms": True}
+    first, second = tmp_path / "first", tmp_path / "second"
+    said = [f"--set={name}={value}" for name, value in sizes.items()]
+    code, _, errors = run("headset", "train", told_arrays.folder, "--out", first, "--epochs", 1, *said)
+    assert code == 0, errors
+    begun = ["--start", first, "--set", "shift=0.03"]
+    code, _, errors = run("headset", "train", told_arrays.folder, "--out", second, "--epochs", 1, *begun)
+    assert code == 0, errors
+    recipe = json.loads((second / "model.json").read_text())["training"]["recipe"]
+    for name, value in {**sizes, "shift": 0.03}.items():
+        assert recipe[name] == value
+    other = ["--start", first, "--set", "code=12"]
+    code, _, errors = run("headset", "train", told_arrays.folder, "--out", second, "--epochs", 1, *other)
+    assert code == 2
+    assert "start from a model of the same cameras and recipe" in errors
+
+
 def test_a_network_of_one_headset_is_told_nothing(arrays: HeadsetArrays, tmp_path: Path):
     with pytest.raises(InputError, match="does not say where cameras are"):
         train_headset(arrays, QUICK, tmp_path / "model")

@@ -2,6 +2,7 @@
 
 import csv
 import errno
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -187,6 +188,16 @@ def test_settings_train(arrays: HeadsetArrays, tmp_path: Path, settings: dict):
     assert np.array_equal(alone.weights, both.weights) is not settings.get("calibration", True)
 
 
+def begun_and_graphs_weights(arrays: HeadsetArrays, begun: Training, model: HeadsetModel, folder: Path):
+    """Weights of test pictures by a training's network and by a model's graph."""
+    batch = begun._frames.plain_batch(arrays.rows("test"))
+    with torch.no_grad():
+        answer = answer_to(begun.network.eval(), batch)
+    weights = (answer.blended.mean * begun._std + begun._mean)[:, :52].clamp(0, 1)
+    rows = {name: pictures[arrays.rows("test")] for name, pictures in arrays.pictures.items()}
+    return weights, HeadsetGraph(folder / "network.onnx", model.cameras).run(rows).weights
+
+
 def test_a_network_begins_as_the_one_that_it_starts_from(
     trained: tuple[HeadsetModel, Path], arrays: HeadsetArrays, tmp_path: Path
 ):
@@ -196,13 +207,8 @@ def test_a_network_begins_as_the_one_that_it_starts_from(
     )
     # without a step it is the same network, whatever its normalisation has seen since
     begun = Training(arrays, recipe, start=folder)
-    batch = begun._frames.plain_batch(arrays.rows("test"))
-    with torch.no_grad():
-        answer = answer_to(begun.network.eval(), batch)
-    weights = (answer.blended.mean * begun._std + begun._mean)[:, :52].clamp(0, 1)
+    np.testing.assert_allclose(*begun_and_graphs_weights(arrays, begun, model, folder), atol=2e-4)
     rows = {name: pictures[arrays.rows("test")] for name, pictures in arrays.pictures.items()}
-    expected = HeadsetGraph(folder / "network.onnx", model.cameras).run(rows).weights
-    np.testing.assert_allclose(weights, expected, atol=2e-4)
     # its normalisations are those of training data: training does not begin with a leap (from random numbers: .15)
     frozen = HeadsetGraph(folder / "network.onnx", model.cameras)
     further = train_headset(arrays, replace(recipe, learning_rate=1e-5), tmp_path / "further", start=folder)
@@ -212,6 +218,25 @@ def test_a_network_begins_as_the_one_that_it_starts_from(
     other = replace(recipe, code=32)
     with pytest.raises(InputError, match="start from a model of the same cameras and recipe"):
         Training(arrays, other, start=folder)
+
+
+def test_a_deeper_network_begins_as_a_shallower_one(
+    trained: tuple[HeadsetModel, Path], arrays: HeadsetArrays, tmp_path: Path
+):
+    model, folder = trained
+    recipe = replace(QUICK, architecture=model.architecture, epochs=1)
+    begun = Training(arrays, replace(recipe, blocks=1), start=folder)
+    np.testing.assert_allclose(*begun_and_graphs_weights(arrays, begun, model, folder), atol=2e-4)
+    # its blocks learn, and the graph of one that has them gives them on
+    deep = train_headset(arrays, replace(recipe, blocks=1), tmp_path / "deep", start=folder)
+    again = Training(arrays, replace(recipe, blocks=2), start=tmp_path / "deep")
+    given = again.network.state_dict()
+    last = [name for name in given if re.search(r"blocks\.\d\.\d\.convolutions\.4\.weight", name)]
+    assert len(last) == 2 * 3 * 2  # encoders, scales and blocks
+    assert all(bool(given[name].any()) is (".0.convolutions" in name) for name in last)
+    np.testing.assert_allclose(*begun_and_graphs_weights(arrays, again, deep, tmp_path / "deep"), atol=2e-4)
+    with pytest.raises(InputError, match=r"do not both have the layer encoders\.\w+\.blocks"):
+        Training(arrays, recipe, start=tmp_path / "deep")
 
 
 def test_a_recipe_says_how_strong_patches_are(arrays: HeadsetArrays):

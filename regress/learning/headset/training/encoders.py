@@ -9,6 +9,7 @@ from facegen.conventions import CAMERA_TERMS
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.foveas import Fovea, iris_columns
 from regress.learning.headset.training.resampling import linear_matrix
+from regress.learning.headset.training.residuals import Residual
 from regress.learning.headset.training.tracers import Tracer
 
 _CHANNELS = (16, 32, 48, 64)
@@ -17,9 +18,10 @@ _CHANNELS = (16, 32, 48, 64)
 class Encoder(nn.Module):
     """Four convolutions that halve the picture; a tracer of points beside them; a code of looks and one of positions.
 
-    A neutral picture goes through the same convolutions and the same tracer, and the code reads what differs: a lid
-    that hangs half shut is a blink in one face and rest in another. So a frame is seen in the same way with a neutral
-    picture and without. All this sees the picture reduced; irises are then looked at again in all its pixels.
+    Residual blocks may stand behind all convolutions but the first. A neutral picture goes through the same layers and
+    the same tracer, and the code reads what differs: a lid that hangs half shut is a blink in one face and rest in
+    another. So a frame is seen in the same way with a neutral picture and without. All this sees the picture reduced;
+    irises are then looked at again in all its pixels.
 
     Parameters
     ----------
@@ -47,6 +49,13 @@ class Encoder(nn.Module):
             channels, input_size = wider, (input_size + 1) // 2
             sides.append(input_size)
         self.convolutions = nn.ModuleList(layers)
+        # none behind the first: at half the picture's side they would take longer than all others
+        self.blocks = nn.ModuleList(
+            [
+                nn.Sequential(*(Residual(wide) for _ in range(recipe.blocks if step else 0)))
+                for step, wide in enumerate(_CHANNELS)
+            ]
+        )
         irises = iris_columns(traced) if recipe.second_look else ()
         # positions, those of irises again, how far from the neutral picture's, whether there is one, and the camera
         position_inputs = 4 * points + sum(2 * len(columns) for columns in irises) + 1 + self.told
@@ -146,7 +155,7 @@ class Encoder(nn.Module):
         mean, std = self.scale.unbind()
         feature = ((pictures - mean) / std)[:, None]
         features = []
-        for layer in self.convolutions:
-            feature = torch.relu(layer(feature))
+        for layer, blocks in zip(self.convolutions, self.blocks, strict=True):
+            feature = blocks(torch.relu(layer(feature)))
             features.append(feature)
         return features

@@ -1,5 +1,6 @@
 """Gives a network what another one has learned, from that one's model folder: training then goes on from there."""
 
+import re
 from collections.abc import Callable, Iterable
 from itertools import pairwise
 from pathlib import Path
@@ -15,6 +16,7 @@ from facegen.documents import read_bytes
 from regress.errors import InputError
 from regress.learning.headset.training.batches import Batch
 from regress.learning.headset.training.networks import Answer, HeadsetNetwork
+from regress.learning.headset.training.residuals import residual_names
 from regress.learning.headset.training.targets import Targets
 from regress.runtime.headset.estimates import TERMS_TOLD
 from regress.runtime.headset.folder import MOST_GRAPH_BYTES, read_headset_model
@@ -80,7 +82,7 @@ class LearnedGraph:
             )
 
     def give(self, network: HeadsetNetwork, batches: Iterable[Batch], answer: Answering) -> None:
-        """Set a network of the same recipe, which then answers as the graph does.
+        """Set a network of the same recipe or one of more blocks, which then answers as the graph does.
 
         Kernels of a graph have the normalisation behind them folded in. It is taken out again with the means and
         spreads that the batches show, so that further training normalises what it finds, and answers stay.
@@ -95,7 +97,7 @@ class LearnedGraph:
         Raises
         ------
         InputError
-            Where the network has parameters that the graph lacks, or of other shapes.
+            Where the network and the graph have not the same parameters, but for blocks, or of other shapes.
         """
         state = network.state_dict()
         with torch.no_grad():
@@ -103,10 +105,15 @@ class LearnedGraph:
                 array = _with_room_for_terms(array, state.get(name))
                 self._check(name, state, array.shape)
                 state[name].copy_(_tensor(array))
-            pairs = list(_normalised(network))
+            # blocks that the graph lacks do nothing as yet
+            new = residual_names(network) - self._folded.keys()
+            pairs = [pair for pair in _normalised(network) if pair[0] not in new]
+            if unknown := self._folded.keys() ^ {name for name, _, _ in pairs}:
+                raise InputError(
+                    f"{self.folder} and the network to train do not both have the layer {min(unknown)}; start from a "
+                    "model of the same cameras and recipe"
+                )
             for name, convolution, normalisation in pairs:
-                if name not in self._folded:
-                    raise InputError(f"{self.folder} has no layer {name}; it was trained with another recipe")
                 kernel, bias = self._folded[name]
                 self._check(f"{name}.weight", state, kernel.shape)
                 convolution.weight.copy_(_tensor(kernel))
@@ -139,9 +146,10 @@ def _normalised(network: nn.Module) -> Iterable[tuple[str, nn.Conv2d, nn.BatchNo
 
 
 def _layer(node: str) -> str:
-    """``encoders.left_eye.convolutions.0.0`` of ``/network/left_eye/convolutions.0/convolutions.0.0/Conv``."""
+    """``encoders.left_eye.convolutions.0.0`` of ``/network/left_eye/convolutions.0/convolutions.0.0_1/Conv``."""
     path: list[str] = []
-    for part in node.split("/")[2:-1]:
+    # a layer that is used again, for the neutral picture, has a number behind its name
+    for part in re.sub(r"_\d+/Conv$", "/Conv", node).split("/")[2:-1]:
         if path and part.startswith(f"{path[-1]}."):
             path[-1] = part
         else:
