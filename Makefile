@@ -223,7 +223,8 @@ models/headset/report.html: $(TESTED:%=datasets/out/%-arrays/index.json) dataset
 
 # a network for any headset: every person of its dataset wears another, drawn one
 models/headset-any/model.json: datasets/out/headset-any-arrays/index.json $(LEARNER)
-	$(BIN)/regress headset train $(<D) --out $(@D) --start headset-tracking3 --epochs 25
+	$(BIN)/regress headset train $(<D) --out $(@D) --start headset-tracking3 --epochs 30 \
+	  --set blocks=2 --set matrix_learning_rate=0.007
 
 models/headset-any/report.html: datasets/out/headset-any-test-arrays/index.json models/headset-any/model.json
 	$(BIN)/python benchmarks/any_headset.py models/headset-any headset-tracking3 --data datasets/out/headset-any-test-arrays

@@ -78,7 +78,7 @@ def train(
     """Train a network on pictures with exact labels, on one core; a second run goes on where the first was stopped.
 
     Half of the pictures are displaced and lit as in other cameras, for real ones are. Where each person of the arrays
-    wears another, drawn headset, all of them are, and the network is told of the cameras.
+    wears another, drawn headset, the network is told of the cameras.
 
     Example: regress headset train datasets/out/headset-arrays --out models/headset
     """

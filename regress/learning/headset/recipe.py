@@ -160,8 +160,8 @@ class HeadsetRecipe:
         return asdict(self)
 
 
-DRAWN_SETTINGS: Mapping[str, Any] = {"camera_terms": True, "plain": 0.0}
-"""What is another default where the arrays' headsets are drawn: no headset is the network's own."""
+DRAWN_SETTINGS: Mapping[str, Any] = {"camera_terms": True}
+"""What is another default where the arrays' headsets are drawn: the network is told of each."""
 
 
 _SIZES = ("input_size", "blocks", "code", "hidden", "skip", "second_look", "camera_terms")

@@ -61,7 +61,8 @@ def test_frames_of_a_drawn_layout_are_answered_as_predict_answers_them(home, mon
     assert live.shape == (5, len(BLENDSHAPES) - 8)
     for found, name in ((live, "told"), (plain, "untold")):
         np.testing.assert_allclose(found[1:], weights(Path(f"{name}.csv"))[1:], atol=1e-5)
-    assert np.abs(live - plain).max() > 0.015
+    # a thousand times as far as two programs may be apart
+    assert np.abs(live - plain).max() > 0.01
 
 
 def kept(monkeypatch, profile: Path, *words) -> dict[str, tuple[float, ...]]:
