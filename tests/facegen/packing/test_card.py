@@ -63,7 +63,7 @@ LIBRARIES = ("datasets==5.2.0", "mlcroissant==1.1.1", "pillow")
 """In an environment of their own: they want a pyarrow and an fsspec beyond what Blender's NumPy and PyTorch allow."""
 
 LEFT = "import os\nsys.stdout.flush()\nos._exit(0)\n"
-"""Behind a program that has said all: threads of the libraries may outlive it, and C++ then aborts (seen once in CI)."""
+"""Behind a program that has said all: threads of libraries may outlive it, and C++ then aborts (seen once in CI)."""
 
 
 @pytest.fixture(scope="module")
