@@ -24,8 +24,8 @@ import numpy as np
 
 from benchmarks.real_eyes import CAMERA, FILMS, Film, answer_to, pupil_figures, read_film
 from regress.runtime.headset.eye_points import EyePoints
+from regress.runtime.headset.found_placement import FoundPlacement
 from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.placement_steps import FoundPlacement
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 
 Change = Callable[[Film], Film]

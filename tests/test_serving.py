@@ -14,7 +14,7 @@ from tests.serving import end
 @pytest.mark.parametrize("turns", range(4))
 def test_a_connection_of_the_last_moment_is_closed(turns: int):
     async def serve_and_end() -> None:
-        runner = web.AppRunner(web.Application())
+        runner = web.AppRunner(web.Application(), shutdown_timeout=0.1)
         await runner.setup()
         await web.TCPSite(runner, "127.0.0.1", 0).start()
         client = socket.create_connection(runner.addresses[0])

@@ -5,6 +5,7 @@ import typer
 from regress.cli.headset_adapt import adapt
 from regress.cli.headset_calibrate import calibrate
 from regress.cli.headset_check import check
+from regress.cli.headset_compass import compass
 from regress.cli.headset_evaluate import evaluate
 from regress.cli.headset_export import export
 from regress.cli.headset_predict import predict
@@ -28,3 +29,4 @@ headset.command()(calibrate)
 headset.command()(adapt)
 headset.command()(report)
 headset.command()(export)
+headset.command()(compass)

@@ -7,8 +7,9 @@ import numpy as np
 
 from facegen.console import say
 from regress.errors import InputError
+from regress.runtime.headset.compass import eye_compass
 from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.orientation import told_orientation
+from regress.runtime.headset.orientation import told_by_compass, told_orientation
 from regress.runtime.headset.points import check_points
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.temporal import TAPS
@@ -34,7 +35,12 @@ def tell_of(footage: Footage, predictor: HeadsetPredictor, *, strict: bool) -> N
     """Say what is wrong with pictures and how they look; where ``strict``, a fault is an error."""
     if strict and not footage.present[:, footage.recorded].all():
         raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
-    for note in (*footage.notes, *told_orientation(footage, predictor.typical)):
+    # a network of many headsets has no mean picture that says how an eye lies
+    drawn = bool(predictor.model.camera_terms)
+    turned = (
+        told_by_compass(footage, eye_compass()) if drawn else told_orientation(footage, predictor.typical)
+    )
+    for note in (*footage.notes, *turned):
         say(note)
 
 

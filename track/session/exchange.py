@@ -29,7 +29,7 @@ class CameraFault(Enum):
 class ExchangeWatch(Stage):
     """Takes pictures away that look like another camera's; a camera is known from its first picture on.
 
-    Cameras that are exchanged from the beginning are told by `regress headset check`, not here.
+    Cameras that are exchanged from the beginning are told by `UprightWatch` and `regress headset check`, not here.
     """
 
     def __init__(self) -> None:

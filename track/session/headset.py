@@ -24,6 +24,7 @@ from track.profile.profile import ModelMark, NeutralFace, base64_of
 from track.session.exchange import ExchangeWatch
 from track.session.faces import FACES
 from track.session.pipeline import Pipeline, filter_of
+from track.session.upright import UprightWatch
 
 LEAST_MOVEMENT = 0.15
 """Of a weight, as the network reads it without a neutral face: what calm frames of a take differ by
@@ -55,7 +56,11 @@ class HeadsetPipeline(Pipeline):
         self.stages = {"grey": _Grey()}
         self.use_placement({})
         # what training's pictures looked like says nothing of pictures that are not levelled yet
-        self.stages |= {"exchange": ExchangeWatch(), "networks": self._networks}
+        self.stages |= {
+            "exchange": ExchangeWatch(),
+            "upright": UprightWatch(self.cameras),
+            "networks": self._networks,
+        }
         smoothing = filter_of(filter_name)
         if smoothing is not None:
             self.stages["filter"] = smoothing
@@ -134,8 +139,8 @@ class HeadsetPipeline(Pipeline):
         }
 
     def sentences(self, sample: Sample) -> dict[str, str]:
-        """Faults by camera, and a seat that changed."""
-        found = super().sentences(sample)
+        """Faults by camera, eyes that are not upright, and a seat that changed."""
+        found = {**self.stages["upright"].told, **super().sentences(sample)}
         for name in (name for name, fault in sample.faults.items() if fault is Fault.SHAPE):
             width, height = self._predictor.sizes[name]
             found[name] += (
@@ -159,6 +164,7 @@ class HeadsetPipeline(Pipeline):
         self.stages["soundness"] = _Soundness(self._predictor.sizes, placement)
         if "networks" in self.stages:
             self.stages["networks"] = self._networks
+            self.stages["upright"] = UprightWatch(self.cameras)
 
     @property
     def listens(self) -> bool:

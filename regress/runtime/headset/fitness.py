@@ -9,6 +9,7 @@ from regress.errors import InputError
 from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.found_placement import FoundPlacement
 from regress.runtime.headset.looks import TakeLooks, looks_of
 from regress.runtime.headset.misfits import Finding, Misfit, light_findings, lost, place_findings, turned
 from regress.runtime.headset.orientation import told_orientation
@@ -16,7 +17,6 @@ from regress.runtime.headset.parts import mirror_partner
 from regress.runtime.headset.pictures import ASPECT
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.placement_steps import FoundPlacement
 from regress.runtime.headset.predictor import HeadsetPredictor
 
 FEWEST_FRAMES = 20

@@ -45,6 +45,11 @@ def side_of(camera: str) -> str | None:
     return side and {"l": "left", "r": "right"}.get(side[1], side[1])
 
 
+def is_of_one_eye(camera: str) -> bool:
+    """Whether a camera's name says that it sees an eye, and which."""
+    return "eye" in camera.lower() and side_of(camera) is not None
+
+
 def mirror_partner(camera: str) -> str:
     """Name of the camera on the other side of the face; a camera without a side names itself."""
     return _SIDE.sub(lambda match: _OTHER_SIDE[match[1]], camera)

@@ -1,8 +1,9 @@
 """Finds where in a camera's pictures the eye lies, by the network's own points and confidence.
 
-A placement is looked for from several sizes, upright and in a mirror, then upside down and on its side. That one is
-taken whose points stay on the same pixels of the picture when the view is moved, scaled and turned a little, at which,
-half as much, the network is surest, and whose view is most like training's mean picture.
+A placement is looked for from several sizes, upright and in a mirror; then upside down and on its side, unless the
+compass is sure that the eye is upright. That one is taken whose points stay on the same pixels of the picture when the
+view is moved, scaled and turned a little, at which, half as much, the network is surest, whose view is most like
+training's mean picture, and shows an eye upright by the compass.
 
 Steps may lead out of the picture, eyes as a network has never seen them. What the search holds back at its limits is no
 placement, and the whole picture is given instead.
@@ -17,8 +18,9 @@ from dataclasses import replace
 import numpy as np
 
 from regress.runtime.headset.eye_points import EyePoints
+from regress.runtime.headset.found_placement import FoundPlacement
 from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_steps import FoundPlacement, Search
+from regress.runtime.headset.placement_steps import Search
 from regress.runtime.headset.predictor import HeadsetPredictor
 
 _FRAMES = 16
@@ -36,7 +38,7 @@ _CLEARLY = 0.9
 sits well have a smaller one by chance."""
 
 _DOUBTFUL, _SURER = 0.013, 0.6
-"""Score from which a placement is doubtful, and what the score of one with fading edges has to be of it. Twenty
+"""Doubt from which a placement is doubtful, and what the score of one with fading edges has to be of it. Twenty
 rendered takes have .002 to .010, a film that comes near .011 to .028. A network of drawn headsets does not look again:
 with fading edges it took two films on their side, or upside down, for upright ones."""
 
@@ -65,7 +67,7 @@ def find_placement(predictor: HeadsetPredictor, camera: str, pictures: np.ndarra
     points = EyePoints.of(predictor, camera)
     chosen = pictures[np.linspace(0, len(pictures) - 1, min(len(pictures), _FRAMES)).round().astype(int)]
     plain = _found(Search(predictor, camera, points, chosen, fades=False))
-    if predictor.model.camera_terms or not (plain.lost or plain.turned or plain.score > _DOUBTFUL):
+    if predictor.model.camera_terms or not (plain.lost or plain.turned or plain.doubt > _DOUBTFUL):
         return plain
     faded = _found(Search(predictor, camera, points, chosen, fades=True))
     upright_again = plain.turned and not faded.turned
@@ -84,8 +86,9 @@ def _found(search: Search) -> FoundPlacement:
     best = min(upright[1:], key=_score)
     if best.score > _CLEARLY * as_it_is.score:
         best = as_it_is
+    turned_starts = () if search.surely_upright else _TURNED
     turned = min(
-        (one for one in map(search.best, _TURNED) if not search.holds(one.placement)),
+        (one for one in map(search.best, turned_starts) if not search.holds(one.placement)),
         key=_score,
         default=best,
     )

@@ -13,16 +13,12 @@ from regress.errors import InputError
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.fitness import judge
 from regress.runtime.headset.fitness_sheet import fitness_sheet
+from regress.runtime.headset.found_placement import FoundPlacement
 from regress.runtime.headset.misfits import Misfit
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import read_placement
 from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.placement_steps import (
-    FoundPlacement,
-    Search,
-    _is_as_drawn,
-    placement_of_points,
-)
+from regress.runtime.headset.placement_steps import Search, _is_as_drawn, placement_of_points
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from tests.regress.headset.takes import write_take
 from tests.regress.headset.tiny import write_tiny_model
@@ -300,6 +296,7 @@ def test_what_is_doubtful_is_looked_for_again_where_edges_fade(
         return FoundPlacement(placement=placement, deviation=0.1, unrest=unrest, unsettled=0.0)
 
     monkeypatch.setattr(Search, "best", best)
+    monkeypatch.setattr(Search, "surely_upright", False)
     found = find_placement(load_headset_predictor(model), "left_eye", take["left_eye"])
     assert found.placement.size == sizes[taken == "faded"]
     assert found.turned == ((faded if taken == "faded" else plain)[0] != 0)
