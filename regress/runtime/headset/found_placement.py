@@ -13,8 +13,8 @@ half of the error or less; from 1.0 on eyes in other headsets' places are missed
 _UPRIGHT = 1.0
 """How much the compass counts that an eye is upright and not in a mirror: the doubt is divided by the share it gives.
 
-Two films of real eyes, each as 13 cameras would show it, lie on the wrong side 7, 4, 2 and 2 times with `headset-any` at
-0, 0.5, 1 and 1.5, and 3, 1, 1 and 1 times with `headset-tracking3`.
+Two films of real eyes, each as 13 cameras would show it, lie on the wrong side 7, 4, 2 and 2 times with `headset-any`
+at 0, 0.5, 1 and 1.5, and 3, 1, 1 and 1 times with `headset-tracking3`.
 """
 
 _UPRIGHT_DEG = 70.0

@@ -201,7 +201,9 @@ class Search:
             "deviation": float(np.mean(deviations)),
             "unrest": float(np.median(unrest / np.maximum(eye, 1.0))),
             "likeness": likenesses[0],
-            "upright": self._upright(mirror=placement.mirror, quarter=round(placement.roll_deg / 90) % QUARTERS),
+            "upright": self._upright(
+                mirror=placement.mirror, quarter=round(placement.roll_deg / 90) % QUARTERS
+            ),
         }
 
     def _likeness(self, views: np.ndarray) -> float:
