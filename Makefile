@@ -32,8 +32,6 @@ TESTED  := headset-test headset-slip
 # a file's tests stay together, and share what they made; tests/conftest.py says which files come first
 SHARED  := --dist loadfile --no-loadscope-reorder
 TWO     := --numprocesses 2 $(SHARED)
-# all tests leave two workers idle for a third of the time: they wait for browsers, servers and clocks
-THREE   := --numprocesses 3 $(SHARED)
 # the others have been run without PyTorch
 TORCHED  = $(shell grep --recursive --files-with-matches --fixed-strings 'importorskip("torch")' tests) tests/test_layers.py
 
@@ -105,7 +103,7 @@ wheel: | $(BIN)/python  ## Wheel and sdist in dist
 	$(BIN)/python -m build --outdir dist .
 
 test: $(TESTER) $(RIG)  ## All tests but those of farms
-	$(BIN)/python -m pytest $(THREE) --durations 30 --durations-min 10 --ignore tests/real_tools
+	$(BIN)/python -m pytest $(TWO) --durations 30 --durations-min 10 --ignore tests/real_tools
 
 test-farm: $(TESTER) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
 	$(BIN)/python -m pytest tests/real_tools

@@ -20,6 +20,7 @@ REFUSED = {
     "regress headset predict --mouth none": {"--out", "--confidence", "--points", "--eyes", "--video"},
     "regress headset check": {"--out", "--sheet"},
     "regress headset calibrate": {"--out"},
+    "regress headset compass none": {"--out"},
     "regress headset report none": {"--out", "--figures"},
     "room export none.jsonl": {"--out"},
     "room serve --port 0": {"--record"},

@@ -173,7 +173,10 @@ def _packages() -> list[str]:
     return names
 
 
-EXTRAS = {"regress.learning.headset.training": "torch"}
+EXTRAS = {
+    "regress.learning.headset.compass": "torch",
+    "regress.learning.headset.training": "torch",
+}
 """Packages that need an optional extra; `make test-headset` has it."""
 
 

@@ -41,7 +41,7 @@ LIBRARIES = (
 )
 """Imported once, with all modules of both programs: commands import them one by one."""
 
-APART = ("facegen.blender", "regress.learning.headset.training")
+APART = ("facegen.blender", "regress.learning.headset.compass", "regress.learning.headset.training")
 """Packages that would import `NEVER`."""
 
 NEVER = ("bpy", "torch")
