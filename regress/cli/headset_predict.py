@@ -119,6 +119,12 @@ def predict(
             help="JSON with gain, offset, dead_zone, low and high by shape; a resting face is --neutral's.",
         ),
     ] = None,
+    own_blinks: Annotated[
+        bool,
+        typer.Option(
+            "--own-blinks", help="Stretch blinks by the fullest ones of the take, which then shut the eyes."
+        ),
+    ] = False,
     amplify_eyes: Annotated[
         float,
         typer.Option("--amplify-eyes", min=0, max=1000, help="Factor on blink, wide and squint of each eye."),
@@ -195,6 +201,7 @@ def predict(
         smooth=smooth,
         cutoff_hz=cutoff_hz,
         beta=beta,
+        own_blinks=own_blinks,
         amplify_eyes=amplify_eyes,
         adjust=adjust,
         left_right_blend=left_right_blend,
@@ -218,6 +225,7 @@ def predict(
             filter=filter_name is not FilterName.none,
             smooth=smooth > 1,
             one_euro=cutoff_hz is not None,
+            own_blinks=own_blinks,
             bits=bits is not None,
         )
     check_model(predictor, model, trust=trust, points=points)
@@ -253,7 +261,14 @@ def predict(
     # whose file it is needs no proof, and another seat's neutral picture is worth more than none
     keep_neutral = keep_neutral or own is not None
     prediction, reseated = predict_footage(
-        predictor, footage, neutrals, output=output, keep_neutral=keep_neutral, temporal=temporal, person=own
+        predictor,
+        footage,
+        neutrals,
+        output=output,
+        keep_neutral=keep_neutral,
+        temporal=temporal,
+        person=own,
+        say=say,
     )
     of_rate = rate_note(predictor.model.temporal.fps, footage.fps) if temporal else ()
     for note in (*seat_notes(reseated, keep_neutral=keep_neutral), *of_rate):

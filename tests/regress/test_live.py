@@ -117,7 +117,8 @@ def test_the_table_of_stages_is_whole():
     """Each thing that an `Output` can ask for is tried, alone and with the others."""
     changed = {name for _, output in STAGES.values() for name in vars(output) if _differs(output, name)}
     assert changed == set(vars(Output())) - {
-        "amplify_eyes"
+        "amplify_eyes",
+        "own_blinks",
     }  # of headsets: tests/regress/headset/test_live_cameras.py
 
 

@@ -88,7 +88,7 @@ def calibrate(
 
     prompt = Prompt()
     with contextlib.ExitStack() as closing:
-        session, capture = open_session(wishes, texts, [], say, closing, options=RunOptions())
+        session, capture = open_session(wishes, texts, [], say, closing, options=RunOptions(own_blinks=False))
         session.ask(Command(verb="calibrate", value=faces))
         with ended_by_signals(session, capture):
             session.run(capture, prompt)

@@ -52,6 +52,13 @@ def run(
         bool | None,
         typer.Option("--mirror/--no-mirror", help="Left and right exchanged; as the profile says without."),
     ] = None,
+    own_blinks: Annotated[
+        bool,
+        typer.Option(
+            "--own-blinks/--no-own-blinks",
+            help="Stretch blinks until your fullest ones shut the avatar's eyes; a calibrated profile goes before.",
+        ),
+    ] = True,
     retarget: Annotated[
         str | None,
         typer.Option(
@@ -110,6 +117,7 @@ def run(
             record=record or (),
             retarget=retarget,
             mirror=mirror,
+            own_blinks=own_blinks,
             page=page,
             browser=browser,
             avatar=avatar,

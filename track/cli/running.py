@@ -39,6 +39,7 @@ class RunOptions:
     record: Sequence[Path] = ()
     retarget: str | None = None
     mirror: bool | None = None
+    own_blinks: bool = True
     page: bool = True
     browser: bool = True
     avatar: Path | None = None
@@ -129,6 +130,7 @@ def open_session(
         keep=keep,
         new_recording=lambda: _open(f"csv:{_free_name()}", say),
         mirror=options.mirror,
+        own_blinks=options.own_blinks,
         timed=not wishes.fast,
     )
     closing.callback(session.close)

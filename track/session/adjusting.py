@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from regress.runtime.sample import Sample
+from regress.runtime.stages.own_blinks import OwnBlinks
 from track.messages import Command, Step
 from track.profile.profile import LARGEST_GAIN, Profile
 from track.session.calibration import Calibration, Outcome
@@ -32,6 +33,8 @@ class Adjusting:
         Stores a profile that has changed, and returns at once: it is called between two frames.
     mirror
         Goes before the profile's.
+    own_blinks
+        Whether blinks are stretched by the person's own ones, where the profile says nothing of them.
     say
         Told what a person should know, a sentence each.
 
@@ -53,11 +56,16 @@ class Adjusting:
         kept: Profile | None,
         keep: Callable[[Profile], None],
         mirror: bool | None,
+        own_blinks: bool,
         say: Callable[[str], None],
     ) -> None:
         self.profile = profile
         self.step: Step | None = None
-        self.person = Person(profile, mirrored=profile.mirror if mirror is None else mirror)
+        self.person = Person(
+            profile,
+            mirrored=profile.mirror if mirror is None else mirror,
+            blinks=OwnBlinks(say) if own_blinks else None,
+        )
         self._pipeline, self._say, self._keep = pipeline, say, keep
         self._kept = profile if kept is None else kept
         self._calibration: Calibration | None = None

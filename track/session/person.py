@@ -6,9 +6,10 @@ import numpy as np
 
 from regress.runtime.sample import Sample
 from regress.runtime.stages.output import Mirror
+from regress.runtime.stages.own_blinks import OwnBlinks
 from track.profile.profile import Profile
 from track.session.fading import Fading
-from track.session.ranges import GazeCentre, Ranges, by_lids
+from track.session.ranges import GazeCentre, Ranges, blinks_known, by_lids
 
 
 class Person:
@@ -20,6 +21,8 @@ class Person:
         Of the person and camera.
     mirrored
         Whether left and right are exchanged.
+    blinks
+        Learns how the person's own blinks read; None to leave them as they are read.
 
     Attributes
     ----------
@@ -27,8 +30,11 @@ class Person:
         May be changed between two frames.
     """
 
-    def __init__(self, profile: Profile, *, mirrored: bool) -> None:
+    def __init__(self, profile: Profile, *, mirrored: bool, blinks: OwnBlinks | None = None) -> None:
         self.mirrored = mirrored
+        self._blinks, self._neutral = blinks, profile.neutral
+        if blinks is not None:
+            blinks.known = blinks_known(profile)
         self._ranges = Ranges(profile.factors(), profile.at_rest(), by_lids(profile))
         self._centre = GazeCentre(_centre(profile.gaze))
         self._mirror, self._fading = Mirror(), Fading()
@@ -42,6 +48,11 @@ class Person:
         """Go by another profile from the next frame on."""
         self._ranges.factors, self._ranges.rests = profile.factors(), profile.at_rest()
         self._ranges.by_lids = by_lids(profile)
+        if self._blinks is not None:
+            self._blinks.known = blinks_known(profile)
+            if profile.neutral != self._neutral:
+                self._blinks.forget()
+        self._neutral = profile.neutral
         self._centre.centre = _centre(profile.gaze)
 
     def unknown(self) -> np.ndarray:
@@ -50,7 +61,10 @@ class Person:
 
     def step(self, sample: Sample) -> Sample:
         """A frame behind the pipeline, as the person and the avatar want it."""
-        sample = self._ranges.step(self._centre.step(sample))
+        sample = self._centre.step(sample)
+        if self._blinks is not None:
+            sample = self._blinks.step(sample)
+        sample = self._ranges.step(sample)
         if self.mirrored:
             sample = self._mirror.step(sample)
         return self._fading.step(sample)

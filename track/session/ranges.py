@@ -5,15 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.headset.parts import side_of
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
+from regress.runtime.stages.own_blinks import BLINKS
 from regress.runtime.stages.stage import Stage
 from track.profile.profile import Profile
 from track.session.calibration import SHUT
 
-BLINKS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
+_BLINK_NAMES = ("eyeBlinkLeft", "eyeBlinkRight")
 
 
 class Ranges(Stage):
@@ -70,8 +70,13 @@ def by_lids(profile: Profile) -> np.ndarray:
         if side is None:
             continue
         shut = eye.shut_mm is not None and eye.rest_mm is not None and eye.shut_mm < SHUT * eye.rest_mm
-        found[side] = shut and ("eyeBlinkLeft", "eyeBlinkRight")[side] not in profile.ranges
+        found[side] = shut and _BLINK_NAMES[side] not in profile.ranges
     return found
+
+
+def blinks_known(profile: Profile) -> np.ndarray:
+    """(2,) bool: eyes whose full blink the profile knows, by the network's reading or by traced lids."""
+    return by_lids(profile) | np.array([name in profile.ranges for name in _BLINK_NAMES])
 
 
 def middle_of(gazes: Sequence[np.ndarray | None]) -> tuple[float, ...] | None:

@@ -67,6 +67,8 @@ class Session:
         Opens a recording, each time that the page asks for one.
     mirror
         Goes before the profile's.
+    own_blinks
+        Whether blinks are stretched by the person's own ones, where the profile says nothing of them.
     timed
         Whether frames' times are those of now, so that a latency means something.
     """
@@ -82,10 +84,13 @@ class Session:
         keep: Callable[[Profile], None] = lambda profile: None,
         new_recording: Callable[[], Sink] | None = None,
         mirror: bool | None = None,
+        own_blinks: bool = False,
         timed: bool = True,
     ) -> None:
         self.pipeline, self.sinks, self._say = pipeline, list(sinks), say
-        self.adjusting = Adjusting(pipeline, profile, kept=kept, keep=keep, mirror=mirror, say=say)
+        self.adjusting = Adjusting(
+            pipeline, profile, kept=kept, keep=keep, mirror=mirror, own_blinks=own_blinks, say=say
+        )
         self.measures, self._telling = Measures(), FaultTelling(say)
         self._commands: queue.Queue[Command] = queue.Queue(MOST_COMMANDS)
         self._recordings = Recordings(self.sinks, new_recording, say)

@@ -1,6 +1,6 @@
 """A headset's pictures through the stages: a recording's frames, or frames as cameras give them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.footage import Footage
@@ -37,6 +37,8 @@ class HeadsetStream(Stage):
         (``regress.runtime.headset.placement_file`` reads it); without, all of them, levelled by themselves.
     person
         Whose own ends count; samples then have ``eyes`` as well. Neutral pictures are given apart.
+    say
+        Told what was found of blinks, where they are stretched.
 
     Raises
     ------
@@ -54,6 +56,7 @@ class HeadsetStream(Stage):
         temporal: bool = False,
         placement: Mapping[str, CameraPlacement] | None = None,
         person: Person | None = None,
+        say: Callable[[str], None] = lambda message: None,
     ) -> None:
         self.soundness = PictureSoundness(predictor.sizes, placement)
         levels = Levels(predictor.model.looks, placement)
@@ -66,7 +69,7 @@ class HeadsetStream(Stage):
             person=person,
         )
         taps = [TemporalConvolution(predictor)] if temporal else []
-        self.after = Chain([*taps, *(output or Output()).stages()])
+        self.after = Chain([*taps, *(output or Output()).stages(say)])
 
     def step(self, sample: Sample) -> Sample:
         """Weights, gaze and confidence of the next frame's pictures, grey (h, w) uint8 by camera."""
@@ -90,6 +93,7 @@ def predict_footage(
     keep_neutral: bool = False,
     temporal: bool = False,
     person: Person | None = None,
+    say: Callable[[str], None] = lambda message: None,
 ) -> tuple[Prediction, tuple[str, ...]]:
     """Weights, gaze and confidence of a recording: each frame as `HeadsetStream` steps it, but for levels.
 
@@ -101,7 +105,7 @@ def predict_footage(
         Its pictures are at the network's size, and those at fault are marked.
     neutrals
         Each counts from its row to the next one's; the first from the beginning, wherever it was taken.
-    output, keep_neutral, temporal, person
+    output, keep_neutral, temporal, person, say
         As `HeadsetStream` takes them.
 
     Returns
@@ -123,6 +127,7 @@ def predict_footage(
         keep_neutral=keep_neutral,
         temporal=temporal,
         person=person,
+        say=say,
     )
     stream.networks.levels = None
     starts = {neutral.row: neutral.pictures for neutral in neutrals[1:]}

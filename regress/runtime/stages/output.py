@@ -13,6 +13,7 @@ from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sid
 from regress.runtime.stages.filters import FILTERS, Kalman, Mean
 from regress.runtime.stages.kalman import KalmanSmoothing
 from regress.runtime.stages.one_euro import OneEuro
+from regress.runtime.stages.own_blinks import TakeBlinks
 from regress.runtime.stages.retargeting.matrix import Retargeting
 from regress.runtime.stages.smoothing import MeanSmoothing, MovingAverage, OneEuroSmoothing
 from regress.runtime.stages.stage import BatchStage, Stage
@@ -35,6 +36,8 @@ class Output:
         Frames of the moving average; 1 leaves weights as they are.
     one_euro
         One-Euro smoothing by the frames' times; None for none.
+    own_blinks
+        Whether blinks are stretched by the fullest ones of the take, which is held back until its end.
     amplify_eyes
         Factor on blink, wide and squint of each eye.
     adjustments
@@ -56,6 +59,7 @@ class Output:
     filter: str | None = None
     smooth: int = 1
     one_euro: OneEuro | None = None
+    own_blinks: bool = False
     amplify_eyes: float = 1.0
     adjustments: dict[str, ShapeAdjustment] = field(default_factory=dict)
     left_right_blend: float = 0.0
@@ -76,10 +80,11 @@ class Output:
     def needs_times(self) -> bool:
         """Whether every frame must have a time."""
         filtered_by_time = self.filter is not None and FILTERS[self.filter].needs_times
-        return filtered_by_time or self.one_euro is not None or self.smooth_landmarks_hz is not None
+        by_time = self.one_euro is not None or self.smooth_landmarks_hz is not None
+        return filtered_by_time or by_time or self.own_blinks
 
-    def stages(self) -> list[Stage]:
-        """Stages behind the networks, new ones for each take; only those that were asked for."""
+    def stages(self, say: Callable[[str], None] = lambda message: None) -> list[Stage]:
+        """Stages behind the networks, new ones for each take; only those asked for. ``say`` is told of blinks."""
         made: list[Stage] = []
         if self.filter is not None:
             made.append(filter_stage(self.filter))
@@ -87,6 +92,8 @@ class Output:
             made.append(MovingAverage(self.smooth))
         if self.one_euro is not None:
             made.append(OneEuroSmoothing(self.one_euro))
+        if self.own_blinks:
+            made.append(TakeBlinks(say))
         if self.amplify_eyes != 1:
             lids = dict.fromkeys(AMPLIFIED, ShapeAdjustment(gain=self.amplify_eyes))
             made.append(WeightMap(partial(adjust, adjustments=lids)))

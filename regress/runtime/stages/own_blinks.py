@@ -1,0 +1,222 @@
+"""Stretches eyeBlink by the person's own blinks: the fullest of them reads 1.
+
+A network of rendered people tells a real shut eye from an open one, and reads it as half shut (docs/your-camera.md).
+People blink ten to twenty times a minute, so nobody has to be asked: a blink goes up and down within half a second, and
+nothing else of a lid does. A squint, a look down and a smile stay, and count for nothing here.
+"""
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX
+from regress.runtime.sample import Sample
+from regress.runtime.stages.stage import DelayingStage, Stage
+
+BLINKS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
+
+SIDE_S = 0.4
+"""Before and after its peak, within which a blink has begun and is over: blinks take 0.1 to 0.4 s (docs/motion.md)."""
+
+LEAST_RISE = 0.15
+"""Of a reading, from an open eye to the peak: less is noise, or a network that sees no lids."""
+
+FEWEST = 8
+"""Blinks that must have been seen. Many are not full: of five of the recordings' blinks the fullest is .54 to .96, of
+eight .94 to .96 (benchmarks/own_blinks.py)."""
+
+REMEMBERED = 40
+"""Blinks of which the fullest counts, some two minutes: a headset slips, and a hand before the eye is forgotten."""
+
+OPEN = 0.1
+"""Reading up to which an eye is open at least, and nothing is stretched: its noise stays what it was. Of an eye that
+reads more between its blinks that is the end."""
+
+MOST = 3.0
+"""Factor on what is above an open eye, at most; beyond it half-shut and shut eyes read alike."""
+
+TOLD_FROM = 1.2
+"""Factor from which a person is told."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ends:
+    """What an eye reads between blinks and at a full one.
+
+    Parameters
+    ----------
+    open
+        From here on readings are stretched.
+    full
+        What becomes 1, as far as `MOST` goes.
+    """
+
+    open: float
+    full: float
+
+    @property
+    def factor(self) -> float:
+        """On what is above ``open``."""
+        return float(np.clip((1 - self.open) / max(self.full - self.open, 1e-9), 1.0, MOST))
+
+    def stretched(self, reading: float) -> float:
+        """A reading in [0, 1]; NaN stays."""
+        if not reading > self.open or self.factor == 1:
+            return reading
+        return min(1.0, self.open + (reading - self.open) * self.factor)
+
+
+WHOLE = Ends(open=OPEN, full=1.0)
+"""Of an eye of which nothing is known: readings stay."""
+
+
+class BlinkWatch:
+    """Finds the blinks of one eye among readings as they come.
+
+    Attributes
+    ----------
+    peaks, feet
+        Readings of the last blinks at their fullest, and beside them.
+    ends
+        The person's own; `WHOLE` while too few blinks were seen.
+    """
+
+    def __init__(self) -> None:
+        self.peaks: deque[float] = deque(maxlen=REMEMBERED)
+        self.feet: deque[float] = deque(maxlen=REMEMBERED)
+        self.ends = WHOLE
+        self._times: deque[float] = deque()
+        self._readings: deque[float] = deque()
+        self._judged_s = -np.inf
+
+    def step(self, time_s: float, reading: float) -> bool:
+        """Take a reading; whether a blink ended with it. One of NaN, or of no later time, ends what was before."""
+        if not np.isfinite(reading) or (self._times and not time_s > self._times[-1]):
+            self._times.clear()
+            self._readings.clear()
+            self._judged_s = -np.inf
+            return False
+        self._times.append(time_s)
+        self._readings.append(reading)
+        while self._times[0] < time_s - 2 * SIDE_S:
+            self._times.popleft()
+            self._readings.popleft()
+        return self._judge(time_s - SIDE_S)
+
+    def _judge(self, until_s: float) -> bool:
+        """Look at readings that have all of a side behind them, each once."""
+        times, readings = np.array(self._times), np.array(self._readings)
+        due = np.flatnonzero((times > self._judged_s) & (times <= until_s))
+        for row in due:
+            self._judged_s = times[row]
+            before = readings[: row + 1][times[: row + 1] >= times[row] - SIDE_S]
+            after = readings[row:][times[row:] <= times[row] + SIDE_S]
+            if _is_blink(before, after):
+                self.peaks.append(float(readings[row]))
+                self.feet.append(_foot(before, after))
+                if len(self.peaks) >= FEWEST:
+                    self.ends = Ends(open=max(OPEN, float(np.median(self.feet))), full=max(self.peaks))
+                return True
+        return False
+
+
+def _foot(before: np.ndarray, after: np.ndarray) -> float:
+    return float(max(before.min(), after.min()))
+
+
+def _is_blink(before: np.ndarray, after: np.ndarray) -> bool:
+    """Whether readings rise to one, the last of the first and the first of the second, and fall again."""
+    peak, foot = before[-1], _foot(before, after)
+    first = bool((before[:-1] < peak).all() and (after <= peak).all())
+    return first and peak - foot >= LEAST_RISE and foot <= peak / 2
+
+
+class OwnBlinks(Stage):
+    """Blinks as they come: each frame by those before it.
+
+    Parameters
+    ----------
+    say
+        Told once, when blinks are stretched by so much that it shows.
+
+    Attributes
+    ----------
+    known : (2,) bool
+        Of which eyes a full blink's reading is known otherwise, the left one first: these stay as they are. May be
+        changed between two frames.
+    """
+
+    def __init__(self, say: Callable[[str], None] = lambda message: None) -> None:
+        self._say, self._told = say, False
+        self.known = np.zeros(2, dtype=bool)
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin anew: blinks before another neutral face, or another seat, read otherwise."""
+        self._eyes = (BlinkWatch(), BlinkWatch())
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with stretched eyeBlinks; one without a time or weights as it is."""
+        if sample.weights is None or sample.time_s is None or not np.isfinite(sample.time_s):
+            return sample
+        weights = sample.weights.copy()
+        ended = [
+            eye.step(sample.time_s, weights[column]) for column, eye in zip(BLINKS, self._eyes, strict=True)
+        ]
+        ends = [WHOLE if known else eye.ends for known, eye in zip(self.known, self._eyes, strict=True)]
+        if any(ended) and not self._told and max(own.factor for own in ends) >= TOLD_FROM:
+            self._told = True
+            self._say(told_of(ends))
+        weights[BLINKS] = [own.stretched(weights[column]) for column, own in zip(BLINKS, ends, strict=True)]
+        return replace(sample, weights=weights)
+
+
+class TakeBlinks(DelayingStage):
+    """Blinks of a whole take: its first frame is stretched by what its last one showed.
+
+    Parameters
+    ----------
+    say
+        Told at the end what was found.
+    """
+
+    def __init__(self, say: Callable[[str], None] = lambda message: None) -> None:
+        self._say = say
+        self._eyes = (BlinkWatch(), BlinkWatch())
+        self._held: list[Sample] = []
+
+    def feed(self, sample: Sample) -> list[Sample]:
+        """Nothing yet."""
+        self._held.append(sample)
+        if sample.weights is not None and sample.time_s is not None:
+            for column, eye in zip(BLINKS, self._eyes, strict=True):
+                eye.step(sample.time_s, sample.weights[column])
+        return []
+
+    def finish(self) -> list[Sample]:
+        """All samples."""
+        ends = [eye.ends for eye in self._eyes]
+        seen = max(len(eye.peaks) for eye in self._eyes)
+        self._say(told_of(ends) if seen >= FEWEST else _too_few(seen))
+        held, self._held = self._held, []
+        return [_with_blinks(sample, ends) for sample in held]
+
+
+def _with_blinks(sample: Sample, ends: Sequence[Ends]) -> Sample:
+    if sample.weights is None:
+        return sample
+    weights = sample.weights.copy()
+    weights[BLINKS] = [own.stretched(weights[column]) for column, own in zip(BLINKS, ends, strict=True)]
+    return replace(sample, weights=weights)
+
+
+def told_of(ends: Sequence[Ends]) -> str:
+    """What was found of both eyes, in a sentence."""
+    left, right = (f"{own.full:.2f}" for own in ends)
+    return f"the fullest blinks read {left} (left) and {right} (right), and are stretched towards 1"
+
+
+def _too_few(seen: int) -> str:
+    return f"{seen} blinks were seen, and {FEWEST} are needed to stretch them; they stay as they are read"
