@@ -207,7 +207,7 @@ def test_a_take_with_too_few_blinks_stays():
     said: list[str] = []
     samples = take(lid([0.5] * (FEWEST - 1)))
     np.testing.assert_array_equal(blinks_of(TakeBlinks(said.append).run(samples)), blinks_of(samples))
-    assert said == ["7 blinks were seen, and 8 are needed to stretch them; they stay as they are read"]
+    assert said == ["fewer than 8 blinks were seen (7), so they stay as they are read"]
 
 
 def test_samples_without_weights_or_times_pass():

@@ -219,4 +219,4 @@ def told_of(ends: Sequence[Ends]) -> str:
 
 
 def _too_few(seen: int) -> str:
-    return f"{seen} blinks were seen, and {FEWEST} are needed to stretch them; they stay as they are read"
+    return f"fewer than {FEWEST} blinks were seen ({seen}), so they stay as they are read"
