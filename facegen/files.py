@@ -14,7 +14,7 @@ import shutil
 import stat
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
@@ -63,6 +63,19 @@ def refuse_ending(out: Path, *endings: str, what: str, option: str = "--out") ->
     """
     if out.suffix.lower() not in endings and (os.path.isfile(out) or not os.path.exists(out)):
         raise InputError(f"{option} is {out}; {what} ends with {' or '.join(endings)}: name such a file")
+
+
+def refuse_sources(out: Path, sources: Iterable[Path], *, option: str = "--out") -> None:
+    """Refuse to write over what the same command reads, by whatever name: a recording may have no other copy.
+
+    Raises
+    ------
+    InputError
+        Where ``out`` is one of them.
+    """
+    for source in sources:
+        if os.path.isfile(out) and os.path.exists(source) and os.path.samefile(out, source):
+            raise InputError(f"{option} {out} is also what is read ({source}); give another name")
 
 
 @contextlib.contextmanager

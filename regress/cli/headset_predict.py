@@ -214,6 +214,7 @@ def predict(
         gltf=gltf,
         retargeted=retarget is not None,
         tables={"--confidence": trust, "--points": points, "--eyes": eyes},
+        sources=(adjust, person, placement),
     )
     if looked_at and eyes is None:
         raise InputError("--looked-at is for the gaze of --eyes; give --eyes too")

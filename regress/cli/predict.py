@@ -131,6 +131,7 @@ def predict(
         gltf=gltf,
         retargeted=retarget is not None,
         tables={"--confidence": trust},
+        sources=(landmarks, adjust, None if neutral is None else Path(neutral)),
     )
     camera = camera_settings(
         wanted=head or TABLES[table_format.value].has_head,

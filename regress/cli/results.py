@@ -2,11 +2,12 @@
 
 import shlex
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 from facegen.console import counted, say
 from facegen.conventions import BLENDSHAPES
-from facegen.files import refuse_ending, write_whole
+from facegen.files import refuse_ending, refuse_sources, write_whole
 from regress.cli.options import TableFormat
 from regress.errors import InputError
 from regress.runtime.prediction import Prediction
@@ -23,10 +24,11 @@ def check_targets(
     gltf: Path | None,
     retargeted: bool,
     tables: dict[str, Path | None],
+    sources: Iterable[Path | None] = (),
 ) -> None:
     """Refuse options that cannot all be had, and names that promise another kind of file than what is written.
 
-    ``tables`` are the files of other options, by option.
+    ``tables`` are the files of other options, by option; over ``sources`` and the avatar nothing is written.
 
     Raises
     ------
@@ -46,6 +48,10 @@ def check_targets(
     for option, path in tables.items():
         if path is not None:
             refuse_ending(path, ".csv", what="a table", option=option)
+    read = [path for path in (*sources, gltf) if path is not None]
+    for option, path in {"--out": out, **tables}.items():
+        if path not in (None, STANDARD_OUTPUT):
+            refuse_sources(path, read, option=option)
 
 
 def needs_times(table_format: TableFormat, gltf: Path | None) -> bool:
