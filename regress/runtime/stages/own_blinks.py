@@ -161,16 +161,13 @@ class OwnBlinks(Stage):
         """The sample with stretched eyeBlinks; one without a time or weights as it is."""
         if sample.weights is None or sample.time_s is None or not np.isfinite(sample.time_s):
             return sample
-        weights = sample.weights.copy()
-        ended = [
-            eye.step(sample.time_s, weights[column]) for column, eye in zip(BLINKS, self._eyes, strict=True)
-        ]
+        read = sample.weights[BLINKS]
+        ended = [eye.step(sample.time_s, float(blink)) for blink, eye in zip(read, self._eyes, strict=True)]
         ends = [WHOLE if known else eye.ends for known, eye in zip(self.known, self._eyes, strict=True)]
         if any(ended) and not self._told and max(own.factor for own in ends) >= TOLD_FROM:
             self._told = True
             self._say(told_of(ends))
-        weights[BLINKS] = [own.stretched(weights[column]) for column, own in zip(BLINKS, ends, strict=True)]
-        return replace(sample, weights=weights)
+        return _with_blinks(sample, ends)
 
 
 class TakeBlinks(DelayingStage):
