@@ -38,7 +38,8 @@ class Step:
     name
         Of the step, ``"neutral"``, ``"jaw_open"``; of the last one where it is over.
     state
-        ``countdown``, ``recording``, ``done``, ``again`` (it was not good; ``text`` says why) or ``cancelled``.
+        ``countdown``, ``recording``, ``done``, ``again`` (it was not good; ``text`` says why), ``failed`` (no face was
+        good) or ``cancelled`` by the person.
     seconds_left
         Of the countdown or the recording.
     text

@@ -7,6 +7,7 @@ heard there.
 import asyncio
 import json
 import re
+import time
 from collections.abc import Sequence
 from contextlib import AsyncExitStack
 from dataclasses import dataclass, field
@@ -152,8 +153,13 @@ def write_film(source: Path, path: Path) -> None:
         raise ValueError(f"{source}: is no film that OpenCV reads")
 
 
-async def meet(films: tuple[Path, Path], *, seconds: float, folder: Path) -> tuple[Direction, Direction]:
-    """Let two browsers meet, and say what the second one had of the first one, and the other way round."""
+async def meet(
+    films: tuple[Path, Path], *, seconds: float, folder: Path, faces: int = 0
+) -> tuple[Direction, Direction]:
+    """Let two browsers meet, and say what the second one had of the first one, and the other way round.
+
+    They are watched for so many seconds, and longer where a page has not found so many faces by then.
+    """
     write_bursts(folder / "speech.wav")
     async with AsyncExitStack() as stack:
         place = await stack.enter_async_context(open_room())
@@ -180,7 +186,13 @@ async def meet(films: tuple[Path, Path], *, seconds: float, folder: Path) -> tup
             await tab.ask(HEARD)
             await tab.ask(SHOWN % other(seen))
             await tab.ask(WATCH % other(seen))
+        start_s = time.monotonic()
         await asyncio.sleep(seconds)
+        for tab in tabs:
+            await tab.until(
+                f"watched.pictures.filter(([kind]) => kind === 'face').length >= {faces}", READY_S
+            )
+        seconds = time.monotonic() - start_s
         kept = [await tab.ask("({ ...watched, heard, shown })") for tab in tabs]
         ears = await sides(tabs)
         complaints = [each for tab in tabs for each in tab.complaints if not MEDIAPIPE_SAYS.match(each)]

@@ -1,7 +1,6 @@
 """Two browsers with films before their cameras and speech in their microphones meet by the page, as people do."""
 
 import asyncio
-import statistics
 from pathlib import Path
 
 import pytest
@@ -11,6 +10,9 @@ from tests.room.filmed import BURST_S, Direction, meet
 
 ROOT = Path(__file__).resolve().parents[2]
 FILM = ROOT / "docs/samples/acting-avatar.webm"
+
+FACES = 12
+"""That each page has to find: a busy machine needs two seconds for one."""
 
 pytestmark = [
     needs_chromium,
@@ -23,13 +25,14 @@ pytestmark = [
 
 @pytest.fixture(scope="module")
 def directions(tmp_path_factory: pytest.TempPathFactory) -> tuple[Direction, Direction]:
-    return asyncio.run(meet((FILM, FILM), seconds=4 * BURST_S, folder=tmp_path_factory.mktemp("filmed")))
+    folder = tmp_path_factory.mktemp("filmed")
+    return asyncio.run(meet((FILM, FILM), seconds=4 * BURST_S, faces=FACES, folder=folder))
 
 
 def test_each_sees_the_face_of_the_other_move_as_its_camera_says(directions):
     for one in directions:
-        assert one.faces > one.seconds / 2, "at least one in two seconds, on a busy machine"
-        assert one.tracked > 0.5 * one.sent, "others are told that a camera sees this face"
+        assert one.faces >= FACES
+        assert one.tracked > 0.9 * one.sent, "others are told that a camera sees this face"
         assert one.arrived > 0.95 * one.sent
         assert one.differences.max() <= 0.02
         assert len(one.moved()) >= 8, one.spans_sent
@@ -46,11 +49,10 @@ def test_each_hears_the_other_from_the_side_where_they_stand(directions):
         assert min(one.ears.values()) > 1.5
 
 
-def test_each_sees_the_sign_of_the_other_in_time(directions):
+def test_each_sees_the_sign_of_the_other_at_every_burst(directions):
+    """Before the next burst begins; milliseconds are measured by benchmarks/room_meeting.py on a quiet machine."""
     for one in directions:
         print(f"on {one.on_ms}, off {one.off_ms}")
         assert len(one.on_ms) == one.begins
         assert one.begins >= 2
         assert len(one.off_ms) == one.ends
-        assert statistics.median(one.on_ms) <= 200
-        assert statistics.median(one.off_ms) <= 700

@@ -13,6 +13,7 @@ from track.cli.options import (
     FilterOption,
     FpsOption,
     HeadsetOption,
+    LoopOption,
     ModelOption,
     PlacementOption,
     ProfileOption,
@@ -36,6 +37,7 @@ def calibrate(
     placement: PlacementOption = None,
     headset: HeadsetOption = None,
     fast: FastOption = False,
+    loop: LoopOption = False,
     fps: FpsOption = 30.0,
 ) -> None:
     """Record your neutral face and your own full movements: say what to do, count down, judge, keep.
@@ -60,6 +62,7 @@ def calibrate(
         placement=placement,
         headset=headset,
         fast=fast,
+        loop=loop,
         fps=fps,
         calibrating=True,
     )
@@ -100,6 +103,6 @@ def calibrate(
             )
             raise InputError(f"the pictures ended before calibration did; {found}")
         step = session.adjusting.step
-        if step is not None and step.state == "cancelled":
+        if step is not None and step.state in ("failed", "cancelled"):
             raise InputError(step.text)
         say(f"kept in {profile_path(profile, ' '.join(capture.titles.values()))}")

@@ -176,7 +176,7 @@ class Calibration:
         if self.kept:
             self._state, self._text = "done", "All done" if len(self._names) > 1 else "Done"
         else:
-            self._state = "cancelled"
+            self._state = "failed"
             self._text = f"{self._last_reason}, so nothing was calibrated; everything stays as it was"
 
     def _judge(self, time_s: float) -> None:

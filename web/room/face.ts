@@ -5,6 +5,9 @@ import type { FromWorker, ToWorker } from "./face.worker.js";
 
 /** A face that was not found for this long is lost: the avatar goes over to what the voice tells. */
 const LOST_MS = 500;
+/** A detector that takes longer than that for a picture is waited for, as many of its pictures as this; else the avatar
+ * of a slow machine would go to and fro between the camera's face and the voice's. */
+const WAITED_PICTURES = 3;
 
 export class FaceCamera {
   private readonly worker = new Worker("/static/face.worker.js", { type: "module" });
@@ -12,6 +15,8 @@ export class FaceCamera {
   private busy = true;
   private found: OwnFace | undefined;
   private foundAt = -Infinity;
+  /** Whether the newest picture was without a face. */
+  private missed = false;
   /** What a person should know, for the page; empty while all is well. */
   word = "loading the face detector (3 MB the first time) …";
   detectMs = 0;
@@ -33,7 +38,8 @@ export class FaceCamera {
 
   /** The newest face; undefined while none is seen. */
   face(now: number): OwnFace | undefined {
-    return now - this.foundAt < LOST_MS ? this.found : undefined;
+    const kept = this.missed ? LOST_MS : Math.max(LOST_MS, WAITED_PICTURES * this.detectMs);
+    return now - this.foundAt < kept ? this.found : undefined;
   }
 
   /** The next face is how this person looks at rest. */
@@ -76,11 +82,13 @@ export class FaceCamera {
         this.busy = true;
         break;
       case "nobody":
+        this.missed = true;
         this.word = performance.now() - this.foundAt < LOST_MS ? "" : "No face is seen by the camera.";
         break;
       case "face":
         this.word = message.calibrated ? "" : "Look straight ahead, relaxed, and press “This is my neutral face”.";
         this.found = { ...message, tracked: true };
+        this.missed = false;
         this.foundAt = performance.now();
         this.detectMs = message.ms;
         break;

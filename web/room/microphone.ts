@@ -5,18 +5,30 @@ import makeFvad from "@echogarden/fvad-wasm";
 /** Frames of 20 ms; voiced ones of the last five that turn the sign on, and how long it stays behind the last one. */
 const FRAMES = 5;
 const VOICED = 3;
-const HANG_MS = 400;
+export const HANG_MS = 400;
 /** fvad's strictest: noise is a voice least often. */
 const MODE = 3;
 const FRAME_SAMPLES = 960;
 const HERTZ = 48000;
 
+/** Whether somebody speaks, by which frames are voiced: a click is not speech, and a breath between words is no end. */
+export class SpeakingSign {
+  private readonly recent: boolean[] = [];
+  private lastVoiced = -Infinity;
+
+  hear(voiced: boolean, now: number): boolean {
+    this.recent.push(voiced);
+    if (this.recent.length > FRAMES) this.recent.shift();
+    if (this.recent.filter(Boolean).length >= VOICED) this.lastVoiced = now;
+    return now - this.lastVoiced < HANG_MS;
+  }
+}
+
 export class Microphone {
   /** Of the last 20 ms, 0 to 1 (0 dB). */
   level = 0;
   speaking = false;
-  private readonly recent: boolean[] = [];
-  private lastVoiced = -Infinity;
+  private readonly sign = new SpeakingSign();
   private open = true;
 
   private constructor(
@@ -63,11 +75,7 @@ export class Microphone {
     const energy = frame.reduce((sum, sample) => sum + sample * sample, 0) / frame.length;
     this.level = Math.sqrt(energy) / 32768;
     if (!this.open) return;
-    this.recent.push(this.isVoice(frame));
-    if (this.recent.length > FRAMES) this.recent.shift();
-    const now = performance.now();
-    if (this.recent.filter(Boolean).length >= VOICED) this.lastVoiced = now;
-    this.speaking = now - this.lastVoiced < HANG_MS;
+    this.speaking = this.sign.hear(this.isVoice(frame), performance.now());
   }
 }
 

@@ -10,6 +10,7 @@ const STATES: Readonly<Record<Step["state"], string>> = {
   recording: "Hold it",
   done: "Done",
   again: "Once more",
+  failed: "Not calibrated",
   cancelled: "Cancelled",
 };
 

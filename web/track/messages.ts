@@ -21,7 +21,7 @@ export interface Settings {
 
 export interface Step {
   readonly name: string;
-  readonly state: "countdown" | "recording" | "done" | "again" | "cancelled";
+  readonly state: "countdown" | "recording" | "done" | "again" | "failed" | "cancelled";
   readonly seconds_left: number;
   readonly text: string;
 }

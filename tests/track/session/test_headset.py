@@ -90,7 +90,7 @@ def test_a_neutral_face_that_is_not_found_leaves_the_known_one(ends):
         session.ask(Command(verb="cancel"))
     while session.adjusting.calibrating:  # by pictures that come once in two seconds
         session.answer(replace(shut, time_s=2.0 * next(clock)))
-    assert session.adjusting.step.state == "cancelled"
+    assert session.adjusting.step.state == ends
     start_s = 2.0 * next(clock)
     for row in range(2 * FPS):
         sample = replace(shut, time_s=start_s + row / FPS)

@@ -95,7 +95,7 @@ def test_who_moves_is_asked_once_more_and_nothing_is_kept():
         if step.state == "again":
             texts.add(step.text)
     assert any(text.startswith("You moved") and text.endswith("once more") for text in texts)
-    assert session.adjusting.step.state == "cancelled"
+    assert session.adjusting.step.state == "failed"
     assert stored == []
 
 
