@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from track.errors import InputError
+from track.profile.neutral import NeutralFace
 from track.profile.places import person_of, profile_path
-from track.profile.profile import NeutralFace, Profile, read_profile
+from track.profile.profile import Profile, read_profile
 
 if TYPE_CHECKING:
     from track.session.pipeline import Pipeline

@@ -9,7 +9,7 @@ from regress.runtime.heads.fit import FACING, HeadPoses
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 from track.detectors.head import typical_camera
-from track.profile.profile import NeutralFace
+from track.profile.neutral import NeutralFace
 
 
 class IrisGaze(Stage):

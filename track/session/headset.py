@@ -20,7 +20,8 @@ from regress.runtime.headset.soundness import PictureSoundness
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 from track.errors import InputError
-from track.profile.profile import ModelMark, NeutralFace, base64_of
+from track.profile.neutral import NeutralFace, base64_of
+from track.profile.profile import ModelMark
 from track.session.exchange import ExchangeWatch
 from track.session.faces import FACES
 from track.session.pipeline import Pipeline, filter_of

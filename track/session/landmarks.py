@@ -21,7 +21,8 @@ from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.soundness import Soundness
 from regress.runtime.stages.stage import Stage
 from track.errors import InputError
-from track.profile.profile import ModelMark, NeutralFace, lines_of
+from track.profile.neutral import NeutralFace, lines_of
+from track.profile.profile import ModelMark
 from track.session.gaze import IrisGaze
 from track.session.pipeline import Pipeline, filter_of, words
 

@@ -15,7 +15,8 @@ from regress.runtime.stages.output import filter_stage
 from regress.runtime.stages.smoothing import OneEuroSmoothing
 from regress.runtime.stages.stage import Stage
 from track.errors import InputError
-from track.profile.profile import ModelMark, NeutralFace
+from track.profile.neutral import NeutralFace
+from track.profile.profile import ModelMark
 from track.session.faces import OF_ALL
 
 GROUPS = "groups"

@@ -11,15 +11,14 @@ from regress.runtime.headset.person import HIGHEST_REST, OwnEye
 from track.cli import app
 from track.errors import InputError
 from track.profile import places
+from track.profile.neutral import NeutralFace, lines_of
 from track.profile.places import person_of, profile_path, stored_path, stored_profiles
 from track.profile.profile import (
     FULL_GAIN,
     LARGEST_GAIN,
     SMALLEST_RANGE,
     ModelMark,
-    NeutralFace,
     Profile,
-    lines_of,
     read_profile,
     write_profile,
 )

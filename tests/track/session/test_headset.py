@@ -17,7 +17,8 @@ from regress.runtime.writers.csv_table import EYE_COLUMNS
 from tests.track.session.test_chaos import FPS, HEADSET, headset_frames, headset_session
 from track.errors import InputError
 from track.messages import Command
-from track.profile.profile import NeutralFace, Profile, read_profile, write_profile
+from track.profile.neutral import NeutralFace
+from track.profile.profile import Profile, read_profile, write_profile
 from track.session.calibration import Outcome
 from track.session.ranges import Ranges, by_lids
 from track.sinks.targets import open_sink, parse_target

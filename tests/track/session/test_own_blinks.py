@@ -7,7 +7,8 @@ from regress.runtime.sample import Sample
 from regress.runtime.stages.own_blinks import BLINKS, OwnBlinks
 from tests.regress.test_own_blinks import FPS, lid, take
 from tests.track.session.faces import Kept, new_session
-from track.profile.profile import NeutralFace, Profile
+from track.profile.neutral import NeutralFace
+from track.profile.profile import Profile
 from track.session.person import Person
 
 PROFILE = Profile(person="anna", camera="0")

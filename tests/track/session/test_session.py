@@ -17,7 +17,8 @@ from regress.runtime.stages.stage import Chain, Stage
 from tests.track.session.faces import Given, Kept, calibrated_profile, frames, new_session, talking_face
 from track.errors import InputError, OutputError
 from track.messages import Command
-from track.profile.profile import NeutralFace, Profile, lines_of
+from track.profile.neutral import NeutralFace, lines_of
+from track.profile.profile import Profile
 
 NOISE = np.random.default_rng(0).normal(size=(68, 2))
 
