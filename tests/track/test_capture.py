@@ -64,6 +64,7 @@ def _rises(samples: list[Sample]) -> bool:
 def test_a_slow_reader_gets_the_newest_picture_and_its_own_time():
     switches = Switches(fps=100)
     with _capture(eye=switches) as capture:
+        assert capture.endless
         ages, numbers = [], []
         for _ in range(6):
             time.sleep(0.1)

@@ -109,7 +109,9 @@ def compare(
         closing.callback(phone.close)
         # the phone's left is the person's, whatever their avatar shows
         options = RunOptions(mirror=False)
-        session, capture = open_session(wishes, texts, [tracked], say, closing, options=options)
+        session, capture = open_session(
+            wishes, texts, [tracked], say, closing, options=options, must_keep=False
+        )
         say(
             f"port {phone.port} waits for the phone; act for {seconds:g} s: talk, smile, blink, raise your brows"
         )

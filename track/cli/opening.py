@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 _NAMED = re.compile(r"([A-Za-z0-9][A-Za-z0-9_.-]{0,63})=(.+)", re.DOTALL)
 
-_NOTHING_READ = {"ranges": {}, "rests": {}}
-"""Of a profile whose neutral face or model is not the one that its ranges were read with."""
+_NOTHING_READ = {"ranges": {}, "rests": {}, "blinks": {}}
+"""Of a profile whose neutral face or model is not the one that its ranges and blinks were read with."""
 
 ONE = "camera"
 """What the camera of a landmark model is called."""

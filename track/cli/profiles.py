@@ -22,6 +22,7 @@ def list_profiles() -> None:
     for name, profile in found.items():
         known = ["neutral face"] if profile.neutral is not None else []
         known += [f"{len(profile.ranges)} ranges"] if profile.ranges else []
+        known += ["blinks"] if profile.blinks else []
         known += [f"{len(profile.gains)} gains"] if profile.gains else []
         typer.echo(f"{name}  {one_line(profile.camera)}  {', '.join(known) or 'empty'}")
     if not found:
@@ -30,7 +31,7 @@ def list_profiles() -> None:
 
 @profiles.command()
 def show(name: NameArgument) -> None:
-    """Print a profile: ranges, gains, and what its neutral face is of.
+    """Print a profile: ranges, blinks, gains, and what its neutral face is of.
 
     Example: track profiles show me
     """
@@ -54,6 +55,8 @@ def show(name: NameArgument) -> None:
         typer.echo(one_line(f"places known of: {', '.join(profile.told_cameras)}"))
     for shape, reading in profile.ranges.items():
         typer.echo(f"range  {shape:<20} {reading:.2f}")
+    for shape, ends in profile.blinks.items():
+        typer.echo(f"blink  {shape:<20} {ends.full:.2f} (open {ends.open:.2f})")
     for shape, gain in profile.gains.items():
         typer.echo(f"gain   {shape:<20} {gain:.2f}")
 

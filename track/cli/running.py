@@ -131,6 +131,7 @@ def open_session(
         new_recording=lambda: _open(f"csv:{_free_name()}", say),
         mirror=options.mirror,
         own_blinks=options.own_blinks,
+        keep_blinks=capture.endless,
         timed=not wishes.fast,
     )
     closing.callback(session.close)

@@ -20,6 +20,10 @@
 
     [ranges]                    # what the model reads of the person's own full movement
     jawOpen = 0.71
+
+    [blinks.eyeBlinkLeft]       # what it reads of an eye between blinks, and of the fullest one in passing
+    open = 0.1
+    full = 0.55
 """
 
 import os
@@ -36,6 +40,7 @@ from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye
 from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.stages.own_blinks import Ends
 from track.errors import InputError
 from track.profile.neutral import MOST_CAMERAS, Name, NeutralFace, Record
 
@@ -62,6 +67,7 @@ def _arkit_name(name: str) -> str:
 
 
 Shape = Annotated[str, AfterValidator(_arkit_name)]
+Blink = Literal["eyeBlinkLeft", "eyeBlinkRight"]
 
 
 class ModelMark(Record):
@@ -94,6 +100,8 @@ class Profile(Record):
         Reading of the person's full movement, by shape.
     rests
         Reading of the resting face, by shape; of headsets.
+    blinks
+        What was read of the person's blinks while nobody asked for them.
     eyes
         Own ends of the lids, by camera; of headsets.
     gains
@@ -120,6 +128,7 @@ class Profile(Record):
         default_factory=dict
     )
     rests: dict[Shape, Annotated[FiniteFloat, Field(ge=0.0, le=HIGHEST_REST)]] = Field(default_factory=dict)
+    blinks: dict[Blink, Ends] = Field(default_factory=dict)
     eyes: Annotated[dict[Name, OwnEye], Len(0, MOST_CAMERAS)] = Field(default_factory=dict)
     gains: dict[Shape, Annotated[FiniteFloat, Field(ge=0.0, le=LARGEST_GAIN)]] = Field(default_factory=dict)
     placement: Annotated[dict[Name, CameraPlacement], Len(0, MOST_CAMERAS)] = Field(default_factory=dict)

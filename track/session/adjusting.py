@@ -1,11 +1,11 @@
 """Does what a person asks for while frames come: calibration, mirror, gains and the gaze's centre, used and kept."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from regress.runtime.sample import Sample
-from regress.runtime.stages.own_blinks import OwnBlinks
+from regress.runtime.stages.own_blinks import Ends, OwnBlinks
 from track.messages import Command, Step
 from track.profile.profile import LARGEST_GAIN, Profile
 from track.session.calibration import Calibration, Outcome
@@ -13,9 +13,13 @@ from track.session.faces import faces_of
 from track.session.outcomes import learnt
 from track.session.person import Person
 from track.session.pipeline import Pipeline
+from track.session.ranges import blinks_of, ends_of
 
 CENTRE_FRAMES = 15
 """Frames of one look, half a second, whose median gaze is taken for straight ahead."""
+
+BLINK_CHANGE = 0.02
+"""Of a reading: blinks that differ by less from those of the profile's file are not worth writing it anew."""
 
 
 class Adjusting:
@@ -35,6 +39,8 @@ class Adjusting:
         Goes before the profile's.
     own_blinks
         Whether blinks are stretched by the person's own ones, where the profile says nothing of them.
+    keep_blinks
+        Whether the profile is given what was found of them. A film's are not kept: it gives the same answers each time.
     say
         Told what a person should know, a sentence each.
 
@@ -57,14 +63,15 @@ class Adjusting:
         keep: Callable[[Profile], None],
         mirror: bool | None,
         own_blinks: bool,
+        keep_blinks: bool,
         say: Callable[[str], None],
     ) -> None:
         self.profile = profile
         self.step: Step | None = None
+        self._blinks = OwnBlinks(say, before=ends_of(profile)) if own_blinks else None
+        self._keeps_blinks = keep_blinks
         self.person = Person(
-            profile,
-            mirrored=profile.mirror if mirror is None else mirror,
-            blinks=OwnBlinks(say) if own_blinks else None,
+            profile, mirrored=profile.mirror if mirror is None else mirror, blinks=self._blinks
         )
         self._pipeline, self._say, self._keep = pipeline, say, keep
         self._kept = profile if kept is None else kept
@@ -113,6 +120,8 @@ class Adjusting:
             self._looks.append(sample.gaze)
             if len(self._looks) == CENTRE_FRAMES:
                 self._centre(np.median(self._looks, axis=0))
+        if self._keeps_blinks and self._blinks is not None:
+            self._keep_blinks(self._blinks.ends)
 
     def _begin(self, faces: str) -> None:
         names = faces_of(faces, self._pipeline.faces)
@@ -149,6 +158,16 @@ class Adjusting:
         else:
             self._use({"gaze": centre})
         self._say("the eyes are centred on where they looked")
+
+    def _keep_blinks(self, ends: Sequence[Ends]) -> None:
+        """Keep how the person's blinks read, where the profile's file is of this model and this neutral face."""
+        if not (self._neutral_is_kept and self._kept.model in (None, self._pipeline.mark)):
+            return
+        pairs = zip(ends, ends_of(self.profile), strict=True)
+        if any(
+            max(abs(own.open - known.open), abs(own.full - known.full)) > BLINK_CHANGE for own, known in pairs
+        ):
+            self._change(blinks=blinks_of(ends), model=self._pipeline.mark)
 
     def _use_known_neutral(self) -> None:
         """What is known without a calibration that gives a neutral face."""

@@ -31,6 +31,7 @@ def _by_neutral(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> Mappi
         "neutral": neutral,
         "ranges": kept if neutral.pictures else {},
         "rests": pipeline.rests_of(outcome.samples),
+        "blinks": {},
         "eyes": pipeline.eyes_with(profile.eyes, outcome.name, outcome.samples),
         "model": pipeline.mark,
         "gaze": None,

@@ -8,7 +8,7 @@ import numpy as np
 from regress.runtime.headset.parts import side_of
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
-from regress.runtime.stages.own_blinks import BLINKS
+from regress.runtime.stages.own_blinks import BLINKS, WHOLE, Ends
 from regress.runtime.stages.stage import Stage
 from track.profile.profile import Profile
 from track.session.calibration import SHUT
@@ -77,6 +77,17 @@ def by_lids(profile: Profile) -> np.ndarray:
 def blinks_known(profile: Profile) -> np.ndarray:
     """(2,) bool: eyes whose full blink the profile knows, by the network's reading or by traced lids."""
     return by_lids(profile) | np.array([name in profile.ranges for name in _BLINK_NAMES])
+
+
+def ends_of(profile: Profile) -> tuple[Ends, Ends]:
+    """What is known of both eyes' blinks, the left one first."""
+    left, right = (profile.blinks.get(name, WHOLE) for name in _BLINK_NAMES)
+    return left, right
+
+
+def blinks_of(ends: Sequence[Ends]) -> dict[str, Ends]:
+    """Both eyes' blinks, the left one first, as a profile holds them."""
+    return dict(zip(_BLINK_NAMES, ends, strict=True))
 
 
 def middle_of(gazes: Sequence[np.ndarray | None]) -> tuple[float, ...] | None:

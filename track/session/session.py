@@ -69,6 +69,8 @@ class Session:
         Goes before the profile's.
     own_blinks
         Whether blinks are stretched by the person's own ones, where the profile says nothing of them.
+    keep_blinks
+        Whether the profile is given what was found of them.
     timed
         Whether frames' times are those of now, so that a latency means something.
     """
@@ -85,11 +87,19 @@ class Session:
         new_recording: Callable[[], Sink] | None = None,
         mirror: bool | None = None,
         own_blinks: bool = False,
+        keep_blinks: bool = False,
         timed: bool = True,
     ) -> None:
         self.pipeline, self.sinks, self._say = pipeline, list(sinks), say
         self.adjusting = Adjusting(
-            pipeline, profile, kept=kept, keep=keep, mirror=mirror, own_blinks=own_blinks, say=say
+            pipeline,
+            profile,
+            kept=kept,
+            keep=keep,
+            mirror=mirror,
+            own_blinks=own_blinks,
+            keep_blinks=keep_blinks,
+            say=say,
         )
         self.measures, self._telling = Measures(), FaultTelling(say)
         self._commands: queue.Queue[Command] = queue.Queue(MOST_COMMANDS)

@@ -52,6 +52,8 @@ class Capture:
         What a person calls each camera, by its name.
     live
         Whether pictures come by themselves.
+    endless
+        Whether any is a camera, which has no end.
     length_s
         How long all films last; None where one has no end, or does not say when.
     """
@@ -69,8 +71,9 @@ class Capture:
         self.live = any(camera.live for camera in self._cameras.values())
         lengths_s = [camera.length_s for camera in self._cameras.values()]
         self.length_s = None if None in lengths_s else max(lengths_s, default=None)
+        self.endless = any(each.endless for each in self._cameras.values())
         # a machine's clock counts from its start, a film's from the film's
-        self._start_s = time.monotonic() if any(each.endless for each in self._cameras.values()) else 0.0
+        self._start_s = time.monotonic() if self.endless else 0.0
         self._latest: dict[str, Picture] = {}
         self._last_s, self._count = -np.inf, 0
         self._caught_up_s = -np.inf

@@ -8,8 +8,10 @@ nothing else of a lid does. A squint, a look down and a smile stay, and count fo
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated, ClassVar
 
 import numpy as np
+from annotated_types import Interval
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.sample import Sample
@@ -40,6 +42,8 @@ MOST = 3.0
 TOLD_FROM = 1.2
 """Factor from which a person is told."""
 
+Reading = Annotated[float, Interval(ge=0, le=1)]
+
 
 @dataclass(frozen=True, kw_only=True)
 class Ends:
@@ -53,8 +57,10 @@ class Ends:
         What becomes 1, as far as `MOST` goes.
     """
 
-    open: float
-    full: float
+    __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
+
+    open: Reading
+    full: Reading
 
     @property
     def factor(self) -> float:
@@ -75,18 +81,23 @@ WHOLE = Ends(open=OPEN, full=1.0)
 class BlinkWatch:
     """Finds the blinks of one eye among readings as they come.
 
+    Parameters
+    ----------
+    before
+        What is known of the eye from another day.
+
     Attributes
     ----------
     peaks, feet
         Readings of the last blinks at their fullest, and beside them.
     ends
-        The person's own; `WHOLE` while too few blinks were seen.
+        The person's own; ``before`` while too few blinks were seen.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, before: Ends = WHOLE) -> None:
         self.peaks: deque[float] = deque(maxlen=REMEMBERED)
         self.feet: deque[float] = deque(maxlen=REMEMBERED)
-        self.ends = WHOLE
+        self.ends = before
         self._times: deque[float] = deque()
         self._readings: deque[float] = deque()
         self._judged_s = -np.inf
@@ -140,6 +151,9 @@ class OwnBlinks(Stage):
     ----------
     say
         Told once, when blinks are stretched by so much that it shows.
+    before
+        What is known of both eyes from another day, the left one first: stretches blinks until enough of today's are
+        seen.
 
     Attributes
     ----------
@@ -148,14 +162,24 @@ class OwnBlinks(Stage):
         changed between two frames.
     """
 
-    def __init__(self, say: Callable[[str], None] = lambda message: None) -> None:
+    def __init__(
+        self,
+        say: Callable[[str], None] = lambda message: None,
+        *,
+        before: tuple[Ends, Ends] = (WHOLE, WHOLE),
+    ) -> None:
         self._say, self._told = say, False
         self.known = np.zeros(2, dtype=bool)
-        self.forget()
+        self._eyes = tuple(BlinkWatch(ends) for ends in before)
 
     def forget(self) -> None:
         """Begin anew: blinks before another neutral face, or another seat, read otherwise."""
         self._eyes = (BlinkWatch(), BlinkWatch())
+
+    @property
+    def ends(self) -> tuple[Ends, ...]:
+        """Of both eyes, the left one first; `WHOLE` of one whose full blink is known otherwise, or not yet."""
+        return tuple(WHOLE if known else eye.ends for known, eye in zip(self.known, self._eyes, strict=True))
 
     def step(self, sample: Sample) -> Sample:
         """The sample with stretched eyeBlinks; one without a time or weights as it is."""
@@ -163,11 +187,10 @@ class OwnBlinks(Stage):
             return sample
         read = sample.weights[BLINKS]
         ended = [eye.step(sample.time_s, float(blink)) for blink, eye in zip(read, self._eyes, strict=True)]
-        ends = [WHOLE if known else eye.ends for known, eye in zip(self.known, self._eyes, strict=True)]
-        if any(ended) and not self._told and max(own.factor for own in ends) >= TOLD_FROM:
+        if any(ended) and not self._told and max(own.factor for own in self.ends) >= TOLD_FROM:
             self._told = True
-            self._say(told_of(ends))
-        return _with_blinks(sample, ends)
+            self._say(told_of(self.ends))
+        return _with_blinks(sample, self.ends)
 
 
 class TakeBlinks(DelayingStage):

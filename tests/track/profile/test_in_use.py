@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from regress.runtime.stages.own_blinks import Ends
 from tests.track.session.faces import Given, calibrated_profile, frames, new_session
 from track.cli.opening import Wishes, open_profile
 from track.messages import Command
@@ -16,7 +17,8 @@ ANOTHER = ModelMark(kind="landmarks", sha256="0" * 64)
 @pytest.fixture
 def file(tmp_path):
     mark = new_session().pipeline.mark
-    known = {"ranges": {"jawOpen": 0.6}, "rests": {"jawOpen": 0.1}, "model": mark}
+    blinks = {"eyeBlinkLeft": Ends(open=0.1, full=0.5)}
+    known = {"ranges": {"jawOpen": 0.6}, "rests": {"jawOpen": 0.1}, "blinks": blinks, "model": mark}
     return write_profile(tmp_path / "anna.toml", calibrated_profile().model_copy(update=known))
 
 
@@ -55,7 +57,7 @@ def test_what_was_read_with_another_neutral_face_or_model_is_left_out(file, neut
     if neutral is None:
         of_another_model(file)
     session, _ = opened(file, neutral)
-    assert session.profile.ranges == session.profile.rests == {}
+    assert session.profile.ranges == session.profile.rests == session.profile.blinks == {}
     assert not session.profile.at_rest().any()
 
 

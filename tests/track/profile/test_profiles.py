@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye
+from regress.runtime.stages.own_blinks import Ends
 from track.cli import app
 from track.errors import InputError
 from track.profile import places
@@ -50,6 +51,10 @@ PROFILES = st.builds(
     | st.builds(ModelMark, kind=st.sampled_from(["landmarks", "headset"]), sha256=st.just("ab" * 32)),
     neutral=st.none() | neutrals(),
     ranges=st.dictionaries(SHAPES, st.floats(SMALLEST_RANGE, 1), max_size=5),
+    blinks=st.dictionaries(
+        st.sampled_from(["eyeBlinkLeft", "eyeBlinkRight"]),
+        st.builds(Ends, open=st.floats(0, 1), full=st.floats(0, 1)),
+    ),
     gains=st.dictionaries(SHAPES, st.floats(0, LARGEST_GAIN), max_size=5),
     eyes=st.dictionaries(
         st.sampled_from(["left_eye", "right_eye"]),
@@ -105,6 +110,9 @@ GOOD = 'format = "track-profile"\nversion = 1\nperson = "a"\ncamera = "b"\n'
         (GOOD + "[ranges]\njawOpen = 0.0\n", "ranges.jawOpen = 0.0"),
         (GOOD + "[ranges]\njawopen = 0.5\n", "not one of the 52 ARKit names"),
         (GOOD + "[gains]\njawOpen = 1e9\n", "gains.jawOpen"),
+        (GOOD + "[blinks.eyeBlinkLeft]\nopen = 0.1\n", "blinks.eyeBlinkLeft.full"),
+        (GOOD + "[blinks.eyeBlinkLeft]\nopen = 0.1\nfull = 2.0\n", "blinks.eyeBlinkLeft.full = 2.0"),
+        (GOOD + "[blinks.jawOpen]\nopen = 0.1\nfull = 0.5\n", "jawOpen"),
         (GOOD + "gaze = [0.0, nan, 0.0, 0.0]\n", "gaze"),
         (GOOD + '[neutral]\npoints = ["1, 2, 3"]\n', "must be 136 finite numbers"),
         (GOOD + '[neutral]\nirises = ["1, 2, 3, x"]\n', "4 finite numbers"),
