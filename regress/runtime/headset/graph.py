@@ -68,7 +68,10 @@ class HeadsetGraph:
         self._interface = GraphInterface(cameras, points or {})
         inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
         defaults = self._session.get_overridable_initializers()
-        self._interface.check(inputs, defaults, outputs)
+        try:
+            self._interface.check(inputs, defaults, outputs)
+        except UnicodeDecodeError as error:  # onnxruntime reads any bytes, and decodes them as they are asked for
+            raise ModelError("network.onnx has a name that is no UTF-8 text") from error
         self._outputs = {value.name for value in outputs}
         self.listens = CAMERA_INPUT in {value.name for value in defaults}
         self._told: dict[str, np.ndarray] = {}

@@ -168,6 +168,7 @@ GRAPHS = {
     "no weights": changed(lacking("weights")),
     "a node that there is not": changed(lambda model: setattr(model.graph.node[0], "op_type", "Castle")),
     "a node without inputs": changed(lambda model: model.graph.node[-1].ClearField("input")),
+    "a side with a name of other bytes": tiny_graph(SIDE, SIDE, 1.0).replace(b"\x12\x01n", b"\x12\x01\x80"),
     "a future version": changed(lambda model: setattr(model, "ir_version", 1000)),
 }
 
