@@ -27,10 +27,12 @@ OPTIONS = (
     *("--disable-component-update", "--disable-sync", "--disable-extensions", "--hide-scrollbars"),
     *("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--remote-debugging-port=0"),
 )
-START_S = 30.0
-"""A browser on a busy machine begins to listen within five."""
-ANSWER_S = 60.0
+START_S = 120.0
+"""A browser on a busy machine begins to listen within five; one that is slow as well is given time."""
+ANSWER_S = 180.0
 """Shaders are compiled in software the first time: two seconds, or twenty on a busy machine."""
+PATIENCE_S = 120.0
+"""What a page is to do it does in a second; that a machine is slow and has other work is no fault of the page."""
 
 
 class Tab:
@@ -68,12 +70,20 @@ class Tab:
         assert "exceptionDetails" not in answer, answer["exceptionDetails"]
         return answer["result"].get("value")
 
-    async def until(self, script: str, seconds: float = 45.0) -> None:
+    async def until(self, script: str, seconds: float = PATIENCE_S) -> None:
         """Wait for an expression to become true."""
         end = time.monotonic() + seconds
         while not await self.ask(f"Boolean({script})"):
             assert time.monotonic() < end, f"{script} stays false; complaints: {self.complaints}"
             await asyncio.sleep(0.05)
+
+    async def drawn(self, pictures: int) -> None:
+        """Wait until so many pictures of the page were drawn; of one that is behind another none is."""
+        await self.ask(
+            f"void (globalThis.due = {pictures},"
+            " (function next() { requestAnimationFrame(() => --globalThis.due && next()); })())"
+        )
+        await self.until("globalThis.due === 0")
 
     async def look(self, *, width: int, height: int, dark: bool = False, telephone: bool = False) -> None:
         """Make the window so large, in a light or a dark scheme."""

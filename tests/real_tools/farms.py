@@ -47,7 +47,7 @@ def facegen(*arguments: object, environ: Mapping[str, str] = os.environ, code: i
         env=environ,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=1200,
     )
     assert code is None or done.returncode == code, (
         f"exit code {done.returncode}\n{done.stdout}\n{done.stderr}"
@@ -93,8 +93,8 @@ def no_leftovers(out: Path) -> bool:
     return not list((out / "tmp").iterdir()) and not list(out.rglob("*.part"))
 
 
-def wait_for(condition: Callable[[], object], *, seconds: float = 180, what: str = "") -> None:
-    """Wait until something holds, on the slowest machine."""
+def wait_for(condition: Callable[[], object], *, seconds: float = 600, what: str = "") -> None:
+    """Wait until something holds, on the slowest machine and beside other work."""
     deadline = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < deadline, f"after {seconds} s still not: {what}"

@@ -26,7 +26,7 @@ PROGRAMS = (
 )
 PREFIX = "facegen-slurm-"
 _SEARCH = os.environ.get("PATH", "") + ":/usr/sbin:/sbin"
-_START_S = 60
+_START_S = 180
 
 _CONF = """\
 ClusterName=facegen
@@ -100,11 +100,11 @@ class SlurmSandbox:
     def __exit__(self, *_: object) -> None:
         stop(self.folder)
         for daemon in self._daemons:
-            daemon.wait(timeout=10)
+            daemon.wait(timeout=60)
 
     def run(self, *command: str) -> str:
         """A Slurm command's output."""
-        done = subprocess.run(command, env=self.environ, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(command, env=self.environ, capture_output=True, text=True, timeout=120)
         assert done.returncode == 0, f"{command}: {done.stderr}"
         return done.stdout
 
@@ -165,7 +165,7 @@ class SlurmSandbox:
 
     def _is_idle(self) -> bool:
         command = ["sinfo", "-h", "-N", "-o", "%T"]
-        done = subprocess.run(command, env=self.environ, capture_output=True, text=True, timeout=20)
+        done = subprocess.run(command, env=self.environ, capture_output=True, text=True, timeout=120)
         return set(done.stdout.split()) == {"idle"}
 
     def _await(self, condition, what: str) -> None:

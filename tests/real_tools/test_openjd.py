@@ -43,7 +43,7 @@ def bundle(tmp_path: Path, *options: str) -> tuple[Path, list[str]]:
 
 
 def openjd(*arguments: str, code: int = 0) -> str:
-    done = subprocess.run([OPENJD, *arguments], capture_output=True, text=True, timeout=280, cwd=ROOT)
+    done = subprocess.run([OPENJD, *arguments], capture_output=True, text=True, timeout=1200, cwd=ROOT)
     text = done.stdout + done.stderr
     assert done.returncode == code, text
     return text
@@ -123,7 +123,7 @@ def test_a_cancelled_task_drains(tmp_path):
     try:
         wait_for(lambda: rendered(out), what="a first sample")
         process.send_signal(signal.SIGTERM)
-        text, _ = process.communicate(timeout=60)
+        text, _ = process.communicate(timeout=300)
     finally:
         process.kill()
     assert process.returncode != 0

@@ -180,7 +180,7 @@ def test_an_archive_that_unpacks_to_gigabytes_is_refused_unread(denoising_folder
 
 
 @pytest.mark.slow
-@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_a_changed_number_is_refused_or_does_no_harm(
     denoising_folder: Path, quick_model_folder: Path, tmp_path: Path, data: st.DataObject
@@ -247,7 +247,7 @@ OTHER = [
 
 
 @pytest.mark.slow
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_an_edited_record_is_refused_or_reported(
     denoising_folder: Path, quick_model_folder: Path, tmp_path: Path, data: st.DataObject

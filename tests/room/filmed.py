@@ -17,10 +17,11 @@ import cv2
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
+from room.places import Place
 from tests.browser import Tab, chromium
 from tests.room.guests import open_room
 from tests.room.speech import SILENT_S, VOICED_S, write_bursts
-from tests.room.test_page import AWAKE, CONNECTED, EARS, HEARD, SHOWN, other
+from tests.room.test_page import AWAKE, CONNECTED, EARS, HEARD, LINGERS_S, SHOWN, hears_from, other
 
 NAMES = ("Ada", "Ben")
 
@@ -154,7 +155,12 @@ def write_film(source: Path, path: Path) -> None:
 
 
 async def meet(
-    films: tuple[Path, Path], *, seconds: float, folder: Path, faces: int = 0
+    films: tuple[Path, Path],
+    *,
+    seconds: float,
+    folder: Path,
+    faces: int = 0,
+    places: dict[str, Place] | None = None,
 ) -> tuple[Direction, Direction]:
     """Let two browsers meet, and say what the second one had of the first one, and the other way round.
 
@@ -162,7 +168,7 @@ async def meet(
     """
     write_bursts(folder / "speech.wav")
     async with AsyncExitStack() as stack:
-        place = await stack.enter_async_context(open_room())
+        place = await stack.enter_async_context(open_room(places=places))
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
 
         async def come(name: str, film: Path) -> Tab:
@@ -224,9 +230,12 @@ async def sides(tabs: Sequence[Tab]) -> list[dict[str, float]]:
     for tab in tabs:
         await tab.ask(EARS)
     for x in (2.0, -2.0):
-        for tab, place in zip(tabs, (0.0, x), strict=True):
-            await tab.ask(f"void Object.assign(meeting.presence.walk, {json.dumps({'x': place, **WHERE})})")
-        await asyncio.sleep(1.0)
+        stands = (0.0, x)
+        for tab, own in zip(tabs, stands, strict=True):
+            await tab.ask(f"void Object.assign(meeting.presence.walk, {json.dumps({'x': own, **WHERE})})")
+        for tab, own, others in zip(tabs, stands, reversed(stands), strict=True):
+            await tab.until(hears_from(own, others))
+        await asyncio.sleep(LINGERS_S)
         heard = await asyncio.gather(*(tab.ask("listen()") for tab in tabs))
         # who looks along z has larger x on the left: where one has the other there, the other has one on the right
         for listener, (left, right) in enumerate(heard):

@@ -1,14 +1,15 @@
 """Recordings for tests: what makes one, what is in it, and a short one of two people."""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import pytest
 
-from room.protocol import Message, decode
+from facegen.conventions import BLENDSHAPES
+from room.protocol import Message, decode, encode
 from room.recording import Recorder, read_recording
-from room.recording.lines import Tick
+from room.recording.lines import Came, Heading, Tick
 from room.server.hall import HERTZ
 from tests.room.guests import Guest, open_room
 
@@ -26,6 +27,17 @@ async def walk(guest: Guest, *, steps: int = 20, **state: object) -> None:
     for step in range(steps):
         await guest.move(sequence=step, time_ms=step * 33, **state)
         await asyncio.sleep(1 / HERTZ)
+
+
+def write_recording(path: Path, states: Iterable[Message]) -> Path:
+    """A recording of one person, whose states came when they say, in the time of no clock."""
+    lines = [
+        Heading(room="meeting", began_s=1.0, hertz=HERTZ, shapes=BLENDSHAPES),
+        Came(time_ms=0, number=0, id="0" * 16, name="Ada", avatar="plain"),
+        *(Tick.model_construct(time_ms=state.time_ms, states=((0, encode(state)),)) for state in states),
+    ]
+    path.write_text("".join(f"{line.model_dump_json()}\n" for line in lines))
+    return path
 
 
 def recorded(path: Path) -> Path:

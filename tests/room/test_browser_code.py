@@ -27,7 +27,7 @@ def test_in_typescript(test: str, tmp_path: Path):
         "PLACES": str(ROOT / "room" / "server" / "static" / "places"),
     }
     done = subprocess.run(
-        ["node", "--test", made], capture_output=True, text=True, env=environment, timeout=60
+        ["node", "--test", made], capture_output=True, text=True, env=environment, timeout=300
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "# fail 0" in done.stdout

@@ -24,7 +24,7 @@ from tests.room.recordings import recorded
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def room(*arguments: object, seconds: float = 30.0) -> subprocess.CompletedProcess[str]:
+def room(*arguments: object, seconds: float = 300.0) -> subprocess.CompletedProcess[str]:
     command = (sys.executable, "-m", "room", *map(str, arguments))
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=seconds)
@@ -153,7 +153,7 @@ def test_a_server_opens_though_an_engine_is_away_and_says_so(options, words, tmp
             assert any(words in line for line in run.stderr)
         finally:
             run.terminate()
-            assert run.wait(10) == 0
+            assert run.wait(120) == 0
             run.communicate()
 
 
@@ -169,7 +169,7 @@ def test_what_is_stopped_on_purpose_ends_well(command, tmp_path):
     ) as run:
         assert "Ctrl-C stops it" in run.stderr.readline()
         run.send_signal(signal.SIGINT)
-        _, said = run.communicate(timeout=30)
+        _, said = run.communicate(timeout=300)
     assert (run.returncode, said) == (0, "room: stopped; its links have ended\n")
 
 
@@ -219,7 +219,7 @@ def test_https_serves_the_page_and_the_room(tmp_path):
             asyncio.run(_visit(link, certificate))
         finally:
             run.terminate()
-            assert run.wait(10) == 0
+            assert run.wait(120) == 0
             run.communicate()
 
 

@@ -1,6 +1,7 @@
 """A connection whose other end reads nothing: it is never waited for, and keeps a bounded number of things."""
 
 import asyncio
+from collections.abc import Callable
 
 import pytest
 
@@ -32,6 +33,13 @@ class Socket:
         self.code = code
 
 
+async def until(true: Callable[[], bool]) -> None:
+    """Let the connection send, until something is so."""
+    async with asyncio.timeout(60):
+        while not true():
+            await asyncio.sleep(0.001)
+
+
 TICKS = [pack([], time_ms=number) for number in range(200)]
 
 
@@ -43,7 +51,7 @@ def test_ticks_are_dropped_but_the_newest():
             connection.tick(content)
             await asyncio.sleep(0)
         socket.reads.set()
-        await asyncio.sleep(0.05)
+        await until(lambda: len(socket.ticks) > MOST_TICKS_QUEUED)
         # the first one was on its way when the others came
         assert socket.ticks == [TICKS[0], *TICKS[-MOST_TICKS_QUEUED:]]
         assert metrics.ticks_dropped == len(TICKS) - 1 - MOST_TICKS_QUEUED
@@ -62,7 +70,7 @@ def test_texts_are_never_dropped_and_too_many_end_the_connection():
         connection.say(Notice(text="one more"))
         assert metrics.slow == 1
         socket.reads.set()
-        await asyncio.sleep(0.05)
+        await until(lambda: socket.code is not None)
         assert "too slow" in socket.texts[-1]
         assert socket.code == CLOSED_BY_RULE
         await connection.close()
@@ -78,7 +86,7 @@ def test_texts_come_in_their_order(count):
         for number in range(count):
             connection.say(Notice(text=str(number)))
         socket.reads.set()
-        await asyncio.sleep(0.05)
+        await until(lambda: len(socket.texts) >= count)
         assert socket.texts == [Notice(text=str(number)).model_dump_json() for number in range(count)]
         await connection.close()
 

@@ -132,7 +132,7 @@ def test_whose_server_is_killed_comes_back_at_the_same_address(tmp_path):
             with suppress(aiohttp.ClientError):
                 again = await place.guest(secret=ada.secret)
         print(f"back after {time.monotonic() - start:.1f} s")
-        assert time.monotonic() - start < 4
+        assert time.monotonic() - start < 20, "4 on a machine that does nothing else"
         assert again.number == ada.number
         assert not ben.all(Left)
         await place.session.close()

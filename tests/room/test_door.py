@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from room.server.door import Door
-from tests.room.guests import open_room
+from tests.room.guests import SOON_S, open_room
 
 HOSTS = ["192.0.2.1", "192.0.2.2", "2001:db8::1", "2001:db8::2", "2001:db8:0:1::1", None]
 
@@ -57,7 +57,7 @@ def test_somebody_comes_in_past_many_who_say_nothing(monkeypatch):
         async with open_room() as place:
             silent = [await place.connect() for _ in range(20)]
             ada = await place.guest()
-            async with asyncio.timeout(5):
+            async with asyncio.timeout(SOON_S):
                 assert (await silent[0].receive()).type in (
                     WSMsgType.CLOSE,
                     WSMsgType.CLOSED,

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.browser import needs_chromium
+from tests.room.bare_place import BARE
 from tests.room.filmed import BURST_S, Direction, meet
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -26,7 +27,7 @@ pytestmark = [
 @pytest.fixture(scope="module")
 def directions(tmp_path_factory: pytest.TempPathFactory) -> tuple[Direction, Direction]:
     folder = tmp_path_factory.mktemp("filmed")
-    return asyncio.run(meet((FILM, FILM), seconds=4 * BURST_S, faces=FACES, folder=folder))
+    return asyncio.run(meet((FILM, FILM), seconds=4 * BURST_S, faces=FACES, folder=folder, places=BARE))
 
 
 def test_each_sees_the_face_of_the_other_move_as_its_camera_says(directions):

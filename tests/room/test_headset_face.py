@@ -64,7 +64,7 @@ async def worn(folder: Path) -> tuple[list[Message], set[str], int]:
 @pytest.mark.slow
 def test_a_headset_s_films_move_a_face_in_the_room(tmp_path: Path):
     films(tmp_path)
-    seen, faces, code = asyncio.run(asyncio.wait_for(worn(tmp_path), 300))
+    seen, faces, code = asyncio.run(asyncio.wait_for(worn(tmp_path), 1200))
     assert code == 0
     assert "program" in faces
     with open(SAMPLES / "headset.weights.csv", newline="") as file:

@@ -37,7 +37,7 @@ async def drop(tab: Tab, content: bytes, name: str) -> str:
     """Drop a file on a page; the sentence that it answers."""
     await tab.ask("void (document.querySelector('#told').textContent = '')")
     await tab.ask(DROP % (json.dumps(base64.b64encode(content).decode()), json.dumps(name)))
-    await tab.until(TOLD, 30)
+    await tab.until(TOLD)
     return await tab.ask(TOLD)
 
 
@@ -47,18 +47,18 @@ def wears(name: str) -> str:
 
 async def dressed(folder: Path) -> dict[str, object]:
     async with meet(folder, "Ada", "Ben") as (_, (ada, ben)):
-        await ben.until(wears("nora"), 30)
+        await ben.until(wears("nora"))
         found: dict[str, object] = {"broken": await drop(ada, BINARY, "broken.glb")}
         found["tiny"] = await drop(ada, head(), "egg.glb")
         assert await ben.ask(wears("nora"))
         found["taken"] = await drop(ada, (STATIC / "avatars" / "omar.glb").read_bytes(), "me.glb")
-        await ben.until(wears("avatar"), 30)
+        await ben.until(wears("avatar"))
         weights = [0.5 + index / 200 for index in range(52)]
         await ada.ask(FACE % json.dumps(weights))
         await ben.until(f"{other('Ada')}.figure.avatar.influences().jawOpen > 0.5")
         await drop(ada, grown(head(vrm=vrm1)), "egg.vrm")
         vrm = f"{other('Ada')}.figure?.avatar.vrm && {other('Ada')}.figure.avatar.influences().jawOpen > 0.5"
-        await ben.until(vrm, 30)
+        await ben.until(vrm)
         found["complaints"] = list(ben.complaints)
         await ada.ask("document.querySelector('#bring').click()")
         await ben.until(wears("nora"))

@@ -2,9 +2,8 @@
 
 import asyncio
 import json
-import statistics
 import time
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 from contextlib import AsyncExitStack, asynccontextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -16,6 +15,7 @@ from facegen.conventions import BLENDSHAPES
 from regress.runtime.sample import Sample
 from room.server import new_keys
 from tests.browser import Tab, chromium, needs_chromium
+from tests.room.bare_place import BARE
 from tests.room.guests import Guest, Place, open_room
 from tests.room.speech import write_bursts
 from track.sinks.targets import open_sink, parse_target
@@ -34,7 +34,7 @@ AWAKE = (
 async def meet(tmp_path: Path, *names: str) -> AsyncIterator[tuple[Place, list[Tab]]]:
     """A server, a browser, and people who have come in by the page."""
     write_bursts(tmp_path / "speech.wav")
-    async with open_room() as place:
+    async with open_room(places=BARE) as place:
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
         async with chromium(
             *AWAKE, f"--use-file-for-fake-audio-capture={tmp_path / 'speech.wav'}"
@@ -53,16 +53,26 @@ async def meet(tmp_path: Path, *names: str) -> AsyncIterator[tuple[Place, list[T
                     await tab.__aexit__(None, None, None)
 
 
+UNDRAWN = """void Object.defineProperty(globalThis, 'meeting', {
+  configurable: true,
+  get: () => globalThis.undrawn,
+  set: (meeting) => {
+    globalThis.undrawn = meeting;
+    meeting.stage.drawing = false;
+  },
+})"""
+"""No picture of the meeting is drawn, not even a first one: in software its shaders alone take seconds."""
+
+
 async def come_in(tab: Tab, name: str) -> None:
+    """By the page, which draws nothing until it is told to."""
     await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+    await tab.ask(UNDRAWN)
     await tab.ask(
         f"(() => {{ const form = document.querySelector('#join'); form.elements.name.value = {json.dumps(name)};"
         " form.requestSubmit(); })()"
     )
-    await tab.until("globalThis.meeting?.own", 60)  # with the first shaders, on a busy machine
-    await tab.ask(
-        "void (meeting.stage.drawing = false)"
-    )  # software draws two rooms no faster than it detects voices
+    await tab.until("globalThis.meeting?.own")
 
 
 def other(name: str) -> str:
@@ -75,6 +85,9 @@ FACE = """void (meeting.presence.idle.update = () => ({
 }))"""
 """Lets a page send a face, as a camera would."""
 
+SHOWN_WITHIN = 0.02
+"""A weight is shown as it was sent, but for the wire's steps of 1/255."""
+
 CONNECTED = "[...meeting.voice.sounds.keys()].some((id) => meeting.voice.state(id) === 'connected')"
 
 EARS = """void (globalThis.listen = async () => {
@@ -85,8 +98,8 @@ EARS = """void (globalThis.listen = async () => {
   meters.forEach((meter, ear) => split.connect(meter, ear));
   const sums = [0, 0];
   const samples = new Float32Array(4096);
-  for (let i = 0; i < 60; i++) {
-    await new Promise((resolve) => setTimeout(resolve, 50));
+  while (Math.max(...sums) < 100) {
+    await new Promise((resolve) => setTimeout(resolve, 100));
     meters.forEach((meter, ear) => {
       meter.getFloatTimeDomainData(samples);
       sums[ear] += samples.reduce((sum, sample) => sum + sample * sample, 0);
@@ -94,19 +107,25 @@ EARS = """void (globalThis.listen = async () => {
   }
   return sums;
 })"""
-"""Energy at the left and the right ear over three seconds, of what the page plays behind its loopback."""
+"""Energy at the left and the right ear, of what the page plays behind its loopback, once there was speech."""
 
 HEARD = """void (() => {
   globalThis.heard = [];
-  let loud = false;
+  let loud = false, quiet = 0, since = 0;
   const { microphone } = meeting;
   const hear = microphone.hear;
   microphone.hear = (frame) => {
     hear.call(microphone, frame);
-    if ((microphone.level > 0.01) !== loud) heard.push([(loud = !loud), Date.now()]);
+    if (microphone.level > 0.01) {
+      if (!loud) heard.push([(loud = true), Date.now()]);
+      quiet = 0;
+      return;
+    }
+    if (!quiet++) since = Date.now();
+    if (loud && quiet === 15) heard.push([(loud = false), since]);
   };
 })()"""
-"""When the sound at a microphone begins and ends."""
+"""When the sound at a microphone begins and ends; a gap of less than .3 s is a busy machine's, and no end."""
 
 SHOWN = """void (() => {
   globalThis.shown = [];
@@ -133,62 +152,76 @@ WORN = """[...meeting.known.values()].map(({ person, figure }) => {
 }).sort()"""
 """In what colour a page shows the clothes of each person."""
 
-DRAWN = """new Promise((done) => {
-    let left = 30;
-    const next = () => (--left ? requestAnimationFrame(next) : done(true));
-    next();
-})"""
-"""A place's first pictures take a software renderer seconds, in which no face moves."""
+
+def stands_at(name: str, weights: Sequence[float]) -> str:
+    """Whether somebody's avatar stands at these weights."""
+    sent = json.dumps(dict(zip(BLENDSHAPES, weights, strict=True)))
+    return (
+        f"Object.entries({other(name)}.figure.avatar.influences())"
+        f".every(([shape, weight]) => Math.abs(weight - ({sent})[shape]) <= {SHOWN_WITHIN})"
+    )
 
 
 async def faces(ada: Tab, ben: Tab) -> tuple[int, float]:
     """How many shapes one has on the other's page, and how far they are at most from what was sent."""
     await ben.until(f"{other('Ada')}.figure?.avatar.name === 'nora'")
-    await ben.ask(DRAWN)
     errors = []
     for step in (0, 20):
         weights = [((7 * index + step) % 53) / 52 for index in range(52)]
         await ada.ask(FACE % json.dumps(weights))
-        await asyncio.sleep(2.0)
+        await ben.until(stands_at("Ada", weights))
         stands = await ben.ask(f"{other('Ada')}.figure.avatar.influences()")
         errors += [abs(stands[name] - weights[BLENDSHAPES.index(name)]) for name in stands]
     return len(errors) // 2, max(errors)
 
 
+def hears_from(own: float, others: float) -> str:
+    """Whether a page has its ears at this x, and the voices of others at that one."""
+    return (
+        f"Math.abs(meeting.voice.context.listener.positionX.value - {own}) < 0.02 && "
+        "[...meeting.voice.sounds.values()]"
+        f".every(({{ panner }}) => Math.abs(panner.positionX.value - {others}) < 0.02)"
+    )
+
+
+LINGERS_S = 0.3
+"""What was played where a voice stood before has left the meters of `EARS` after 0.1."""
+
+
 async def sides(ada: Tab, ben: Tab) -> dict[str, float]:
     """Energy at the ear of the other's side over that at the other ear."""
     for tab in (ada, ben):
-        await tab.until(CONNECTED, 30)
-        await tab.until("meeting.voice.loopback.used", 10)
+        await tab.until(CONNECTED)
+        await tab.until("meeting.voice.loopback.used")
     await ada.ask("void Object.assign(meeting.presence.walk, { x: 0, z: -2.2, heading: 0 })")
     await ada.ask(EARS)
     found = {}
     for side, x in (("left", 2.0), ("right", -2.0)):
         await ben.ask(f"void Object.assign(meeting.presence.walk, {{ x: {x}, z: -2.2, heading: 0 }})")
-        await asyncio.sleep(1.0)
+        await ada.until(hears_from(0.0, x))
+        await asyncio.sleep(LINGERS_S)
         left, right = await ada.ask("listen()")
         found[side] = left / right if side == "left" else right / left
     return found
 
 
-async def signs(ada: Tab, ben: Tab) -> dict[str, list[float]]:
-    """Milliseconds from a sound's begin, and from its end, to the sign on the other's page."""
+async def signs(ada: Tab, ben: Tab) -> tuple[list, list]:
+    """Begins and ends of two bursts at the microphone, and what the sign on the other's page did then."""
+    await ada.until("meeting.microphone.level < 0.001")
+    await ben.until(f"!{other('Ada')}.figure.signShown")
     await ada.ask(HEARD)
     await ben.ask(SHOWN % other("Ada"))
-    await asyncio.sleep(14.0)
-    heard, shown = await ada.ask("heard"), await ben.ask("shown")
-    late = {}
-    for word, state in (("on", True), ("off", False)):
-        begins = [at for loud, at in heard if loud is state][1:-1]
-        late[word] = [min(at - begun for on, at in shown if on is state and at >= begun) for begun in begins]
-    return late
+    await ada.until("heard.length >= 4")
+    await ben.until("shown.length >= 4")
+    return (await ada.ask("heard"))[:4], (await ben.ask("shown"))[:4]
 
 
 async def observe(folder: Path) -> dict[str, object]:
     """All that two people notice of each other, measured."""
     async with meet(folder, "Ada", "Ben") as (place, (ada, ben)):
         shapes, error = await faces(ada, ben)
-        found = {"shapes": shapes, "weights": error, **await sides(ada, ben), **await signs(ada, ben)}
+        found = {"shapes": shapes, "weights": error, **await sides(ada, ben)}
+        found["heard"], found["shown"] = await signs(ada, ben)
         for tab in (ada, ben):
             await tab.until(
                 "[...meeting.known.values()].every(({ figure }) => figure?.avatar.name === 'nora')"
@@ -212,6 +245,14 @@ async def observe(folder: Path) -> dict[str, object]:
         return found
 
 
+WAITS = """void (() => {
+  globalThis.waits = [];
+  const { setTimeout } = globalThis;
+  globalThis.setTimeout = (act, ms, ...more) => (waits.push(ms), setTimeout(act, ms, ...more));
+})()"""
+"""For how many milliseconds a page puts things off from now on."""
+
+
 async def restarted(folder: Path) -> dict[str, object]:
     """A server that goes away under two people who are talking, for so long that pages try less often."""
     write_bursts(folder / "speech.wav")
@@ -219,7 +260,7 @@ async def restarted(folder: Path) -> dict[str, object]:
     camera = f"--use-file-for-fake-audio-capture={folder / 'speech.wav'}"
     async with chromium(*AWAKE, camera) as browser, AsyncExitStack() as stack:
         tabs = []
-        async with open_room(keys=keys) as place:
+        async with open_room(keys=keys, places=BARE) as place:
             port = int(place.address.rsplit(":", 1)[1])
             for name in ("Ada", "Ben"):
                 link = f"{place.address}/room/meeting#{keys.key('meeting', 'guest')}"
@@ -228,52 +269,53 @@ async def restarted(folder: Path) -> dict[str, object]:
             ada, ben = tabs
             await ada.ask("void Object.assign(meeting.presence.walk, { x: 2.5, z: -1.5, heading: 1 })")
             for tab in tabs:
-                await tab.until(CONNECTED, 30)
+                await tab.until(CONNECTED)
                 await tab.ask(
                     "void (globalThis.before = [meeting.own, ...meeting.voice.lines.peers.values()])"
                 )
+                await tab.ask(WAITS)
             await ben.until(f"{other('Ada')}.newest?.floor_m[0] === 2.5")
         for tab in tabs:
             await tab.until("document.querySelector('#state').textContent.includes('broke')")
-        await asyncio.sleep(4.8)
-        async with open_room(keys=keys, port=port):
-            start = time.monotonic()
+            await tab.until("waits.length > 4")  # the next wait is as long as any
+        async with open_room(keys=keys, port=port, places=BARE):
             for tab in tabs:
                 await tab.until("meeting.own !== before[0] && meeting.known.size === 2")
             await ben.until(f"{other('Ada')}.newest?.floor_m[1] === -1.5")
+            for tab in tabs:
+                await tab.until(CONNECTED)
             return {
-                "seconds": time.monotonic() - start,
+                "longest wait": [await tab.ask("Math.max(...waits)") for tab in tabs],
                 "place": await ben.ask(f"{other('Ada')}.newest.floor_m"),
                 "same voices": [
                     await tab.ask("before[1] === [...meeting.voice.lines.peers.values()][0]") for tab in tabs
                 ],
-                "connected": [await tab.ask(CONNECTED) for tab in tabs],
             }
 
 
 def test_a_server_that_starts_again_has_its_people_back_and_voices_never_stop(tmp_path):
     found = asyncio.run(restarted(tmp_path))
     print(found)
-    assert found["seconds"] < 3
+    assert max(found["longest wait"]) <= 2000, (
+        "with what coming in takes, nobody is away for three seconds more"
+    )
     assert found["place"] == [2.5, -1.5]
     assert found["same voices"] == [True, True]
-    assert found["connected"] == [True, True]
 
 
-async def pauses(guest: Guest, seconds: float) -> list[float]:
-    """Seconds between the ticks that somebody is sent meanwhile."""
-    came_s, ticks, end = [time.monotonic()], guest.ticks, time.monotonic() + seconds
-    while time.monotonic() < end:
-        await asyncio.sleep(0.005)
-        if guest.ticks > ticks:
-            came_s.append(time.monotonic())
-            ticks = guest.ticks
-    return list(np.diff([*came_s, end]))
+async def under_way(guest: Guest, number: int, count: int) -> list[float]:
+    """Seconds from saying a state to its arrival, of the next so many of somebody; less what their clocks differ by."""
+    took_s: list[float] = []
+    while len(took_s) < count:
+        before = guest.states[number]
+        await guest.until(lambda before=before: guest.states[number] is not before)
+        took_s.append(time.monotonic() - guest.states[number].time_ms / 1000)
+    return list(np.array(took_s) - min(took_s))
 
 
 async def killed() -> dict[str, object]:
-    """What is noticed of a browser that is killed: by another page, and by somebody who counts ticks."""
-    async with open_room() as place, chromium(*AWAKE) as hers, chromium(*AWAKE) as his:
+    """What is noticed of a browser that is killed: by another page, and by somebody who gets that page's states."""
+    async with open_room(places=BARE) as place, chromium(*AWAKE) as hers, chromium(*AWAKE) as his:
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
         async with his.open(link) as ben, AsyncExitStack() as stack:
             ada = await stack.enter_async_context(hers.open(link))
@@ -281,26 +323,24 @@ async def killed() -> dict[str, object]:
             await come_in(ben, "Ben")
             await ben.until(f"{other('Ada')}?.person.present && {other('Ada')}.newest")
             await ben.ask("void (globalThis.before = meeting.own)")
-            cem = await place.guest(name="Cem")
-            counting = asyncio.create_task(pauses(cem, 5.0))
-            await asyncio.sleep(1.0)
+            cem, number = await place.guest(name="Cem"), await ben.ask("meeting.own.number")
+            await cem.until(lambda: number in cem.states)
+            coming = asyncio.create_task(under_way(cem, number, 60))
             hers.kill()
-            start = time.monotonic()
             await ben.until(f"!{other('Ada')}?.person.present")
             return {
-                "away": time.monotonic() - start,
-                "pauses": await counting,
+                "held up": max(await coming),
                 "same": await ben.ask("before === meeting.own && meeting.known.size === 3"),
                 "complaints": ben.complaints,
             }
 
 
-def test_of_a_killed_browser_the_others_see_that_its_person_is_away():
+def test_of_a_killed_browser_the_others_see_that_its_person_is_away(monkeypatch):
+    # the end of its connection tells, and not that it gives no answer
+    monkeypatch.setattr("room.server.visits.HEARTBEAT_S", 3600.0)
     found = asyncio.run(killed())
-    print(f"away after {found['away']:.2f} s, longest pause {max(found['pauses']):.2f} s")
-    assert found["away"] < 3
-    assert len(found["pauses"]) > 60, "ticks of Ben's page come on"
-    assert max(found["pauses"]) < 1
+    print(f"a state of Ben's page was held up for {found['held up']:.2f} s at most")
+    assert found["held up"] < 3, "what his page says comes on"
     assert found["same"]
     assert found["complaints"] == []
 
@@ -311,17 +351,21 @@ async def moved_by_track(folder: Path) -> tuple[dict[str, float], np.ndarray, li
     sample = Sample(time_s=1.0, weights=weights, gaze=np.zeros(4), head=np.array([0, 0, 0.5, 0.1, 0.0, 0.0]))
     async with meet(folder, "Ada") as (place, (ada,)):
         await ada.until(f"{other('Ada')}.figure?.avatar.name === 'nora'")
-        await ada.ask(DRAWN)
         secret = await ada.ask("sessionStorage.getItem('secret of meeting')")
         link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}.{secret}"
         told: list[str] = []
         sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
-        end = time.monotonic() + 3
-        while time.monotonic() < end:
-            sink.send(replace(sample, time_s=time.monotonic()))
-            await asyncio.sleep(1 / 30)
+
+        async def track() -> None:
+            while True:
+                sink.send(replace(sample, time_s=time.monotonic()))
+                await asyncio.sleep(1 / 30)
+
+        tracking = asyncio.create_task(track())
+        await ada.until(stands_at("Ada", weights))
         stands = await ada.ask(f"{other('Ada')}.figure.avatar.influences()")
         assert "face by a program" in await ada.ask("document.querySelector('#people').textContent")
+        tracking.cancel()
         await asyncio.to_thread(sink.close)
         await ada.until("!document.querySelector('#people').textContent.includes('program')")
         return stands, weights, told + ada.complaints
@@ -330,7 +374,7 @@ async def moved_by_track(folder: Path) -> tuple[dict[str, float], np.ndarray, li
 def test_track_moves_the_face_of_a_page(tmp_path):
     stands, weights, complaints = asyncio.run(moved_by_track(tmp_path))
     assert len(stands) >= 51
-    assert max(abs(stands[name] - weights[BLENDSHAPES.index(name)]) for name in stands) <= 0.02
+    assert max(abs(stands[name] - weights[BLENDSHAPES.index(name)]) for name in stands) <= SHOWN_WITHIN
     assert complaints == []
 
 
@@ -341,7 +385,7 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
 
 def test_weights_arrive(found):
     assert found["shapes"] >= 51
-    assert found["weights"] <= 0.02
+    assert found["weights"] <= SHOWN_WITHIN
 
 
 def test_two_in_one_avatar_are_told_apart_and_all_see_them_alike(found):
@@ -357,10 +401,14 @@ def test_a_voice_comes_from_its_side(found):
     assert found["right"] > 1.5
 
 
-def test_the_speaking_sign_comes_and_goes_in_time(found):
-    assert len(found["on"]) >= 2
-    assert statistics.median(found["on"]) <= 200, found["on"]
-    assert statistics.median(found["off"]) <= 700, found["off"]
+def test_the_speaking_sign_comes_and_goes_with_each_burst(found):
+    """Milliseconds are measured by benchmarks/room_meeting.py on a quiet machine."""
+    heard, shown = found["heard"], found["shown"]
+    assert [loud for loud, _ in heard] == [on for on, _ in shown] == [True, False, True, False]
+    assert all(at <= came for (_, at), (_, came) in zip(heard, shown, strict=True))
+    assert all(came < later for (_, came), (_, later) in zip(shown, heard[2:], strict=False)), (
+        "before the next burst's"
+    )
 
 
 def test_chat_is_text(found):

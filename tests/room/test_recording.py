@@ -18,7 +18,7 @@ from room.protocol.tick import pack
 from room.recording import check_recording, read_recording
 from room.recording.lines import Came, Gone, Heading, Tick
 from room.recording.writer import MOST_WAITING
-from tests.room.guests import Guest, Place, open_room
+from tests.room.guests import SOON_S, Guest, Place, open_room
 from tests.room.recordings import make_recorder, states, walk
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -110,7 +110,7 @@ def test_a_disk_that_stalls_holds_up_nobody(tmp_path, monkeypatch):
     """Ticks go on while a line cannot be written; after ten seconds' lines the recording ends with a word."""
     path, said, stalled = tmp_path / "meeting.jsonl", [], threading.Event()
     recorder = make_recorder(path, ended=said.append)
-    monkeypatch.setattr(recorder, "_put", lambda file, line: stalled.wait())
+    monkeypatch.setattr(recorder, "_put", lambda file, line: stalled.wait(120))
 
     async def run() -> None:
         async with open_room() as place:
@@ -122,7 +122,7 @@ def test_a_disk_that_stalls_holds_up_nobody(tmp_path, monkeypatch):
             start = time.monotonic()
             for _ in range(MOST_WAITING + 2):
                 recorder.tick(content)
-            assert time.monotonic() - start < 1
+            assert time.monotonic() - start < 60
             assert ["does not keep up" in text for text in said] == [True]
             assert not recorder.open
             stalled.set()
@@ -173,7 +173,9 @@ def test_a_killed_server_leaves_a_readable_file(tmp_path):
             guest = Guest(socket, "")
             await walk(guest, steps=30)
             await guest.until(lambda: any(sequence == 29 for _, sequence in guest.sequences))
-            await asyncio.sleep(0.2)  # the thread that writes has its turn, on a loaded machine too
+            async with asyncio.timeout(SOON_S):  # the thread that writes has its turn
+                while len(states(path)) < 30:
+                    await asyncio.sleep(0.05)
             run.kill()
             await guest.reading
             return len(guest.sequences)
@@ -186,6 +188,6 @@ def test_a_killed_server_leaves_a_readable_file(tmp_path):
             run.kill()
     assert [state.sequence for _, state in states(path)] == list(range(30))
     assert path.stat().st_mode & 0o077 == 0
-    again = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=30)
+    again = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=300)
     assert (again.returncode, again.stderr.count("\n")) == (2, 1)
     assert "there already" in again.stderr

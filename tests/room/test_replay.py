@@ -12,12 +12,15 @@ from room.protocol.answers import Changed, Left, Notice, Playing
 from room.protocol.message import time_of
 from room.protocol.texts import Play
 from room.recording import check_recording, read_recording
-from room.recording.lines import Came, Tick
+from room.recording.lines import Came, Gone, Tick
 from room.server.limits import PLAYS_PER_S
 from room.server.replay import Replay
 from room.state import Meeting
 from tests.room.guests import Guest, open_room, secret_for
 from tests.room.recordings import recorded
+
+LATE_S = 10.0
+"""A replay is never quicker than it should be; a slow machine with other work may show its end late."""
 
 
 def _names(path: Path) -> dict[int, str]:
@@ -47,7 +50,8 @@ def test_a_replay_sends_the_same_states_at_the_same_pace_and_begins_again(tmp_pa
             assert (await viewer.told(Left)).number == ben.number
             await viewer.until(lambda: len(viewer.sequences) == 30)
             took = asyncio.get_running_loop().time() - begun
-            assert took == pytest.approx((ticks[-1].time_ms - ticks[0].time_ms) / 1000, abs=0.2)
+            length_s = (ticks[-1].time_ms - ticks[0].time_ms) / 1000
+            assert length_s - 0.2 < took < length_s + LATE_S
             numbers |= {
                 changed.person.number: changed.person.name
                 for changed in viewer.all(Changed)
@@ -111,7 +115,7 @@ def test_a_replay_halts_jumps_and_goes_faster_for_all_who_look(tmp_path):
             await viewer.say(kind="play", time_s=0.0, paused=False, speed=0.5)
             await other.until(lambda: shown(other) == [known(ada[-1][1])])
             took = asyncio.get_running_loop().time() - begun
-            assert took == pytest.approx(length_s / 0.5, abs=0.4)
+            assert length_s / 0.5 - 0.4 < took < length_s / 0.5 + LATE_S
             (number,) = other.states.keys() & cast(other)
             slow = other.states[number].time_ms - ada[0][1].time_ms
             assert slow == pytest.approx(2 * (ada[-1][1].time_ms - ada[0][1].time_ms), abs=150)
@@ -119,13 +123,26 @@ def test_a_replay_halts_jumps_and_goes_faster_for_all_who_look(tmp_path):
             end = await viewer.end()
             assert "speed" in end[1][0].text, "no such pace"
             await other.say(kind="play", time_s=0.0, speed=8)
-            begun = asyncio.get_running_loop().time()
             await other.told(Playing, lambda answer: answer.speed == 8)
             seen = len(other.all(Left))
             await other.until(lambda: len(other.all(Left)) > seen)
-            assert asyncio.get_running_loop().time() - begun < length_s / 2
 
     asyncio.run(run())
+
+
+def test_at_eight_times_the_speed_it_is_over_in_an_eighth_of_the_time(tmp_path):
+    survey = check_recording(recorded(tmp_path / "meeting.jsonl"))
+    replay, meeting = Replay(survey), Meeting(most_people=8)
+    replay.step(meeting, now=0.0)
+    replay.play(Play(speed=8), meeting, now=0.0)
+    (gone,) = (
+        line
+        for line in read_recording(survey.path)
+        if isinstance(line, Gone) and line.time_ms < survey.ends_ms
+    )
+    left_s = (gone.time_ms - survey.begins_ms) / 8000
+    assert not any(isinstance(word, Left) for word in replay.step(meeting, now=left_s - 0.001))
+    assert any(isinstance(word, Left) for word in replay.step(meeting, now=left_s + 0.001))
 
 
 def test_where_people_meet_nothing_is_played():

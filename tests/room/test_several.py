@@ -17,7 +17,7 @@ from room.server.neighbours import AGAIN_S
 from room.server.telegraph import Telegraph
 from tests.room.avatars import avatar
 from tests.room.engines import free_port, needs_redis, redis
-from tests.room.guests import Guest, Place, open_room
+from tests.room.guests import SOON_S, Guest, Place, open_room
 
 pytestmark = needs_redis
 
@@ -35,7 +35,7 @@ async def server(port: int, keys: Keys, limits: Limits | None = None) -> AsyncIt
     """One of several servers, with a part in Redis."""
     telegraph = Telegraph(f"redis://127.0.0.1:{port}/0", secret=keys.secret)
     async with open_room(keys=keys, telegraph=telegraph, limits=limits) as place:
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(SOON_S):
             while not telegraph.connected:
                 await asyncio.sleep(0.01)
         place.telegraph = telegraph
@@ -264,7 +264,7 @@ def test_redis_may_be_killed_and_nobody_is_driven_out():
                 await cy.move(sequence=2)
                 await eve.until(lambda: (cy.number, 2) in eve.sequences)
                 print(f"whole again {time.monotonic() - start:.1f} s after Redis")
-                assert time.monotonic() - start < 4
+                assert time.monotonic() - start < 20, "4 on a machine that does nothing else"
             await away.session.close()
 
     asyncio.run(run())
@@ -331,8 +331,9 @@ async def test_an_avatar_is_carried_once_to_who_looks_from_another_server(north,
     assert (await avatar_at(south, "0" * 64))[0] == 404
     await ada.say(kind="leave")
     await ben.told(Left)
-    await asyncio.sleep(0.1)
-    assert [(await avatar_at(place, digest))[0] for place in (north, south)] == [404, 404], "it is forgotten"
+    async with asyncio.timeout(SOON_S):  # until it is forgotten
+        while [(await avatar_at(place, digest))[0] for place in (north, south)] != [404, 404]:
+            await asyncio.sleep(0.05)
 
 
 @two_servers

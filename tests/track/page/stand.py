@@ -17,8 +17,8 @@ from track.page import Page
 
 STEPS = ("neutral", "jaw_open", "smile")
 
-SOON_S = 30.0
-"""What is awaited comes in a tenth of a second; a loaded machine is given time."""
+SOON_S = 120.0
+"""What is awaited comes in a tenth of a second; a slow machine with other work is given time."""
 
 
 class Stand:

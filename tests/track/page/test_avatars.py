@@ -12,7 +12,7 @@ import pytest
 from facegen.conventions import BLENDSHAPES
 from tests.browser import needs_chromium
 from tests.track.page.heads import HALVED, head, vrm0, vrm1
-from tests.track.page.stand import Stand, moment_of, standing, told
+from tests.track.page.stand import SOON_S, Stand, moment_of, standing, told
 
 CORPUS = sorted((Path(__file__).resolve().parents[2] / "hostile/corpus").glob("avatar-*/*"))
 
@@ -143,7 +143,7 @@ def test_a_vrm_of_presets_alone_follows_roughly_and_says_so(loop, stand, tmp_pat
         moved = """[...track.stage.avatar.model.getObjectByName('mesh').children,
             track.stage.avatar.model.getObjectByName('mesh')].find((each) => each.morphTargetInfluences)
             .morphTargetInfluences"""
-        end = time.monotonic() + 10
+        end = time.monotonic() + SOON_S
         while not (influences := await stand.tab.ask(moved))[0] and time.monotonic() < end:
             stand.page.publish(moment_of(weights))
             await asyncio.sleep(0.03)

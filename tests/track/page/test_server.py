@@ -26,6 +26,9 @@ from track.page.viewer import UNSEEN_FRAMES
 STEPS = ("neutral", "jaw_open")
 TOKEN = "a-token-that-nobody-guesses"
 
+SOON_S = 60.0
+"""What is awaited comes in milliseconds; a slow machine with other work is given time."""
+
 
 def moment(value: float = 0.25, *, pictures: bool = False, **changes: object) -> Moment:
     weights = np.full(52, value)
@@ -47,11 +50,11 @@ async def tab(page: Page, **headers: str):
         address = page.url.replace("http:", "ws:").replace("/?", "/stream?")
         address = address if "?" in address else address + "stream"
         async with session.ws_connect(address, headers=headers) as socket:
-            yield socket, json.loads(await socket.receive_str(timeout=5))
+            yield socket, json.loads(await socket.receive_str(timeout=SOON_S))
 
 
-async def until(condition, seconds: float = 5.0) -> None:
-    end = time.monotonic() + seconds
+async def until(condition) -> None:
+    end = time.monotonic() + SOON_S
     while not condition():
         assert time.monotonic() < end, "it never came"
         await asyncio.sleep(0.005)
@@ -84,7 +87,7 @@ def test_a_tab_is_greeted_and_gets_what_is_published(page):
                     settings={"mirror": True, "gains": {"jawOpen": np.float32(1.5)}},
                 )
             )
-            return json.loads(await socket.receive_str(timeout=5))
+            return json.loads(await socket.receive_str(timeout=SOON_S))
 
     frame = asyncio.run(look())
     assert frame["weights"][:51] == [0.25] * 51
@@ -114,12 +117,12 @@ def test_commands_arrive_and_bad_messages_are_refused_with_a_word(page, asked):
         async with tab(page) as (socket, _):
             for text, word in bad.items():
                 await socket.send_str(text)
-                answer = json.loads(await socket.receive_str(timeout=5))
+                answer = json.loads(await socket.receive_str(timeout=SOON_S))
                 assert answer["type"] == "refused"
                 assert word in answer["text"], answer
                 assert "\n" not in answer["text"]
             await socket.send_bytes(b"\x00\xff")
-            assert json.loads(await socket.receive_str(timeout=5))["type"] == "refused"
+            assert json.loads(await socket.receive_str(timeout=SOON_S))["type"] == "refused"
             await socket.send_str('{"verb": "gain", "shape": "jawOpen", "value": 1.5}')
             await socket.send_str('{"verb": "calibrate", "value": "all"}')
             await until(lambda: len(asked) == 2)
@@ -136,7 +139,7 @@ def test_what_the_session_refuses_is_told_to_the_tab():
         with Page(refuse) as page:
             async with tab(page) as (socket, _):
                 await socket.send_str('{"verb": "recentre"}')
-                return json.loads(await socket.receive_str(timeout=5))
+                return json.loads(await socket.receive_str(timeout=SOON_S))
 
     assert asyncio.run(talk()) == {"type": "refused", "text": "there is no face to calibrate on"}
 
@@ -145,7 +148,7 @@ def test_a_message_too_long_ends_its_tab_alone(page, asked):
     async def talk():
         async with tab(page) as (loud, _), tab(page) as (quiet, _):
             await loud.send_str("x" * (MOST_MESSAGE_BYTES + 1))
-            answer = await loud.receive(timeout=5)
+            answer = await loud.receive(timeout=SOON_S)
             assert answer.type is aiohttp.WSMsgType.CLOSE
             assert answer.data == aiohttp.WSCloseCode.MESSAGE_TOO_BIG
             await quiet.send_str('{"verb": "recentre"}')
@@ -173,19 +176,19 @@ def test_pictures_come_only_while_a_tab_wants_them_and_no_more_than_it_may(page,
     async def look():
         async with tab(page) as (socket, _):
             page.publish(moment(pictures=True))
-            told = json.loads(await socket.receive_str(timeout=5))
+            told = json.loads(await socket.receive_str(timeout=SOON_S))
             assert told["cameras"] == {"camera": {"size": [64, 48], "points": [[12.3, None]]}}
             assert not page.wants_pictures
             await socket.send_str('{"verb": "picture", "value": true}')
             await until(lambda: page.wants_pictures)
             kinds, last, begun = [], b"", time.monotonic()
-            while time.monotonic() < begun + 1:
+            while kinds.count(aiohttp.WSMsgType.TEXT) < 30 or not last:
                 page.publish(moment(pictures=True))
-                message = await socket.receive(timeout=5)
+                message = await socket.receive(timeout=SOON_S)
                 kinds.append(message.type)
                 last = message.data if message.type is aiohttp.WSMsgType.BINARY else last
             pictures = kinds.count(aiohttp.WSMsgType.BINARY)
-            assert 1 <= pictures <= PICTURES_PER_SECOND + 1 < len(kinds) - pictures
+            assert 1 <= pictures <= PICTURES_PER_SECOND * (time.monotonic() - begun) + 1
             await socket.send_str('{"verb": "picture", "value": false}')
             await until(lambda: not page.wants_pictures)
         return last
@@ -215,14 +218,14 @@ def test_a_slow_tab_gets_the_newest_frame_and_a_quick_one_all(page):
             quick_seen, count = [], 60
             for number in range(1, count + 1):
                 page.publish(moment(number / 100))
-                frame = json.loads(await quick.receive_str(timeout=5))
+                frame = json.loads(await quick.receive_str(timeout=SOON_S))
                 quick_seen.append(frame["weights"][0])
                 await quick.send_str(json.dumps({"verb": "seen", "value": frame["number"]}))
-            slow_seen = [json.loads(await slow.receive_str(timeout=5)) for _ in range(UNSEEN_FRAMES)]
+            slow_seen = [json.loads(await slow.receive_str(timeout=SOON_S)) for _ in range(UNSEEN_FRAMES)]
             with pytest.raises(asyncio.TimeoutError):
                 await slow.receive(timeout=0.1)
             await slow.send_str(json.dumps({"verb": "seen", "value": slow_seen[-1]["number"]}))
-            newest = json.loads(await slow.receive_str(timeout=5))
+            newest = json.loads(await slow.receive_str(timeout=SOON_S))
             return quick_seen, [each["weights"][0] for each in slow_seen], newest["weights"][0]
 
     quick, slow, newest = asyncio.run(look())
@@ -235,12 +238,12 @@ def test_a_tab_is_told_no_more_than_a_screen_draws_and_the_last_frame_always(pag
     async def look():
         async with tab(page) as (quick, _):
             begun, numbers, shown = time.perf_counter(), 0, []
-            while time.perf_counter() - begun < 1.0:
+            while time.perf_counter() - begun < 0.5:
                 numbers += 1
                 page.publish(moment(numbers / 1000))
                 await asyncio.sleep(1 / 240)
             while not shown or shown[-1] != round(numbers / 1000, 4):
-                shown.append(json.loads(await quick.receive_str(timeout=5))["weights"][0])
+                shown.append(json.loads(await quick.receive_str(timeout=SOON_S))["weights"][0])
             return len(shown), time.perf_counter() - begun
 
     count, seconds = asyncio.run(look())
@@ -248,18 +251,22 @@ def test_a_tab_is_told_no_more_than_a_screen_draws_and_the_last_frame_always(pag
 
 
 def test_publishing_never_waits(page):
-    async def look():
-        async with tab(page):  # never reads what comes
-            begun = time.perf_counter()
-            for _ in range(2000):
-                page.publish(moment(pictures=False))
-            return time.perf_counter() - begun
+    """Not even for a server that is held up for as long."""
+    held, published = threading.Event(), threading.Event()
 
-    building = time.perf_counter()
-    for _ in range(2000):
-        moment(pictures=False)
-    building = time.perf_counter() - building
-    assert asyncio.run(look()) - building < 2.0  # 1 ms a frame would be waiting
+    async def look():
+        async with tab(page) as (socket, _):
+            page._loop.call_soon_threadsafe(lambda: (held.set(), published.wait(SOON_S)))
+            assert await asyncio.to_thread(held.wait, SOON_S)
+            for number in range(1, 2001):
+                page.publish(moment(number / 2000))
+            published.set()
+            while json.loads(await socket.receive_str(timeout=SOON_S))["weights"][0] < 1:
+                pass
+
+    began = time.monotonic()
+    asyncio.run(look())
+    assert time.monotonic() - began < SOON_S, "else the server was let go before all was published"
 
 
 def test_there_is_room_for_a_few_tabs_and_a_sentence_for_the_next(page):
@@ -353,7 +360,9 @@ def test_a_taken_port_and_a_strange_host_are_one_sentence(page):
         Page(print, host="203.0.113.7")
     with pytest.raises(InputError, match="70000"):
         Page(print, port=70000)
-    time.sleep(0.1)
+    end = time.monotonic() + SOON_S
+    while threading.active_count() > threads and time.monotonic() < end:
+        time.sleep(0.01)
     assert threading.active_count() == threads
 
 
@@ -374,7 +383,7 @@ def test_the_end_is_told_to_tabs(asked):
         page = Page(asked.append)
         async with tab(page) as (socket, _):
             await asyncio.to_thread(page.close)
-            message = await socket.receive(timeout=5)
+            message = await socket.receive(timeout=SOON_S)
             page.publish(moment())
             page.close()
             return message.type, message.data, page._thread.is_alive()

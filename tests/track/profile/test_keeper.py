@@ -21,13 +21,13 @@ def test_a_slider_that_is_drawn_waits_for_no_disk_and_its_last_gain_is_written(t
 
     def write(path: Path, given: Profile) -> None:
         begun.set()
-        assert disk.wait(20)
+        assert disk.wait(60)
         gains.append(given.gains["jawOpen"])
 
     monkeypatch.setattr(keeper, "write_profile", write)
     kept = ProfileKeeper(tmp_path / "anna.toml", pytest.fail, pause_s=0.01)
     kept.keep(profile(0.5))
-    assert begun.wait(20)
+    assert begun.wait(60)
     for step in range(100):
         kept.keep(profile(step / 100))
     assert gains == []
@@ -42,7 +42,7 @@ def test_what_changed_just_before_the_end_is_written(tmp_path: Path):
     kept.keep(profile(2.0))
     since_s = time.monotonic()
     kept.close()
-    assert time.monotonic() - since_s < 5
+    assert time.monotonic() - since_s < 30
     assert read_profile(path) == profile(2.0)
 
 
