@@ -37,7 +37,7 @@ MOST_FILM_S = 60.0
 READY_S = 120.0
 """The detector's 8 MB are compiled twice at once, on a machine that may have other work."""
 
-LATEST_S = 1.5
+LATEST_S = BURST_S
 """A sign that comes or goes later belongs to the next burst, and this one's was missed."""
 
 MOVED = 0.1
