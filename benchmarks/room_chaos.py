@@ -33,9 +33,9 @@ sys.path.insert(0, str(ROOT))
 from room.server import load_keys  # noqa: E402
 from tests.browser import Tab, chromium  # noqa: E402
 from tests.room.engines import API_SECRET, free_port, janus, redis  # noqa: E402
+from tests.room.page import AWAKE, CONNECTED, come_in, other  # noqa: E402
 from tests.room.speech import write_bursts  # noqa: E402
 from tests.room.test_chaos import server  # noqa: E402
-from tests.room.test_page import AWAKE, CONNECTED, come_in, other  # noqa: E402
 
 STANDS = {"x": 2.5, "z": -1.5}
 SETTLE_S = 5.0

@@ -23,7 +23,7 @@ from room.places import read_place  # noqa: E402
 from room.server.hall import HERTZ  # noqa: E402
 from tests.browser import Tab, chromium  # noqa: E402
 from tests.room.guests import Guest, open_room  # noqa: E402
-from tests.room.test_page import come_in  # noqa: E402
+from tests.room.page import come_in  # noqa: E402
 
 SIZE = {"width": 1280, "height": 720}
 PATIENCE_S = 240
@@ -65,7 +65,8 @@ async def move(guest: Guest, index: int) -> None:
 
 async def measure(tab: Tab, seconds: float) -> str:
     """The columns of a row."""
-    await tab.ask(f"{PICTURES}(true, 0)")
+    await tab.ask("void (meeting.stage.drawing = true)")
+    await tab.drawn(3)  # the first one compiles shaders
     still = await tab.ask(f"{PICTURES}(false, {seconds})")
     drawn = await tab.ask(f"{PICTURES}(true, {seconds})")
     times = (

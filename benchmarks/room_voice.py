@@ -29,8 +29,8 @@ from room.server.janus import Janus  # noqa: E402
 from tests.browser import Tab, chromium  # noqa: E402
 from tests.room.engines import API_SECRET, free_port, janus  # noqa: E402
 from tests.room.guests import open_room  # noqa: E402
+from tests.room.page import AWAKE, come_in  # noqa: E402
 from tests.room.speech import SILENT_S, VOICED_S, write_bursts  # noqa: E402
-from tests.room.test_page import AWAKE, come_in  # noqa: E402
 
 MOST_WAIT_S = 60.0
 """For all lines between people, after the last one came in; what is not there then is told as not heard."""

@@ -5,6 +5,7 @@ heard there.
 """
 
 import asyncio
+import itertools
 import json
 import re
 import time
@@ -20,8 +21,8 @@ from facegen.conventions import BLENDSHAPES
 from room.places import Place
 from tests.browser import Tab, chromium
 from tests.room.guests import open_room
+from tests.room.page import AWAKE, CONNECTED, EARS, HEARD, LINGERS_S, SHOWN, hears_from, other
 from tests.room.speech import SILENT_S, VOICED_S, write_bursts
-from tests.room.test_page import AWAKE, CONNECTED, EARS, HEARD, LINGERS_S, SHOWN, hears_from, other
 
 NAMES = ("Ada", "Ben")
 
@@ -36,9 +37,6 @@ MOST_FILM_S = 60.0
 
 READY_S = 120.0
 """The detector's 8 MB are compiled twice at once, on a machine that may have other work."""
-
-LATEST_S = BURST_S
-"""A sign that comes or goes later belongs to the next burst, and this one's was missed."""
 
 MOVED = 0.1
 """A shape whose weights span this much has moved; what noise does to a resting face stays below."""
@@ -252,12 +250,13 @@ def spans(weights: list[list[float]]) -> dict[str, float]:
 def delays_ms(heard: list, shown: list, *, begin: bool) -> tuple[list[float], int]:
     """From each begin or end of a sound to the sign's, and how many there were.
 
-    The first one may be that of a burst in whose middle listening began, and the last ones may be still under way.
+    The first one may be that of a burst in whose middle listening began, and the last one may be still under way. A
+    sign that comes or goes after the next burst's sound belongs to the next burst, and this one's was missed.
     """
-    changes = [at for loud, at in heard if loud is begin and at < heard[-1][1] - 1000 * LATEST_S][1:]
+    changes = list(itertools.pairwise(at for loud, at in heard if loud is begin))[1:]
     later = (
-        [at - changed for on, at in shown if on is begin and 0 <= at - changed < 1000 * LATEST_S]
-        for changed in changes
+        [at - changed for on, at in shown if on is begin and changed <= at < following]
+        for changed, following in changes
     )
     return [min(each) for each in later if each], len(changes)
 

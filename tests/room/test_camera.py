@@ -13,7 +13,7 @@ from regress.runtime.sample import Sample
 from tests.browser import chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.guests import open_room
-from tests.room.test_page import AWAKE
+from tests.room.page import AWAKE
 from tests.track.faces import seen
 
 PARTS = Path(__file__).resolve().parents[2] / "room/server/static/face"

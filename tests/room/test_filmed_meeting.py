@@ -27,7 +27,7 @@ pytestmark = [
 @pytest.fixture(scope="module")
 def directions(tmp_path_factory: pytest.TempPathFactory) -> tuple[Direction, Direction]:
     folder = tmp_path_factory.mktemp("filmed")
-    return asyncio.run(meet((FILM, FILM), seconds=4 * BURST_S, faces=FACES, folder=folder, places=BARE))
+    return asyncio.run(meet((FILM, FILM), seconds=5 * BURST_S, faces=FACES, folder=folder, places=BARE))
 
 
 def test_each_sees_the_face_of_the_other_move_as_its_camera_says(directions):

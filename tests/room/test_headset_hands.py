@@ -14,10 +14,10 @@ import pytest
 from tests.browser import PATIENCE_S, Tab, chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.guests import open_room
+from tests.room.page import AWAKE, come_in, other
 from tests.room.speech import write_bursts
 from tests.room.test_browser_code import WEB
 from tests.room.test_headset_page import EMULATED, emulator, enter
-from tests.room.test_page import AWAKE, come_in, other
 
 pytestmark = [
     needs_chromium,

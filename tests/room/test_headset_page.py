@@ -14,9 +14,9 @@ from room.protocol import Message
 from tests.browser import Tab, chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.guests import open_room
+from tests.room.page import AWAKE, come_in
 from tests.room.speech import write_bursts
 from tests.room.test_browser_code import ESBUILD, WEB
-from tests.room.test_page import AWAKE, come_in
 
 pytestmark = [
     needs_chromium,

@@ -11,7 +11,7 @@ from facegen.formats.gltf_container import glb_bytes, parse_glb
 from room.server.application import STATIC
 from tests.browser import Tab, needs_chromium
 from tests.room.avatars import BINARY
-from tests.room.test_page import FACE, meet, other
+from tests.room.page import FACE, meet, other
 from tests.track.page.heads import head, vrm1
 
 pytestmark = [needs_chromium, pytest.mark.slow]

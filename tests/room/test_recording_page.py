@@ -11,8 +11,8 @@ from room.server.hall import HERTZ
 from tests.browser import chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.guests import SOON_S, Place, open_room
+from tests.room.page import AWAKE, come_in
 from tests.room.recordings import states
-from tests.room.test_page import AWAKE, come_in
 
 pytestmark = [needs_chromium, pytest.mark.slow]
 

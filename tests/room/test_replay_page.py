@@ -10,8 +10,8 @@ from room.server.hall import HERTZ
 from tests.browser import Tab, chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.guests import open_room
+from tests.room.page import AWAKE, come_in
 from tests.room.recordings import write_recording
-from tests.room.test_page import AWAKE, come_in
 
 pytestmark = [needs_chromium, pytest.mark.slow]
 

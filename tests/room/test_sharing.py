@@ -11,8 +11,8 @@ from room.protocol.answers import Changed, Notice, Signal
 from tests.browser import Tab, chromium, needs_chromium
 from tests.room.bare_place import BARE, WALL_Z_M
 from tests.room.guests import Place, open_room
+from tests.room.page import AWAKE, come_in
 from tests.room.papers import LOCKED, paper
-from tests.room.test_page import AWAKE, come_in
 
 
 def meeting(test: Callable[[Place], Awaitable[None]]) -> Callable[[], None]:

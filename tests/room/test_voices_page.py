@@ -13,8 +13,8 @@ from tests.browser import chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.engines import API_SECRET, free_port, janus, needs_janus, needs_redis, redis
 from tests.room.guests import open_room
+from tests.room.page import AWAKE, come_in
 from tests.room.speech import SILENT_S, VOICED_S, write_bursts
-from tests.room.test_page import AWAKE, come_in
 
 pytestmark = [needs_chromium, needs_janus, needs_redis, pytest.mark.slow]
 

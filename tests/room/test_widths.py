@@ -8,7 +8,7 @@ import pytest
 
 from tests.browser import Tab, chromium, needs_chromium
 from tests.room.guests import open_room
-from tests.room.test_page import come_in
+from tests.room.page import come_in
 
 pytestmark = [needs_chromium, pytest.mark.slow]
 

@@ -187,10 +187,11 @@ class OwnBlinks(Stage):
             return sample
         read = sample.weights[BLINKS]
         ended = [eye.step(sample.time_s, float(blink)) for blink, eye in zip(read, self._eyes, strict=True)]
-        if any(ended) and not self._told and max(own.factor for own in self.ends) >= TOLD_FROM:
+        ends = self.ends
+        if any(ended) and not self._told and max(own.factor for own in ends) >= TOLD_FROM:
             self._told = True
-            self._say(told_of(self.ends))
-        return _with_blinks(sample, self.ends)
+            self._say(told_of(ends))
+        return _with_blinks(sample, ends)
 
 
 class TakeBlinks(DelayingStage):

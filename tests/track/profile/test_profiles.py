@@ -170,3 +170,13 @@ def test_stored_profiles_are_found_by_their_person(folder):
     assert stored_path("ben") == folder / "ben.camera-0.toml"
     with pytest.raises(InputError, match="2 profiles"):
         stored_path("anna")
+
+
+def test_blinks_are_listed_and_shown(folder):
+    blinks = {"eyeBlinkLeft": Ends(open=0.1, full=0.55)}
+    write_profile(folder / "anna.x.toml", Profile(person="anna", camera="x", blinks=blinks))
+    listed, shown = (
+        CliRunner().invoke(app, ["profiles", *words]).stdout for words in (["list"], ["show", "anna"])
+    )
+    assert listed.split() == ["anna.x", "x", "blinks"]
+    assert shown.splitlines()[1].split() == ["blink", "eyeBlinkLeft", "0.55", "(open", "0.10)"]
