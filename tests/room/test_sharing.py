@@ -135,6 +135,23 @@ REFUSED = {
 }
 
 
+NEXT = """void (globalThis.leafing = setInterval(() => {
+  const next = document.querySelector('#next');
+  if (!next.disabled) next.click();
+}, 1000))"""
+"""Turns to the last page; again where a page that took a busy machine too long was given up."""
+
+APART = """(async (encoded) => {
+  const { Paper } = await import('/static/paper.js');
+  const paper = await Paper.open(new File([Uint8Array.from(atob(encoded), (each) => each.charCodeAt(0))], 'a.pdf'));
+  const before = await paper.draw(1), [width, height] = [before.width, before.height];
+  await paper.draw(2);
+  paper.close();
+  return before.width === width && before.height === height && before.getContext('2d').getImageData(9, 9, 1, 1).data[2];
+})"""
+"""How blue a page still is when the next one has been drawn: it is shown until then."""
+
+
 async def turn_pages(ada: Tab, ben: Tab) -> dict[str, object]:
     """Ben shows a PDF in place of his picture; what Ada sees of it, and what both are told."""
     found: dict[str, object] = {"before": [each for each in ben.asked if "paper.js" in each]}
@@ -142,8 +159,10 @@ async def turn_pages(ada: Tab, ben: Tab) -> dict[str, object]:
     await ben.ask(f"{PAPER}('{base64.b64encode(pages).decode()}', 'slides.pdf')")
     await ada.until("`${meeting.board.size}` === '1920,1440'")
     await ada.until(f"({SEEN})[2] > 190 && {DARK} > 50")
-    await ben.ask("document.querySelector('#next').click()")
+    await ben.ask(NEXT)
     await ada.until(f"`${{meeting.board.size}}` === '1440,1920' && ({SEEN})[2] < 70")
+    await ben.ask("clearInterval(leafing)")
+    found["blue"] = await ben.ask(f"{APART}('{base64.b64encode(pages).decode()}')")
     found["page"] = await ben.ask("document.querySelector('#page').textContent")
     found["last"] = await ben.ask("document.querySelector('#next').disabled")
     found["refused"] = {}
@@ -227,6 +246,7 @@ def test_a_picture_a_pdf_and_a_window_reach_the_other_and_a_moderator_ends_them(
     assert (found["before"], found["loaded"]) == ([], [0, 1]), (
         "the reader comes with the first PDF, and to nobody else"
     )
+    assert found["blue"] > 190
     assert (found["page"], found["last"]) == ("2 of 2", True)
     for name, (_, reason) in REFUSED.items():
         assert reason in found["refused"][name], name

@@ -18,6 +18,8 @@ interface Meeting {
 export class Offering {
   private paper: Paper | undefined;
   private page = 1;
+  /** What others see; behind `page` while that is drawn. */
+  private shown = 1;
   private turning = false;
 
   constructor(
@@ -105,12 +107,17 @@ export class Offering {
     if (this.turning) return; // who turns quickly sees the last one, not each on the way
     this.turning = true;
     try {
-      for (let drawn = 0; drawn !== this.page; ) {
-        const picture = await paper.draw((drawn = this.page));
+      while (this.shown !== this.page) {
+        const drawn = this.page;
+        const picture = await paper.draw(drawn);
         if (this.paper !== paper) return;
         this.sharing.still(picture);
+        this.shown = drawn;
       }
     } catch (error) {
+      if (this.paper !== paper) return;
+      this.page = this.shown;
+      this.count();
       this.meeting.tell(`The page before stays: ${error instanceof Error ? error.message : error}.`);
     } finally {
       this.turning = false;
@@ -121,7 +128,7 @@ export class Offering {
     if (paper === this.paper) return;
     this.paper?.close();
     this.paper = paper;
-    this.page = 1;
+    this.page = this.shown = 1;
     find("pages").hidden = !paper;
     this.count();
   }

@@ -23,8 +23,6 @@ export class PaperError extends Error {
 }
 
 export class Paper {
-  private readonly canvas = document.createElement("canvas");
-
   private constructor(
     private readonly document: PDFDocumentProxy,
     private readonly worker: Worker,
@@ -65,7 +63,7 @@ export class Paper {
     return this.document.numPages;
   }
 
-  /** A page, counted from 1; the canvas is the same each time. */
+  /** A page, counted from 1, on a canvas of its own: the page before is seen until this one is there. */
   async draw(number: number): Promise<HTMLCanvasElement> {
     try {
       const late = `page ${number} takes too long to draw; share the window that shows it`;
@@ -74,7 +72,7 @@ export class Paper {
       const longer = Math.max(width, height);
       if (!(longer > 0 && Number.isFinite(longer))) throw new PaperError(`page ${number} has no size`);
       const viewport = page.getViewport({ scale: MOST_PIXELS / longer });
-      const { canvas } = this;
+      const canvas = document.createElement("canvas");
       [canvas.width, canvas.height] = [Math.max(2, Math.round(viewport.width)), Math.max(2, Math.round(viewport.height))];
       const drawing = page.render({ canvas, viewport, background: "white", annotationMode: AnnotationMode.DISABLE });
       try {
