@@ -29,7 +29,7 @@ SELF    := $(PIP) --no-deps --no-build-isolation --editable .
 LOCK    := $(BIN)/python -m uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes --no-annotate \
   --custom-compile-command 'make lock' --constraint constraints.txt pyproject.toml -
 TESTED  := headset-test headset-slip
-# a file's tests stay together, and share what they made; tests/conftest.py says which files come first
+# a file's tests stay together, and share what they made; tests/conftest.py says which files come first, and which stay beside each other
 SHARED  := --dist loadfile --no-loadscope-reorder
 TWO     := --numprocesses 2 $(SHARED)
 # the others have been run without PyTorch

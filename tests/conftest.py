@@ -3,9 +3,12 @@
 import os
 import signal
 from collections import Counter
+from functools import cache
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from xdist.scheduler import LoadFileScheduling
 
 from facegen.rigs import Rig, load_rig
 from facegen.rigs.building import build_rig
@@ -37,6 +40,32 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     slow = {item.path for item in items if item.get_closest_marker("slow")}
     count = Counter(item.path for item in items)
     items.sort(key=lambda item: (item.path not in slow, item.path not in slow and -count[item.path]))
+
+
+class BrowsersTogether(LoadFileScheduling):
+    """A file's tests stay in one process, and so do all files that open a browser.
+
+    Two browsers that draw in software beside each other have not enough of two processors: pages give up.
+    """
+
+    def _split_scope(self, nodeid: str) -> str:
+        path = super()._split_scope(nodeid)
+        return "browser" if path in _opening_a_browser() else path
+
+
+@cache
+def _opening_a_browser() -> set[str]:
+    root = Path(__file__).parents[1]
+    return {
+        path.relative_to(root).as_posix()
+        for path in root.glob("tests/**/test_*.py")
+        if "needs_chromium" in path.read_text(encoding="utf-8")
+    }
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> LoadFileScheduling:
+    """How processes share the files, where there are several."""
+    return BrowsersTogether(config, log)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -135,21 +135,29 @@ REFUSED = {
 }
 
 
-NEXT = """void (globalThis.leafing = setInterval(() => {
-  const next = document.querySelector('#next');
-  if (!next.disabled) next.click();
-}, 1000))"""
-"""Turns to the last page; again where a page that took a busy machine too long was given up."""
+LEAF = "void (globalThis.leafing = setInterval(() => {}, 1000))"
+NEXT = LEAF.replace("{}", "document.querySelector('#next').click()")
+BEFORE = LEAF.replace("{}", "dispatchEvent(new KeyboardEvent('keydown', { key: 'PageUp' }))")
+"""Turn to the last page and to the first; again where a page that took a busy machine too long was given up."""
+REST = "clearInterval(leafing)"
 
 APART = """(async (encoded) => {
   const { Paper } = await import('/static/paper.js');
-  const paper = await Paper.open(new File([Uint8Array.from(atob(encoded), (each) => each.charCodeAt(0))], 'a.pdf'));
-  const before = await paper.draw(1), [width, height] = [before.width, before.height];
-  await paper.draw(2);
-  paper.close();
-  return before.width === width && before.height === height && before.getContext('2d').getImageData(9, 9, 1, 1).data[2];
+  const bytes = Uint8Array.from(atob(encoded), (each) => each.charCodeAt(0));
+  for (;;) {
+    const paper = await Paper.open(new File([bytes], 'a.pdf'));
+    try {
+      const before = await paper.draw(1);
+      await paper.draw(2);
+      return before.getContext('2d').getImageData(9, 9, 1, 1).data[2];
+    } catch (error) {
+      if (!error.message.includes('too long')) throw error;
+    } finally {
+      paper.close();
+    }
+  }
 })"""
-"""How blue a page still is when the next one has been drawn: it is shown until then."""
+"""How blue a page still is when the next one has been drawn; again where a busy machine took too long."""
 
 
 async def turn_pages(ada: Tab, ben: Tab) -> dict[str, object]:
@@ -161,7 +169,7 @@ async def turn_pages(ada: Tab, ben: Tab) -> dict[str, object]:
     await ada.until(f"({SEEN})[2] > 190 && {DARK} > 50")
     await ben.ask(NEXT)
     await ada.until(f"`${{meeting.board.size}}` === '1440,1920' && ({SEEN})[2] < 70")
-    await ben.ask("clearInterval(leafing)")
+    await ben.ask(REST)
     found["blue"] = await ben.ask(f"{APART}('{base64.b64encode(pages).decode()}')")
     found["page"] = await ben.ask("document.querySelector('#page').textContent")
     found["last"] = await ben.ask("document.querySelector('#next').disabled")
@@ -175,8 +183,9 @@ async def turn_pages(ada: Tab, ben: Tab) -> dict[str, object]:
         found["refused"][name] = await ben.ask("document.querySelector('#state').textContent")
     await ben.ask(LARGE)
     await ben.until("document.querySelector('#state').textContent.includes('65 MiB, and 64 are read')")
-    await ben.ask("dispatchEvent(new KeyboardEvent('keydown', { key: 'PageUp' }))")
+    await ben.ask(BEFORE)
     await ada.until(f"({SEEN})[2] > 190")
+    await ben.ask(REST)
     found["loaded"] = [sum("paper.js" in each for each in tab.asked) for tab in (ada, ben)]
     return found
 
