@@ -63,6 +63,7 @@ def _opening_a_browser() -> set[str]:
     }
 
 
+@pytest.hookimpl(optionalhook=True)  # in one process, by `-p no:xdist`, nobody asks
 def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> LoadFileScheduling:
     """How processes share the files, where there are several."""
     return BrowsersTogether(config, log)

@@ -10,6 +10,8 @@ export type Picture = ImageBitmap | HTMLCanvasElement;
 export class Still {
   readonly stream: MediaStream;
   private readonly canvas = document.createElement("canvas");
+  /** In memory: what sends the film reads each of its pictures, and a graphics card would have to give it back. */
+  private readonly pen = this.canvas.getContext("2d", { willReadFrequently: true })!;
 
   constructor(private picture: Picture) {
     this.turn(picture);
@@ -28,6 +30,6 @@ export class Still {
   }
 
   private draw(): void {
-    this.canvas.getContext("2d")!.drawImage(this.picture, 0, 0, this.canvas.width, this.canvas.height);
+    this.pen.drawImage(this.picture, 0, 0, this.canvas.width, this.canvas.height);
   }
 }
