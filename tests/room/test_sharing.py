@@ -141,6 +141,17 @@ BEFORE = LEAF.replace("{}", "dispatchEvent(new KeyboardEvent('keydown', { key: '
 """Turn to the last page and to the first; again where a page that took a busy machine too long was given up."""
 REST = "clearInterval(leafing)"
 
+REFUSING = """(async () => {
+  const { Paper } = await import('/static/paper.js');
+  const { draw } = Paper.prototype;
+  Paper.prototype.draw = async () => { throw new Error('it is torn'); };
+  document.querySelector('#before').click();
+  await new Promise((resolve) => setTimeout(resolve));
+  Paper.prototype.draw = draw;
+  return ['#page', '#state'].map((id) => document.querySelector(id).textContent);
+})()"""
+"""What the page counts and tells behind a turn to a page that cannot be drawn."""
+
 APART = """(async (encoded) => {
   const { Paper } = await import('/static/paper.js');
   const bytes = Uint8Array.from(atob(encoded), (each) => each.charCodeAt(0));
@@ -173,6 +184,7 @@ async def turn_pages(ada: Tab, ben: Tab) -> dict[str, object]:
     found["blue"] = await ben.ask(f"{APART}('{base64.b64encode(pages).decode()}')")
     found["page"] = await ben.ask("document.querySelector('#page').textContent")
     found["last"] = await ben.ask("document.querySelector('#next').disabled")
+    found["torn"] = await ben.ask(REFUSING)
     found["refused"] = {}
     for name, (content, _) in REFUSED.items():
         await ben.ask("void meeting.tell('')")
@@ -257,6 +269,7 @@ def test_a_picture_a_pdf_and_a_window_reach_the_other_and_a_moderator_ends_them(
     )
     assert found["blue"] > 190
     assert (found["page"], found["last"]) == ("2 of 2", True)
+    assert found["torn"] == ["2 of 2", "The page before stays: it is torn."]
     for name, (_, reason) in REFUSED.items():
         assert reason in found["refused"][name], name
     assert min(found["window"]) > 0
