@@ -102,9 +102,17 @@ def installed(
         pytest.skip(sentence)
     if version not in folders:
         folders[version] = tmp_path_factory.mktemp("environment")
-        subprocess.run([python, "-m", "venv", folders[version]], check=True, env=clean_environment())
+        make = [python, "-m", "venv", "--without-pip", folders[version]]
+        subprocess.run(make, check=True, env=clean_environment())
     scripts = folders[version] / ("Scripts" if os.name == "nt" else "bin")
-    command = [scripts / "python", "-m", "pip", "install", "--quiet", "--no-compile", wheel, numpy]
+    pip = [
+        sys.executable,
+        "-m",
+        "pip",
+        "--python",
+        scripts / "python",
+    ]  # one for all: to install it takes seconds
+    command = [*pip, "install", "--quiet", "--no-compile", wheel, numpy]
     subprocess.run(list(map(str, command)), check=True, env=clean_environment())
 
     def run(script: str, *arguments: object, cwd: Path) -> subprocess.CompletedProcess:

@@ -94,7 +94,7 @@ def info(
 
     Example: facegen rig info anny --json
     """
-    from facegen.rigs.files import read_record
+    from facegen.rigs.record import read_record
 
     record = read_record(name)
     if as_json:

@@ -1,5 +1,6 @@
 """Parts of a headset that hide the face: rings, cylinders and boxes, as meshes in the headset frame."""
 
+from functools import cached_property
 from typing import Annotated, Literal
 
 import numpy as np
@@ -77,7 +78,7 @@ class HeadsetOccluder:
         placed = np.concatenate(vertices) @ self._turn.T + self.position_mm
         return placed * MM, np.concatenate(faces).astype(np.int32)
 
-    @property
+    @cached_property
     def _turn(self) -> np.ndarray:
         return rotation_from_angles(*np.radians(self.turn_deg))
 

@@ -3,10 +3,11 @@
 from facegen.rigs.callipers import measures_mm
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, visual_axis
-from facegen.rigs.files import load_rig, rigs_folder, save_rig
+from facegen.rigs.files import load_rig, save_rig
 from facegen.rigs.lid_margins import lid_gap, lid_margins, open_lid_gap
 from facegen.rigs.neutral import eye_centers, neutral_landmarks
 from facegen.rigs.occluder import FaceOccluder, closed_cage, occluder
+from facegen.rigs.record import rigs_folder
 from facegen.rigs.rig import Rig
 
 __all__ = [

@@ -7,9 +7,10 @@ from pathlib import Path
 from facegen.errors import InputError, MissingAsset
 from facegen.rigs.anny import ANNY
 from facegen.rigs.builder import RigBuilder, RigSources
-from facegen.rigs.files import read_record, rigs_folder, save_rig
+from facegen.rigs.files import save_rig
 from facegen.rigs.gltf_head import AddedHead, build_head
 from facegen.rigs.ict import ICT
+from facegen.rigs.record import read_record, rigs_folder
 from facegen.rigs.versions import VERSIONS
 
 RIGS: dict[str, RigBuilder] = {"anny": ANNY, "ict": ICT}

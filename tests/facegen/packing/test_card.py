@@ -69,15 +69,9 @@ LEFT = "import os\nsys.stdout.flush()\nos._exit(0)\n"
 @pytest.fixture(scope="module")
 def python(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("libraries")
-    subprocess.run([sys.executable, "-m", "venv", folder], check=True)
-    install = [
-        folder / "bin" / "python",
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        *LIBRARIES,
-    ]
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True)
+    pip = [sys.executable, "-m", "pip", "--python", folder / "bin" / "python"]
+    install = [*pip, "install", "--quiet", "--no-compile", *LIBRARIES]
     done = subprocess.run(install, capture_output=True, text=True, check=False)
     if done.returncode:
         pytest.skip(f"{' '.join(LIBRARIES)} cannot be installed here: {done.stderr.strip().splitlines()[-1]}")

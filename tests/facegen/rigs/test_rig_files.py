@@ -28,6 +28,17 @@ def test_saving_a_loaded_rig_gives_the_same_bytes(anny: Rig, tmp_path: Path) -> 
         assert (tmp_path / f"anny{ending}").read_bytes() == (rigs_folder() / f"anny{ending}").read_bytes()
 
 
+def test_files_are_read_once_and_again_where_they_changed(anny: Rig, tmp_path: Path) -> None:
+    path = copy_of(anny, tmp_path)
+    first = load_rig("anny", tmp_path)
+    assert load_rig("anny", tmp_path) is first
+    save_rig(dataclasses.replace(anny, vertices=anny.vertices + 0.5), tmp_path)
+    np.testing.assert_allclose(load_rig("anny", tmp_path).vertices, first.vertices + 0.5, atol=1e-6)
+    path.unlink()
+    with pytest.raises(MissingAsset):
+        load_rig("anny", tmp_path)
+
+
 def test_arrays_agree_with_each_other(rig: Rig) -> None:
     count = len(rig.vertices)
     assert rig.identity.shape == (rig.components, count, 3)
