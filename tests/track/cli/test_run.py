@@ -226,15 +226,20 @@ def test_a_profile_that_cannot_be_kept_ends_no_session_but_calibration(home, cap
         return ask(session, *arguments, **options)
 
     monkeypatch.setattr(Session, "run", run)
-    ended = {}
-    for command in ("run", "calibrate"):
-        options = ["--no-page", "--record", "take.csv"] if command == "run" else []
-        monkeypatch.setattr(sys, "argv", ["track", command, *CAMERAS, "--fast", *options])
+    ended, told_last = {}, {}
+    for command, options in {
+        "run": ["--fast", "--no-page", "--record", "take.csv"],
+        "compare": ["--truth", "livelink:0", "--seconds", "8"],
+        "calibrate": ["--fast"],
+    }.items():
+        monkeypatch.setattr(sys, "argv", ["track", command, *CAMERAS, *options])
         with pytest.raises(SystemExit) as end:
             main()
         ended[command] = end.value.code
         told = capsys.readouterr().err
         assert "internal error" not in told
         assert told.count("cannot be written") == 1, told
-    assert ended == {"run": 0, "calibrate": 74}
+        told_last[command] = told.splitlines()[-1]
+    assert ended == {"run": 0, "compare": 2, "calibrate": 74}
+    assert "phone" in told_last["compare"], "it went on to its end, at which no phone had said anything"
     assert len(rows("take.csv")) == 100
