@@ -49,9 +49,8 @@ def main() -> None:
 
 
 def draw_headset(preview: Path, dataset: Path) -> None:
-    """The headset round a head, in few colours; and what its cameras see of six people."""
-    sheet = Image.open(preview).convert("RGB")
-    sheet.quantize(96, dither=Image.Dither.NONE).save(OUT / "headset-mine.png", optimize=True)
+    """The headset round a head; and what its cameras see of six people."""
+    Image.open(preview).convert("RGB").save(OUT / "headset-mine.png", optimize=True)
     folders = sorted(dataset.glob("renders/*/*"))
     chosen = [folders[index] for index in np.linspace(2, len(folders) - 1, 6).round().astype(int)]
     columns = [
