@@ -112,7 +112,7 @@ test-headset: $(TESTER) models/headset-tiny/report.html  ## Headset networks: wh
 	$(BIN)/regress headset predict models/headset-tiny datasets/out/headset-tiny --out models/headset-tiny.csv
 	$(BIN)/python -m pytest $(TWO) $(TORCHED)
 
-test-quick: $(TESTER) $(RIG)  ## Tests that need neither Blender nor much time (two minutes)
+test-quick: $(TESTER) $(RIG)  ## Tests that need neither Blender nor much time (six minutes on two cores)
 	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not slow and not blender"
 
 fuzz: $(TESTER) $(RIG)  ## Damaged inputs, new ones for MINUTES=60 (SEED= repeats); tests/hostile/corpus keeps what fails

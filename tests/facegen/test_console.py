@@ -18,6 +18,8 @@ from facegen.errors import InputError
 from facegen.extras import FACTORY, HEADSET, LEARN, missing_extra
 from tests.facegen.cli.commands import ROOT, calls, sub_commands
 
+pytestmark = pytest.mark.slow
+
 HEAVY = {"matplotlib", "OpenEXR", "pyarrow", "scipy", "numba", "cv2", "bpy", "sklearn", "onnxruntime"}
 
 NOT_IN_BASE = {*FACTORY.modules, "sklearn", "onnx", "torch"} - {"tomllib"}

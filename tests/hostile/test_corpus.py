@@ -6,6 +6,8 @@ from tests.hostile import corpus
 from tests.hostile.readers import READERS
 from tests.hostile.trial import HONEST, Case
 
+pytestmark = pytest.mark.slow
+
 FILES = list(corpus.kept_files())
 CASES = list(corpus.kept_cases())
 

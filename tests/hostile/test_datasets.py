@@ -6,6 +6,8 @@ from tests.hostile.plan import pairs
 from tests.hostile.readers.datasets import READERS
 from tests.hostile.trial import HONEST, Case
 
+pytestmark = pytest.mark.slow
+
 TABLE = {reader.name: reader for reader in READERS}
 
 

@@ -5,6 +5,8 @@ import pytest
 from tests.hostile.plan import pairs
 from tests.hostile.readers.options import READERS
 
+pytestmark = pytest.mark.slow
+
 TABLE = {reader.name: reader for reader in READERS}
 
 

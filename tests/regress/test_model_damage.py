@@ -19,6 +19,8 @@ from regress.report import write_report
 from regress.runtime.model import FastPredictor, load_model
 from tests.regress.drawn import drawn_faces
 
+pytestmark = pytest.mark.slow
+
 Arrays = dict[str, np.ndarray]
 
 

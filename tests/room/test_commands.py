@@ -21,6 +21,8 @@ from room.cli import app
 from room.errors import InputError
 from tests.room.recordings import recorded
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[2]
 
 

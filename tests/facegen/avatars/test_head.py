@@ -21,6 +21,8 @@ from facegen.raster import triangles_of
 from facegen.rigs import Rig
 from tests.facegen.avatars.validator import complaints
 
+pytestmark = pytest.mark.slow
+
 COMMITTED = Path(__file__).parents[3] / "track" / "page" / "static" / "head.glb"
 MOST_BYTES = 1_500_000
 """Of the page's avatar."""

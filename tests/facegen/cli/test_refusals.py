@@ -12,6 +12,8 @@ from typer.testing import CliRunner
 from facegen.cli import app
 from facegen.errors import InputError, OutputError
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[3]
 GOOD = 'version = 1\nkind = "still"\nseed = 1\npeople = 3\n'
 

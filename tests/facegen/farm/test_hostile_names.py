@@ -17,6 +17,8 @@ from facegen.farm.job import list_jobs
 from facegen.store import DatasetFolder
 from facegen.work import read_journals
 
+pytestmark = pytest.mark.slow
+
 SPEC = 'version = 1\nkind = "still"\nseed = 3\npeople = 3\n'
 STEPS = ("generate", "validate", "pack", "train", "export")
 

@@ -17,6 +17,8 @@ from facegen.spec import parse_spec
 from facegen.store import Dataset, resolve
 from facegen.work import generate
 
+pytestmark = pytest.mark.slow
+
 SPEC = {
     "version": 1,
     "kind": "still",

@@ -11,6 +11,8 @@ from facegen.sampling.gaze import weights_from_axes
 from tests.facegen.rigs.eye_views import before_pupils, eyeball_pixels, scene_of
 from tests.facegen.rigs.people import people, weights
 
+pytestmark = pytest.mark.slow
+
 GAZE_DEG = np.array([[0.0, 0.0], [25.0, 25.0], [-25.0, -25.0]])
 
 

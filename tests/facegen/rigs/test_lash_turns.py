@@ -10,6 +10,8 @@ from facegen.rigs import Rig, evaluate
 from facegen.rigs.lash_strips import LashStrip, lash_strips
 from facegen.rigs.lash_turns import RIM, with_turning_lashes
 
+pytestmark = pytest.mark.slow
+
 AHEAD = np.broadcast_to([0.0, 0.0, 1.0], (1, 2, 3))
 
 

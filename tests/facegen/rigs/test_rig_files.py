@@ -14,6 +14,8 @@ from facegen.rigs import Rig, load_rig, rigs_folder, save_rig
 from facegen.rigs.building import build_rig
 from facegen.rigs.makehuman import check_wheel
 
+pytestmark = pytest.mark.slow
+
 
 def copy_of(rig: Rig, folder: Path) -> Path:
     folder.mkdir(exist_ok=True)

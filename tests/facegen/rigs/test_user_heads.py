@@ -26,6 +26,8 @@ from facegen.store import column_array, keypoint_schema, keypoint_table, write_s
 from tests.facegen.rigs.glb_head import write_head
 from tests.facegen.rigs.people import straight, weights
 
+pytestmark = pytest.mark.slow
+
 EVERY_SHAPE = 0.8 * np.concatenate([np.zeros((1, len(BLENDSHAPES))), np.eye(len(BLENDSHAPES))])
 
 

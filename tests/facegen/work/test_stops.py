@@ -11,6 +11,8 @@ import pytest
 
 from facegen.children import born_deaf
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[3]
 CHILD = [sys.executable, "-c", "import time; time.sleep(0.5); print('lives')"]
 

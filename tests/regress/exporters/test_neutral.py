@@ -17,6 +17,8 @@ from tests.regress.drawn import drawn_dataset, drawn_faces
 from tests.regress.exporters.readers import READERS
 from tests.regress.exporters.test_exporters import AGREEMENT, FORMATS, skip_without_tool
 
+pytestmark = pytest.mark.slow
+
 NEUTRAL = drawn_faces(np.random.default_rng(61), 1)[0].astype(np.float32)
 OTHER = drawn_faces(np.random.default_rng(62), 1)[0].astype(np.float32)
 

@@ -15,6 +15,8 @@ from regress.runtime.headset.faults import FROZEN_FRAMES
 from tests.regress.headset.takes import pictures, write_pictures, write_take
 from tests.regress.headset.tiny import NAMES, OWNER, write_tiny_model
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def model(tmp_path_factory: pytest.TempPathFactory) -> Path:

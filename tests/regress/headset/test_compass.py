@@ -18,6 +18,8 @@ from regress.runtime.headset.placement_steps import Search
 from regress.runtime.headset.predictor import load_headset_predictor
 from tests.regress.headset.takes import recording, write_take
 
+pytestmark = pytest.mark.slow
+
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
 EYES = ("left_eye", "right_eye")
 

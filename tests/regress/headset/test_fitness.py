@@ -23,6 +23,8 @@ from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_pre
 from tests.regress.headset.takes import write_take
 from tests.regress.headset.tiny import write_tiny_model
 
+pytestmark = pytest.mark.slow
+
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
 EYES = ("left_eye", "right_eye")
 

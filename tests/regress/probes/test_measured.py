@@ -22,6 +22,8 @@ from tests.browser import chromium, needs_chromium
 from tests.regress.conftest import write_dataset
 from tests.regress.drawn import drawn_heads
 
+pytestmark = pytest.mark.slow
+
 NOISY = Recipe(
     name="noisy",
     alphas=(1.0, 10.0),

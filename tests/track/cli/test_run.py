@@ -20,6 +20,8 @@ from track.errors import InputError
 from track.messages import Command
 from track.session.session import Session
 
+pytestmark = pytest.mark.slow
+
 CAMERAS = [
     word
     for name in ("left_eye", "right_eye", "mouth")

@@ -25,6 +25,8 @@ from track.session.headset import HeadsetPipeline
 from track.session.session import Session
 from track.sources import CameraFault
 
+pytestmark = pytest.mark.slow
+
 FPS = 30
 MOST_STEP = 0.3
 BEGIN, END = 165, 225
