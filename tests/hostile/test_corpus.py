@@ -26,7 +26,6 @@ def test_kept_cases(attempt, case):
     assert outcome.verdict.good, (outcome.verdict, outcome.stderr)
 
 
-@pytest.mark.slow
 def test_a_failure_is_made_small_and_kept(attempt, monkeypatch, tmp_path):
     monkeypatch.setattr(corpus, "FOLDER", tmp_path / "corpus")
     case = Case(reader=READERS["rig-json"], mutator=HONEST, seed=0)

@@ -181,7 +181,6 @@ def test_an_archive_that_unpacks_to_gigabytes_is_refused_unread(denoising_folder
         load_model(folder)
 
 
-@pytest.mark.slow
 @settings(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_a_changed_number_is_refused_or_does_no_harm(
@@ -248,7 +247,6 @@ OTHER = [
 ]
 
 
-@pytest.mark.slow
 @settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_an_edited_record_is_refused_or_reported(

@@ -31,7 +31,6 @@ def looking(rig: Rig, blink: float):
                 yield scene_of(rig, faces, i, gaze[i], load_headset(name), np.zeros(6))
 
 
-@pytest.mark.slow
 def test_no_camera_sees_the_eyes_behind_shut_lids(rig: Rig) -> None:
     for scene in looking(rig, 1.0):
         seen = {view.name: eyeball_pixels(view, scene) for view in scene.views}

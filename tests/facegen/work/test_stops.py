@@ -27,7 +27,6 @@ def wait_until_answering(process: int) -> None:
         time.sleep(0.005)
 
 
-@pytest.mark.slow
 @pytest.mark.blender
 @pytest.mark.usefixtures("anny")
 @pytest.mark.parametrize("tenths", range(3, 34, 3))

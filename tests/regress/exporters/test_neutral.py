@@ -238,7 +238,6 @@ def test_agrees_on_the_test_split_after_training(chosen, trained, tmp_path):
     agree_on_test_split(model, predict, dataset)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("chosen", FORMATS)
 def test_the_shipped_model_agrees_on_its_whole_test_split(chosen, shipped_model, tmp_path):
     skip_without_tool(chosen)

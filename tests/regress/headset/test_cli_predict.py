@@ -372,7 +372,6 @@ def test_a_dataset_is_predicted_by_sample(run, model: Path, tmp_path: Path):
     assert "a dataset has many people" in said
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".webm", ".mp4"])
 def test_a_film_shows_the_cameras_beside_the_avatar(
     run, model: Path, take: list[str], suffix: str, tmp_path: Path

@@ -95,7 +95,6 @@ def test_of_two_places_as_good_the_one_with_an_eye_upright_is_taken(take: Take):
     assert FoundPlacement(**found, upright=upright).score < FoundPlacement(**found, upright=mirrored).score
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("camera", "mirror"), [("left_eye", True), ("right_eye", False)])
 def test_a_network_of_drawn_headsets_finds_an_eyes_side(take: Take, camera: str, mirror: bool):
     predictor = load_headset_predictor("headset-any")

@@ -24,8 +24,6 @@ from regress.runtime.headset.predictor import load_headset_predictor
 from tests.regress.headset.tiny import NAMES, tiny_graph, write_tiny_model
 from tests.regress.test_model_damage import OTHER, paths_of, set_at
 
-pytestmark = pytest.mark.slow
-
 SIDE = 16
 
 

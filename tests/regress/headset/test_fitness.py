@@ -93,7 +93,6 @@ BESIDE = {"cropped brow": {Misfit.PLACED}}
 """What may be said as well: a view that is cut above has its middle elsewhere."""
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS)
 def test_each_fault_is_named_and_nothing_else_is(predictor: HeadsetPredictor, take: Take, fault: str):
     done, expected = FAULTS[fault]
@@ -135,7 +134,6 @@ def test_a_take_that_fits_needs_no_placement(run, take: Take, tmp_path: Path):
     assert "so predict needs none" in told
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "x", "y", "roll_deg", "mirror"),
     [(0.8, 0.55, 0.45, 0.0, False), (1.25, 0.5, 0.5, 8.0, False), (0.9, 0.45, 0.55, -8.0, True)],
@@ -169,7 +167,6 @@ def _square(matrix: np.ndarray) -> np.ndarray:
     return np.vstack([matrix, [0, 0, 1]])
 
 
-@pytest.mark.slow
 def test_the_program_says_it_and_predict_takes_what_it_writes(run, take: Take, tmp_path: Path):
     pictures = take["left_eye"][:40]
     placed = np.pad(pictures[:, :, ::-1], ((0, 0), (0, 24), (0, 40)), mode="edge")

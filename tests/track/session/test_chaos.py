@@ -265,7 +265,6 @@ def test_headset(name):
     assert len(said) == len(sentences)
 
 
-@pytest.mark.slow
 def test_memory_does_not_grow():
     """Twice a minute's frames behind a first one: what is kept of frames is bounded."""
     session = new_session(profile=loud(calibrated_profile()))
