@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from facegen.console import say
-from facegen.files import refuse_ending, write_whole
+from facegen.files import refuse_ending, refuse_sources, write_whole
 from regress.errors import InputError
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ def edges(
     from regress.learning.reference_shape import TILT_DEG, make_reference_shape, reference_shape_json
 
     refuse_ending(out, ".json", what="a reference shape")
+    refuse_sources(out, [points])
     tilt_deg = TILT_DEG if tilt_deg is None else tilt_deg
     try:
         shape = make_reference_shape(_read(points), name=name, source=source, tilt_deg=tilt_deg)

@@ -34,12 +34,15 @@ def export(
     from regress.exporters import export_model
     from regress.runtime.inputs import read_frames
     from regress.runtime.model import load_model, symmetrised
+    from regress.runtime.ready_made import model_folder
 
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     if neutral is not None:
         loaded = loaded.calibrate(sound_rows(read_frames(neutral)).points)
     formats = _possible() if chosen == "all" else [chosen]
-    for path in export_model(loaded, out, name=name, formats=formats):
+    folder = model_folder(model)
+    sources = [folder / "model.json", folder / "weights.npz", *([] if neutral is None else [neutral])]
+    for path in export_model(loaded, out, name=name, formats=formats, sources=sources):
         typer.echo(f"{path} ({path.stat().st_size:,} bytes)")
 
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.files import output_errors, write_whole
+from facegen.files import output_errors, refuse_sources, write_whole
 
 
 def export(
@@ -24,8 +24,13 @@ def export(
     from regress.runtime.ready_made import model_folder
 
     predictor = load_headset_predictor(model)
-    graph = (model_folder(model) / "network.onnx").read_bytes()
+    folder = model_folder(model)
+    graph = (folder / "network.onnx").read_bytes()
     text = json.dumps(interface_of(predictor.model, graph=f"{name}.onnx"), indent=1) + "\n"
+    for ending in ("onnx", "json"):
+        refuse_sources(
+            out / f"{name}.{ending}", [folder / "network.onnx", folder / "model.json"], option="export"
+        )
     with output_errors(out):
         out.mkdir(parents=True, exist_ok=True)
     paths = [write_whole(out / f"{name}.onnx", graph), write_whole(out / f"{name}.json", text)]

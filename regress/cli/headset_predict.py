@@ -208,14 +208,20 @@ def predict(
         mirror=mirror,
         retarget=retarget,
     )
+    short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
+    paths = camera_paths(
+        predictor, camera or [], {name: path for name, path in short.items() if path is not None}
+    )
     check_targets(
         table_format,
         out=out,
         gltf=gltf,
         retargeted=retarget is not None,
         tables={"--confidence": trust, "--points": points, "--eyes": eyes},
-        sources=(adjust, person, placement),
+        film=video,
+        sources=(*paths.values(), adjust, person, placement),
     )
+    targets = targets_of(looked_at or [])
     if looked_at and eyes is None:
         raise InputError("--looked-at is for the gaze of --eyes; give --eyes too")
     if video is not None and retarget is not None:
@@ -233,10 +239,6 @@ def predict(
     own = read_own(predictor, person, still=dataset is not None)
     if video is not None:
         check_film_name(video)
-    short = {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth}
-    paths = camera_paths(
-        predictor, camera or [], {name: path for name, path in short.items() if path is not None}
-    )
     placed = {} if placement is None else read_placement(placement, predictor.model)
     footage = read_footage(
         predictor, dataset, paths, from_start=from_start, fps=fps, bits=bits, placement=placed
@@ -261,6 +263,8 @@ def predict(
     neutrals = neutrals if neutral else neutrals_of(own, predictor, footage, tables)
     # whose file it is needs no proof, and another seat's neutral picture is worth more than none
     keep_neutral = keep_neutral or own is not None
+    # first, as it knows whether frames that were looked at are there
+    found = None if eyes is None else traced_eyes(predictor, footage, targets)
     prediction, reseated = predict_footage(
         predictor,
         footage,
@@ -277,7 +281,6 @@ def predict(
     if points is not None:
         write_whole(points, points_csv(predictor, footage))
     if eyes is not None:
-        found = traced_eyes(predictor, footage, targets_of(looked_at or []))
         write_whole(eyes, eyes_csv(found, footage.numbers))
     if trust is not None:
         write_whole(trust, confidence_csv(prediction))

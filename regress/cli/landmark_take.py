@@ -70,7 +70,7 @@ def predict_file(
     """Predict a recording and write what was asked for; the arguments are the command's options."""
     frames = read_frames(landmarks)
     if fps is not None:
-        frames = dataclasses.replace(frames, time_s=np.arange(len(frames.labels)) / fps)
+        frames = frames.at_rate(fps)
     if auto_filter and is_film(frames.time_s):
         output = dataclasses.replace(output, filter=DEFAULT_FILTER)
     if fps is None and (rate := frames_a_second(frames.time_s)) > FILM_FPS[1]:
@@ -184,22 +184,31 @@ def _neutral_frames(model: Model, frames: Frames, neutral: str) -> Frames | None
             return None
         say(f"{frames.source}: neutral face found: {estimate.reason}")
         return frames.take(estimate.frames)
-    named = _named(frames, neutral)
+    named = named_rows(frames, neutral)
     if named:
         return frames.take(named)
     first, last = frames.labels[0], frames.labels[-1]
     return _neutral_file(neutral, frames.source, labels=f" ({first} to {last})")
 
 
-def _named(frames: Frames, neutral: str) -> list[int]:
-    """Rows of a frame named by its label, or of frames FIRST-LAST."""
-    first, _, last = neutral.rpartition("-")
+def named_rows(frames: Frames, neutral: str) -> list[int]:
+    """Rows of a frame named by its label, or of frames FIRST-LAST; between faces of one name, of these alone."""
     if neutral in frames.labels:
-        first = last = neutral
-    if first in frames.labels and last in frames.labels:
-        start, stop = frames.labels.index(first), frames.labels.index(last)
-        return list(range(start, stop + 1))
+        return [frames.labels.index(neutral)]
+    # labels may have dashes of their own
+    for dash in (place for place, letter in enumerate(neutral) if letter == "-"):
+        first, last = neutral[:dash], neutral[dash + 1 :]
+        if first in frames.labels and last in frames.labels:
+            rows = range(frames.labels.index(first), frames.labels.index(last) + 1)
+            face = _face(frames, first) if _face(frames, first) == _face(frames, last) else None
+            return [row for row in rows if face is None or _face(frames, frames.labels[row]) == face]
     return []
+
+
+def _face(frames: Frames, label: str) -> str | None:
+    """Which of several faces a picture of a film this is, where its label ``number/face`` says so."""
+    _, sign, face = label.rpartition("/")
+    return face if sign and frames.numbers is not None else None
 
 
 def _neutral_file(neutral: str, source: str, *, labels: str = "") -> Frames:

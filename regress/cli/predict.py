@@ -74,7 +74,12 @@ def predict(
     beta: BetaOption = OneEuro.beta,
     fps: Annotated[
         float | None,
-        typer.Option("--fps", min=1e-3, max=1e6, help="Frames a second; goes before times in INPUT."),
+        typer.Option(
+            "--fps",
+            min=1e-3,
+            max=1e6,
+            help="Frames a second; goes before times in INPUT. Its column frame counts, where it has one.",
+        ),
     ] = None,
     adjust: Annotated[
         Path | None,
@@ -105,7 +110,7 @@ def predict(
     from regress.cli.camera import camera_settings
     from regress.cli.landmark_take import model_and_input, predict_file, predict_pipe
     from regress.cli.output import output_of
-    from regress.cli.results import check_targets
+    from regress.cli.results import STANDARD_OUTPUT, check_targets
     from regress.errors import InputError
     from regress.runtime.model import load_model, symmetrised
     from regress.runtime.predict import PAPER_RECIPE
@@ -155,7 +160,7 @@ def predict(
             gltf=gltf,
             out=out,
         )
-    elif out is gltf is trust is None and table_format is TableFormat.csv:
+    elif out in (None, STANDARD_OUTPUT) and gltf is trust is None and table_format is TableFormat.csv:
         predict_pipe(
             loaded,
             neutral or "none",

@@ -24,11 +24,13 @@ def check_targets(
     gltf: Path | None,
     retargeted: bool,
     tables: dict[str, Path | None],
+    film: Path | None = None,
     sources: Iterable[Path | None] = (),
 ) -> None:
     """Refuse options that cannot all be had, and names that promise another kind of file than what is written.
 
-    ``tables`` are the files of other options, by option; over ``sources`` and the avatar nothing is written.
+    ``tables`` are the files of other options, by option, and ``film`` that of ``--video``. Nothing is written over
+    ``sources``, the avatar or another of these files.
 
     Raises
     ------
@@ -49,9 +51,13 @@ def check_targets(
         if path is not None:
             refuse_ending(path, ".csv", what="a table", option=option)
     read = [path for path in (*sources, gltf) if path is not None]
-    for option, path in {"--out": out, **tables}.items():
-        if path not in (None, STANDARD_OUTPUT):
-            refuse_sources(path, read, option=option)
+    written: dict[Path, str] = {}
+    for option, path in {"--out": out, **tables, "--video": film}.items():
+        if path in (None, STANDARD_OUTPUT):
+            continue
+        refuse_sources(path, read, option=option)
+        if (other := written.setdefault(path.resolve(), option)) != option:
+            raise InputError(f"{other} and {option} are both {path}; give each a name of its own")
 
 
 def needs_times(table_format: TableFormat, gltf: Path | None) -> bool:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from facegen.files import output_errors, write_whole
+from facegen.files import output_errors, refuse_sources, write_whole
 from regress.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,7 +31,12 @@ EXPORTERS = {
 
 
 def export_model(
-    model: "Model", folder: Path, *, name: str, formats: Iterable[str] = EXPORTERS
+    model: "Model",
+    folder: Path,
+    *,
+    name: str,
+    formats: Iterable[str] = EXPORTERS,
+    sources: Iterable[Path] = (),
 ) -> tuple[Path, ...]:
     """Write a model in several formats.
 
@@ -44,6 +49,8 @@ def export_model(
         What the files are called, without a suffix.
     formats : iterable of str
         Keys of `EXPORTERS`; all by default.
+    sources : iterable of Path
+        What the model was read from: nothing is written over it.
 
     Returns
     -------
@@ -53,7 +60,7 @@ def export_model(
     Raises
     ------
     InputError
-        An unknown format, or a name that a format cannot use; nothing was written.
+        An unknown format, a name that a format cannot use, or one of a source; nothing was written.
     OutputError
         The folder cannot be written.
     """
@@ -69,6 +76,9 @@ def export_model(
     files = {}
     for chosen in formats:
         files |= _exporter(chosen)(formula, name)
+    sources = tuple(sources)
+    for file_name in files:
+        refuse_sources(folder / file_name, sources, option="export")
     with output_errors(folder):
         folder.mkdir(parents=True, exist_ok=True)
     return tuple(write_whole(folder / file_name, content) for file_name, content in files.items())

@@ -146,6 +146,13 @@ def test_a_face_with_a_missing_point_or_without_width_gives_nan():
         assert np.isfinite(values[2]).all()
 
 
+@pytest.mark.parametrize("alignment", ["affine", "stable"])
+def test_no_faces_have_no_features(alignment: str):
+    features = _features("affine")
+    features = dataclasses.replace(features, alignment=alignment)
+    assert extract(features, FACES[:0]).shape == (0, features.count)
+
+
 def test_distances_are_lengths_over_face_width():
     face = np.zeros((1, 68, 2))
     face[0, 16] = [0, 4]

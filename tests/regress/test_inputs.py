@@ -166,6 +166,35 @@ def test_pyfeat_rows_with_empty_cells_have_no_face(tmp_path: Path):
     assert frames.labels == ("0", "2", "4")
 
 
+def test_a_rate_counts_pictures_not_rows(tmp_path: Path):
+    frames = read_frames(_pyfeat(tmp_path / "a.csv")).at_rate(30)
+    np.testing.assert_allclose(frames.time_s, [0, 2 / 30, 4 / 30])
+    assert frames.take([1, 2]).at_rate(10).time_s == pytest.approx([0, 0.2])
+    np.save(tmp_path / "a.npy", FACES)
+    assert read_frames(tmp_path / "a.npy").at_rate(10).time_s == pytest.approx([0, 0.1, 0.2])
+
+
+def _with_frames(path: Path, frames: list[str]) -> Path:
+    """A table of py-feat whose column ``frame`` says this."""
+    header, *rows = path.read_text().splitlines()
+    named = [f"{row.rpartition(',')[0]},{frame}" for row, frame in zip(rows, frames, strict=True)]
+    path.write_text("\n".join([header, *named]) + "\n")
+    return path
+
+
+@pytest.mark.parametrize("frames", [["a", "b", "c"], ["3", "2", "1"], ["0", "nan", "2"], ["0", "1.5", "2"]])
+def test_frames_that_do_not_count_are_rows(frames: list[str], tmp_path: Path):
+    read = read_frames(_with_frames(_pyfeat(tmp_path / "a.csv"), frames))
+    assert read.numbers is None
+    assert read.at_rate(10).time_s == pytest.approx([0, 0.1, 0.2])
+
+
+def test_faces_of_one_picture_share_its_time_and_have_names_of_their_own(tmp_path: Path):
+    read = read_frames(_with_frames(_pyfeat(tmp_path / "a.csv"), ["4", "4", "5"]))
+    assert read.labels == ("4/0", "4/1", "5/0")
+    assert read.at_rate(10).time_s == pytest.approx([0, 0, 0.1])
+
+
 def _subjects_right_is_at_the_images_left(frames: Frames) -> None:
     """Point 0 is the subject's right jaw, 36 the right eye's outer, 48 the right mouth corner; y is down."""
     x, y = frames.points[frames.usable][..., 0], frames.points[frames.usable][..., 1]

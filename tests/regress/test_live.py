@@ -178,7 +178,7 @@ def test_a_pipe(stage: str, run, quick_model_folder: Path, take: Path, monkeypat
     _, out, _ = run("predict", quick_model_folder, take, "--fps", 25, *options)
     lines = [" ".join(map(repr, face.ravel().tolist())) for face in np.load(take)]
     monkeypatch.setattr(sys, "stdin", io.StringIO("\n".join(lines) + "\n"))
-    code, piped, err = run("predict", quick_model_folder, "-", "--fps", 25, *options)
+    code, piped, err = run("predict", quick_model_folder, "-", "--out", "-", "--fps", 25, *options)
     assert code == 0, err
     # an array's rows are called 0, 1, ... and lines 1, 2, ...
     assert [line.partition(",")[2] for line in piped.splitlines()] == [

@@ -1,13 +1,17 @@
 """No command writes over what it reads: a recording may have no other copy."""
 
+import json
 import os
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from regress.runtime.features import load_reference_shape
 from tests.facegen.formats.test_gltf_animation import avatar
 from tests.regress.drawn import drawn_faces
+from tests.regress.headset.tiny import write_tiny_model
 
 
 @pytest.fixture
@@ -61,3 +65,61 @@ def test_an_avatar_is_not_replaced(run, quick_model_folder: Path, take: Path):
     assert code == 2
     assert "--out a.glb is also what is read" in err
     assert Path("a.glb").read_bytes() == before
+
+
+def test_two_tables_need_two_names(run, quick_model_folder: Path, take: Path):
+    code, _, err = run("predict", quick_model_folder, "take.csv", "--out", "w.csv", "--confidence", "./w.csv")
+    assert code == 2
+    assert "--out and --confidence are both w.csv" in err
+    assert not Path("w.csv").exists()
+
+
+@pytest.mark.parametrize(("name", "chosen"), [("model", "json"), ("weights", "npz"), ("model", "all")])
+def test_a_model_is_not_replaced_by_its_export(
+    name: str, chosen: str, run, quick_model_folder: Path, take: Path
+):
+    shutil.copytree(quick_model_folder, "mine")
+    before = {path.name: path.read_bytes() for path in Path("mine").iterdir()}
+    code, out, err = run("export", "mine", "--out", "mine", "--name", name, "--format", chosen)
+    assert (code, out) == (2, "")
+    assert "is also what is read (mine" in err
+    assert {path.name: path.read_bytes() for path in Path("mine").iterdir()} == before
+
+
+def test_a_neutral_face_is_not_replaced_by_an_export(run, quick_model_folder: Path, take: Path):
+    np.save("rest.npy", drawn_faces(np.random.default_rng(1), 1))
+    os.link("rest.npy", "face.json")
+    code, _, err = run("export", quick_model_folder, "--neutral", "rest.npy", "--format", "json")
+    assert code == 2
+    assert "export face.json is also what is read" in err
+    assert np.load("rest.npy").shape == (1, 68, 2)
+
+
+def test_points_of_a_face_are_not_replaced_by_its_edges(run, take: Path):
+    points = load_reference_shape().points
+    Path("points.json").write_text(json.dumps(points.tolist()))
+    code, _, err = run("edges", "points.json", "--out", "points.json")
+    assert code == 2
+    assert "--out points.json is also what is read" in err
+    assert json.loads(Path("points.json").read_text()) == points.tolist()
+
+
+@pytest.mark.parametrize(("option", "name"), [("--video", "left.mp4"), ("--points", "link.csv")])
+def test_films_of_cameras_are_not_replaced(option: str, name: str, run, take: Path):
+    Path("left.mp4").write_bytes(b"names are judged before anything is read")
+    os.link("left.mp4", "link.csv")
+    code, _, err = run("headset", "predict", "--left-eye", "left.mp4", "--out", "w.csv", option, name)
+    assert code == 2
+    assert f"{option} {name} is also what is read (left.mp4)" in err
+    assert Path("left.mp4").read_bytes() == b"names are judged before anything is read"
+    assert not Path("w.csv").exists()
+
+
+def test_a_headset_model_is_not_replaced_by_its_export(run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    write_tiny_model(tmp_path / "mine")
+    before = {path.name: path.read_bytes() for path in Path("mine").iterdir()}
+    code, _, err = run("headset", "export", "mine", "--out", "mine", "--name", "model")
+    assert code == 2
+    assert "export mine/model.json is also what is read" in err
+    assert {path.name: path.read_bytes() for path in Path("mine").iterdir()} == before

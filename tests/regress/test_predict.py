@@ -2,6 +2,7 @@
 
 import csv
 import io
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPES
+from regress.cli.landmark_take import named_rows
 from regress.learning.training import KeypointDataset
 from regress.runtime.inputs import Frames
 from regress.runtime.model import Model
@@ -16,6 +18,7 @@ from regress.runtime.predict import predict_frames
 from regress.runtime.sample import Sample
 from regress.runtime.stages.smoothing import MovingAverage
 from regress.runtime.writers.csv_table import weights_csv
+from tests.regress.drawn import drawn_faces
 
 
 def _frames(points: np.ndarray, *, time_s: np.ndarray | None = None) -> Frames:
@@ -52,3 +55,32 @@ def test_the_csv_reads_back_with_empty_cells_where_no_face_is(quick_model: Model
     assert np.allclose(read, prediction.weights[[0, 1, 3]], atol=5.1e-7)
     without = weights_csv(predict_frames(quick_model, _frames(points)))
     assert without.startswith("frame,eyeBlinkLeft,")
+
+
+@pytest.mark.parametrize(
+    ("named", "rows"),
+    [
+        ("1/0", [0]),
+        ("1/0-3/0", [0, 2, 4]),
+        ("2/1-3/1", [3, 5]),
+        ("1/0-3/1", [0, 1, 2, 3, 4, 5]),
+        ("take-1", [6]),
+        ("take-1-take-2", [6, 7]),
+        ("4-5", []),
+    ],
+)
+def test_neutral_frames_are_named_with_their_face_and_with_dashes(named: str, rows: list[int]):
+    labels = ("1/0", "1/1", "2/0", "2/1", "3/0", "3/1", "take-1", "take-2")
+    frames = Frames(
+        points=np.zeros((8, 68, 2)), labels=labels, time_s=None, source="here", numbers=np.arange(8)
+    )
+    assert named_rows(frames, named) == rows
+
+
+def test_a_neutral_frame_without_a_face_is_refused_in_a_sentence(run, tmp_path: Path):
+    faces = drawn_faces(np.random.default_rng(1), 3)
+    faces[1] = np.nan
+    np.save(tmp_path / "take.npy", faces)
+    code, out, said = run("predict", tmp_path / "take.npy", "--neutral", 1)
+    assert (code, out) == (2, "")
+    assert "no neutral frame is usable" in said

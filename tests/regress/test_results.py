@@ -9,6 +9,7 @@ from pygltflib import GLTF2
 
 from facegen.conventions import BLENDSHAPES
 from facegen.formats import read_live_link
+from regress.errors import InputError
 from regress.runtime.features import align_similarity, extract
 from regress.runtime.inputs import Frames
 from regress.runtime.stages.retargeting.shipped import shipped_targets
@@ -153,3 +154,9 @@ def test_smooth_landmarks_calm_a_still_face_of_a_moving_head(quick_model):
     noisy = _smoothed(in_pictures(rng, still + rng.normal(size=still.shape) * 0.004), time_s, 1.0, mean)
     raw = align_similarity(in_pictures(rng, still + rng.normal(size=still.shape) * 0.004), mean)
     assert noisy[30:].std(axis=0).mean() < raw[30:].std(axis=0).mean() / 2
+
+
+def test_landmarks_without_times_are_not_smoothed_in_silence():
+    frames = Frames(points=FACES[:2], labels=("a", "b"), time_s=None, source="here")
+    with pytest.raises(InputError, match="frame a has no time, which smoothing of landmarks needs"):
+        LandmarkSmoothing(1.0, FACES[0]).run(frames.samples())

@@ -77,7 +77,9 @@ def extract(features: Features, points: np.ndarray) -> np.ndarray:
     if features.depth is not None:
         points = undo_turn(points, features.mean_shape, features.depth)
     if features.of_points:
-        values = align_similarity(points, features.mean_shape, STABLE).reshape(len(points), -1)
+        values = align_similarity(points, features.mean_shape, STABLE).reshape(
+            len(points), 2 * LANDMARK_COUNT
+        )
     else:
         if features.alignment == "affine":
             points = align_affine(points, features.mean_shape)

@@ -73,7 +73,7 @@ class HeadsetNetworks(Stage):
         return {name: points[0] for name, points in self._points.items()}
 
     def use_neutral(self, pictures: Mapping[str, np.ndarray] | None) -> None:
-        """Compare frames with these neutral pictures (h, w) uint8 by camera from now on; None: with none."""
+        """Compare frames with neutral pictures (h, w) uint8 of the network's sizes from now on; None: with none."""
         self._neutral = pictures
         self._seat = None if pictures is None else SeatWatch(fps=self._fps)
         self._doubted_from = None

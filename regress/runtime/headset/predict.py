@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
+import numpy as np
+
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.levels import Levels
@@ -70,6 +72,21 @@ class HeadsetStream(Stage):
         )
         taps = [TemporalConvolution(predictor)] if temporal else []
         self.after = Chain([*taps, *(output or Output()).stages(say)])
+
+    def use_neutral(self, pictures: Mapping[str, np.ndarray] | None) -> None:
+        """Compare frames with these neutral pictures from now on; None: with none.
+
+        Parameters
+        ----------
+        pictures
+            Grey (h, w) uint8 by camera, as the cameras give them.
+
+        Raises
+        ------
+        InputError
+            Where one shows nothing, or is of a camera that the model does not have.
+        """
+        self.networks.use_neutral(None if pictures is None else self.soundness.neutral(pictures))
 
     def step(self, sample: Sample) -> Sample:
         """Weights, gaze and confidence of the next frame's pictures, grey (h, w) uint8 by camera."""

@@ -3,8 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
+from regress.errors import InputError
 from regress.runtime.headset.faults import Fault, FrozenWatch
-from regress.runtime.headset.pictures import fit_picture
+from regress.runtime.headset.pictures import FittedPicture, fit_picture
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
@@ -38,13 +41,11 @@ class PictureSoundness(Stage):
             Its pictures are grey (h, w) uint8, of any size.
         """
         pictures, faults = {}, {}
-        for name, (width, height) in self._sizes.items():
+        for name in self._sizes:
             if name not in sample.pictures:
                 faults[name] = Fault.MISSING
                 continue
-            fitted = fit_picture(
-                sample.pictures[name], width=width, height=height, placement=self._placement.get(name)
-            )
+            fitted = self._fit(name, sample.pictures[name])
             if fitted.fault is None:
                 pictures[name] = fitted.picture
             else:
@@ -53,3 +54,27 @@ class PictureSoundness(Stage):
             faults[name] = Fault.FROZEN
             del pictures[name]
         return replace(sample, pictures=pictures, faults=faults)
+
+    def neutral(self, pictures: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """Neutral pictures, grey (h, w) uint8 of any size by camera, as the network takes them.
+
+        Raises
+        ------
+        InputError
+            Where one cannot be a neutral picture, or is of a camera that the network does not have.
+        """
+        fitted = {}
+        for name, picture in pictures.items():
+            if name not in self._sizes:
+                raise InputError(
+                    f"a neutral picture is of {name}; the model's cameras are {', '.join(self._sizes)}"
+                )
+            found = self._fit(name, picture)
+            if found.fault is not None:
+                raise InputError(f"the neutral picture of {name} cannot be one: it is {found.fault.value}")
+            fitted[name] = found.picture
+        return fitted
+
+    def _fit(self, name: str, picture: np.ndarray) -> FittedPicture:
+        width, height = self._sizes[name]
+        return fit_picture(picture, width=width, height=height, placement=self._placement.get(name))

@@ -178,7 +178,8 @@ def traced_eyes(
                 f"{name}: the model has no map from points to the gaze; train it with this version"
             )
     rows = _rows(footage, targets or {})
-    estimates, traced = predictor.graph.see({name: footage.pictures[name] for name in cameras})
+    pictures = {name: footage.pictures[name] for name in cameras}
+    estimates, traced = predictor.graph.see(pictures, present=footage.present)
     direct = np.degrees(estimates.gaze.astype(np.float64))
     eyes = {}
     for name in cameras:

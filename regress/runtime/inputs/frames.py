@@ -1,7 +1,7 @@
 """Frames of landmarks, whatever file they came from."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
@@ -31,6 +31,8 @@ class Frames:
         The file or folder.
     irises : (n, 2, 2) float64 or None
         Centres of the irises, the subject's left eye first, where the file has them; NaN where they are not seen.
+    numbers : (n,) int64 or None
+        Of the pictures that the faces are of, none less than the one before, where the file counts them.
     """
 
     points: np.ndarray
@@ -38,6 +40,7 @@ class Frames:
     time_s: np.ndarray | None
     source: str
     irises: np.ndarray | None = None
+    numbers: np.ndarray | None = None
 
     @property
     def usable(self) -> np.ndarray:
@@ -52,7 +55,16 @@ class Frames:
             time_s=None if self.time_s is None else self.time_s[rows],
             source=self.source,
             irises=None if self.irises is None else self.irises[rows],
+            numbers=None if self.numbers is None else self.numbers[rows],
         )
+
+    def at_rate(self, fps: float) -> "Frames":
+        """The frames with times of a camera of so many pictures a second.
+
+        Pictures that a file counts but leaves out take their time all the same, and faces of one picture share theirs.
+        """
+        counted = np.arange(len(self.labels)) if self.numbers is None else self.numbers - self.numbers[0]
+        return replace(self, time_s=counted / fps)
 
     def samples(self) -> list[Sample]:
         """The frames one by one, as the stages take them."""

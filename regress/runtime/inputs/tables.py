@@ -4,6 +4,7 @@ OpenFace puts a blank before each column's name, all x before all y, ``success``
 py-feat leaves cells empty there. Columns ``x_68``, ``y_68``, ``x_69``, ``y_69`` are irises, if it has all four.
 """
 
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -33,8 +34,8 @@ def is_table(path: Path) -> bool:
 def read_table(path: Path) -> Frames:
     """Frames of an OpenFace or py-feat CSV, told apart by the column ``success``, which OpenFace has.
 
-    In OpenFace's a frame without success has no face, and several faces are rows of their own. Labels are the column
-    ``frame``, or count from 0.
+    In OpenFace's a frame without success has no face. Labels are the column ``frame``, or count from 0. Several faces
+    of a frame are rows of their own: ``frame/FACE``, by the column ``face_id`` or in the order of their rows.
     """
     with CsvRows(path) as table:
         missing = [name for name in _BY_AXIS if name not in table.columns]
@@ -56,7 +57,7 @@ def read_table(path: Path) -> Frames:
 def _frames(table: CsvRows) -> Frames:
     columns = table.columns
     openface = "success" in columns
-    timed, several = openface and "timestamp" in columns, openface and "face_id" in columns
+    timed, named = openface and "timestamp" in columns, openface and "face_id" in columns
     shown = _POINTS + (_IRISES if set(_IRISES) <= columns.keys() else ())
     names = (*shown, *(["success"] if openface else []), *(["timestamp"] if timed else []))
     picked = [columns[name] for name in names]
@@ -68,7 +69,7 @@ def _frames(table: CsvRows) -> Frames:
         for number, row in enumerate(table):
             numbers = _numbers(table, row, names, picked)
             labels.append(row[columns["frame"]].strip() if "frame" in columns else str(number))
-            if several:
+            if named:
                 face_ids.append(row[columns["face_id"]].strip())
             if timed:
                 time_s.append(numbers[-1])
@@ -78,15 +79,30 @@ def _frames(table: CsvRows) -> Frames:
     points, irises = split_irises(stacked(faces(), table.path))
     if any(abs(time) > _LATEST_S for time in time_s):
         raise InputError(f"{table.path}: a timestamp is beyond {_LATEST_S:g} s")
-    if several and len(set(labels)) < len(labels):
-        labels = [f"{frame}/{face}" for frame, face in zip(labels, face_ids, strict=True)]
+    numbers = _counted(labels) if "frame" in columns else None
+    if len(set(labels)) < len(labels):
+        seen: Counter[str] = Counter()
+        for row, frame in enumerate(labels):
+            labels[row] = f"{frame}/{face_ids[row] if named else seen[frame]}"
+            seen[frame] += 1
     return Frames(
         points=points,
         labels=tuple(labels),
         time_s=np.array(time_s) if timed else None,
         source=str(table.path),
         irises=irises,
+        numbers=numbers,
     )
+
+
+def _counted(frames: list[str]) -> np.ndarray | None:
+    """The column ``frame`` as numbers, where it counts the pictures of a film."""
+    try:
+        numbers = np.array([number_in(frame) for frame in frames])
+    except ValueError:
+        return None
+    counts = (np.abs(numbers) < 2**53).all() and (numbers == np.round(numbers)).all()
+    return numbers.astype(np.int64) if counts and (np.diff(numbers) >= 0).all() else None
 
 
 def _numbers(table: CsvRows, row: list[str], names: tuple[str, ...], picked: list[int]) -> np.ndarray:

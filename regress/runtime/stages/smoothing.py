@@ -97,9 +97,17 @@ class LandmarkSmoothing(Stage):
         self._mean_shape = mean_shape
 
     def step(self, sample: Sample) -> Sample:
-        """The sample with its face (68, 2) smoothed, in face widths; NaN where points are missing."""
+        """The sample with its face (68, 2) smoothed, in face widths; NaN where points are missing.
+
+        Raises
+        ------
+        InputError
+            Where a frame with a face has no time, or one no later than the frame before.
+        """
         if np.isnan(sample.points).any():
             return sample
+        if sample.time_s is None or not np.isfinite(sample.time_s):
+            raise InputError(f"frame {sample.label} has no time, which smoothing of landmarks needs")
         laid = align_similarity(sample.points[None], self._mean_shape).reshape(-1)
         return replace(sample, points=self._filter.step(sample.time_s, laid).reshape(LANDMARK_COUNT, 2))
 

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
+from regress.errors import InputError
 from regress.runtime.headset.model import Temporal
+from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predict import HeadsetStream
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.headset.temporal import TAPS
@@ -105,7 +107,7 @@ def _stepped(
     predictor: HeadsetPredictor, frames: list[dict[str, np.ndarray]], output: Output, **settings: bool
 ) -> tuple[Prediction, HeadsetStream]:
     stream = HeadsetStream(predictor, output, fps=30, **settings)
-    stream.networks.use_neutral(frames[NEUTRAL])
+    stream.use_neutral(frames[NEUTRAL])
     samples = [
         ready
         for row, taken in enumerate(frames)
@@ -153,6 +155,45 @@ def test_every_table(writer: str, run, model: Path, predictor: HeadsetPredictor,
     )
     assert code == 0, said
     assert out == TABLES[writer].text(_stepped(predictor, frames, Output(mirror=True))[0])
+
+
+def test_neutral_pictures_are_placed_as_the_cameras_pictures_are(predictor: HeadsetPredictor, frames):
+    """The left half of twice as large pictures: what is beside it does not count in either."""
+    placement = {name: CameraPlacement(x=0.25, y=0.5, size=0.5) for name in NAMES}
+    rng = np.random.default_rng(5)
+
+    def beside(picture: np.ndarray) -> np.ndarray:
+        wide = rng.integers(0, 255, (2 * HEIGHT, 2 * WIDTH), dtype=np.uint8)
+        wide[HEIGHT // 2 : HEIGHT // 2 + HEIGHT, :WIDTH] = picture
+        return wide
+
+    taken = {name: pictures([120], seed=seed)[0] for seed, name in enumerate(NAMES)}
+    at_rest = {name: pictures([100], seed=seed)[0] for seed, name in enumerate(NAMES)}
+    plain, placed = (HeadsetStream(predictor, fps=30, placement=each) for each in (None, placement))
+    plain.use_neutral(at_rest)
+    placed.use_neutral({name: beside(picture) for name, picture in at_rest.items()})
+    expected = plain.step(Sample(label="0", time_s=0.0, pictures=taken))
+    found = placed.step(
+        Sample(label="0", time_s=0.0, pictures={name: beside(picture) for name, picture in taken.items()})
+    )
+    np.testing.assert_allclose(found.weights, expected.weights, atol=0.01)
+    assert 0.03 < expected.weights.max() < 0.12
+
+
+@pytest.mark.parametrize(
+    ("picture", "said"),
+    [
+        (np.zeros((HEIGHT, WIDTH), np.uint8), "the neutral picture of mouth cannot be one: it is"),
+        (np.full((50, 20), 99, np.uint8), "the neutral picture of mouth cannot be one: it is"),
+    ],
+)
+def test_a_neutral_picture_that_shows_nothing_is_refused(
+    predictor: HeadsetPredictor, frames, picture: np.ndarray, said: str
+):
+    with pytest.raises(InputError, match=said):
+        HeadsetStream(predictor).use_neutral({**frames[NEUTRAL], "mouth": picture})
+    with pytest.raises(InputError, match="a neutral picture is of chin; the model's cameras are left_eye"):
+        HeadsetStream(predictor).use_neutral({"chin": frames[NEUTRAL]["mouth"]})
 
 
 def test_faults_of_live_pictures_are_told(predictor: HeadsetPredictor, frames):

@@ -1,5 +1,7 @@
 """Lids and gaze from traced points, on eyes whose truth is known, and as `predict --eyes` writes them."""
 
+import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,9 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from regress.cli.headset_input import read_footage
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.eye_reader import HALF_SHUT, IRIS_MM
-from regress.runtime.headset.traced_eyes import corrected, eye_features, fused
+from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.traced_eyes import corrected, eye_features, fused, traced_eyes
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
 LIDS, IRIS = 12, 8
@@ -142,7 +146,27 @@ def test_targets_that_are_none_are_refused(run, tmp_path: Path, options: list[st
         "--out",
         tmp_path / "w.csv",
     ]
-    code, _, told = run(*words, "--eyes", tmp_path / "eyes.csv", *options)
+    code, _, told = run(
+        *words, "--eyes", tmp_path / "eyes.csv", "--points", tmp_path / "points.csv", *options
+    )
     assert (code, said in told) == (2, True), told
+    assert not list(tmp_path.glob("*.csv"))
     code, _, told = run(*words, "--looked-at", "3:0:0")
     assert (code, "give --eyes too" in told) == (2, True)
+
+
+def test_a_picture_that_does_not_count_says_nothing_of_the_other_eye(tmp_path: Path):
+    shutil.copytree(TAKE / "right_eye", tmp_path / "right")
+    for path in sorted((tmp_path / "right").iterdir())[40:]:
+        path.unlink()
+    given = {"left_eye": TAKE / "left_eye", "right_eye": tmp_path / "right"}
+    predictor = load_headset_predictor("headset-tracking3")
+    footage = read_footage(predictor, None, given, from_start=False, fps=None)
+    white = footage.pictures["right_eye"].copy()
+    white[40:] = 255
+    other = replace(footage, pictures={**footage.pictures, "right_eye": white})
+    targets = {row: (row - 20.0, 5.0) for row in (0, 10, 20, 30, 35)}
+    eyes, again = (traced_eyes(predictor, take, targets) for take in (footage, other))
+    assert len(eyes["left_eye"].gaze_deg) == 100
+    np.testing.assert_array_equal(again["left_eye"].gaze_deg, eyes["left_eye"].gaze_deg)
+    assert np.isnan(eyes["right_eye"].gaze_deg[40:]).all()
