@@ -63,12 +63,12 @@ def show(name: NameArgument) -> None:
 
 @profiles.command()
 def delete(name: NameArgument) -> None:
-    """Delete a profile.
+    """Delete a profile; a file that is none stays.
 
     Example: track profiles delete me.camera-0
     """
-    from track.profile.places import stored_path
+    from track.profile.places import disposable_path
 
-    path = stored_path(name)
+    path = disposable_path(name)
     path.unlink()
     typer.echo(f"deleted {path}", err=True)

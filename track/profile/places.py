@@ -71,7 +71,7 @@ def stored_path(name: str) -> Path:
     InputError
         Where there is none, or a person has several.
     """
-    if name.endswith(ENDING) and Path(name).is_file():
+    if _names_itself(name):
         return Path(name)
     folder = profile_folder()
     names = sorted(path.name.removesuffix(ENDING) for path in folder.glob(f"*{ENDING}"))
@@ -86,6 +86,31 @@ def stored_path(name: str) -> Path:
         f"there is no profile {name!r} in {folder}; "
         + (f"there are {', '.join(names)}" if names else "`track calibrate` makes one")
     )
+
+
+def disposable_path(name: str) -> Path:
+    """The file of a profile that may be deleted, by all names that `stored_path` knows.
+
+    Raises
+    ------
+    InputError
+        Where there is none, a person has several, or a file that is named itself is no profile: a damaged one can go by
+        its name in the folder alone.
+    """
+    path = stored_path(name)
+    if _names_itself(name):
+        try:
+            read_profile(path)
+        except InputError as error:
+            raise InputError(
+                f"{error}: that is no profile, and is not deleted; a damaged one goes by its name in {profile_folder()}"
+            ) from error
+    return path
+
+
+def _names_itself(name: str) -> bool:
+    """Whether a file is named, wherever it lies, and no profile of the folder."""
+    return name.endswith(ENDING) and Path(name).is_file()
 
 
 def _as_name(camera: str) -> str:

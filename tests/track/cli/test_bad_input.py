@@ -131,6 +131,8 @@ CASES = {
     "another truth": (["compare", "--truth", "mirror"], "livelink or livelink:PORT"),
     "a take that is there": (["compare", "--keep", TEXT], "is there already"),
     "nobody's profile": (["profiles", "show", "nobody"], "no profile 'nobody'"),
+    "a file to delete that is no profile": (["profiles", "delete", OTHER_HEADSET], "is not deleted"),
+    "a damaged file to delete": (["profiles", "delete", BROKEN_PROFILE], "goes by its name in"),
     "an unknown option": (["--kamera", "0"], "--kamera"),
 }
 

@@ -13,7 +13,7 @@ from track.cli import app
 from track.errors import InputError
 from track.profile import places
 from track.profile.neutral import NeutralFace, lines_of
-from track.profile.places import person_of, profile_path, stored_path, stored_profiles
+from track.profile.places import disposable_path, person_of, profile_path, stored_path, stored_profiles
 from track.profile.profile import (
     FULL_GAIN,
     LARGEST_GAIN,
@@ -180,3 +180,21 @@ def test_blinks_are_listed_and_shown(folder):
     )
     assert listed.split() == ["anna.x", "x", "blinks"]
     assert shown.splitlines()[1].split() == ["blink", "eyeBlinkLeft", "0.55", "(open", "0.10)"]
+
+
+def test_a_file_that_is_no_profile_is_not_deleted(folder):
+    other = folder / "pyproject.toml"
+    other.write_text('[project]\nname = "mine"\n')
+    with pytest.raises(InputError, match=r"unknown key 'project'.*is not deleted"):
+        disposable_path(str(other))
+    done = CliRunner().invoke(app, ["profiles", "delete", str(other)])
+    assert done.exit_code != 0
+    assert other.read_text() == '[project]\nname = "mine"\n'
+
+
+def test_profiles_are_deleted_by_name_even_where_they_are_damaged_and_by_file_where_they_are_whole(folder):
+    (folder / "anna.x.toml").write_text("x = [")
+    write_profile(folder / "ben.x.toml", Profile(person="ben", camera="x"))
+    for name in ("anna.x", str(folder / "ben.x.toml")):
+        assert CliRunner().invoke(app, ["profiles", "delete", name]).exit_code == 0
+    assert list(folder.iterdir()) == []
