@@ -125,6 +125,8 @@ class Adjusting:
 
     def _begin(self, faces: str) -> None:
         names = faces_of(faces, self._pipeline.faces)
+        if self._calibration is not None:  # it ends here, and may have put the neutral face away
+            self._use_known_neutral()
         self._calibration = Calibration(names, least=self._pipeline.least_movement)
         if "neutral" in names:
             self._pipeline.forget_neutral()

@@ -8,7 +8,7 @@ import asyncio
 import json
 import re
 import threading
-from urllib.parse import urlsplit
+from urllib.parse import SplitResult, urlsplit
 
 import numpy as np
 from aiohttp import ClientError, ClientSession, ClientTimeout, ClientWebSocketResponse, WSMsgType
@@ -48,13 +48,7 @@ class RoomSink(Sink):
     """
 
     def __init__(self, target: Target, tell: Tell) -> None:
-        link = urlsplit(target.place)
-        name, keys = _LINK.fullmatch(link.path), _KEYS.fullmatch(link.fragment)
-        if link.scheme not in ("http", "https") or not link.netloc or name is None or keys is None:
-            raise InputError(
-                "--to room: the link is none of a person's face; the room's page shows it as "
-                "http://HOST:PORT/room/NAME#KEY.SECRET"
-            )
+        link, keys = _read_link(target.place)
         self.title = f"room to {link.netloc}{link.path}"
         self._address = f"{link.scheme}://{link.netloc}{link.path}/socket"
         self._join = {
@@ -161,6 +155,28 @@ class RoomSink(Sink):
         if not self._told:
             self._told = True
             self._tell(f"{self.title}: {what}")
+
+
+def _read_link(text: str) -> tuple[SplitResult, re.Match[str]]:
+    """A link's parts, and its key and secret.
+
+    Raises
+    ------
+    InputError
+        Where it is none of a person in a room; its secret is not repeated.
+    """
+    try:
+        link = urlsplit(text)
+        served = link.scheme in ("http", "https") and bool(link.hostname) and link.port != 0
+    except ValueError:  # half of an IPv6 address, a port beyond 65535
+        served = False
+    keys = _KEYS.fullmatch(link.fragment) if served and _LINK.fullmatch(link.path) else None
+    if keys is None:
+        raise InputError(
+            "--to room: the link is none of a person's face; the room's page shows it as "
+            "http://HOST:PORT/room/NAME#KEY.SECRET"
+        )
+    return link, keys
 
 
 def _answer(text: str) -> dict[str, object]:

@@ -99,6 +99,17 @@ def test_a_neutral_face_that_is_not_found_leaves_the_known_one(ends):
     np.testing.assert_allclose(*answers, atol=1e-3)
 
 
+@pytest.mark.parametrize("first", ["all", "neutral"])
+def test_a_calibration_in_place_of_one_that_still_runs_has_the_known_neutral_face(first):
+    session, calibrated = headset_session(), headset_session()
+    for row, sample in enumerate(headset_frames()[90 : 90 + 2 * FPS]):
+        if row < 2:
+            session.ask(Command(verb="calibrate", value=(first, "pucker")[row]))
+        answers = [each.answer(sample)[0].weights for each in (session, calibrated)]
+    assert session.adjusting.step.name == "pucker"
+    np.testing.assert_allclose(*answers, atol=1e-3)
+
+
 @pytest.mark.parametrize(
     ("neutral", "words"),
     [

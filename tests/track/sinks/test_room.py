@@ -168,6 +168,8 @@ def test_what_is_no_word_of_a_room_ends_no_thread(word, monkeypatch):
         "ws://127.0.0.1:8443/room/a#" + "k" * 22 + "." + "x" * 22,
         "127.0.0.1:8443",
         "http:///room/a#" + "k" * 22 + "." + "x" * 22,
+        "http://[::1/room/a#" + "k" * 22 + "." + "x" * 22,
+        "http://127.0.0.1:99999/room/a#" + "k" * 22 + "." + "x" * 22,
     ],
 )
 def test_a_link_that_is_none_of_a_face_is_refused_without_its_secret(link):
