@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from room.state import identity
-from room.state.meeting import COLOURS
+from room.state.numbers import COLOURS
 from tests.room.guests import Guest, Place
 
 ROOT = Path(__file__).resolve().parents[2]

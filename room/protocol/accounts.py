@@ -16,7 +16,8 @@ from room.protocol.texts import Avatar, Name, Number, Visit
 from room.protocol.tick import pack, unpack
 
 MOST_WORD_BYTES = 1024**2
-"""Of one message between processes: an account of 1,000 people, 1,000 mutes and 1,000 removed ones has 0.4 MB."""
+"""Of one message between processes: an account of 1,000 people, and as many mutes, removals and avatars that were taken
+off, has 0.4 MB."""
 
 MOST_RESIDENTS = 1000
 """People of one room at one process: as many places as ``--people`` allows."""
@@ -73,6 +74,7 @@ class Account(_Word):
     people: Annotated[tuple[Resident, ...], Field(max_length=MOST_RESIDENTS)] = ()
     mutes: Annotated[tuple[Mute, ...], Field(max_length=MOST_RESIDENTS)] = ()
     removed: Annotated[tuple[Id, ...], Field(max_length=MOST_RESIDENTS)] = ()
+    undressed: Annotated[tuple[Id, ...], Field(max_length=MOST_RESIDENTS)] = ()
     locked: bool = False
     locks: Count = 0
     sharer: Annotated[str, StringConstraints(pattern=r"^([0-9a-f]{16})?$")] = ""
@@ -105,14 +107,6 @@ class Wanted(_Word):
     at: Count
 
 
-class Undressed(_Word):
-    """A moderator has taken an avatar off that somebody brought to another process."""
-
-    kind: Literal["undressed"] = "undressed"
-    process: Process
-    id: Id
-
-
 class Moves(BaseModel):
     """States as they came in since the last tick, each behind the person's number, sent by pages or by programs."""
 
@@ -123,7 +117,7 @@ class Moves(BaseModel):
     states: tuple[tuple[int, bytes], ...]
 
 
-Word = Account | Spoken | Called | Wanted | Undressed
+Word = Account | Spoken | Called | Wanted
 _WORD = TypeAdapter(Annotated[Word, Field(discriminator="kind")])
 _MOVER = TypeAdapter(Process)
 

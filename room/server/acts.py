@@ -115,8 +115,6 @@ class Acts:
         elif act.action == "undress":
             self._cloakroom.undress(seat)
             self._tell(Changed(person=seat.person))
-            if self._neighbours and seat.home != self._meeting.process:
-                self._neighbours.undressed(seat.id)
         elif act.action == "remove":
             self._free(seat, "a moderator has removed you from this room")
         else:

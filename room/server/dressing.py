@@ -53,10 +53,7 @@ class Dressing:
         if not same_origin(request, self._origins):
             raise web.HTTPForbidden(text="another site's page may not come in\n")
         hall, seat = self._who(request)
-        if seat.undressed:
-            raise web.HTTPForbidden(
-                text="a moderator has taken your own avatar off; choose one of the room's\n"
-            )
+        _refuse_undressed(hall, seat)
         if not hall.cloakroom.uploads.setdefault(seat.id, Bucket(UPLOADS_PER_S, burst=UPLOADS_BURST)).take(
             now=asyncio.get_running_loop().time()
         ):
@@ -75,6 +72,7 @@ class Dressing:
                 await asyncio.to_thread(check_avatar, content)
             if hall.meeting.seat(seat.id) is not seat:
                 raise web.HTTPForbidden(text="you have left the room\n")
+            _refuse_undressed(hall, seat)  # meanwhile
             return web.json_response({"own": hall.dress(seat, content)})
         except asyncio.TimeoutError:
             raise web.HTTPRequestTimeout(
@@ -130,6 +128,11 @@ class Dressing:
                 text="this link is not, or no longer, one of this room; ask for a new one\n"
             )
         return found[2]
+
+
+def _refuse_undressed(hall: Hall, seat: Seat) -> None:
+    if hall.meeting.rulings.is_undressed(seat.id):
+        raise web.HTTPForbidden(text="a moderator has taken your own avatar off; choose one of the room's\n")
 
 
 async def _body(request: web.Request) -> bytes:

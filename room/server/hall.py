@@ -217,8 +217,7 @@ class Hall:
 
     def _undressed(self, id: str) -> None:
         seat = self.meeting.seat(id)
-        if seat and seat.home == self.meeting.process:
-            seat.undressed = True
+        if seat:
             self.cloakroom.undress(seat)
             self._tell(Changed(person=seat.person))
 

@@ -12,7 +12,6 @@ from room.protocol.accounts import (
     Moves,
     Part,
     Spoken,
-    Undressed,
     Wanted,
     Word,
     pack_moves,
@@ -127,10 +126,6 @@ class Neighbours:
         """Somebody of this process calls somebody of another one."""
         self._say(Called(process=self._meeting.process, to=to, signal=signal))
 
-    def undressed(self, id: str) -> None:
-        """A moderator of this process has taken an avatar off that was brought to another one."""
-        self._say(Undressed(process=self._meeting.process, id=id))
-
     def tick(self, *, now: float) -> None:
         """Say what has come since the last tick, and what has changed."""
         back = self._telegraph.connected and not self._connected
@@ -167,8 +162,6 @@ class Neighbours:
                 self._call(word.to, word.signal)
             case Wanted():
                 self._send(word)
-            case Undressed():
-                self._undress(word.id)
 
     def _merge(self, said: Account) -> None:
         now = time.monotonic()
@@ -177,6 +170,8 @@ class Neighbours:
         merged = merge(self._meeting, said, now=now)
         for ousted in merged.ousted:
             self._oust(ousted)
+        for id in merged.undressed:
+            self._undress(id)
         for answer in merged.told:
             self._tell(answer)
         if said.asks or not known:

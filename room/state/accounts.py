@@ -1,7 +1,8 @@
 """Brings together what several processes know of one room, so that all of them come to know the same.
 
 Accounts may come in any order, and more than once. Of two places of one person the later entry counts, and of mutes and
-locks the latest act. Of two people with one number the smaller id keeps it. Who was removed by one is removed by all.
+locks the latest act. Of two people with one number the smaller id keeps it. Who was removed by one is removed by all,
+and whose own avatar one took off brings none to any.
 """
 
 from dataclasses import dataclass, field
@@ -44,23 +45,28 @@ class Merged:
         What the people of this process have to hear.
     ousted
         Those of them who have to go.
+    undressed
+        Ids of those of them whose own avatar was taken off elsewhere.
     """
 
     told: list[Changed | Left | Door] = field(default_factory=list)
     ousted: list[Ousted] = field(default_factory=list)
+    undressed: list[str] = field(default_factory=list)
 
 
 def account(meeting: Meeting, *, asks: bool = False) -> Account:
     """All that this process knows of a room."""
-    seats = [seat for seat in meeting.seats if not seat.replayed]
     return Account(
         process=meeting.process,
         asks=asks,
-        people=tuple(_resident(seat) for seat in seats if seat.home == meeting.process),
-        mutes=tuple(
-            Mute(id=seat.id, muted=seat.muted, acts=seat.mute_acts) for seat in seats if seat.mute_acts
+        people=tuple(
+            _resident(seat) for seat in meeting.seats if seat.home == meeting.process and not seat.replayed
         ),
-        removed=meeting.removed,
+        mutes=tuple(
+            Mute(id=id, muted=muted, acts=acts) for id, (acts, muted) in meeting.rulings.mutes.items()
+        ),
+        removed=meeting.rulings.removed,
+        undressed=meeting.rulings.undressed,
         locked=meeting.locked,
         locks=meeting.lock_acts,
         sharer=meeting.sharer,
@@ -71,9 +77,7 @@ def account(meeting: Meeting, *, asks: bool = False) -> Account:
 def merge(meeting: Meeting, said: Account, *, now: float) -> Merged:
     """Take what another process knows. ``now`` in the room's seconds."""
     merged = Merged()
-    for id in said.removed:
-        if meeting.keep_out(id):
-            _drop(meeting, id, merged, text="a moderator has removed you from this room")
+    _rule(meeting, said, merged)
     if (said.locks, said.locked) > (meeting.lock_acts, meeting.locked):
         changed = said.locked != meeting.locked
         meeting.lock_acts, meeting.locked = said.locks, said.locked
@@ -87,13 +91,6 @@ def merge(meeting: Meeting, said: Account, *, now: float) -> Merged:
         _settle(meeting, resident, said.process, merged, now=now)
     if (said.shares, said.sharer) > (meeting.share_acts, meeting.sharer):
         merged.told += [Changed(person=seat.person) for seat in meeting.screen(said.sharer, acts=said.shares)]
-    for mute in said.mutes:
-        seat = meeting.seat(mute.id)
-        if seat and (mute.acts, mute.muted) > (seat.mute_acts, seat.muted):
-            changed, seat.mute_acts = mute.muted != seat.muted, mute.acts
-            seat.mute(mute.muted)
-            if changed:
-                merged.told.append(Changed(person=seat.person))
     return merged
 
 
@@ -105,6 +102,21 @@ def silent(meeting: Meeting, process: str, *, now: float) -> list[Changed]:
             seat.gone_at, seat.voice = now, False
             told.append(Changed(person=seat.person))
     return told
+
+
+def _rule(meeting: Meeting, said: Account, merged: Merged) -> None:
+    """Take what moderators decided elsewhere, also about people who are not here."""
+    for id in said.removed:
+        if meeting.rulings.remove(id):
+            _drop(meeting, id, merged, text="a moderator has removed you from this room")
+    for id in said.undressed:
+        if meeting.rulings.undress(id) and (seat := meeting.seat(id)) and seat.home == meeting.process:
+            merged.undressed.append(id)
+    for mute in said.mutes:
+        newer, seat = meeting.rulings.mute(mute.id, mute.muted, acts=mute.acts), meeting.seat(mute.id)
+        if newer and seat and seat.muted != mute.muted:
+            seat.mute(mute.muted)
+            merged.told.append(Changed(person=seat.person))
 
 
 def _resident(seat: Seat) -> Resident:
@@ -124,7 +136,7 @@ def _resident(seat: Seat) -> Resident:
 
 def _settle(meeting: Meeting, resident: Resident, process: str, merged: Merged, *, now: float) -> None:
     """Give somebody of another process their place here, unless a better claim stands against it."""
-    if meeting.is_out(resident.id):
+    if meeting.rulings.is_removed(resident.id):
         return
     seat = meeting.seat(resident.id)
     if seat and (seat.entry, seat.home) > (resident.entry, process):
@@ -143,7 +155,8 @@ def _settle(meeting: Meeting, resident: Resident, process: str, merged: Merged, 
     seat = meeting.settle(seat, resident.number, resident.id)
     seat.home, seat.entry = process, resident.entry
     seat.name, seat.avatar, seat.visit = resident.name, resident.avatar, resident.visit
-    seat.own = resident.own
+    # an avatar that was taken off here is on in what its own process said before it heard of that
+    seat.own = "" if meeting.rulings.is_undressed(seat.id) else resident.own
     seat.moderator, seat.voice, seat.recorded = resident.moderator, resident.voice, False
     if resident.present:
         seat.gone_at = None

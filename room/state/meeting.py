@@ -4,13 +4,14 @@ Nothing here waits or sends. Times are seconds of one clock that never goes back
 """
 
 import hashlib
-import itertools
 
 from room.errors import NotAllowed
 from room.protocol import check
 from room.protocol.answers import Person
 from room.protocol.texts import Join, Moderate
 from room.protocol.tick import pack
+from room.state.numbers import free_number
+from room.state.rulings import Rulings
 from room.state.seat import Seat
 
 KEEP_S = 30.0
@@ -18,15 +19,6 @@ KEEP_S = 30.0
 
 ELSEWHERE_S = 5.0
 """Longer wait for somebody of another process: that process says first that their place is free."""
-
-NUMBERS = 65536
-"""Of people: two bytes before each state."""
-
-COLOURS = 12
-"""Of people's clothes (``CLOTHES`` in ``web/room/colours.ts``): pages take them by the number."""
-
-MOST_REMOVED = 1000
-"""People whom a room keeps out; beyond it the oldest may try again, and a moderator had better lock the door."""
 
 
 def identity(secret: str) -> str:
@@ -56,15 +48,17 @@ class Meeting:
         Id of whoever shows something on the screens; empty where nobody does.
     share_acts
         How often that changed.
+    rulings
+        What moderators have decided about people, also about those who are not here.
     """
 
     def __init__(self, *, most_people: int, process: str = "", first_number: int = 0) -> None:
         self.most_people, self.process = most_people, process
-        self._first_number = first_number - first_number % COLOURS  # one colour at every process
+        self._first_number = first_number
         self.locked, self.lock_acts = False, 0
         self.sharer, self.share_acts = "", 0
         self._seats: dict[str, Seat] = {}
-        self._removed: dict[str, None] = {}
+        self.rulings = Rulings()
 
     @property
     def people(self) -> tuple[Person, ...]:
@@ -75,11 +69,6 @@ class Meeting:
     def seats(self) -> tuple[Seat, ...]:
         """All places."""
         return tuple(self._seats.values())
-
-    @property
-    def removed(self) -> tuple[str, ...]:
-        """Ids of those who are kept out."""
-        return tuple(self._removed)
 
     @property
     def empty(self) -> bool:
@@ -94,23 +83,11 @@ class Meeting:
         """The place with a number; None where nobody has it."""
         return next((seat for seat in self._seats.values() if seat.number == number), None)
 
-    def is_out(self, id: str) -> bool:
-        """Whether somebody is kept out."""
-        return id in self._removed
-
-    def keep_out(self, id: str) -> bool:
-        """Let somebody in no more; says whether that is new."""
-        if id in self._removed:
-            return False
-        self._removed[id] = None
-        if len(self._removed) > MOST_REMOVED:
-            self._removed.pop(next(iter(self._removed)))
-        return True
-
     def settle(self, seat: Seat | None, number: int, id: str) -> Seat:
         """Give somebody of another process their place: a new one, or ``seat`` with a number that is free."""
         if seat is None:
-            seat = Seat(number=number, id=id, name="", avatar="", visit="", moderator=False)
+            muted = self.rulings.is_muted(id)
+            seat = Seat(number=number, id=id, name="", avatar="", visit="", moderator=False, muted=muted)
             self._seats[id] = seat
         seat.number, seat.shares = number, id == self.sharer
         return seat
@@ -125,7 +102,7 @@ class Meeting:
         """
         id = identity(join.secret)
         seat = self._seats.get(id)
-        if id in self._removed:
+        if self.rulings.is_removed(id):
             raise NotAllowed("a moderator has removed you from this room")
         if join.role == "face":
             if seat is None:
@@ -146,6 +123,7 @@ class Meeting:
                 avatar=join.avatar,
                 visit=join.visit,
                 moderator=moderator,
+                muted=self.rulings.is_muted(id),
             )
             self._seats[id] = seat
         if seat.shares and seat.visit != join.visit:  # the page that showed something is gone
@@ -172,17 +150,8 @@ class Meeting:
         return seat
 
     def _free_number(self, wish: int) -> int:
-        """A number whose colour nobody has, while there is one; the colour of ``wish`` where that is free.
-
-        A person's wish follows from their id, so they come back in the same colour.
-        """
         taken = {seat.number for seat in self._seats.values()}
-        steps = (
-            row * COLOURS + (wish + step) % COLOURS for row in itertools.count() for step in range(COLOURS)
-        )
-        return next(
-            number for step in steps if (number := (self._first_number + step) % NUMBERS) not in taken
-        )
+        return free_number(wish, taken=taken, first=self._first_number)
 
     def take(self, seat: Seat, message: bytes, *, program: bool, now: float) -> bool:
         """Keep somebody's state for the next tick; says whether another moves their face from now on.
@@ -218,12 +187,13 @@ class Meeting:
             if seat is by:
                 raise NotAllowed("a moderator cannot remove themselves; leave instead")
             self.leave(seat)
-            self.keep_out(seat.id)
+            self.rulings.remove(seat.id)
         elif act.action == "undress":
-            seat.own, seat.undressed = "", True
+            seat.own = ""
+            self.rulings.undress(seat.id)
         else:
-            seat.mute_acts += 1
             seat.mute(act.action == "mute")
+            self.rulings.mute(seat.id, seat.muted)
         return seat
 
     def share(self, seat: Seat, *, on: bool) -> list[Seat]:

@@ -39,12 +39,8 @@ class Seat:
         Process at which their page is.
     entry
         Grows with each of their comings, by whatever process: a time of their own clock in ms, or one more than before.
-    mute_acts
-        How often moderators muted them or gave their voice back.
     own
         SHA-256 of the avatar that they brought; empty where they wear one of the server's.
-    undressed
-        Whether a moderator has taken it off: they bring no other.
     """
 
     number: int
@@ -61,9 +57,7 @@ class Seat:
     shares: bool = False
     home: str = ""
     entry: int = 0
-    mute_acts: int = 0
     own: str = ""
-    undressed: bool = False
     _waiting: list[bytes] = field(default_factory=list)
     _page: bytes | None = None
     _program: bytes | None = None

@@ -19,7 +19,7 @@ from room.recording import Recorder, check_recording
 from room.server import Keys, Limits, Relays, Rooms, new_keys
 from room.server.janus import Janus
 from room.state import identity
-from room.state.meeting import COLOURS
+from room.state.numbers import COLOURS
 from tests.serving import end
 
 if TYPE_CHECKING:  # needs an extra of its own

@@ -25,6 +25,7 @@ steps = st.lists(
                 "mute",
                 "unmute",
                 "remove",
+                "undress",
                 "lock",
                 "unlock",
                 "share",
@@ -61,7 +62,7 @@ def _do(meetings: list[Meeting], act: str, at: int, whom: int, by: int) -> None:
             meeting.share(seat, on=True)
         except NotAllowed:
             return
-    elif act in ("lock", "unlock", "unshare", "mute", "unmute", "remove") and seat:
+    elif act in ("lock", "unlock", "unshare", "mute", "unmute", "remove", "undress") and seat:
         chair = next((other for other in meeting.seats if other is not seat), None)
         if chair:
             meeting.moderate(chair, Moderate(action=act, number=seat.number))
@@ -82,7 +83,8 @@ def _known(meeting: Meeting) -> tuple:
         )
         for seat in meeting.seats
     )
-    return meeting.locked, set(meeting.removed), people
+    rulings = meeting.rulings
+    return meeting.locked, set(rulings.removed), set(rulings.undressed), dict(rulings.mutes), people
 
 
 @settings(max_examples=150, deadline=None)
@@ -100,7 +102,7 @@ def test_all_processes_come_to_know_the_same(acts):
     assert _known(meetings[0]) == _known(meetings[1]) == _known(meetings[2])
     numbers = [seat.number for seat in meetings[0].seats]
     assert len(set(numbers)) == len(numbers), "no two have one number"
-    assert not {seat.id for seat in meetings[0].seats} & set(meetings[0].removed)
+    assert not {seat.id for seat in meetings[0].seats} & set(meetings[0].rulings.removed)
 
 
 @settings(max_examples=50, deadline=None)
@@ -155,6 +157,7 @@ def test_an_account_of_the_fullest_room_is_within_its_bound():
         people=(resident,) * MOST_RESIDENTS,
         mutes=(Mute(id="f" * 16, muted=False, acts=2**53),) * MOST_RESIDENTS,
         removed=("f" * 16,) * MOST_RESIDENTS,
+        undressed=("f" * 16,) * MOST_RESIDENTS,
     )
     content = full.model_dump_json().encode()
     assert len(content) < MOST_WORD_BYTES
@@ -162,7 +165,11 @@ def test_an_account_of_the_fullest_room_is_within_its_bound():
 
 
 @pytest.mark.parametrize(
-    "act", ["mute", "unmute", "lock", "unlock", "remove", "leave", "come in by another", "come back", "away"]
+    "act",
+    [
+        *("mute", "unmute", "undress", "lock", "unlock", "remove", "leave"),
+        *("come in by another", "come back", "away"),
+    ],
 )
 def test_a_word_that_comes_late_takes_nothing_back(act):
     """What a process said before an act may arrive after it; then the act still counts, everywhere."""
@@ -173,7 +180,7 @@ def test_a_word_that_comes_late_takes_nothing_back(act):
     for at, whom in ((0, 0), (1, 1), (2, 2)):
         _do(meetings, "enter", at, whom, 0)
     _exchange(meetings)
-    if act.startswith("un"):
+    if act in ("unmute", "unlock"):
         _do(meetings, act.removeprefix("un"), 0, 0, 0)
         assert meetings[0].locked or meetings[0].seats[0].muted
         _exchange(meetings)
@@ -195,7 +202,7 @@ def test_a_word_that_comes_late_takes_nothing_back(act):
         for meeting in meetings:
             if meeting.process != said.process:
                 merge(meeting, said, now=0.0)
-    if act in ("mute", "unmute", "lock", "unlock", "remove"):  # not even for a moment
+    if act in ("mute", "unmute", "undress", "lock", "unlock", "remove"):  # not even for a moment
         assert all(_known(meeting) == known for meeting in meetings)
     _exchange(meetings)
     assert _known(meetings[0]) == _known(meetings[1]) == _known(meetings[2]) == known
@@ -207,6 +214,37 @@ def _exchange(meetings: list[Meeting]) -> None:
             for other in meetings:
                 if other is not meeting:
                     merge(other, account(meeting), now=0.0)
+
+
+def test_what_a_moderator_decided_of_somebody_who_left_holds_wherever_they_come_back():
+    one, two, three = (
+        Meeting(most_people=8, process=process, first_number=number)
+        for number, process in enumerate(PROCESSES)
+    )
+    for whom in (0, 1):
+        _do([one], "enter", 0, whom, 0)
+    _do([one], "mute", 0, 0, 0)
+    _do([one], "undress", 0, 0, 0)
+    _do([one], "leave", 0, 0, 0)
+    merge(two, account(one), now=0.0)  # which had not heard of them before
+    merge(three, account(two), now=0.0)
+    for meeting in (one, two, three):
+        _do([meeting], "enter", 0, 0, 0)
+        assert meeting.seat(identity(SECRETS[0])).muted
+        assert meeting.rulings.is_undressed(identity(SECRETS[0]))
+
+
+def test_an_avatar_that_was_taken_off_does_not_come_back_with_a_late_word():
+    one, two = (Meeting(most_people=8, process=process) for process in PROCESSES[:2])
+    for whom in (0, 1):
+        _do([one], "enter", 0, whom, 0)
+    one.seats[0].own = "f" * 64
+    merge(two, account(one), now=0.0)
+    assert two.seat(one.seats[0].id).own
+    late = account(one)
+    two.moderate(two.seats[1], Moderate(action="undress", number=two.seats[0].number))
+    assert not merge(two, late, now=0.0).told
+    assert merge(one, account(two), now=0.0).undressed == [one.seats[0].id]
 
 
 @pytest.mark.parametrize("first", [0, 1])

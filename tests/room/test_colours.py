@@ -5,7 +5,7 @@ from pathlib import Path
 
 from room.protocol.texts import Join
 from room.state import Meeting, identity
-from room.state.meeting import COLOURS
+from room.state.numbers import COLOURS
 
 PAGE = Path(__file__).resolve().parents[2] / "web/room/colours.ts"
 SECRETS = [f"{number:022}" for number in range(40)]

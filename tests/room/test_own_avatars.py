@@ -272,6 +272,10 @@ def test_one_may_take_it_off_and_a_moderator_may_for_good():
         status, sentence = await bring(place, ada, avatar())
         assert status == 403
         assert "a moderator" in sentence
+        await ada.say(kind="leave")
+        await ben.told(Left)
+        again = await place.guest(secret=ada.secret)
+        assert (await bring(place, again, avatar()))[0] == 403, "the same person, whom one click brought back"
 
     meet(run)
 

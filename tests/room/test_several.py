@@ -346,6 +346,15 @@ async def test_a_moderator_of_another_server_takes_an_avatar_off(north, south):
     await asyncio.sleep(2 * AGAIN_S)
     assert chair.all(Changed)[-1].person.own == ""
     assert (await avatar_at(south, digest))[0] == 404
+    await chair.say(kind="moderate", action="mute", number=ada.number)
+    await ada.told(Changed, lambda changed: changed.person.muted)
+    await ada.say(kind="leave")
+    await chair.told(Left)
+    for place in (north, south):
+        again = await place.guest(secret=ada.secret)
+        assert [person.muted for person in again.welcome.people if person.number == again.number] == [True]
+        with pytest.raises(AssertionError, match="a moderator has taken your own avatar off"):
+            await bring(place, again, avatar())
 
 
 @two_servers

@@ -2,14 +2,14 @@
  * Gives each person colours of their own, so that two in one avatar are told apart.
  *
  * All pages come to the same colours, as they follow from what all know: the number, which the room gives so that its first
- * twelve people differ (`room/state/meeting.py`), and the id. Own avatars keep theirs.
+ * twelve people differ (`room/state/numbers.py`), and the id. Own avatars keep theirs.
  */
 
 import { Mesh, type Material, type MeshStandardMaterial, type Object3D } from "three";
 
 import type { Person } from "./texts.js";
 
-/** Of clothes: told apart at the far side of a table, and none is the green of who speaks. Their count is `room.state.meeting.COLOURS`. */
+/** Of clothes: told apart at the far side of a table, and none is the green of who speaks. Their count is `room.state.numbers.COLOURS`. */
 export const CLOTHES = [
   0x2f6f73, 0x8a2f48, 0x223463, 0xc2a86a, 0x6a4a96, 0x9cc0d4, 0xa9562c, 0x5f7038, 0xc98aa0, 0x3b78c2, 0x4c4a4a, 0xd4d2c6,
 ] as const;
