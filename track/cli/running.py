@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from facegen.console import ProgressCall, counted, progress
 from track.cli.opening import Wishes, camera_texts, is_headset, open_cameras, open_pipeline, open_profile
-from track.errors import InputError
+from track.cli.sending import check_files, named_targets, open_sinks, paths_of
 from track.profile.keeper import ProfileKeeper
 from track.profile.profile import write_profile
 
@@ -23,12 +23,6 @@ if TYPE_CHECKING:
     from track.session.session import Screen, Session
     from track.sinks.sink import Sink
     from track.sources import Capture
-
-RECORDINGS = {".csv": "csv", ".glb": "gltf", ".vrma": "vrma"}
-"""Sinks by a recording's ending."""
-
-NAMED = ("csv:", "gltf:")
-"""Sinks that take any other avatar's names."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +46,9 @@ def run_session(wishes: Wishes, options: RunOptions, say: Callable[[str], None])
     """Run until the end, and say how it went."""
     texts = camera_texts(wishes.cameras, headset=is_headset(wishes))
     with contextlib.ExitStack() as closing:
-        sinks = open_sinks(options, say, closing)
+        targets = named_targets(options.to, options.record, options.retarget)
+        check_files(targets, wishes, texts, options.avatar)
+        sinks = open_sinks(targets, say, closing)
         session, capture = open_session(wishes, texts, sinks, say, closing, options=options, must_keep=False)
         screen = _open_page(options, session, texts, say, closing) if options.page else None
         with ended_by_signals(session, capture), contextlib.ExitStack() as showing:
@@ -109,6 +105,8 @@ def open_session(
     ``must_keep`` says whether a profile that cannot be written ends the session; else it is told once.
     """
     from track.session.session import Session
+    from track.sinks.recording import free_names
+    from track.sinks.tables import open_take
 
     pipeline = open_pipeline(wishes, texts, say)
     closing.callback(pipeline.close)
@@ -128,7 +126,9 @@ def open_session(
         say=say,
         kept=stored,
         keep=keep,
-        new_recording=lambda: _open(f"csv:{_free_name()}", say),
+        new_recording=partial(
+            open_take, free_names(paths_of(named_targets(options.to, options.record))), say
+        ),
         mirror=options.mirror,
         own_blinks=options.own_blinks,
         keep_blinks=capture.endless,
@@ -136,59 +136,6 @@ def open_session(
     )
     closing.callback(session.close)
     return session, capture
-
-
-def open_sinks(
-    options: RunOptions, say: Callable[[str], None], closing: contextlib.ExitStack
-) -> "list[Sink]":
-    """Sinks as they were written.
-
-    Raises
-    ------
-    InputError, OutputError
-        Where one is not known, or its place cannot be used.
-    """
-    written = list(options.to)
-    for path in options.record:
-        if path.suffix not in RECORDINGS:
-            raise InputError(f"--record {path}: a recording ends with {', '.join(RECORDINGS)}")
-        written.append(f"{RECORDINGS[path.suffix]}:{path}")
-    if options.retarget is not None:
-        written = [f"{each},names={options.retarget}" if each.startswith(NAMED) else each for each in written]
-    sinks = []
-    for each in written:
-        sinks.append(_open(each, say, closing))
-        say(f"sending {sinks[-1].title}{', in place of the file that is there' * _replaces(each)}")
-    return sinks
-
-
-def _open(written: str, say: Callable[[str], None], closing: contextlib.ExitStack | None = None) -> "Sink":
-    """A sink; where it is a file, ``closing`` says at its end that the file is there."""
-    from track.sinks.targets import open_sink, parse_target
-
-    target = parse_target(written)
-    sink = open_sink(target, say)
-
-    def tell_whole(error: type[BaseException] | None, *_: object) -> None:
-        if error is None and target.path.is_file():
-            say(f"recorded {target.title}")
-
-    if closing is not None:
-        closing.push(tell_whole)
-    return sink
-
-
-def _replaces(written: str) -> bool:
-    """Whether a sink writes to a name that a file has."""
-    from track.sinks.targets import parse_target
-
-    target = parse_target(written)
-    return target.port is None and target.path.is_file()
-
-
-def _free_name() -> Path:
-    """The first of ``track-001.csv``, ``track-002.csv`` … that is not there yet."""
-    return next(path for number in range(1, 10**6) if not (path := Path(f"track-{number:03d}.csv")).exists())
 
 
 def _open_page(

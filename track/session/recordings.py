@@ -60,7 +60,7 @@ class Recordings:
         return True
 
     def close(self) -> None:
-        """Wait until what has ended is written; one that is under way is closed as a sink."""
+        """Wait until what has ended is written."""
         self._finishing.shutdown()
 
     def _finish(self, recording: Sink, *, told: bool = False) -> None:

@@ -228,6 +228,7 @@ class Session:
         with ExitStack() as closing:
             closing.callback(self.pipeline.close)
             closing.callback(self._recordings.close)
+            self._recordings.record(False)  # told where it is, as it may have got another name
             for sink in self.sinks:
                 closing.callback(sink.close)
 

@@ -3,9 +3,10 @@
 Rows go to the disk as they come, so that an hour takes no more memory than a second.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
@@ -33,6 +34,8 @@ class TableSink(Sink):
         Text of a whole table of one sample: a line of names, and a row.
     tell
         Takes a sentence where nothing was recorded.
+    others
+        Names in place of a file that is there at the end; without any, that file is replaced.
 
     Raises
     ------
@@ -40,10 +43,17 @@ class TableSink(Sink):
         Where the file cannot be written.
     """
 
-    def __init__(self, target: Target, table: Callable[[Sample], str], tell: Tell) -> None:
+    def __init__(
+        self,
+        target: Target,
+        table: Callable[[Sample], str],
+        tell: Tell,
+        *,
+        others: Iterator[Path] | None = None,
+    ) -> None:
         self.title = target.title
-        self._table, self._tell = table, tell
-        self._recording, self._clock, self._rows = Recording(target.path), Clock(), 0
+        self._target, self._table, self._tell = target, table, tell
+        self._recording, self._clock, self._rows = Recording(target.path, others), Clock(), 0
         with output_errors(target.path):
             self._file = open(self._recording.part, "w", encoding="utf-8", newline="")
 
@@ -60,6 +70,7 @@ class TableSink(Sink):
             self._file.close()
         if self._rows:
             self._recording.keep()
+            self.title = replace(self._target, place=str(self._recording.path)).title
         else:
             self._recording.drop()
             self._tell(f"{self.title}: nothing was recorded, so there is no file")
@@ -73,6 +84,12 @@ def open_sink(target: Target, tell: Tell) -> Sink:
     return TableSink(
         target, partial(_weights_csv, to=None if names is None else read_retargeting(names)), tell
     )
+
+
+def open_take(names: Iterator[Path], tell: Tell) -> Sink:
+    """A table of weights under the next of these names; where that is taken at the end, under one behind it."""
+    target = Target(name="csv", place=str(next(names)))
+    return TableSink(target, partial(_weights_csv, to=None), tell, others=names)
 
 
 def _weights_csv(sample: Sample, to: Retargeting | None) -> str:

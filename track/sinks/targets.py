@@ -125,6 +125,11 @@ class Target:
         return f"{self.name} to {host}:{self.port}"
 
     @property
+    def is_file(self) -> bool:
+        """Whether a recording is written there."""
+        return self.port is None and SINKS[self.name].needs == "FILE"
+
+    @property
     def path(self) -> Path:
         """The file's."""
         return Path(self.place)

@@ -3,6 +3,7 @@
 import threading
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -19,6 +20,8 @@ from track.errors import InputError, OutputError
 from track.messages import Command
 from track.profile.neutral import NeutralFace, lines_of
 from track.profile.profile import Profile
+from track.sinks.recording import Recording, free_names
+from track.sinks.tables import open_take
 
 NOISE = np.random.default_rng(0).normal(size=(68, 2))
 
@@ -160,6 +163,25 @@ def test_a_recording_that_takes_its_time_to_be_whole_holds_no_frame_up():
     session.close()
     assert made[0].closed
     assert said[-1] == "recorded kept"
+
+
+def test_takes_that_follow_each_other_at_once_are_all_written(tmp_path, monkeypatch):
+    """The second begins while the first is not whole yet, and the third is under way at the end."""
+    monkeypatch.chdir(tmp_path)
+    disk, said = threading.Event(), []
+    keep = Recording.keep
+    monkeypatch.setattr(Recording, "keep", lambda take: disk.wait(60) and keep(take))
+    session = new_session(new_recording=partial(open_take, free_names(), said.append), said=said)
+    for sample, value in zip(frames(0, 5), (True, False, True, False, True), strict=True):
+        session.ask(Command(verb="record", value=value))
+        session.answer(sample)
+    disk.set()
+    session.close()
+    names = [f"track-00{number}.csv" for number in (1, 2, 3)]
+    assert sorted(path.name for path in tmp_path.iterdir()) == names
+    assert [sentence for sentence in said if sentence.startswith("recorded")] == [
+        f"recorded csv to {name}" for name in names
+    ]
 
 
 def full() -> Kept:

@@ -1,6 +1,7 @@
 """Recorded tables: the same rows as `regress predict`, whole or not at all, and no growth while they are made."""
 
 import csv
+import errno
 import tracemalloc
 from dataclasses import replace
 
@@ -14,6 +15,8 @@ from regress.runtime.prediction import Prediction
 from regress.runtime.writers.csv_table import GAZE_COLUMNS, HEAD_COLUMNS, weights_csv
 from regress.runtime.writers.live_link import live_link_text
 from tests.track.sinks.receivers import acted, lost
+from track.sinks.recording import free_names
+from track.sinks.tables import open_take
 from track.sinks.targets import open_sink, parse_target
 
 TABLES = ("csv", "livelink-csv")
@@ -72,6 +75,42 @@ def test_nothing_recorded_is_no_file(name, tmp_path):
     open_sink(parse_target(f"{name}:{tmp_path / 'a.csv'}"), told.append).close()
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("a.csv", "old")]
     assert told == [f"{name} to {tmp_path / 'a.csv'}: nothing was recorded, so there is no file"]
+
+
+@pytest.fixture(params=[True, False], ids=["links", "no links"])
+def links(request, monkeypatch):
+    """File systems with hard links, and those without."""
+
+    def refuse(*_: object) -> None:
+        raise PermissionError(errno.EPERM, "Operation not permitted")
+
+    if not request.param:
+        monkeypatch.setattr("os.link", refuse)
+
+
+@pytest.mark.usefixtures("links")
+def test_a_take_replaces_none_that_came_meanwhile(tmp_path, monkeypatch):
+    """Two programs in one folder, whose takes begin before either of them is whole."""
+    monkeypatch.chdir(tmp_path)
+    takes = [open_take(free_names(), pytest.fail) for _ in range(2)]
+    assert {take.title for take in takes} == {"csv to track-001.csv"}
+    assert [path for path in tmp_path.iterdir() if path.is_file()] == []
+    for count, take in enumerate(takes, start=1):
+        for number in range(count):
+            take.send(acted(number, time_s=number))
+        take.close()
+        assert take.title == f"csv to track-00{count}.csv"
+    assert {path.name: len(path.read_text().splitlines()) for path in tmp_path.iterdir()} == {
+        "track-001.csv": 2,
+        "track-002.csv": 3,
+    }
+
+
+def test_each_take_of_one_program_has_a_name_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "track-002.csv").touch()
+    names = free_names({tmp_path / "track-003.csv"})
+    assert [next(names).name for _ in range(3)] == ["track-001.csv", "track-004.csv", "track-005.csv"]
 
 
 @pytest.mark.parametrize("name", TABLES)
