@@ -1,21 +1,28 @@
 """Moves somebody's face in a room: a connection of its own thread, which takes the newest state alone.
 
-The link is the one that the room's page shows to its person, ``http://HOST:PORT/room/NAME#KEY.SECRET``. What is behind
-the ``#`` never is part of a request; it says once, in the first message, whose face this is (room/protocol/texts.py).
+What is behind the link's ``#`` never is part of a request; it says once, in the first message, whose face this is
+(room/protocol/texts.py). A room by https has a certificate that this machine trusts, or that of a file.
 """
 
 import asyncio
 import json
-import re
 import threading
-from urllib.parse import SplitResult, urlsplit
 
 import numpy as np
-from aiohttp import ClientError, ClientSession, ClientTimeout, ClientWebSocketResponse, WSMsgType
+from aiohttp import (
+    ClientConnectorCertificateError,
+    ClientError,
+    ClientSession,
+    ClientTimeout,
+    ClientWebSocketResponse,
+    Fingerprint,
+    ServerFingerprintMismatch,
+    WSMsgType,
+)
 
 from regress.runtime.sample import Sample
-from track.errors import InputError
 from track.sinks.axes import head_pose
+from track.sinks.room_link import read_link
 from track.sinks.room_state import TRACKED, face_state
 from track.sinks.sink import Sink, Tell, has_face
 from track.sinks.targets import Target
@@ -27,8 +34,8 @@ PAUSES_S = (0.5, 1.0, 2.0, 5.0)
 """Before each new try to come in; the last one from then on."""
 
 _JOIN_S = 5.0
-_LINK = re.compile(r"/room/([a-z0-9][a-z0-9-]{0,39})")
-_KEYS = re.compile(r"([A-Za-z0-9_-]{22})\.([A-Za-z0-9_-]{22,64})")
+_PARTING_S = 0.25
+"""In which an encrypted connection says that it ends; a loop that is closed before leaves its socket open."""
 
 
 class RoomSink(Sink):
@@ -44,18 +51,18 @@ class RoomSink(Sink):
     Raises
     ------
     InputError
-        Where the link is none of a person in a room.
+        Where the link is none of a person in a room, or its certificate's file holds none.
     """
 
     def __init__(self, target: Target, tell: Tell) -> None:
-        link, keys = _read_link(target.place)
-        self.title = f"room to {link.netloc}{link.path}"
-        self._address = f"{link.scheme}://{link.netloc}{link.path}/socket"
+        link = read_link(target)
+        self.title, self._address, self._file = link.title, link.address, link.certificate
+        self._trusted = True if link.sha256 is None else Fingerprint(link.sha256)
         self._join = {
             "kind": "join",
             "version": 1,
-            "key": keys[1],
-            "secret": keys[2],
+            "key": link.key,
+            "secret": link.secret,
             "name": "face",
             "role": "face",
         }
@@ -101,11 +108,20 @@ class RoomSink(Sink):
         try:
             self._loop.run_until_complete(self._stay())
         finally:
+            if self._address.startswith("https:"):
+                self._loop.run_until_complete(asyncio.sleep(_PARTING_S))
             self._loop.close()
 
     async def _stay(self) -> None:
         """Come in, again and again, until the room says that it makes no sense, or the sink is closed."""
         stopping = asyncio.ensure_future(self._stopped.wait())
+        try:
+            await self._come_again(stopping)
+        finally:
+            stopping.cancel()
+            await asyncio.gather(stopping, return_exceptions=True)
+
+    async def _come_again(self, stopping: "asyncio.Future[bool]") -> None:
         async with ClientSession(timeout=ClientTimeout(total=_JOIN_S)) as session:
             tries = 0
             while not self._stopped.is_set():
@@ -126,16 +142,28 @@ class RoomSink(Sink):
         """One connection; says whether it came in, and whether to try again."""
         sending: asyncio.Future[None] | None = None
         try:
-            async with session.ws_connect(self._address, heartbeat=20) as socket:
+            async with session.ws_connect(self._address, heartbeat=20, ssl=self._trusted) as socket:
                 await socket.send_str(json.dumps(self._join))
                 async for message in socket:
                     answer = _answer(message.data) if message.type is WSMsgType.TEXT else {}
                     if answer.get("kind") == "refused":
-                        self._say(str(answer.get("text")))
-                        return sending is not None, bool(answer.get("again"))
+                        again = bool(answer.get("again"))
+                        self._say(str(answer.get("text")), last=not again)
+                        return sending is not None, again
                     if answer.get("kind") == "welcome" and sending is None:
                         self._told = False
                         sending = asyncio.ensure_future(self._send_states(socket))
+        except ClientConnectorCertificateError as error:
+            why = getattr(error.certificate_error, "verify_message", type(error.certificate_error).__name__)
+            self._say(
+                f"this machine does not trust the room's certificate ({why.strip('. ')}); copy the file of "
+                "`room serve --cert` to here and name it behind the link, as in 'room:LINK,cert=FILE'",
+                last=True,
+            )
+            return False, False
+        except ServerFingerprintMismatch:
+            self._say(f"the room has another certificate than {self._file}; copy its file again", last=True)
+            return False, False
         except (ClientError, OSError, asyncio.TimeoutError, ValueError) as error:
             self._say(f"nobody answers ({type(error).__name__}); trying again")
         finally:
@@ -151,32 +179,11 @@ class RoomSink(Sink):
             await socket.send_bytes(self._newest)
             await asyncio.sleep(1 / STATES_PER_S)
 
-    def _say(self, what: str) -> None:
-        if not self._told:
+    def _say(self, what: str, *, last: bool = False) -> None:
+        """Tell it, unless something was told since the face was in; the ``last`` word always."""
+        if last or not self._told:
             self._told = True
             self._tell(f"{self.title}: {what}")
-
-
-def _read_link(text: str) -> tuple[SplitResult, re.Match[str]]:
-    """A link's parts, and its key and secret.
-
-    Raises
-    ------
-    InputError
-        Where it is none of a person in a room; its secret is not repeated.
-    """
-    try:
-        link = urlsplit(text)
-        served = link.scheme in ("http", "https") and bool(link.hostname) and link.port != 0
-    except ValueError:  # half of an IPv6 address, a port beyond 65535
-        served = False
-    keys = _KEYS.fullmatch(link.fragment) if served and _LINK.fullmatch(link.path) else None
-    if keys is None:
-        raise InputError(
-            "--to room: the link is none of a person's face; the room's page shows it as "
-            "http://HOST:PORT/room/NAME#KEY.SECRET"
-        )
-    return link, keys
 
 
 def _answer(text: str) -> dict[str, object]:

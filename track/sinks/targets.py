@@ -4,6 +4,7 @@
 
     NAME[:HOST[:PORT]][,OPTION=VALUE...]      vmc    vmc:192.168.1.5:39539    livelink:[::1]:11111,angles=half-turns
     NAME:FILE[,OPTION=VALUE...]               csv:take.csv    gltf:take.glb,avatar=head.glb
+    NAME:LINK[,OPTION=VALUE...]               room:https://HOST:PORT/room/NAME#KEY.SECRET,cert=cert.pem
 
 Without a host datagrams stay on this machine; another one gets them because it was named, and for no other reason.
 """
@@ -73,6 +74,7 @@ SINKS: dict[str, SinkKind] = {
     "room": SinkKind(
         description="a person's face in a room, by the link that the room's page shows to that person",
         module="room",
+        options={"cert": ()},
         needs="LINK",
     ),
     "csv": SinkKind(

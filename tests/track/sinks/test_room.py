@@ -2,6 +2,10 @@
 
 import asyncio
 import json
+import re
+import shutil
+import ssl
+import subprocess
 import threading
 from pathlib import Path
 
@@ -157,6 +161,107 @@ def test_what_is_no_word_of_a_room_ends_no_thread(word, monkeypatch):
 
     asyncio.run(asyncio.wait_for(meet(), 120))
     assert len(told) <= 1
+
+
+@pytest.fixture(scope="module")
+def certificates(tmp_path_factory) -> Path:
+    """A folder with two certificates as docs/room.md makes them, and their keys."""
+    if shutil.which("openssl") is None:
+        pytest.skip("openssl makes the certificates")
+    folder = tmp_path_factory.mktemp("certificates")
+    for name in ("room", "other"):
+        words = [
+            "openssl",
+            "req",
+            "-x509",
+            "-newkey",
+            "rsa:2048",
+            "-nodes",
+            "-days",
+            "2",
+            "-subj",
+            "/CN=room",
+        ]
+        words += ["-addext", "subjectAltName=DNS:room", "-out", f"{name}.pem", "-keyout", f"{name}.key"]
+        subprocess.run(words, check=True, capture_output=True, cwd=folder)
+    return folder
+
+
+def by_https(certificates: Path, options: str) -> tuple[list[bytes], list[str]]:
+    """States that came to a room by https until the sink said something or five were there, and what it said."""
+    came, told = [], []
+
+    async def welcome(request: web.Request) -> web.WebSocketResponse:
+        socket = web.WebSocketResponse()
+        await socket.prepare(request)
+        await socket.receive_json()
+        await socket.send_json({"kind": "welcome"})
+        async for message in socket:
+            came.append(message.data)
+        return socket
+
+    async def meet() -> None:
+        app = web.Application()
+        app.router.add_get("/room/a/socket", welcome)
+        runner = web.AppRunner(app, access_log=None)
+        await runner.setup()
+        served = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
+        served.load_cert_chain(certificates / "room.pem", certificates / "room.key")
+        await web.TCPSite(runner, "127.0.0.1", 0, ssl_context=served).start()
+        link = f"https://127.0.0.1:{runner.addresses[0][1]}/room/a#{'k' * 22}.{'x' * 22}{options}"
+        sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
+        while len(came) < 5 and not told:
+            sink.send(acted())
+            await asyncio.sleep(0.02)
+        if told:  # and never tries again
+            await asyncio.to_thread(sink._thread.join, 60)
+            assert not sink._thread.is_alive()
+        await asyncio.to_thread(sink.close)
+        await end(runner)
+
+    asyncio.run(asyncio.wait_for(meet(), 120))
+    return came, told
+
+
+def test_a_room_s_own_certificate_is_known_by_its_file(certificates):
+    """By any address: who comes by a number has the same room as who comes by its name."""
+    came, told = by_https(certificates, f",cert={certificates / 'room.pem'}")
+    assert len(came) >= 5
+    assert told == []
+
+
+def test_a_certificate_that_nobody_knows_is_told_with_what_helps(certificates):
+    came, told = by_https(certificates, "")
+    assert came == []
+    assert len(told) == 1
+    assert re.search(r"does not trust the room's certificate \(self.signed certificate\)", told[0])
+    assert "'room:LINK,cert=FILE'" in told[0]
+
+
+def test_another_room_than_that_of_the_file_gets_no_secret(certificates):
+    came, told = by_https(certificates, f",cert={certificates / 'other.pem'}")
+    assert came == []
+    assert len(told) == 1
+    assert f"another certificate than {certificates / 'other.pem'}" in told[0]
+
+
+@pytest.mark.parametrize(
+    ("scheme", "content", "said"),
+    [
+        ("https", None, "cannot be read (No such file or directory)"),
+        ("https", "hello", "holds no certificate"),
+        ("https", "-----BEGIN CERTIFICATE-----\nAAAAA\n-----END CERTIFICATE-----\n", "holds no certificate"),
+        ("http", "hello", "begins with https://"),
+    ],
+)
+def test_a_file_that_holds_no_certificate_is_refused(scheme, content, said, tmp_path):
+    if content is not None:
+        (tmp_path / "cert.pem").write_text(content)
+    link = f"{scheme}://127.0.0.1:9/room/a#{'k' * 22}.{'x' * 22},cert={tmp_path / 'cert.pem'}"
+    with pytest.raises(InputError) as refused:
+        open_sink(parse_target(f"room:{link}"), pytest.fail)
+    assert said in str(refused.value)
+    assert "xxx" not in str(refused.value)
 
 
 @pytest.mark.parametrize(
