@@ -1,5 +1,7 @@
 """Defines ``room serve``."""
 
+import os
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,7 +12,6 @@ from room.cli.links import RoomNames, print_links
 from room.cli.places import read_places
 
 if TYPE_CHECKING:
-    from room.recording import Recorder
     from room.server import Keys
     from room.server.janus import Janus
     from room.server.telegraph import Telegraph
@@ -72,8 +73,11 @@ def serve(
     Example: room serve --host 0.0.0.0 --cert cert.pem --key key.pem --keys room.keys
     """
     from room.errors import InputError
+    from room.recording import Recorder
     from room.server import Address, Limits, Relays, Rooms, keep_keys, new_keys, read_keys
     from room.server import serve as run
+    from room.server.hall import HERTZ
+    from room.server.headers import parse_origin
 
     places = read_places(place or ())
     if bool(turn) != bool(turn_secret):
@@ -83,15 +87,15 @@ def serve(
     known = keys is not None and keys.exists()
     held = read_keys(keys) if keys and known else new_keys()
     telegraph = _telegraph(redis, held, shared=keys is not None, recorded=record is not None)
-    recorder = _recorder(record, names)
+    _check_record(record, names)
+    origins = [parse_origin(text) for text in origin or ()]
     relays = Relays(stun=tuple(stun or ()), turn=tuple(turn or ()), secret=secret)
     limits = Limits(people=people, rooms=rooms)
     opened = Rooms(
         held,
         limits=limits,
         relays=relays,
-        origins=frozenset(origin or ()),
-        recorder=recorder,
+        origins=frozenset(origins),
         places=places,
         telegraph=telegraph,
         engines=engines,
@@ -99,35 +103,37 @@ def serve(
     address = Address(host=host, port=port, certificate=cert, private_key=key)
 
     def started(where: str) -> None:
-        if keys and not known:  # a command that was refused has written nothing
+        # a command that was refused has written nothing
+        if keys and not known:
             keep_keys(held, keys)
-        print_links(held, names, origin[0] if origin else where)
+        if record:
+            recorder = Recorder(record, room=names[0], hertz=HERTZ, ended=lambda text: say(f"room: {text}"))
+            ending.callback(recorder.close)
+            opened.record(recorder)
+        print_links(held, names, origins[0] if origins else where)
         if not cert and host not in ("127.0.0.1", "::1", "localhost"):
             say(
                 "room: browsers give no camera and no microphone to http pages of other machines: --cert and --key"
             )
         say("room: open; Ctrl-C stops it" + ("" if keys else ", and its links end with it (see --keys)"))
 
-    try:
+    with ExitStack() as ending:
         run(opened, address, started=started)
-    finally:
-        if recorder:
-            recorder.close()
     say("room: stopped; " + ("its links open again with the same --keys" if keys else "its links have ended"))
 
 
-def _recorder(record: Path | None, names: list[str]) -> "Recorder | None":
+def _check_record(record: Path | None, names: list[str]) -> None:
     from room.errors import InputError
-    from room.recording import Recorder
-    from room.server.hall import HERTZ
+    from room.recording.writer import taken
 
     if record is None:
-        return None
+        return
     if record.suffix.lower() != ".jsonl":
         raise InputError(f"--record is {record}; a recording ends with .jsonl: name such a file")
     if len(names) != 1:
         raise InputError(f"--record takes one room, and --room names {len(names)}; start a server for each")
-    return Recorder(record, room=names[0], hertz=HERTZ, ended=lambda text: say(f"room: {text}"))
+    if os.path.lexists(record):  # before the keys are kept; it is made with the first link
+        raise taken(record)
 
 
 def _telegraph(url: str | None, keys: "Keys", *, shared: bool, recorded: bool) -> "Telegraph | None":

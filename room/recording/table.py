@@ -7,8 +7,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from facegen.conventions import BLENDSHAPES
-from facegen.files import output_errors, whole_file
-from room.errors import InputError
+from facegen.files import output_errors, refuse_ending, refuse_sources, whole_file
 from room.protocol import Flag, decode
 from room.recording.lines import Came, Event, Heading, Tick
 from room.recording.reader import read_recording
@@ -55,12 +54,12 @@ def write_table(recording: Path, out: Path) -> int:
     Raises
     ------
     InputError, FormatError
-        If the recording cannot be read, or ``out`` does not end in .parquet.
+        If the recording cannot be read, or ``out`` does not end in .parquet or is the recording.
     OutputError
         If the table cannot be written.
     """
-    if out.suffix != ".parquet" or (out.exists() and out.samefile(recording)):
-        raise InputError(f"{out}: the table's name must end in .parquet, and not be the recording's")
+    refuse_ending(out, ".parquet", what="a table")
+    refuse_sources(out, [recording])
     lines = read_recording(recording)
     heading = next(lines)
     assert isinstance(heading, Heading)

@@ -69,7 +69,7 @@ class Recorder:
                 )
         except OutputError as error:
             if isinstance(error.__cause__, FileExistsError):
-                raise InputError(f"{path}: is there already; name another file for this recording") from None
+                raise taken(path) from None
             raise
         self._lines: queue.Queue[bytes | None] = queue.Queue(MOST_WAITING)
         self._open = True
@@ -165,6 +165,11 @@ class Recorder:
         with output_errors(self.path):
             while left:
                 left = left[file.write(left) :]
+
+
+def taken(path: Path) -> InputError:
+    """The refusal of a name behind which something is already."""
+    return InputError(f"{path}: is there already; name another file for this recording")
 
 
 def _line(event: Event | Heading) -> bytes:

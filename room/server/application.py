@@ -93,6 +93,10 @@ class Rooms:
         self._places = {room: hold(place.content, ".glb") for room, place in (places or {}).items()}
         self.stopped = asyncio.Event()
 
+    def record(self, recorder: Recorder) -> None:
+        """Record its one room from now on, before anybody is in: for who makes the file once the server listens."""
+        self._halls.record(recorder)
+
     def application(self) -> web.Application:
         """Everything that is answered, and the ticks behind it."""
         application = web.Application(client_max_size=MOST_TEXT_BYTES)

@@ -73,6 +73,10 @@ class Halls:
         metrics.rooms = len(self._halls)
         metrics.people = sum(len(hall.meeting.people) for hall in self._halls.values())
 
+    def record(self, recorder: Recorder) -> None:
+        """Record its one room, in which nobody is yet."""
+        self._recorder = recorder
+
     def recorder_of(self, name: str) -> Recorder | None:
         """What records a room; None where nothing does."""
         recorder = self._recorder

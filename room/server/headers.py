@@ -1,8 +1,11 @@
 """Says what a browser may do with the pages of a room, and from whose pages it may connect."""
 
+import re
 from urllib.parse import urlsplit
 
 from aiohttp import web
+
+from room.errors import InputError
 
 HEADERS = {
     "Content-Security-Policy": "; ".join(
@@ -26,10 +29,38 @@ HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
 }
 
+_PORTS = {"http": 80, "https": 443}
+"""Which browsers do not name."""
+_NETLOC = re.compile(r"[^\s@]*[^\s@:]")
+"""Host and port, without a user."""
+
 
 async def protect(request: web.Request, response: web.StreamResponse) -> None:
     """Put the headers on every answer; for ``Application.on_response_prepare``."""
     response.headers.update(HEADERS)
+
+
+def parse_origin(text: str) -> str:
+    """An address that people type, as browsers name it: ``https://rooms.example``.
+
+    Raises
+    ------
+    InputError
+        If it is none, or names more than scheme, host and port.
+    """
+    lower = text.lower()
+    try:
+        parts = urlsplit(lower)
+        host = parts.hostname if parts.port != 0 else None
+    except ValueError:  # half an IPv6 address, or a port beyond 65535
+        host = None
+    if host and parts.scheme in _PORTS and _NETLOC.fullmatch(parts.netloc):
+        origin = f"{parts.scheme}://{parts.netloc}"
+        if lower in (origin, f"{origin}/"):
+            return origin.removesuffix(f":{_PORTS[parts.scheme]}")
+    raise InputError(
+        f"--origin {text!r}: is no address of a server; https://HOST is one, and https://HOST:PORT"
+    )
 
 
 def same_origin(request: web.Request, allowed: frozenset[str]) -> bool:

@@ -54,8 +54,12 @@ class Janus:
     """
 
     def __init__(self, url: str, *, secret: str = "", said: Callable[[str], None] = lambda _: None) -> None:
-        parts = urlsplit(url)
-        if parts.scheme not in ("ws", "wss") or not parts.hostname:
+        try:
+            parts = urlsplit(url)
+            sound = parts.scheme in ("ws", "wss") and bool(parts.hostname) and parts.port != 0
+        except ValueError:  # half an IPv6 address, or a port beyond 65535
+            sound = False
+        if not sound:
             raise InputError(f"--janus {url!r}: is no address of a Janus; ws://HOST:8188 is one")
         self.url, self._secret, self._said = url, secret, said
         self.up = False

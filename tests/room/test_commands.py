@@ -120,6 +120,10 @@ ENGINES = {
     "an address of no Redis": ("no address of a Redis", "--redis", "http://a", "--keys", "{folder}/k"),
     "an address of no Janus": ("no address of a Janus", "--janus", "http://localhost:8188"),
     "Janus without a host": ("no address of a Janus", "--janus", "ws://"),
+    "Janus at half an address": ("no address of a Janus", "--janus", "ws://[::1"),
+    "Janus at no port": ("no address of a Janus", "--janus", "ws://h:99999"),
+    "an origin without a scheme": ("no address of a server", "--origin", "rooms.example"),
+    "an origin that is a page": ("no address of a server", "--origin", "https://rooms.example/room"),
     "a secret of no Janus": ("needs --janus", "--janus-secret", "{folder}/secret"),
     "an empty secret": ("is empty", "--janus", "ws://a:8188", "--janus-secret", "{folder}/empty"),
 }
@@ -130,10 +134,38 @@ def test_engines_that_cannot_be_used_are_refused_before_anything_is_written(case
     (tmp_path / "empty").write_text("\n")
     words, *arguments = case
     filled = [argument.format(folder=tmp_path) for argument in arguments]
-    result = CliRunner().invoke(app, ["serve", "--port", "0", *filled])
+    empty = str(
+        tmp_path / "empty"
+    )  # a certificate by which nothing serves for ever that should have been refused
+    result = CliRunner().invoke(app, ["serve", "--port", "0", "--cert", empty, "--key", empty, *filled])
     assert isinstance(result.exception, InputError)
     assert words in str(result.exception)
     assert [path.name for path in tmp_path.iterdir()] == ["empty"]
+
+
+@pytest.mark.parametrize(
+    "refused",
+    [
+        ("--cert", "{folder}/bad", "--key", "{folder}/bad"),
+        ("--port", "{taken}"),
+        ("--port", "{taken}", "--origin", "rooms.example"),
+        ("--port", "{taken}", "--record", "{folder}/bad.jsonl"),
+    ],
+)
+def test_a_server_that_is_refused_leaves_no_recording_and_no_keys(refused, tmp_path):
+    """The corrected command would else find a recording that is there already."""
+    for name in ("bad", "bad.jsonl"):
+        (tmp_path / name).write_text("no such thing")
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        words = {"folder": tmp_path, "taken": taken.getsockname()[1]}
+        filled = [option.format(**words) for option in refused]
+        new = ("--record", tmp_path / "new.jsonl", "--keys", tmp_path / "new.keys")
+        result = CliRunner().invoke(app, ["serve", "--port", "0", *map(str, new), *filled])
+    assert isinstance(result.exception, InputError), result.exception
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["bad", "bad.jsonl"]
+    assert (tmp_path / "bad.jsonl").read_text() == "no such thing"
 
 
 @pytest.mark.parametrize(
@@ -179,7 +211,7 @@ def test_what_is_stopped_on_purpose_ends_well(command, tmp_path):
     ("options", "start"),
     [
         (("--host", "0.0.0.0"), f"http://{platform.node()}:"),
-        (("--host", "0.0.0.0", "--origin", "https://rooms.example"), "https://rooms.example/room/"),
+        (("--host", "0.0.0.0", "--origin", "HTTPS://Rooms.Example/"), "https://rooms.example/room/"),
         (("--host", "127.0.0.1"), "http://127.0.0.1:"),
     ],
 )

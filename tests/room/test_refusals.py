@@ -9,9 +9,11 @@ import aiohttp
 import pytest
 from aiohttp import web
 
+from room.errors import InputError
 from room.protocol.answers import Changed, Left, Line, Notice, Refused, Welcome
 from room.server import Limits, new_keys
 from room.server.connection import CLOSED_BY_RULE, PARTING_S
+from room.server.headers import parse_origin
 from room.server.limits import BURST_S, CHATS_PER_S, NEWCOMERS_PER_S, RETURNS_PER_S, STATES_PER_S
 from tests.room.guests import SOON_S, Guest, Place, meeting, open_room
 
@@ -173,6 +175,34 @@ def test_rooms_and_places_are_bounded():
             await other.session.close()
 
     asyncio.run(run())
+
+
+@pytest.mark.parametrize(
+    ("typed", "origin"),
+    [
+        ("https://rooms.example", "https://rooms.example"),
+        ("https://rooms.example/", "https://rooms.example"),
+        ("HTTPS://Rooms.Example:8443/", "https://rooms.example:8443"),
+        ("https://rooms.example:443", "https://rooms.example"),
+        ("http://[::1]:8443", "http://[::1]:8443"),
+        ("http://[::80]", "http://[::80]"),
+    ],
+)
+def test_an_origin_is_kept_as_browsers_name_it(typed, origin):
+    assert parse_origin(typed) == origin
+
+
+@pytest.mark.parametrize(
+    "typed",
+    [
+        *("", "rooms.example", "rooms.example:8443", "//rooms.example", "wss://rooms.example", "https://"),
+        *("https://rooms.example/room", "https://rooms.example?", "https://rooms.example#a", "https://["),
+        *("https://a@rooms.example", "https://rooms.example:99999", "https://rooms.example:", "https://a b"),
+    ],
+)
+def test_an_origin_that_is_none_is_refused(typed):
+    with pytest.raises(InputError, match="https://HOST is one"):
+        parse_origin(typed)
 
 
 @pytest.mark.parametrize(

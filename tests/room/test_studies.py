@@ -11,9 +11,11 @@ import pyarrow.parquet as pq
 import pytest
 
 from facegen.conventions import BLENDSHAPES
+from room.errors import InputError
 from room.protocol import Flag, Message, encode
 from room.protocol.answers import Person
 from room.protocol.tick import pack
+from room.recording.table import write_table
 from room.server.hall import HERTZ
 from tests.room.recordings import make_recorder
 
@@ -116,6 +118,20 @@ def test_the_table_has_a_name_for_every_number(told):
     assert numbers.drop(columns=hands).notna().all(axis=None)
     assert {*BLENDSHAPES, "x", "z", "heading", "rotation_w", "left_eye_yaw"} <= set(numbers)
     assert table.time_s.is_monotonic_increasing
+
+
+def test_a_table_is_not_written_over_a_recording_nor_for_one_that_is_not_there(tmp_path):
+    recording, table = tmp_path / "lab.jsonl", tmp_path / "lab.parquet"
+    table.write_text("the last one")
+    with pytest.raises(InputError, match="is no file"):
+        write_table(recording, table)
+    assert table.read_text() == "the last one"
+    recording.write_text("kept")
+    table.unlink()
+    os.link(recording, table)
+    with pytest.raises(InputError, match="is also what is read"):
+        write_table(recording, table)
+    assert table.read_text() == "kept"
 
 
 @pytest.mark.parametrize("out", ["lab.csv", "lab"])
