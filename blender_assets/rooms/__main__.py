@@ -16,6 +16,7 @@ from blender_assets.rooms.operating import operating_room
 from blender_assets.rooms.shell import drop_outside
 from facegen.blender.runtime import quiet_stdout
 from facegen.blender.settings import set_up_cycles
+from facegen.files import write_whole
 
 ROOMS = {"operating": operating_room, "meeting": meeting_room}
 SEED = 1
@@ -33,14 +34,14 @@ def main() -> None:
     parser.add_argument("--texels", type=int, help="width of the pictures of light, for a quick look")
     parser.add_argument("--threads", type=int, default=2)
     wish = parser.parse_args()
+    wish.out.mkdir(parents=True, exist_ok=True)
     for name in wish.rooms or ROOMS:
         begun = time.monotonic()
         with quiet_stdout():
             content = make(
                 name, samples=wish.samples, threads=wish.threads, exposure=wish.exposure, texels=wish.texels
             )
-        path = wish.out / f"{name}.glb"
-        path.write_bytes(content)
+        path = write_whole(wish.out / f"{name}.glb", content)
         length = int.from_bytes(content[12:16], "little")
         document = json.loads(content[20 : 20 + length])
         triangles = sum(

@@ -2,7 +2,7 @@
 
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -47,7 +47,7 @@ def generate(
         ),
     ] = 3600.0,
     progress_style: Annotated[
-        str,
+        Literal["auto", "openjd"],
         typer.Option(
             "--progress", help="auto (a bar or lines on stderr), or openjd (lines that a render farm reads)."
         ),

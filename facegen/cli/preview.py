@@ -149,7 +149,7 @@ def _sheet(dataset: Path, out: Path, samples: str | None, columns: int, landmark
     from facegen.store import open_dataset
 
     opened = open_dataset(dataset)
-    made = {int(number) for number in opened.keypoints()["sample"].to_numpy()}
+    made = {int(number) for number in opened.keypoints(["sample"])["sample"].to_numpy()}
     if samples is not None:
         numbers = sample_numbers(samples, total=opened.plan.samples, where="--samples")
     else:

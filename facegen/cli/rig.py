@@ -155,11 +155,19 @@ def export(
     body: Annotated[bool, typer.Option("--body", help="A whole person, dressed, on Mixamo's bones")] = False,
     hair: Annotated[str, typer.Option(help=f"One of {', '.join(HAIR)}")] = "short",
     seed: Annotated[int, typer.Option(min=0, max=2**31, help="Of what else differs between people")] = 7,
-    sex: Annotated[str, typer.Option(help=f"Of a body: {' or '.join(SEXES)}")] = "female",
-    age: Annotated[float, typer.Option(min=25, max=90, help="Of a body, years")] = 35.0,
-    build: Annotated[str, typer.Option(help=f"Of a body: {', '.join(BUILD)}")] = "average",
-    ancestry: Annotated[str, typer.Option(help=f"Of a body: {', '.join(ANCESTRIES)}")] = "caucasian",
-    clothes: Annotated[str, typer.Option(help=f"Of a body: {', '.join(CLOTHES)}")] = "scrubs",
+    sex: Annotated[
+        str | None, typer.Option(help=f"Of a body: {' or '.join(SEXES)}; female by default")
+    ] = None,
+    age: Annotated[float | None, typer.Option(min=25, max=90, help="Of a body, years; 35 by default")] = None,
+    build: Annotated[
+        str | None, typer.Option(help=f"Of a body: {', '.join(BUILD)}; average by default")
+    ] = None,
+    ancestry: Annotated[
+        str | None, typer.Option(help=f"Of a body: {', '.join(ANCESTRIES)}; caucasian by default")
+    ] = None,
+    clothes: Annotated[
+        str | None, typer.Option(help=f"Of a body: {', '.join(CLOTHES)}; scrubs by default")
+    ] = None,
 ) -> None:
     """Write a rig as an avatar: skin, eyes, mouth and hair, 52 morph targets, a skeleton.
 
@@ -177,9 +185,21 @@ def export(
         ("ancestry", ancestry, ANCESTRIES),
         ("clothes", clothes, CLOTHES),
     ):
-        if value not in allowed:
+        if value is not None and value not in allowed:
             raise InputError(f"--{option} is {value!r}; allowed are {', '.join(allowed)}")
-    person = dict(sex=sex, age_years=age, build=build, ancestry=ancestry, clothes=clothes) if body else None
+    asked = {"sex": sex, "age": age, "build": build, "ancestry": ancestry, "clothes": clothes}
+    given = [f"--{option}" for option, value in asked.items() if value is not None]
+    if given and not body:
+        raise InputError(f"{', '.join(given)}: a head has none of that; add --body for a whole person")
+    person = None
+    if body:
+        person = dict(
+            sex=sex or "female",
+            age_years=35.0 if age is None else age,
+            build=build or "average",
+            ancestry=ancestry or "caucasian",
+            clothes=clothes or "scrubs",
+        )
     write_whole(out, export_avatar(name, hair=hair, seed=seed, person=person))
     typer.echo(str(out))
 

@@ -87,7 +87,7 @@ def _missing(verdict: "Verdict", repaired: "Repair | None") -> str:
         reasons.append(f"rendered samples {_short(verdict.missing_renders)} are missing")
     if repaired is not None and repaired.samples:
         reasons.append(f"rendered samples were removed (generate --samples {_short(repaired.samples)})")
-    elif repaired is not None and repaired.removed:
+    if repaired is not None and any(place.startswith("keypoints/shard-") for place in repaired.removed):
         reasons.append("keypoint shards were removed")
     return ", ".join(reasons)
 

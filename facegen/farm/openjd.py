@@ -31,6 +31,20 @@ _CHECK_TIMEOUT_S = 60
 
 _PICTURES, _KEYPOINTS = "Pictures", "Keypoints"
 
+_LAUNCH = 'exec "$@"\n'
+"""A cancel's SIGTERM goes to the first process only, which therefore becomes the worker."""
+
+_LAUNCH_AND_SAY = """\
+done=$1; shift
+"$@" &
+pid=$!
+trap 'kill -TERM "$pid"' TERM
+while :; do wait "$pid"; rc=$?; kill -0 "$pid" 2>/dev/null || break; done
+[ "$rc" = 0 ] && mkdir -p "${done%/*}" && : > "$done"
+exit "$rc"
+"""
+"""The same where something follows: a SIGTERM ends the wait, and is handed on."""
+
 
 def job_template(job: Job) -> dict[str, Any]:
     """Make the job template of a job, ``jobtemplate-2023-09``."""
@@ -154,7 +168,8 @@ def _later_step(job: Job, step: str, name: str, *, needs: list[str]) -> dict[str
     command = later_command(
         job, step, out="{{Param.OutDir}}", packed="{{Param.PackedDir}}", model="{{Param.ModelDir}}"
     )
-    template = {"name": name, "hostRequirements": _host(job), "script": _script(job, command)}
+    done = f"{{{{Param.OutDir}}}}/farm/{job.name}/{step}.done"
+    template = {"name": name, "hostRequirements": _host(job), "script": _script(job, command, done=done)}
     return template | ({"dependencies": [{"dependsOn": need} for need in needs]} if needs else {})
 
 
@@ -165,7 +180,8 @@ def _host(job: Job) -> dict[str, Any]:
     return {"amounts": amounts, "attributes": [{"name": "attr.worker.os.family", "anyOf": ["linux"]}]}
 
 
-def _script(job: Job, command: list[str]) -> dict[str, Any]:
+def _script(job: Job, command: list[str], *, done: str | None = None) -> dict[str, Any]:
+    """What a task runs; ``done`` is a file that says of a step that it has ended well."""
     resources = job.resources
     command = ["{{Param.Python}}", *command[1:]]
     action: dict[str, Any] = {
@@ -176,17 +192,18 @@ def _script(job: Job, command: list[str]) -> dict[str, Any]:
     }
     if resources.time_s is not None:
         action["timeout"] = resources.time_s
-    files = []
+    files, setup = [], ""
     if resources.env_setup is not None:
         check_setup(resources)
         if "{{" in resources.env_setup:
             raise InputError(
                 "--env-setup: OpenJD would read '{{' as the start of a parameter; put it into a script"
             )
-        # a cancel's SIGTERM goes to the first process only, which therefore must become the worker
-        text = f'{resources.env_setup}\nexec "$@"\n'
+        setup = f"{resources.env_setup}\n"
+    if setup or done is not None:
+        text = setup + (_LAUNCH if done is None else _LAUNCH_AND_SAY)
         files = [{"name": "launch", "type": "TEXT", "filename": "launch.sh", "data": text}]
-        command = ["bash", "{{Task.File.launch}}", *command]
+        command = ["bash", "{{Task.File.launch}}", *([] if done is None else [done]), *command]
     action = {"command": command[0], "args": command[1:], **action}
     return {"actions": {"onRun": action}} | ({"embeddedFiles": files} if files else {})
 

@@ -75,24 +75,29 @@ def read_live_link(path: str | os.PathLike[str], *, fps: float | None = None) ->
     FormatError
         Where a blendshape's column is missing, a row is too short or a cell is no number.
     """
-    path = Path(path)
     with CsvRows(path) as table:
-        columns = {name.lower(): column for name, column in table.columns.items()}
-        missing = [name for name in BLENDSHAPES if name.lower() not in columns]
-        if missing or "timecode" not in columns:
-            lacking = missing[0] if missing else "Timecode"
-            raise FormatError(
-                f"{path} is not a Live Link Face recording: column {lacking} is missing"
-                + (f" and {len(missing) - 1} more" if len(missing) > 1 else "")
-            )
-        picked = [columns[name.lower()] for name in BLENDSHAPES]
-        weights, timecodes = [], []
-        for row in table:
-            try:
-                weights.append(numbers_in(row, picked))
-            except ValueError as error:
-                raise FormatError(f"{path}: a weight is not a number ({error})") from error
-            timecodes.append(row[columns["timecode"]].strip())
+        return take_of_rows(table, fps=fps)
+
+
+def take_of_rows(table: CsvRows, *, fps: float | None = None) -> LiveLinkTake:
+    """A recording of a file that is open already: a pipe cannot be opened again."""
+    path = table.path
+    columns = {name.lower(): column for name, column in table.columns.items()}
+    missing = [name for name in BLENDSHAPES if name.lower() not in columns]
+    if missing or "timecode" not in columns:
+        lacking = missing[0] if missing else "Timecode"
+        raise FormatError(
+            f"{path} is not a Live Link Face recording: column {lacking} is missing"
+            + (f" and {len(missing) - 1} more" if len(missing) > 1 else "")
+        )
+    picked = [columns[name.lower()] for name in BLENDSHAPES]
+    weights, timecodes = [], []
+    for row in table:
+        try:
+            weights.append(numbers_in(row, picked))
+        except ValueError as error:
+            raise FormatError(f"{path}: a weight is not a number ({error})") from error
+        timecodes.append(row[columns["timecode"]].strip())
     time_s = _timecode_seconds(timecodes, path) if fps is None else np.arange(len(weights)) / fps
     return LiveLinkTake(weights=np.array(weights), timecodes=tuple(timecodes), time_s=time_s)
 

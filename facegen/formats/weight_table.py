@@ -8,7 +8,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import FormatError
 from facegen.formats.csv_rows import CsvRows, numbers_in
-from facegen.formats.live_link import read_live_link
+from facegen.formats.live_link import take_of_rows
 
 DEFAULT_FPS = 30.0
 """Rows a second where neither the file nor the reader says."""
@@ -43,7 +43,7 @@ def read_weight_table(
     with CsvRows(path) as table:
         columns = {name.lower(): column for name, column in table.columns.items()}
         if "timecode" in columns:
-            take = read_live_link(path, fps=fps)
+            take = take_of_rows(table, fps=fps)
             return take.weights, take.time_s
         missing = [name for name in BLENDSHAPES if name.lower() not in columns]
         if missing:

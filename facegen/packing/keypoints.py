@@ -7,7 +7,7 @@ import pyarrow.parquet as pq
 
 from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
-from facegen.packing.plan import Options, PackFile, PackFormat, read_rows, split_shards
+from facegen.packing.plan import Options, PackFile, PackFormat, split_shards
 from facegen.store import Dataset
 
 SHARD_SAMPLES = 100_000
@@ -36,7 +36,7 @@ def write_keypoints(dataset: Dataset, part: PackFile, options: Options, path: Pa
     about = {"licence": dataset.licence, "spec_hash": dataset.hash}
     schema = pa.schema([schema.field(name) for name in columns], metadata=about)
     with pq.ParquetWriter(path, schema, compression="zstd", write_page_checksum=True) as writer:
-        for rows in read_rows(dataset, part.samples, columns):
+        for rows in dataset.rows(part.samples, columns):
             writer.write_table(rows.replace_schema_metadata(None).cast(schema), row_group_size=SHARD_ROWS)
 
 

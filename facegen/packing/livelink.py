@@ -12,7 +12,7 @@ import pyarrow as pa
 
 from facegen.errors import InputError
 from facegen.formats import live_link_csv
-from facegen.packing.plan import Options, PackFile, PackFormat, read_rows
+from facegen.packing.plan import Options, PackFile, PackFormat
 from facegen.store import Dataset, column_array
 
 
@@ -29,7 +29,7 @@ def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> l
     check_clips(dataset, "livelink")
     numbers = np.asarray(samples, np.int64)
     columns = ["person", "session", "clip", "component"]
-    table = pa.concat_tables(read_rows(dataset, numbers, columns))
+    table = pa.concat_tables(dataset.rows(numbers, columns))
     parts = []
     for rows in runs(table.column("clip").to_numpy()):
         person, session, number, kind = (table.column(name)[rows.start].as_py() for name in columns)
@@ -40,7 +40,7 @@ def clip_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -> l
 
 def write_clip(dataset: Dataset, part: PackFile, _options: Options, path: Path) -> None:
     """Write one clip."""
-    table = pa.concat_tables(read_rows(dataset, part.samples, ["weights", "time_s"]))
+    table = pa.concat_tables(dataset.rows(part.samples, ["weights", "time_s"]))
     text = live_link_csv(column_array(table, "weights"), table.column("time_s").to_numpy())
     path.write_text(text, encoding="utf-8", newline="")
 

@@ -12,7 +12,7 @@ import pyarrow as pa
 
 from facegen.conventions import LANDMARK_COUNT
 from facegen.packing.livelink import check_clips, runs
-from facegen.packing.plan import Options, PackFile, PackFormat, read_rows
+from facegen.packing.plan import Options, PackFile, PackFormat
 from facegen.store import Dataset, column_array
 
 COLUMNS = (
@@ -33,7 +33,7 @@ def session_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -
     """
     check_clips(dataset, "openface")
     numbers = np.asarray(samples, np.int64)
-    table = pa.concat_tables(read_rows(dataset, numbers, ["person", "session"]))
+    table = pa.concat_tables(dataset.rows(numbers, ["person", "session"]))
     person, session = (table.column(name).to_numpy() for name in ("person", "session"))
     return [
         PackFile(
@@ -46,7 +46,7 @@ def session_parts(dataset: Dataset, samples: Sequence[int], _options: Options) -
 
 def write_session(dataset: Dataset, part: PackFile, _options: Options, path: Path) -> None:
     """Write one session; a frame without a face has success 0 and zeros for points."""
-    table = pa.concat_tables(read_rows(dataset, part.samples, ["detected_2d", "time_s", "clip"]))
+    table = pa.concat_tables(dataset.rows(part.samples, ["detected_2d", "time_s", "clip"]))
     points = column_array(table, "detected_2d")
     times = _running(table.column("time_s").to_numpy(), table.column("clip").to_numpy())
     with open(path, "w", encoding="utf-8", newline="") as file:

@@ -2,10 +2,12 @@
 
 import contextlib
 import hashlib
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
+from facegen.documents import load_json
 from facegen.errors import InputError
 from facegen.files import output_errors
 from facegen.packing.arrays import ARRAYS
@@ -98,7 +100,7 @@ def plan_pack(dataset: Dataset, name: str, options: Options | None = None) -> Pa
 def write_pack(
     plan: PackPlan, out: str | Path, *, on_progress: Callable[[int], None] = lambda done: None
 ) -> Packed:
-    """Write a pack; run it again after a stop and it goes on.
+    """Write a pack; run it again after a stop and it goes on, and after damage it is whole again.
 
     The folder gets ``pack.json`` (format, dataset, licence, samples) first and ``index.json`` (files with
     sizes and checksums) last: a pack with an index is complete. Packs of Parquet have a card and Croissant
@@ -125,15 +127,19 @@ def write_pack(
     folder, form = DatasetFolder(Path(out)), PACK_FORMATS[plan.name]
     _begin(folder, _description(plan))
     sweep(folder)
-    written = 0
+    listed = _listed(folder.path)
+    entries, written = [], 0
     for done, part in enumerate(plan.parts):
-        if not (folder.path / part.name).is_file():
+        found = (folder.path / part.name).is_file()
+        entry = _entry(folder.path, part) if found else None
+        if not found or (listed is not None and entry != listed.get(part.name)):
             with staging(folder, "pack") as stage:
                 form.write(plan.dataset, part, plan.options, stage / part.name)
                 commit_file(stage / part.name, folder.path / part.name)
+            entry = _entry(folder.path, part)
             written += 1
+        entries.append(entry)
         on_progress(done + 1)
-    entries = [_entry(folder.path, part) for part in plan.parts]
     with staging(folder, "pack") as stage:
         texts = cards(folder.path, _description(plan), entries) if form.carded else {}
         for name, content in texts.items():
@@ -185,6 +191,16 @@ def _begin(folder: DatasetFolder, description: dict) -> None:
     with staging(folder, "begin") as stage:
         write_json(stage / ABOUT, description)
         commit_file(stage / ABOUT, about)
+
+
+def _listed(folder: Path) -> dict[str, dict] | None:
+    """Entries of the index by name, where a run before this one ended; of one that cannot be read, none."""
+    if not os.path.lexists(folder / INDEX):
+        return None
+    try:
+        return {entry["name"]: entry for entry in load_json(folder / INDEX)}
+    except (InputError, TypeError, KeyError):
+        return {}
 
 
 def _entry(folder: Path, part: PackFile) -> dict:

@@ -1,11 +1,10 @@
 """Plans a pack: which samples it holds, in which files."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
 
 from facegen.conventions import SHARD_ROWS, SPLITS
 from facegen.errors import InputError
@@ -103,14 +102,6 @@ def split_shards(dataset: Dataset, samples: Sequence[int], options: Options) -> 
     return parts
 
 
-def read_rows(dataset: Dataset, numbers: Sequence[int], columns: Sequence[str]) -> Iterator[pa.Table]:
-    """Keypoint columns of samples by ascending number, a table a shard; one shard in memory at a time."""
-    numbers = np.asarray(numbers, np.int64)
-    for shard in np.unique(numbers // SHARD_ROWS):
-        table = dataset.read_shard(dataset.folder.shard(int(shard)), columns)
-        yield table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS))
-
-
 def chosen_samples(dataset: Dataset, options: Options, *, rendered: bool) -> Sequence[int]:
     """Sorted numbers of the samples to pack.
 
@@ -146,7 +137,9 @@ def chosen_samples(dataset: Dataset, options: Options, *, rendered: bool) -> Seq
     if options.split is not None:
         numbers = _of_split(dataset, numbers, options.split)
     if not len(numbers):
-        raise InputError(f"{dataset.folder.path}: has nothing to pack; generate --samples renders some")
+        chosen = [f"--{key}" for key in ("samples", "split") if getattr(options, key) is not None]
+        cure = f"no sample is that of {' and '.join(chosen)}" if chosen else "generate --samples renders some"
+        raise InputError(f"{dataset.folder.path}: has nothing to pack; {cure}")
     return numbers
 
 

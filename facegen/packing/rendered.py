@@ -29,9 +29,11 @@ def chosen_views(dataset: Dataset, options: Options) -> tuple[str, ...]:
     Raises
     ------
     InputError
-        If the headset has no such camera.
+        If the headset has no such camera, or none is named.
     """
     names = dataset.headset.camera_names
+    if options.views is not None and not options.views:
+        raise InputError(f"--views names no camera; this dataset's are {', '.join(names)}")
     unknown = sorted(set(options.views or ()) - set(names))
     if unknown:
         raise InputError(f"--views: {unknown[0]!r} is none of this dataset's cameras {', '.join(names)}")

@@ -1,5 +1,7 @@
 """Writes the frames of a performance as a film, an animated picture or a strip for a page."""
 
+import itertools
+import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -16,6 +18,8 @@ from facegen.preview.performance import Performance, face_window, pictures
 
 FILM_SUFFIXES, ANIMATION_SUFFIXES = (".webm", ".mp4"), (".gif", ".webp")
 """Films are written by OpenCV, animated pictures by Pillow (which holds all frames in memory)."""
+GIF_SHORTEST_S = 0.02
+"""Of a frame; frames of quicker films are left out of a GIF."""
 CURVES = 8
 """Weights that a strip draws: those that move most."""
 
@@ -32,9 +36,12 @@ def write_film(path: Path, frames: Iterable[np.ndarray], *, fps: float) -> None:
     """
     suffix = path.suffix.lower()
     if suffix in ANIMATION_SUFFIXES:
-        images = [Image.fromarray(frame) for frame in frames]
+        # a GIF counts hundredths of a second, and programs that play it take the shortest ones for ten times as long
+        every = 1 if suffix == ".webp" else max(1, math.ceil(fps * GIF_SHORTEST_S - 1e-6))
+        images = [Image.fromarray(frame) for frame in itertools.islice(frames, 0, None, every)]
+        fps /= every
         options = {"lossless": False, "quality": 80} if suffix == ".webp" else {"optimize": True}
-        unit_ms = 1 if suffix == ".webp" else 10  # GIF counts hundredths of a second
+        unit_ms = 1 if suffix == ".webp" else 10
         ends = np.round(np.arange(len(images) + 1) * 1000 / fps / unit_ms).astype(int) * unit_ms
         lasting = np.diff(ends).tolist()
         images[0].save(path, save_all=True, append_images=images[1:], duration=lasting, loop=0, **options)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
+import pyarrow as pa
 
 from facegen.errors import InputError
 from facegen.preview.looks import Look, draw_look
@@ -92,6 +93,20 @@ class Performance:
         return Performance(rig=self.rig, identity=self.identity, title=self.title, look=self.look, **kept)
 
 
+_PLAYED = (
+    "sample",
+    "person",
+    "session",
+    "component",
+    "camera_from_head",
+    "identity",
+    "weights",
+    "gaze",
+    "time_s",
+)
+"""Columns of a sample that a film of it needs."""
+
+
 def clip_of_dataset(dataset: Dataset, clip: int) -> Performance:
     """A clip of a dataset, by its number.
 
@@ -100,13 +115,13 @@ def clip_of_dataset(dataset: Dataset, clip: int) -> Performance:
     InputError
         If there is no such clip, or it has not been made.
     """
-    table = dataset.keypoints()
-    rows = np.flatnonzero(table.column("clip").to_numpy() == clip)
-    if not len(rows):
+    clips = dataset.keypoints(["sample", "clip"])
+    numbers = clips["sample"].to_numpy()[clips["clip"].to_numpy() == clip]
+    if not len(numbers):
         raise InputError(
-            f"{dataset.folder.path}: has no clip {clip}; there are clips {table['clip'][0]}-{table['clip'][-1]}"
+            f"{dataset.folder.path}: has no clip {clip}; there are clips {clips['clip'][0]}-{clips['clip'][-1]}"
         )
-    table = table.take(rows)
+    table = pa.concat_tables(dataset.rows(numbers, _PLAYED))
     rig = dataset.rig_of(table["sample"][0].as_py())
     person, session, kind = (table.column(name)[0].as_py() for name in ("person", "session", "component"))
     head_in_camera = column_array(table, "camera_from_head").reshape(-1, 4, 4)[:, :3, :3]

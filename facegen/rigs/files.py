@@ -19,7 +19,7 @@ from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, Part
 from facegen.documents import read_bytes
 from facegen.errors import FormatError, InputError
 from facegen.files import output_errors, write_whole
-from facegen.rigs.record import RIG_FORMAT, read_record, rigs_folder
+from facegen.rigs.record import RIG_FORMAT, made_again, read_record, rigs_folder
 from facegen.rigs.rig import Rig
 from facegen.rigs.versions import VERSIONS
 
@@ -97,8 +97,7 @@ def _load(name: str, folder: Path, *_stamps: tuple[int, ...] | None) -> Rig:
     content = read_bytes(path, most_bytes=2 * MOST_BYTES)
     if hashlib.sha256(content).hexdigest() != record["sha256"]:
         raise InputError(
-            f"{path} is not the file that was built (its SHA-256 differs from {name}.json's); "
-            f"build it again with: facegen rig build {name} --force"
+            f"{path} is not the file that was built (its SHA-256 differs from {name}.json's); {made_again(name)}"
         )
     arrays = parse_npz(content, where=str(path))
     _check_arrays(arrays, record, where=str(path))

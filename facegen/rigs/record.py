@@ -46,6 +46,13 @@ def rigs_folder() -> Path:
     return Path(os.environ.get("FACEGEN_RIGS") or assets_folder() / "build")
 
 
+def made_again(name: str) -> str:
+    """What to do about a rig whose files are not what was written."""
+    if name in VERSIONS:
+        return f"build it again with: facegen rig build {name} --force{_BUILT_FROM.get(name, '')}"
+    return f"add it again with: facegen rig add FILE --landmarks JSON --name {name} --force"
+
+
 def read_record(name: str, folder: Path | None = None) -> dict:
     """Content of ``NAME.json``.
 
@@ -67,7 +74,7 @@ def read_record(name: str, folder: Path | None = None) -> dict:
             else "make one of your own head with: facegen rig add"
         )
         raise MissingAsset(f"There is no rig {name!r} in {folder} (built: {built}); {cure}")
-    again = f"build it again with: facegen rig build {name} --force"
+    again = made_again(name)
     try:
         record = load_json(path)
     except FormatError as error:

@@ -86,7 +86,7 @@ def parse_spec(table: dict[str, Any], *, where: str) -> Spec:
         spec = _ADAPTER.validate_json(json.dumps(table, default=str))
     except ValidationError as error:
         raise InputError(f"{where}: {refusal(error, Spec)}") from None
-    except ValueError:
+    except (ValueError, OverflowError):
         raise InputError(f"{where}: a number has too many digits") from None
     if abs(sum(spec.split_shares) - 1) > 1e-9:
         raise InputError(

@@ -2,7 +2,7 @@
 
 from facegen.store.beginning import begin
 from facegen.store.blocks import draw_block, label_block
-from facegen.store.dataset import Dataset, open_dataset, resolve
+from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import (
     DatasetFolder,
@@ -22,6 +22,7 @@ from facegen.store.keypoint_table import (
     write_shard,
 )
 from facegen.store.merging import Merged, merge
+from facegen.store.opening import open_dataset, resolve
 from facegen.store.record import sample_record
 from facegen.store.reference import labels_reference
 from facegen.store.stage import staging, sweep

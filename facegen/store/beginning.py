@@ -3,6 +3,7 @@
 import importlib.metadata
 import os
 import shutil
+from pathlib import Path
 
 import tomli_w
 
@@ -29,7 +30,7 @@ def begin(dataset: Dataset) -> None:
     """Write ``spec.toml``, ``dataset.json`` and the card of a new dataset; check an old one.
 
     An old one's ``spec.toml`` is written again where it is missing, or says otherwise which samples are rendered: its
-    readers ask for those of the spec that it was last given.
+    readers ask for those of the spec that it was last given. What that names is copied again where it is missing.
 
     Raises
     ------
@@ -49,7 +50,9 @@ def begin(dataset: Dataset) -> None:
                 f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
                 f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
             )
-        _renew_spec(dataset)
+        with staging(folder, "spec") as stage:
+            _copy_named(dataset, stage)
+            _renew_spec(dataset, stage)
         _write_cards(dataset)
         return
     if others:
@@ -59,11 +62,7 @@ def begin(dataset: Dataset) -> None:
     # before anything lies there: it imports modules, and a stop during imports ends the program at once
     text, description = _spec_text(dataset), _description(dataset)
     with staging(folder, "begin") as stage:
-        if dataset.spec.playback is not None:
-            shutil.copyfile(dataset.spec.playback.recording, stage / "recording.csv")
-            commit_file(stage / "recording.csv", folder.recording_csv)
-        shutil.copyfile(headset_path(dataset.spec.render.headset), stage / "headset.toml")
-        commit_file(stage / "headset.toml", folder.headset_toml)
+        _copy_named(dataset, stage)
         (stage / "spec.toml").write_text(text, encoding="utf-8")
         commit_file(stage / "spec.toml", folder.spec_toml)
         write_json(stage / "dataset.json", description)
@@ -80,16 +79,27 @@ def _spec_text(dataset: Dataset) -> str:
     return tomli_w.dumps(_without_none(table))
 
 
-def _renew_spec(dataset: Dataset) -> None:
+def _copy_named(dataset: Dataset, stage: Path) -> None:
+    """Copy what the spec names into the folder, where it is not there."""
+    folder, named = dataset.folder, {}
+    if dataset.spec.playback is not None:
+        named[folder.recording_csv] = dataset.spec.playback.recording
+    named[folder.headset_toml] = headset_path(dataset.spec.render.headset)
+    for path, source in named.items():
+        if not os.path.lexists(path):
+            shutil.copyfile(source, stage / path.name)
+            commit_file(stage / path.name, path)
+
+
+def _renew_spec(dataset: Dataset, stage: Path) -> None:
     folder, text = dataset.folder, _spec_text(dataset)
     if (
         os.path.lexists(folder.spec_toml)
         and read_bytes(folder.spec_toml, most_bytes=MOST_TOML_BYTES) == text.encode()
     ):
         return
-    with staging(folder, "spec") as stage:
-        (stage / "spec.toml").write_text(text, encoding="utf-8")
-        commit_file(stage / "spec.toml", folder.spec_toml)
+    (stage / "spec.toml").write_text(text, encoding="utf-8")
+    commit_file(stage / "spec.toml", folder.spec_toml)
 
 
 def _write_cards(dataset: Dataset) -> None:

@@ -9,9 +9,10 @@ from pathlib import Path
 
 from facegen.errors import InputError, InvalidData
 from facegen.files import output_errors
-from facegen.store.dataset import Dataset, open_dataset
+from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder, commit_file, commit_folder
+from facegen.store.opening import open_dataset
 from facegen.store.stage import staging, sweep
 
 _FIRST_THINGS = ("tmp", "spec.toml", "headset.toml", "recording.csv")

@@ -88,6 +88,7 @@ def test_the_template_passes_the_check_with_every_step(tmp_path):
 def test_chunks_run_and_tell_their_progress(tmp_path):
     out, _ = bundle(tmp_path, "--samples", "0-3", "--chunk", "2", "--steps", "generate,validate", "--wait")
     assert state(out)["missing"] == 0
+    assert [step["state"] for step in state(out)["steps"]] == ["done"]
     assert outcomes(out) == ["done"] * 5
     log = (out / "farm" / "job-001" / "logs" / "openjd.out").read_text()
     assert "openjd_progress: 50.0" in log
@@ -105,10 +106,12 @@ def test_a_failing_chunk_stops_what_depends_on_it_until_it_is_mended(tmp_path):
     assert "things wrong" not in text, "validate did not run"
     assert rendered(out) == [1], "the rest of the failing chunk is there; openjd-cli starts no further one"
     assert state(out)["quarantined"] == ["sample-000000"]
+    assert [step["state"] for step in state(out)["steps"]] == ["to do"]
     shutil.rmtree(poison)
     text = openjd("run", *run, "--step", "Validate", "--run-dependencies")
     assert rendered(out) == [0, 1, 2, 3]
     assert "0 things wrong" in text
+    assert [step["state"] for step in state(out)["steps"]] == ["done"]
     # any other cut does as well: chunks are sets of samples and name nothing
     assert "found: 4" in openjd("run", *run, "--step", "Pictures", "-tp", "Ids=0-3")
 

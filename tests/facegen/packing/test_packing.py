@@ -247,6 +247,13 @@ def test_what_cannot_be_packed_is_refused(rendered, tmp_path):
         make(rendered, tmp_path / "views", "coco", views=("chin",))
     with pytest.raises(InputError, match="'x' is none of sample, person"):
         make(rendered, tmp_path / "columns", "keypoints", columns=("x",))
+    with pytest.raises(
+        InputError, match="--views names no camera; this dataset's are left_eye, right_eye, mouth"
+    ):
+        make(rendered, tmp_path / "views", "coco", views=())
+    other = next(split for split in SPLITS if split != rendered.array("split")[0])
+    with pytest.raises(InputError, match="nothing to pack; no sample is that of --samples and --split"):
+        plan_pack(rendered, "keypoints", Options(samples="0", split=other))
     make(rendered, tmp_path / "a", "keypoints")
     with pytest.raises(InputError, match="holds another pack"):
         make(rendered, tmp_path / "a", "webdataset")
@@ -293,4 +300,19 @@ def test_a_killed_run_leaves_whole_files_only_and_the_next_one_goes_on(rendered,
     assert left.items() <= whole.items()
     assert not (out / "index.json").exists()
     assert write_pack(plan_pack(rendered, "keypoints", Options(**options)), out).found >= len(left)
+    assert files(out) == whole
+
+
+@pytest.mark.parametrize("damage", ["half a file", "no file", "half an index"])
+def test_a_damaged_pack_is_mended_by_its_next_run(recorded, tmp_path, damage):
+    out = make(recorded, tmp_path / "a", "keypoints", shard_size=100)
+    whole = files(out)
+    path = out / ("index.json" if damage == "half an index" else "validation-000001.parquet")
+    if damage == "no file":
+        path.unlink()
+    else:
+        path.write_bytes(whole[path.name][: len(whole[path.name]) // 2])
+    again = write_pack(plan_pack(recorded, "keypoints", Options(shard_size=100)), out)
+    parts = sum(name.endswith(".parquet") for name in whole)
+    assert again.written == (parts if damage == "half an index" else 1)
     assert files(out) == whole

@@ -1,9 +1,12 @@
 """Clips and tables of weights as strips and films."""
 
 import io
+from collections.abc import Sequence
+from pathlib import Path
 
 import cv2
 import numpy as np
+import pyarrow as pa
 import pytest
 from PIL import Image
 from typer.testing import CliRunner
@@ -13,7 +16,15 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.errors import FacegenError, InputError
 from facegen.formats import live_link_csv
 from facegen.formats.ppm import ppm_bytes, read_ppm_stream
-from facegen.preview import clip_of_dataset, clip_strip, pictures, play_weights, write_film
+from facegen.preview import (
+    clip_of_dataset,
+    clip_strip,
+    contact_sheet,
+    pictures,
+    play_weights,
+    write_film,
+)
+from facegen.store import Dataset
 
 JAW = BLENDSHAPE_INDEX["jawOpen"]
 
@@ -114,3 +125,27 @@ def test_the_command_plays_a_recording_and_refuses_what_it_cannot(anny, tmp_path
         error = CliRunner().invoke(app, arguments).exception
         assert isinstance(error, FacegenError)
         assert words in str(error)
+
+
+@pytest.mark.parametrize(("fps", "kept", "lasting_ms"), [(25, 12, 40), (60, 6, 33.3), (240, 3, 20.8)])
+def test_no_frame_of_a_gif_is_shorter_than_programs_play(tmp_path, fps: float, kept: int, lasting_ms: float):
+    frames = [np.full((8, 8, 3), 20 * number, dtype=np.uint8) for number in range(12)]
+    write_film(tmp_path / "a.gif", iter(frames), fps=fps)
+    with Image.open(tmp_path / "a.gif") as image:
+        lasting = [image.seek(n) or image.info["duration"] for n in range(image.n_frames)]
+    assert len(lasting) == kept
+    assert min(lasting) >= 20
+    assert np.mean(lasting) == pytest.approx(lasting_ms, abs=3.4)
+
+
+def test_what_is_not_shown_is_not_read(recorded, monkeypatch):
+    """A dataset of a million samples has 9 GB of columns; a film of two seconds needs few of some."""
+    read = Dataset.read_shard
+
+    def bounded(self: Dataset, path: Path, columns: Sequence[str] | None = None) -> pa.Table:
+        assert columns is not None
+        return read(self, path, columns)
+
+    monkeypatch.setattr(Dataset, "read_shard", bounded)
+    assert len(clip_of_dataset(recorded, 3).time_s) == 60
+    assert contact_sheet(recorded, [70, 3]).axes

@@ -267,3 +267,19 @@ def test_a_mistyped_key_is_named_first_whatever_else_is_wrong():
     table = {"version": 2, "kind": "stil", "seed": -1, "rig": 5, "peple": 6}
     with pytest.raises(InputError, match=r"^here: unknown key 'peple'; did you mean 'people'\?"):
         parse_spec(table, where="here")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[head]\nyaw_deg = {}\n",
+        "[head]\nyaw_deg = {{uniform = [-20, {}]}}\n",
+        "rig = {{anny = {}, ict = 1}}\n",
+        "[sensor]\nnoise = {}\n",
+    ],
+)
+def test_a_whole_number_beyond_all_floats_is_refused(tmp_path: Path, text: str):
+    spec = tmp_path / "spec.toml"
+    spec.write_text('version = 1\nkind = "still"\nseed = 1\npeople = 3\n' + text.format("1" + 400 * "0"))
+    with pytest.raises(InputError):
+        load_spec(spec)

@@ -4,11 +4,13 @@ import re
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from facegen.cli import app
 from facegen.errors import InputError, InvalidData
+from facegen.formats import live_link_csv
 from facegen.headsets import headset_path
 from facegen.spec import load_spec
 from facegen.store import begin, open_dataset, resolve
@@ -144,3 +146,30 @@ def test_a_damaged_shard_is_named_by_all_that_read_it(recorded, tmp_path, damage
         for path in tmp_path.rglob("*")
         if path.is_file() and copy not in path.parents and path.name != "pack.json"
     ]
+
+
+def test_what_a_spec_names_is_copied_again_where_it_is_missing(folder):
+    recording = live_link_csv(np.zeros((4, 52)), np.arange(4) / 30)
+    (folder / "take.csv").write_text(recording)
+    played = SPEC.replace("still", "playback") + '[playback]\nrecording = "take.csv"\nfps = 30\n'
+    (folder / "spec.toml").write_text(played)
+    made = resolve(load_spec(folder / "spec.toml"), folder / "out")
+    begin(made)
+    whole = {path.name: path.read_bytes() for path in (folder / "out").iterdir() if path.is_file()}
+    made.folder.headset_toml.unlink()
+    with pytest.raises(InputError, match=r"headset\.toml: is missing; facegen generate SPEC --out"):
+        open_dataset(folder / "out")
+    made.folder.recording_csv.unlink()
+    begin(made)
+    assert {path.name: path.read_bytes() for path in (folder / "out").iterdir() if path.is_file()} == whole
+    assert open_dataset(folder / "out").hash == made.hash
+
+
+def test_rows_are_those_of_the_samples_and_of_no_other_columns(recorded):
+    whole = recorded.keypoints()
+    numbers = [0, 7, 63]
+    (rows,) = recorded.rows(numbers, ["sample", "weights"])
+    assert rows.column_names == ["sample", "weights"]
+    assert rows["sample"].to_pylist() == numbers
+    assert rows["weights"].to_pylist() == whole["weights"].take(numbers).to_pylist()
+    assert recorded.keypoints(["clip"]).column_names == ["clip"]
