@@ -136,10 +136,11 @@ class Heard(Text):
 
 
 class Notice(Text):
-    """A word about what this person did, which had no effect."""
+    """A word about what this person did, which had no effect; ``about`` is the kind of the text that was refused."""
 
     kind: Literal["notice"] = "notice"
     text: str
+    about: str = ""
 
 
 class Refused(Text):

@@ -145,12 +145,12 @@ class Visits:
                 if part == "face":
                     raise NotAllowed("a program that moves a face sends states, and no texts")
                 if isinstance(said, Chat) and not chats.take(now=now):
-                    connection.say(Notice(text="that was too fast; the line was not sent"))
+                    connection.say(Notice(text="that was too fast; the line was not sent", about=said.kind))
                     continue
                 try:
                     hall.hear(seat, said)
                 except NotAllowed as error:
-                    connection.say(Notice(text=str(error)))
+                    connection.say(Notice(text=str(error), about=said.kind))
 
 
 async def _ignore(socket: web.WebSocketResponse) -> None:

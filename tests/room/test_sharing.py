@@ -56,7 +56,9 @@ async def test_a_moderator_ends_it_and_a_mute_keeps_from_it(place):
     await ada.told(Changed, _shares(ada.number, on=False))
     await chair.say(kind="moderate", action="mute", number=ada.number)
     await ada.say(kind="share", on=True)
-    assert "muted" in (await ada.told(Notice)).text
+    notice = await ada.told(Notice)
+    assert "muted" in notice.text
+    assert notice.about == "share", "so that the page lets go of what it has taken already"
 
 
 @meeting

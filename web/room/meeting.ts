@@ -15,6 +15,7 @@ import { Replaying } from "./replaying.js";
 import { Sharing } from "./sharing.js";
 import { Sidebar } from "./sidebar.js";
 import { Stage } from "./stage.js";
+import { Status } from "./status.js";
 import type { Answer, Welcome } from "./texts.js";
 import { Voice } from "./voice.js";
 
@@ -36,6 +37,7 @@ export class Meeting {
   private readonly replaying = new Replaying((said) => this.line.say(said));
   private readonly sidebar: Sidebar;
   private readonly line: Line;
+  private readonly status = new Status(find("state"), () => [this.presence.camera?.word ?? "", this.voice.word]);
   private locked = false;
 
   constructor(
@@ -57,6 +59,7 @@ export class Meeting {
     this.offering = new Offering(
       this.sharing,
       {
+        muted: () => this.people.self?.muted ?? false,
         sharer: () => this.people.others.find(({ person }) => person.shares)?.person.name,
         say: (on) => this.line.say({ kind: "share", on }),
         tell: (text) => this.tell(text),
@@ -74,7 +77,7 @@ export class Meeting {
       welcome: (welcome) => this.welcome(welcome),
       answer: (answer) => this.hear(answer),
       state: (number, message) => this.see(number, message),
-      broken: () => this.tell("The connection broke; coming back …"),
+      broken: () => this.status.hold("The connection broke; coming back …", performance.now()),
       ended: (text) => this.end(text),
     });
     this.brought = new Brought(`${location.pathname}/avatar`, join.key, join.secret, () => this.line.say({ kind: "undress" }));
@@ -89,9 +92,7 @@ export class Meeting {
       leave: () => this.leave(),
     });
     find("meeting").hidden = false;
-    find("view").hidden = false;
-    find("mirror").hidden = false;
-    this.stage.view.start(() => {
+    this.stage.begin(() => {
       this.stage.draw(this.people, this.presence);
       this.replaying.show();
     });
@@ -106,8 +107,7 @@ export class Meeting {
 
   async watch(): Promise<void> {
     try {
-      await this.presence.watch();
-      find("neutral").hidden = false;
+      find("neutral").hidden = !(await this.presence.watch());
     } catch (error) {
       this.tell(`No camera: ${sentence(error)}`);
     }
@@ -164,10 +164,10 @@ export class Meeting {
       case "engine":
       case "heard":
         this.voice.engine(answer);
-        this.tell("");
         return;
       case "notice":
       case "refused":
+        if (answer.kind === "notice" && answer.about === "share") this.offering.end(); // nobody sees what was taken already
         this.tell(answer.text);
         return;
       default:
@@ -190,11 +190,11 @@ export class Meeting {
   /** Thirty times a second: say how one looks and where one stands. */
   private move(): void {
     const now = performance.now();
+    this.status.show(now);
     if (!this.own || !this.presence.stand(now, this.people.taken(), this.own.replay)) return;
     if (this.presence.stance.isOver(now / 1000)) this.gesture(0);
     this.line.move(this.presence.move(now));
     this.presence.listen(this.voice, this.people.others, now);
-    if (this.presence.camera) this.tell(this.presence.camera.word);
   }
 
   private show(): void {
@@ -209,7 +209,7 @@ export class Meeting {
 
   /** Agree to be recorded, or no longer; also after a break of the line. */
   private consent(): void {
-    const recorded = !this.known.get(this.own?.number ?? -1)?.person.recorded;
+    const recorded = !this.people.self?.recorded;
     this.join.recorded = recorded;
     this.line.say({ kind: "consent", recorded });
   }
@@ -231,7 +231,7 @@ export class Meeting {
   }
 
   private tell(text: string): void {
-    find("state").textContent = text || this.voice.word;
+    this.status.tell(text, performance.now());
   }
 
   private end(text: string): void {
@@ -239,12 +239,12 @@ export class Meeting {
     this.sharing.close();
     this.offering.follow();
     this.microphone?.close();
-    this.presence.camera?.close();
+    this.presence.end();
     this.own = undefined;
     this.people.clear();
-    find("mirror").hidden = true;
+    this.stage.end();
     find("people").replaceChildren();
     document.querySelector("nav")!.hidden = true; // nothing to do here any more; what was said can still be read
-    this.tell(text);
+    this.status.end(text, performance.now());
   }
 }

@@ -9,6 +9,8 @@ const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>
 const READER = "/static/paper.js";
 
 interface Meeting {
+  /** Whether a moderator has muted this person. */
+  muted(): boolean;
   /** Who else shares now. */
   sharer(): string | undefined;
   say(on: boolean): void;
@@ -75,11 +77,13 @@ export class Offering {
   }
 
   private async begin(take: () => Promise<void>, pages = false): Promise<void> {
+    if (this.meeting.muted()) return this.meeting.tell("A moderator has muted you; nothing is shared.");
     const other = this.meeting.sharer();
     if (other) return this.meeting.tell(`${other} shares already; they or a moderator can end it.`);
     try {
       await take();
       if (!pages) this.put(undefined);
+      if (!this.sharing.shares) return this.follow(); // the meeting has ended meanwhile
       this.meeting.say(true);
     } catch (error) {
       const refused = error instanceof DOMException && error.name === "NotAllowedError";

@@ -66,6 +66,11 @@ export class People {
     return known?.person;
   }
 
+  /** Who looks at this page; nobody before the welcome, and after the meeting. */
+  get self(): Person | undefined {
+    return this.known.get(this.own)?.person;
+  }
+
   get all(): Person[] {
     return [...this.known.values()].map(({ person }) => person);
   }

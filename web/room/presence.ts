@@ -29,6 +29,7 @@ export class Presence {
   camera: FaceCamera | undefined;
   private readonly idle = new Idle();
   private placedBy = Infinity;
+  private ended = false;
   private moved = performance.now();
 
   /** `canvas` is what is walked on and `button` puts a headset on. */
@@ -45,9 +46,19 @@ export class Presence {
     this.headset = new Headset(view.renderer, view.rig, this.walk, button, tell);
   }
 
-  /** Let a camera see one's face; throws where there is none. */
-  async watch(): Promise<void> {
-    this.camera = await FaceCamera.ask();
+  /** Let a camera see one's face, and say whether it does; throws where there is none. */
+  async watch(): Promise<boolean> {
+    const camera = await FaceCamera.ask();
+    if (this.ended) camera.close(); // the meeting was over before the browser, or its person, gave it
+    else this.camera = camera;
+    return !this.ended;
+  }
+
+  /** Nobody sees one any more. */
+  end(): void {
+    this.ended = true;
+    this.camera?.close();
+    this.camera = undefined;
   }
 
   /** The room has let one in; the others' places come next. */

@@ -16,6 +16,7 @@ export class Sharing {
   private shown: Still | undefined;
   /** Whether the room knows that this page shares. */
   private granted = false;
+  private closed = false;
   private readonly viewers = new Map<string, { connection: RTCPeerConnection; visit: string; number: number }>();
   private sharer: { id: string; visit: string; connection?: RTCPeerConnection } | undefined;
   private ice: RTCIceServer[] = [];
@@ -62,7 +63,9 @@ export class Sharing {
     this.show(undefined);
   }
 
+  /** Show nothing more for good, also of what a browser still asks its person for. */
   close(): void {
+    this.closed = true;
     this.end();
     this.drop();
   }
@@ -104,6 +107,7 @@ export class Sharing {
   }
 
   private take(stream: MediaStream): void {
+    if (this.closed) return stream.getTracks().forEach((each) => each.stop());
     const [track] = stream.getVideoTracks();
     track!.contentHint = "detail";
     track!.addEventListener("ended", () => this.own === stream && this.ended());

@@ -15,9 +15,24 @@ export class Stage {
   private drawn = performance.now();
 
   /** Throws where the browser gives no WebGL. */
-  constructor(canvas: HTMLCanvasElement, glass: HTMLCanvasElement, place: Place) {
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly glass: HTMLCanvasElement,
+    place: Place,
+  ) {
     this.view = new View(canvas, glass, place);
     this.pointers = new Pointers(this.view.scene, place);
+  }
+
+  /** Show the room and one's mirror; `draw` is called for each picture. */
+  begin(draw: () => void): void {
+    this.canvas.hidden = this.glass.hidden = false;
+    this.view.start(draw);
+  }
+
+  /** The room is empty now, and nobody looks into the mirror. */
+  end(): void {
+    this.glass.hidden = true;
   }
 
   /** One picture, as one sees the others from where one stands. */

@@ -94,5 +94,5 @@ export type Answer =
   | { kind: "signal"; sender: number | EngineLine; signal: Description | Candidate }
   | { kind: "engine"; state: "ready" | "away" }
   | { kind: "heard"; voices: Record<string, string> }
-  | { kind: "notice"; text: string }
+  | { kind: "notice"; text: string; about: string }
   | { kind: "refused"; text: string; again: boolean };

@@ -1,0 +1,143 @@
+"""What the page says to its person can be read, and holds: a lock, a refusal, a mute, the end of a meeting."""
+
+import asyncio
+
+import pytest
+
+from room.protocol.answers import Changed
+from tests.browser import chromium, needs_chromium
+from tests.room.bare_place import BARE
+from tests.room.guests import open_room
+from tests.room.page import AWAKE, UNDRAWN, come_in
+from tests.room.test_sharing import PICTURE, WISH
+
+pytestmark = [needs_chromium, pytest.mark.slow]
+
+STATE = "document.querySelector('#state').textContent"
+
+CAMERA = """void (() => {
+  const { presence } = meeting, { move } = presence, line = document.querySelector('#state');
+  presence.camera = { word: 'No face is seen by the camera.', face: () => undefined, close() {} };
+  globalThis.moves = 0;
+  presence.move = (now) => (++globalThis.moves, move.call(presence, now));
+  globalThis.said = [];
+  new MutationObserver(() => said.push([line.textContent, performance.now()])).observe(line, { childList: true });
+})()"""
+"""A camera that has something to say; the page counts its own moves, and notes what it says and when."""
+KEPT_MS = 14_000
+"""A notice is there for 15 s."""
+
+LATE = """void ((media) => {
+  const ask = media[%r].bind(media);
+  media[%r] = (wish) => new Promise((resolve) => (globalThis.give = resolve))
+    .then(() => ask(wish)).then((stream) => (globalThis.given = stream));
+})(navigator.mediaDevices)"""
+"""A person who answers the browser's question for a device or a window when the test says so."""
+
+STOPPED = "globalThis.given?.getTracks().every(({ readyState }) => readyState === 'ended')"
+
+JOIN = """(() => {
+  const form = document.querySelector('#join');
+  form.elements.name.value = 'Ada';
+  if (form.elements.voice.checked) form.elements.voice.click();
+  form.elements.camera.checked = true;
+  form.requestSubmit();
+})()"""
+
+
+def test_a_camera_that_has_something_to_say_lets_notices_be_read():
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            async with browser.open(
+                f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            ) as tab:
+                await come_in(tab, "Ada")
+                await tab.ask(CAMERA)
+                await tab.until(f"{STATE}.startsWith('No face')")
+                chair = await place.guest(moderator=True, name="Chair")
+                await chair.say(kind="moderate", action="lock")
+                await tab.until("said.some(([text]) => text.includes('locked the room'))")
+                await tab.ask("void (globalThis.moves = 0)")
+                await tab.until("moves > 10")
+                (_, began), *later = await tab.ask(
+                    "said.slice(said.findIndex(([text]) => text.includes('locked')))"
+                )
+                assert not later or later[0][1] - began > KEPT_MS, later
+
+    asyncio.run(run())
+
+
+@pytest.mark.parametrize("goes", ["refused", "by leaving"])
+def test_a_camera_that_opens_after_the_end_is_closed_and_the_last_word_stays(goes):
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            key = "A" * 22 if goes == "refused" else place.keys.key("meeting", "guest")
+            async with browser.open(f"{place.address}/room/meeting#{key}") as tab:
+                await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+                await tab.ask(UNDRAWN)
+                await tab.ask(LATE % ("getUserMedia", "getUserMedia"))
+                await tab.ask(JOIN)
+                await tab.until("globalThis.give")
+                if goes == "by leaving":
+                    await tab.until("document.querySelector('#people li')")
+                    await tab.ask("document.querySelector('#leave').click()")
+                await tab.until("document.querySelector('nav').hidden")
+                word = await tab.ask(STATE)
+                assert "link" in word or word.startswith("You have left")
+                await tab.ask("void give()")
+                await tab.until("globalThis.meeting")  # behind the camera
+                await tab.until(STOPPED)
+                assert await tab.ask(STATE) == word
+
+    asyncio.run(run())
+
+
+def test_a_window_that_is_given_after_the_end_is_not_captured():
+    async def run() -> None:
+        accept = "--auto-accept-this-tab-capture"
+        async with open_room(places=BARE) as place, chromium(*AWAKE, accept) as browser:
+            async with browser.open(
+                f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            ) as tab:
+                await come_in(tab, "Ada")
+                await tab.ask(LATE % ("getDisplayMedia", "getDisplayMedia"))
+                await tab.ask(WISH.format("window"))
+                await tab.until("globalThis.give")
+                await tab.ask("document.querySelector('#leave').click()")
+                await tab.ask("void give()")
+                await tab.until(STOPPED)
+                assert not await tab.ask("meeting.sharing.shares || meeting.board.shown")
+                assert (await tab.ask(STATE)).startswith("You have left")
+
+    asyncio.run(run())
+
+
+def test_who_is_muted_shares_nothing_and_is_told():
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            async with browser.open(
+                f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            ) as tab:
+                await come_in(tab, "Ada")
+                chair = await place.guest(moderator=True, name="Chair")
+                number = await tab.ask("meeting.own.number")
+                await tab.ask("void (globalThis.taken = 0)")
+                await tab.ask(
+                    "void ((sharing) => { const { still } = sharing; sharing.still = (picture) => {"
+                    " ++globalThis.taken; still.call(sharing, picture); }; })(meeting.sharing)"
+                )
+                await chair.say(kind="moderate", action="mute", number=number)
+                await tab.until("meeting.known.get(meeting.own.number).person.muted")
+                await tab.ask(f"void {PICTURE}")
+                await tab.until(f"{STATE}.includes('has muted you')")
+                assert await tab.ask("globalThis.taken") == 0, "it is refused before anything is taken"
+                # a mute that the page hears of only after it has taken the picture
+                await tab.ask("void Object.defineProperty(meeting.people, 'self', { value: undefined })")
+                await tab.ask("void meeting.tell('')")
+                await tab.ask(f"void {PICTURE}")
+                await tab.until(f"{STATE}.includes('has muted you')")
+                assert await tab.ask("globalThis.taken") == 1
+                assert not await tab.ask("meeting.sharing.shares || meeting.board.shown")
+                assert not any(changed.person.shares for changed in chair.all(Changed))
+
+    asyncio.run(run())
