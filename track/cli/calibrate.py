@@ -64,9 +64,8 @@ def calibrate(
         fast=fast,
         loop=loop,
         fps=fps,
-        calibrating=True,
+        calibrating="neutral" in faces_of(faces),
     )
-    faces_of(faces)
     texts = camera_texts(wishes.cameras, headset=is_headset(wishes))
 
     class Prompt:

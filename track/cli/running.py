@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from facegen.console import ProgressCall, counted, progress
-from track.cli.opening import Wishes, camera_texts, is_headset, open_cameras, open_pipeline, open_profile
+from track.cli.opening import Wishes, camera_texts, is_headset, open_cameras, open_pipeline
+from track.cli.opening_profile import open_profile
 from track.cli.sending import check_files, named_targets, open_sinks, paths_of
 from track.profile.keeper import ProfileKeeper
 from track.profile.profile import write_profile

@@ -1,6 +1,6 @@
 """From the pictures of a headset's cameras to weights."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -43,14 +43,19 @@ class HeadsetPipeline(Pipeline):
         Frames a second of the cameras.
     filter_name
         As `filter_of` takes it.
+    opened
+        Names of the cameras that are there; all of the model's by default.
     """
 
     least_movement = LEAST_MOVEMENT
     faces = tuple(FACES)
     measures_eyes = True
 
-    def __init__(self, folder: str | Path, *, fps: float, filter_name: str) -> None:
+    def __init__(
+        self, folder: str | Path, *, fps: float, filter_name: str, opened: Collection[str] | None = None
+    ) -> None:
         self._predictor = load_headset_predictor(folder)
+        self._opened = [name for name in self.cameras if opened is None or name in opened]
         self.mark = ModelMark(kind="headset", sha256=self._predictor.model.network_sha256)
         self._fps = fps
         self._reader = EyeReader(self._predictor)
@@ -72,8 +77,8 @@ class HeadsetPipeline(Pipeline):
         return tuple(self._predictor.sizes)
 
     def signature(self, sample: Sample) -> np.ndarray | None:
-        """The weights (52,), where every camera has a picture."""
-        whole = sample.pictures is not None and set(sample.pictures) == set(self.cameras)
+        """The weights (52,), where every camera that is there has a picture."""
+        whole = sample.pictures is not None and set(sample.pictures) == set(self._opened)
         return sample.weights if whole and not np.isnan(sample.weights).any() else None
 
     def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
@@ -123,7 +128,7 @@ class HeadsetPipeline(Pipeline):
                 "the profile's neutral face is of points, and this model takes a headset's pictures"
             )
         self._networks.reseated.clear()
-        self._networks.use_neutral({name: self._picture(name, neutral) for name in self.cameras})
+        self._networks.use_neutral({name: self._picture(name, neutral) for name in self._opened})
 
     def _picture(self, name: str, neutral: NeutralFace) -> np.ndarray:
         width, height = self._predictor.sizes[name]

@@ -7,7 +7,8 @@ import pytest
 
 from regress.runtime.stages.own_blinks import Ends
 from tests.track.session.faces import Given, calibrated_profile, frames, new_session
-from track.cli.opening import Wishes, open_profile
+from track.cli.opening import Wishes
+from track.cli.opening_profile import open_profile
 from track.messages import Command
 from track.profile.profile import ModelMark, Profile, read_profile, write_profile
 
