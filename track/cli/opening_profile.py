@@ -60,7 +60,7 @@ def open_profile(
 
 
 def fitted(profile: Profile, pipeline: "Pipeline", path: Path, say: Callable[[str], None]) -> Profile:
-    """A profile as this model can use it: another one's readings are left out.
+    """A profile as this model can use it: what another one read, and where it saw the eyes, is left out.
 
     Raises
     ------
@@ -75,9 +75,17 @@ def fitted(profile: Profile, pipeline: "Pipeline", path: Path, say: Callable[[st
             f"{path} is a profile for a {mark.kind} model, and this one is a {pipeline.mark.kind} model; "
             f"--profile names another"
         )
-    if profile.ranges or profile.rests:
-        say(f"{path}: its ranges were read by another model and are left out; calibrate again")
-    return profile.model_copy(update={**_NOTHING_READ, "model": None})
+    left = {**_NOTHING_READ, "eyes": {}, "model": None}
+    of_it = [("ranges", profile.ranges or profile.rests), ("lids", profile.eyes)]
+    if read := [name for name, known in of_it if known]:
+        say(f"{path}: its {' and '.join(read)} were read by another model and are left out; calibrate again")
+    if profile.placement and not pipeline.sees_as(mark):
+        say(
+            f"{path}: its placement was found with another network and is left out, and so is the neutral face "
+            f"that was seen through it; `regress headset check` with this model finds a --placement for it"
+        )
+        left |= {"placement": {}, "neutral": None}
+    return profile.model_copy(update=left)
 
 
 def _to_be_replaced(profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:

@@ -14,7 +14,7 @@ from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, unpacked_picture
 from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_file import read_placement
+from regress.runtime.headset.placement_file import Placement, read_placement
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.headset.soundness import PictureSoundness
 from regress.runtime.sample import Sample
@@ -159,6 +159,13 @@ class HeadsetPipeline(Pipeline):
     def read_placement(self, path: Path) -> dict[str, CameraPlacement]:
         """See `Pipeline`."""
         return read_placement(path, self._predictor.model)
+
+    def sees_as(self, mark: ModelMark) -> bool:
+        """See `Pipeline`: of one that this was adapted from it is."""
+        model = self._predictor.model
+        # one that only began as the other may be of another headset, and profiles do not say of which theirs was
+        adapted = replace(model, training=replace(model.training, began_as=""))
+        return Placement(network_sha256=mark.sha256).suits(adapted)
 
     def use_placement(self, placement: Mapping[str, CameraPlacement]) -> None:
         """See this of each camera's pictures, at these levels; all of it, at its own levels, of those left out."""

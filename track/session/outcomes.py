@@ -13,7 +13,7 @@ def learnt(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> Mapping[st
     if outcome.ranges is None:
         return _by_neutral(outcome, profile, pipeline)
     if outcome.name == "look_around":
-        return {"gaze": middle_of([sample.gaze for sample in outcome.samples])}
+        return {"gaze": middle_of([sample.gaze for sample in outcome.samples]), "model": pipeline.mark}
     readings = {name: min(max(reading, SMALLEST_RANGE), 1.0) for name, reading in outcome.ranges.items()}
     return {
         "ranges": {**profile.ranges, **readings},

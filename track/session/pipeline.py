@@ -94,6 +94,10 @@ class Pipeline:
         """
         raise InputError(f"--placement {path} is for a headset's cameras, and the model takes points")
 
+    def sees_as(self, mark: ModelMark) -> bool:
+        """Whether a placement that was found with another model is right for this one."""
+        return mark == self.mark
+
     def use_placement(self, placement: Mapping[str, CameraPlacement]) -> None:
         """See this of each camera's pictures from now on; a landmark model's detector looks for the face itself."""
 
