@@ -276,6 +276,19 @@ def test_a_file_that_is_no_picture_costs_no_more_than_itself(tmp_path: Path):
     assert [bool(sample.pictures) for sample in samples] == [True, False, True]
 
 
+@pytest.mark.parametrize("first", [0, 1])
+def test_pictures_of_16_bits_are_refused_and_not_called_black(first: int, tmp_path: Path):
+    """Ten bits in sixteen, as cameras of headsets have them; at the start, or behind others."""
+    folder = _folder(tmp_path / "takes", ["0.png", "1.png", "2.png"])
+    for number in range(first, 3):
+        cv2.imwrite(str(folder / f"{number}.png"), _numbered(number).astype(np.uint16) * 4)
+    with (
+        pytest.raises(CameraError, match=r"png has 16 bits a pixel, and 8 are read here; save"),
+        open_capture({"camera": str(folder)}, Pace(fast=True)) as capture,
+    ):
+        list(capture)
+
+
 def test_lines_give_points_with_their_times():
     text = f"0.5 {LINE}\n1.0 {LINE}\n1.5 something else\n2.0\n2.5 {LINE}\n"
     frames = _all(Lines(fps=30, fast=True, stream=io.StringIO(text)))

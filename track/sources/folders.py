@@ -37,7 +37,7 @@ class Folder(Source):
     Raises
     ------
     CameraError
-        Where it holds no picture.
+        Where it holds no picture, or one of 16 bits; `read` says so as well.
     """
 
     endless = False
@@ -49,6 +49,7 @@ class Folder(Source):
         self._waiting = self._listed()
         if not self._waiting:
             raise CameraError(f"{folder} holds no picture; files that end in {', '.join(PICTURES)} are read")
+        _read_picture(self._waiting[0])  # one of 16 bits is refused before anything is written
         self.length_s = None if again else len(self._waiting) * self._step_s
         self._next_s = self._last_s = 0.0
         self._begun_s: float | None = None
@@ -123,6 +124,13 @@ def _read_picture(file: Path) -> np.ndarray | None:
     if size is None or size[0] * size[1] > MOST_PIXELS:
         return None
     try:
-        return cv2.imdecode(np.frombuffer(content, dtype=np.uint8), cv2.IMREAD_COLOR)
+        pixels = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), cv2.IMREAD_COLOR | cv2.IMREAD_ANYDEPTH)
     except cv2.error:
         return None
+    if pixels is not None and pixels.dtype != np.uint8:
+        # the upper 8 bits would be black: cameras of 10 bits use the lower ones, and files do not say how many
+        raise CameraError(
+            f"{file} has {8 * pixels.itemsize} bits a pixel, and 8 are read here; save pictures with 8 (of 10 bits, "
+            f"levels divided by 4), or give a headset's recording to `regress headset predict --bits`"
+        )
+    return pixels
