@@ -3,8 +3,8 @@
     python benchmarks/gaze.py irises DATASET
     python benchmarks/gaze.py lids DATASET MODEL
 
-*irises*: eyes of people (12 mm balls whose fronts lie where the rig's do) look as the dataset's do, from its test
-people's heads; error of the directions of open eyes, for the mean person's and with the irises of ten neutral frames.
+*irises*: people's own eyes look as the dataset says, from its test people's heads; error of the directions of open
+eyes, for the mean person's and with the irises of ten neutral frames.
 *lids*: people who look straight ahead while their heads turn, beside their own frontal neutral frame: root mean square
 of the eight eyeLook weights, which should be 0. DATASET should be of another rig than MODEL's.
 
@@ -20,17 +20,16 @@ import pyarrow.parquet as pq
 from facegen.conventions import BLENDSHAPE_INDEX
 from facegen.geometry import apply_transform, project_pinhole
 from facegen.rigs import load_rig
+from facegen.rigs.eyes import limbus_offset
 from regress import load_model
 from regress.learning.probes.faces import read_faces
 from regress.learning.training.noise import displace, draw_bias
 from regress.runtime.heads.camera import CameraSettings
-from regress.runtime.heads.eyes import REACH_M
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS
 from regress.runtime.stages.head import HeadPose, HeadSettings
 
 YAWS_DEG = (0, 10, 15, 20, 25, 30, 40)
-BALL_RADIUS_M = 12.0e-3
 COUNT = 400
 FRAMES = 10
 """Neutral frames of a person: one, with jitter of its own each time."""
@@ -129,8 +128,8 @@ def _seen(rows, rig) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     )
     axes = gaze.reshape(-1, 2, 3)
     middle = rig.eye_center + np.einsum("nk,ked->ned", identity, rig.eye_center_identity)
-    middle[..., 2] += rig.eye_radius + identity @ rig.eye_radius_identity - BALL_RADIUS_M
-    in_camera = apply_transform(pose.reshape(-1, 4, 4), middle + REACH_M * axes)
+    radius = rig.eye_radius + identity @ rig.eye_radius_identity
+    in_camera = apply_transform(pose.reshape(-1, 4, 4), middle + limbus_offset(radius)[..., None] * axes)
     angles = np.stack([np.arctan2(axes[..., 0], axes[..., 2]), np.arcsin(axes[..., 1])], axis=-1)
     faces = np.stack(rows.points_2d).reshape(-1, 68, 2).astype(float)
     return faces, project_pinhole(in_camera, intrinsics), angles.reshape(-1, 4)

@@ -90,7 +90,7 @@ def draw_single_frames(
         intrinsics=intrinsics,
         pupil_radius_m=draw(spec.eyes.pupil_radius_mm, rng("pupil"), BLOCK) * 1e-3,
         slip=rng("slip").standard_normal((BLOCK, FIT_AXES)),
-        dropped=draw_dropped(rng("detector dropped"), BLOCK, share=spec.landmarks.dropped, run=1.0),
+        dropped=rng("detector dropped").random(BLOCK) < spec.landmarks.dropped,  # no frame follows another
     )
 
 

@@ -21,7 +21,7 @@ from facegen.refusals import refusal
 from facegen.spec.distribution import as_data
 from facegen.spec.spec import Clips, Spec
 
-LABEL_VERSION = 6
+LABEL_VERSION = 7
 """Raised with every change that alters labels or pixels for the same spec; part of every hash (see CHANGELOG.md)."""
 
 _LATE_KEYS: dict[str, Any] = {

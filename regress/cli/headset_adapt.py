@@ -18,7 +18,7 @@ from regress.cli.headset_faces import (
     Take,
     Wide,
 )
-from regress.cli.options import LeftEyeOption, MouthOption, RightEyeOption
+from regress.cli.options import BitsOption, LeftEyeOption, MouthOption, RightEyeOption
 from regress.errors import InputError
 
 
@@ -48,6 +48,7 @@ def adapt(
     left_eye: LeftEyeOption = None,
     right_eye: RightEyeOption = None,
     mouth: MouthOption = None,
+    bits: BitsOption = None,
     placement: Placement = None,
 ) -> None:
     """Adapt a model's last layers to a person, where frames that were held out get better by it; refuse to else.
@@ -74,19 +75,23 @@ def adapt(
     if out is None:
         raise InputError("--out is needed: a folder for the person's model")
     check_place(out, KIND)
+    folder = model_folder(model or HEADSET)
+    if out.exists() and out.samefile(folder):
+        raise InputError(f"--out {out} is also what is read ({folder}); give another name")
     predictor = load_headset_predictor(model or HEADSET)
     minute = read_minute(
         predictor,
         (rest, shut, wide, jaw_open, lips_rolled, smile, cheeks, brows_up, pucker),
         camera or [],
         {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth},
+        bits=bits,
         placement=placement,
         labels=weights,
     )
     for note in minute.notes:
         say(note)
     pictures, neutral, frames = known_frames(predictor, minute.takes, minute.labels)
-    graph = (model_folder(model or HEADSET) / "network.onnx").read_bytes()
+    graph = (folder / "network.onnx").read_bytes()
     heads = read_heads(graph, predictor.model, pictures, neutral)
     held = judge(heads, frames)
     said = f"known weights of held-out frames err by {held.before:.4f}, and by {held.after:.4f} when adapted"
@@ -95,6 +100,7 @@ def adapt(
             f"{said}: not {100 * LEAST_GAIN:g} % better, so nothing is written; more frames with --weights may help"
         )
     change = changes(heads, frames, np.arange(len(frames.fold)), pull=held.pull)
-    training = replace(predictor.model.training, began_as=predictor.model.network_sha256)
+    trained, parent = predictor.model.training, predictor.model.network_sha256
+    training = replace(trained, began_as=parent, adapted_from=(*trained.adapted_from, parent))
     save_headset_model(replace(predictor.model, training=training), adapted_graph(graph, heads, change), out)
     say(f"{out}: {said}; `regress headset calibrate {out}` comes next")

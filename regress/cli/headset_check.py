@@ -1,6 +1,7 @@
 """``regress headset check``: whether a headset's frames fit a model, and where in them to look."""
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
@@ -59,6 +60,7 @@ def check(
     )
     if not paths:
         raise InputError(f"give the cameras' paths ({', '.join(predictor.sizes)}), as --left-eye take/left")
+    _refuse_recorded(paths.values(), {"--sheet": sheet, "--out": out})
     footage = {}
     for name, path in paths.items():
         width, height = recorded_size(path)
@@ -113,3 +115,13 @@ def check(
     if sheet is not None:
         write_whole(sheet, fitness_sheet(predictor, footage, judged))
         say(f"sheet in {sheet}")
+
+
+def _refuse_recorded(recordings: Iterable[Path], written: dict[str, Path | None]) -> None:
+    """Refuse to write over what is read: films, and pictures in folders."""
+    from facegen.files import refuse_sources
+
+    read = [file for path in recordings for file in (path.iterdir() if path.is_dir() else [path])]
+    for option, path in written.items():
+        if path is not None:
+            refuse_sources(path, read, option=option)

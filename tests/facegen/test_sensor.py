@@ -12,7 +12,7 @@ from facegen.headsets import HeadsetSensor, Lens, load_headset
 from facegen.sampling import Shot
 from facegen.scene import Layers
 from facegen.sensor import develop, develop_view
-from facegen.sensor.lens import defocused, transmission
+from facegen.sensor.lens import SHARP_PX, defocused, transmission
 from facegen.sensor.motion import blurred
 
 SENSOR = HeadsetSensor(exposure=0.5, black_level=15)
@@ -165,6 +165,6 @@ def test_a_lens_out_of_focus_spreads_light_and_loses_none(blur: float, seed: int
     spread = defocused(spot, camera)
     v, u = np.mgrid[:64, :64]
     assert spread.sum() == pytest.approx(1.0, abs=2e-3)
-    if 0.01 < blur < 0.06:  # a pixel's own width below, the border above
+    if SHARP_PX < 64 * blur < 4:  # the border above
         assert np.sqrt((spread * (u - 30) ** 2).sum()) == pytest.approx(blur * 64, rel=0.05)
         assert (spread * v).sum() == pytest.approx(32, abs=0.1)

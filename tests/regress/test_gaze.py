@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, LANDMARK_COUNT
 from facegen.geometry import direction_from_angles, rotation_from_angles
 from facegen.rigs import Rig
+from facegen.rigs.eyes import eye_geometry
 from facegen.sampling.gaze import axes_from_weights, weights_from_axes
 from regress.runtime.features.reference_shape import load_reference_shape
 from regress.runtime.heads.camera import CameraSettings, FaceCamera
@@ -72,6 +73,11 @@ def test_the_mean_eye_lies_in_the_mean_faces_lids(anny: Rig):
     points = (anny.landmark_weights[..., None] * anny.vertices[anny.landmark_vertices]).sum(axis=1)
     middle = anny.eye_center - points[np.array(CORNERS)].mean(axis=1)
     np.testing.assert_allclose(MEAN_EYES.ball_m, middle, atol=2.5e-4)
+
+
+def test_irises_turn_as_far_before_an_eye_s_centre_as_the_rigs_do(anny: Rig):
+    geometry = eye_geometry(anny.eye_center[0], 12.0e-3, np.array([0.0, 0.0, 1.0]))
+    assert pytest.approx(geometry.limbus_offset, abs=1e-6) == REACH_M
 
 
 @given(gaze=GAZES)

@@ -123,3 +123,25 @@ def test_a_headset_model_is_not_replaced_by_its_export(run, tmp_path: Path, monk
     assert code == 2
     assert "export mine/model.json is also what is read" in err
     assert {path.name: path.read_bytes() for path in Path("mine").iterdir()} == before
+
+
+@pytest.mark.parametrize(("option", "name"), [("--sheet", "000.png"), ("--sheet", "../left/000.png")])
+def test_a_recorded_picture_is_not_replaced_by_a_check_s_sheet(
+    option: str, name: str, run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    (tmp_path / "left").mkdir()
+    monkeypatch.chdir(tmp_path / "left")
+    Path("000.png").write_bytes(b"names are judged before anything is read")
+    code, _, err = run("headset", "check", "--left-eye", ".", option, name)
+    assert code == 2
+    assert f"{option} {name} is also what is read" in err
+    assert Path("000.png").read_bytes() == b"names are judged before anything is read"
+
+
+def test_a_network_is_not_replaced_by_what_is_adapted_from_it(run, tmp_path: Path):
+    write_tiny_model(tmp_path / "mine")
+    before = (tmp_path / "mine" / "model.json").read_bytes()
+    code, _, err = run("headset", "adapt", tmp_path / "mine", "--rest", "0-9", "--out", tmp_path / "mine")
+    assert code == 2
+    assert "is also what is read" in err
+    assert (tmp_path / "mine" / "model.json").read_bytes() == before

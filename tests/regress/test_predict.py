@@ -42,6 +42,12 @@ def test_smoothing_is_the_mean_of_the_last_frames(seed: int, rows: int, window: 
             )
 
 
+def test_a_pause_without_frames_is_no_part_of_a_mean():
+    times = [0.0, 0.1, 60.0, 60.1]
+    samples = [Sample(time_s=time, weights=np.full(3, row)) for row, time in enumerate(times)]
+    assert [sample.weights[0] for sample in MovingAverage(10).run(samples)] == [0.0, 0.5, 2.0, 2.5]
+
+
 def test_the_csv_reads_back_with_empty_cells_where_no_face_is(quick_model: Model, dataset: KeypointDataset):
     points = dataset.points[:4].copy()
     points[2] = np.nan

@@ -32,9 +32,12 @@ def draw_blinks(rng: np.random.Generator, duration_s: float, *, rate_per_min: fl
     """Blinks that begin within a clip: a shortest gap and an exponential rest between any two."""
     mean_s = 60.0 / rate_per_min
     most = int(duration_s / SHORTEST_GAP_S) + 2
-    gaps = SHORTEST_GAP_S + (mean_s - SHORTEST_GAP_S) * rng.exponential(size=most)
-    # the clip begins anywhere between two blinks
-    start = np.cumsum(gaps) - gaps[0] * rng.random()
+    rest = (mean_s - SHORTEST_GAP_S) * rng.exponential(size=most)
+    # a clip begins anywhere, and so rather within a long gap: what is left of that is its exponential part, and with
+    # the shortest gap's share of the mean one some of the shortest gap as well (the renewal process's residual life)
+    unit, place = rng.random(2)
+    rest[0] += SHORTEST_GAP_S * place * (unit < SHORTEST_GAP_S / mean_s)
+    start = np.cumsum(rest + SHORTEST_GAP_S * (np.arange(most) > 0))
     unit = rng.random((5, most))
     closing, opening, closed = (
         low + (high - low) * u

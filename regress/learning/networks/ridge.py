@@ -23,10 +23,14 @@ class Ridge:
     strengths: np.ndarray
 
 
+_LEAST = 1e-10
+"""Of a strength, as a share of all inputs' sum of squares: without any, inputs that hang together have no answer."""
+
+
 def ridge_coefficients(inputs: np.ndarray, targets: np.ndarray, strength: float) -> np.ndarray:
     """Coefficients (E, O) of one strength for inputs (n, E) and targets (n, O)."""
     gram = inputs.T @ inputs
-    gram[np.diag_indices_from(gram)] += strength
+    gram[np.diag_indices_from(gram)] += max(strength, _LEAST * np.trace(gram))
     return np.linalg.solve(gram, inputs.T @ targets)
 
 

@@ -3,7 +3,9 @@
 References
 ----------
 .. [1] F. Rüfer et al., "White-to-white corneal diameter", Cornea 24(3), 2005: irises are 11.7 mm across.
-.. [2] D. Atchison, G. Smith, "Optics of the Human Eye", 2000: eyeballs of 12 mm radius, which turn about their centres.
+.. [2] D. Atchison, G. Smith, "Optics of the Human Eye", 2000: eyeballs of 12 mm radius.
+.. [3] G. Fry and W. Hill, "The center of rotation of the eye", Am. J. Optometry 39(11), 1962: 13.5 mm behind the
+   cornea's apex, which is 0.353 mm behind the middle of such a ball.
 """
 
 from dataclasses import dataclass
@@ -14,10 +16,10 @@ from facegen.conventions import SIDES
 from regress.runtime.heads.camera import FaceCamera
 from regress.runtime.heads.fit import HeadPoses
 
-_BALL_RADIUS_M, _IRIS_RADIUS_M = 12.0e-3, 5.9e-3
+_BALL_RADIUS_M, _IRIS_RADIUS_M, _GLOBE_AHEAD_M = 12.0e-3, 5.9e-3, 0.353e-3
 
-REACH_M = float(np.sqrt(_BALL_RADIUS_M**2 - _IRIS_RADIUS_M**2))
-"""From the middle of an eyeball to the middle of its iris' outline, which is what detectors mark: 10.4 mm."""
+REACH_M = _GLOBE_AHEAD_M + float(np.sqrt(_BALL_RADIUS_M**2 - _IRIS_RADIUS_M**2))
+"""From where an eyeball turns to the middle of its iris' outline, which is what detectors mark: 10.8 mm."""
 
 CORNERS = ((42, 45), (36, 39))
 """Landmarks at the corners of the subject's left and right eye."""
@@ -29,7 +31,7 @@ _CORNERS_M = np.array([[0.0315, -0.0033, 0.0119], [-0.0315, -0.0033, 0.0119]])
 """Midway between each eye's corners in the head frame, of the mean face (regress/data/reference_shape.json)."""
 
 _BALL_M = np.array([[-0.0002, 0.0018, -0.0064], [0.0002, 0.0018, -0.0064]])
-"""From there to the middle of an eyeball of 12 mm in the lids of the mean face (`facegen.rigs.human_eyes`)."""
+"""From there to where an eyeball of 12 mm turns in the lids of the mean face (`facegen.rigs.human_eyes`)."""
 
 _FARTHEST_PX = 1e15
 """Of an iris, as of landmarks (regress.runtime.inputs.faults)."""
@@ -51,7 +53,7 @@ class Eyes:
     Parameters
     ----------
     ball_m : (2, 3) float64
-        From midway between an eye's corners to the middle of its ball, head frame.
+        From midway between an eye's corners to where its ball turns, head frame.
     opening : (2,) float64
         Height over width.
     """
@@ -152,7 +154,7 @@ class _Rays:
 def _seen(
     faces: np.ndarray, irises: np.ndarray, poses: HeadPoses, camera: FaceCamera, eyes: Eyes
 ) -> tuple[np.ndarray, _Rays]:
-    """Middles of the eyeballs (n, 2, 3), and the rays on which irises are seen, in the head frame."""
+    """Where the eyeballs turn (n, 2, 3), and the rays on which irises are seen, in the head frame."""
 
     def ray(points: np.ndarray) -> np.ndarray:
         beside = (points - camera.centre_px) / camera.focal_px

@@ -191,18 +191,21 @@ def _own_eye(
     notes: list[str],
 ) -> OwnEye:
     def lids(face: str) -> float | None:
-        if face not in readings:
+        if face not in readings or not np.isfinite(readings[face].openness_mm[:, side]).any():
             return None
         return round(float(np.clip(np.nanmedian(readings[face].openness_mm[:, side]), 0, 40)), 3)
 
     shut, rest, wide = map(lids, ("shut", REST, "wide"))
-    if shut is not None and shut > _SHUT * rest:
+    looked = LOOK in takes and camera in readings[LOOK].traced_deg
+    if rest is None:
+        shut = None
+    elif shut is not None and shut > _SHUT * rest:
         notes.append(
             f"shut: {camera} traces lids {shut:.1f} mm apart there and {rest:.1f} at rest: they say nothing"
         )
         shut = None
     gaze = {}
-    if LOOK in takes and takes[LOOK].targets_deg:
+    if looked and takes[LOOK].targets_deg:
         rows = list(takes[LOOK].targets_deg)
         targets = np.array([takes[LOOK].targets_deg[row] for row in rows], dtype=np.float64)
         inwards = np.degrees(
@@ -210,7 +213,7 @@ def _own_eye(
         )
         targets[:, 0] += (-inwards, inwards)[side]
         answers = [each[camera][rows] for each in (readings[LOOK].traced_deg, readings[LOOK].direct_deg)]
-    elif LOOK in takes:
+    elif looked:
         # without targets: the middle of what was looked at lies ahead
         answers = [
             np.quantile(each[camera], [0.1, 0.9], axis=0).mean(axis=0, keepdims=True)

@@ -114,6 +114,8 @@ class HeadsetTraining:
         Epochs that an earlier, stopped training had done.
     began_as
         SHA-256 of the network that it began as; empty where it began with random numbers.
+    adapted_from
+        SHA-256 of those that it was adapted from, one from the other: their eyes are its own, the last layers are not.
     onnx_difference
         Largest difference between the exported graph and PyTorch.
     deviation_scale, mean_weights, mean_gaze
@@ -131,6 +133,7 @@ class HeadsetTraining:
     cpu_s: float | None = None
     resumed_after_epochs: int = 0
     began_as: str = ""
+    adapted_from: Annotated[tuple[str, ...], Len(0, 100)] = ()
     onnx_difference: float | None = None
     deviation_scale: Annotated[tuple[float, ...], Len(_OUTPUTS, _OUTPUTS)] | None = None
     mean_weights: Weighted | None = None

@@ -58,7 +58,7 @@ class Placement:
 
     def suits(self, model: HeadsetModel) -> bool:
         """Whether a model sees as the one it was found with: the same, or one that was adapted from it."""
-        known = (model.network_sha256, model.training.began_as)
+        known = (model.network_sha256, model.training.began_as, *model.training.adapted_from)
         return self.headset in ("", model.headset) and self.network_sha256 in ("", *known)
 
 

@@ -115,7 +115,7 @@ class LandmarkSmoothing(Stage):
 class MovingAverage(Stage):
     """Mean of each frame's weights and gaze and those before it, fewer at the start: what a live stream has.
 
-    Frames without weights keep none, and the means of others leave them out.
+    Frames without weights keep none, and the means of others leave them out. A pause without frames starts afresh.
 
     Parameters
     ----------
@@ -125,9 +125,13 @@ class MovingAverage(Stage):
 
     def __init__(self, frames: int) -> None:
         self._recent: deque[np.ndarray] = deque(maxlen=frames)
+        self._time = None
 
     def step(self, sample: Sample) -> Sample:
         """The sample with the mean weights and gaze."""
+        if None not in (sample.time_s, self._time) and sample.time_s - self._time > LONGEST_GAP_S:
+            self._recent.clear()
+        self._time = sample.time_s
         row = joined(sample)
         self._recent.append(row)
         return sample if np.isnan(row).any() else with_row(sample, np.nanmean(self._recent, axis=0))

@@ -84,3 +84,12 @@ def test_dropped_frames_have_no_detected_points(anny, kind):
     lost = np.isnan(samples.detector_noise)
     assert (lost.all(axis=(1, 2)) == lost.any(axis=(1, 2))).all()
     assert 0.1 < lost[:, 0, 0].mean() < 0.3
+
+
+def test_stills_are_dropped_each_by_itself(anny):
+    table = {"version": 1, "kind": "still", "seed": 7, "people": 400, "landmarks": {"dropped": 0.3}}
+    plan = plan_dataset(parse_spec(table, where="test"))
+    lost = [np.isnan(draw_samples(plan, anny, block).detector_noise[:, 0, 0]) for block in range(4)]
+    dropped = np.concatenate(lost)
+    assert dropped.mean() == pytest.approx(0.3, abs=0.03)
+    assert (dropped[1:] & dropped[:-1]).mean() == pytest.approx(0.09, abs=0.02)

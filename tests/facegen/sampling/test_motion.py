@@ -153,6 +153,9 @@ def test_people_blink_17_times_a_minute_and_close_faster_than_they_open():
     rng = np.random.Generator(np.random.PCG64(1))
     drawn = [draw_blinks(rng, 30.0, rate_per_min=17.0) for _ in range(400)]
     assert 15 < 2 * np.mean([len(blinks.start_s) for blinks in drawn]) < 19
+    begun = np.concatenate([draw_blinks(rng, 4.0, rate_per_min=17.0).start_s for _ in range(20_000)])
+    counts = np.histogram(begun, bins=[0, 1, 2, 3, 4])[0] / 20_000 * 60
+    np.testing.assert_allclose(counts, 17.0, rtol=0.06)  # no second of a clip is more than another
     time_s = np.arange(0, 30, 0.001)
     closure = lid_closure(drawn[0], time_s)
     assert closure.min() >= -1e-12

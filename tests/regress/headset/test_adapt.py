@@ -97,6 +97,7 @@ def test_a_persons_model_is_written_and_says_what_was_promised(run, tmp_path: Pa
     assert code == 0, said
     base, own = load_headset_predictor("headset-tracking3"), load_headset_predictor(tmp_path / "anna")
     assert own.model.training.began_as == base.model.network_sha256 != own.model.network_sha256
+    assert own.model.training.adapted_from == (base.model.network_sha256,)
     before, after = (
         float(word.rstrip(",")) for word in said.split("err by ")[1].replace("and by ", "").split()[:2]
     )

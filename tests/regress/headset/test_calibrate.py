@@ -1,6 +1,7 @@
 """A guided minute: own ends of ranges from takes of faces, as `calibrate` writes and `predict --person` takes them."""
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -166,6 +167,25 @@ def test_folders_of_faces_are_takes_and_what_is_not_seen_is_said(run, tmp_path: 
     assert f"{out}: only the face at rest was learned from" in said
     assert read_person(out).full == {}
     assert all(eye.shut_mm is None and eye.lids == 0 for eye in read_person(out).eyes.values())
+
+
+@pytest.mark.parametrize("face", ["shut", "look"])
+def test_an_eye_that_a_face_s_takes_lack_stays_as_it_is(face: str, run, tmp_path: Path):
+    for each, numbers in (("rest", range(4)), ("shut", range(4, 8)), ("look", range(8, 12))):
+        for camera in ("left_eye", "right_eye"):
+            folder = tmp_path / each / camera
+            folder.mkdir(parents=True)
+            for path in sorted((TAKE / camera).iterdir())[numbers.start : numbers.stop]:
+                (folder / path.name).write_bytes(path.read_bytes())
+    shutil.rmtree(tmp_path / face / "right_eye")
+    out = tmp_path / "anna.json"
+    words = [word for each in ("rest", "shut", "look") for word in (f"--{each}", tmp_path / each)]
+    code, _, said = run("headset", "calibrate", *words, "--out", out)
+    assert code == 0, said
+    person = read_person(out)
+    right = person.eyes["right_eye"]
+    assert right.rest_mm is not None
+    assert (right.shut_mm, right.traced is None) == (None, face == "look")
 
 
 def test_a_person_without_anything_changes_nothing():

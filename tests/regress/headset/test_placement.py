@@ -168,6 +168,13 @@ def test_what_is_no_placement_is_refused_by_name(tmp_path: Path, text: str, said
     [
         ({}, True),
         ({"network_sha256": "b" * 64, "training": HeadsetTraining(began_as="a" * 64)}, True),
+        (
+            {
+                "network_sha256": "b" * 64,
+                "training": HeadsetTraining(began_as="c" * 64, adapted_from=("a" * 64, "c" * 64)),
+            },
+            True,
+        ),
         ({"network_sha256": "b" * 64}, False),
         # a network for any headset may have begun as one for this
         (

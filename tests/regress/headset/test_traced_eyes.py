@@ -170,3 +170,11 @@ def test_a_picture_that_does_not_count_says_nothing_of_the_other_eye(tmp_path: P
     assert len(eyes["left_eye"].gaze_deg) == 100
     np.testing.assert_array_equal(again["left_eye"].gaze_deg, eyes["left_eye"].gaze_deg)
     assert np.isnan(eyes["right_eye"].gaze_deg[40:]).all()
+
+
+def test_of_many_headsets_the_direct_gaze_stands_alone_where_no_target_decides():
+    predictor = load_headset_predictor("headset-any")
+    footage = read_footage(predictor, None, {"left_eye": TAKE / "left_eye"}, from_start=False, fps=None)
+    eyes = traced_eyes(predictor, footage)
+    direct, _ = predictor.graph.see({"left_eye": footage.pictures["left_eye"]}, present=footage.present)
+    np.testing.assert_allclose(eyes["left_eye"].gaze_deg, np.degrees(direct.gaze[:, 0]), atol=1e-3)

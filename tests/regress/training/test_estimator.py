@@ -66,3 +66,15 @@ def test_what_cannot_be_used_is_refused(parameters: dict, message: str):
     x, y = waves(20)
     with pytest.raises(ValueError, match=message):
         LevenbergMarquardtRegressor(**parameters).fit(x, y)
+
+
+@pytest.mark.parametrize("copies", ["a constant", "twice another"])
+def test_no_strength_at_all_bears_columns_that_say_nothing_new(copies: str):
+    rng = np.random.default_rng(0)
+    inputs = rng.normal(size=(400, 5))
+    targets = np.sin(inputs[:, :1]) + 0.1 * rng.normal(size=(400, 1))
+    more = np.ones(400) if copies == "a constant" else 2 * inputs[:, 1]
+    inputs = np.column_stack([inputs, more])
+    network = LevenbergMarquardtRegressor(hidden=8, alpha=(0.0, 1.0))
+    network.fit(inputs[:300], targets[:300])
+    assert np.corrcoef(network.predict(inputs[300:]).ravel(), targets[300:].ravel())[0, 1] > 0.9

@@ -10,6 +10,7 @@ import numpy as np
 import torch
 
 from facegen.conventions import CAMERA_TERMS
+from regress.errors import InputError
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.looks import camera_looks
@@ -53,7 +54,8 @@ def train_headset(
     Raises
     ------
     InputError
-        Where a setting is impossible, no training row is left, or the checkpoint belongs to another training.
+        Where a setting is impossible, no training row is left, the checkpoint belongs to another training, or the
+        network would replace the one that it begins as.
     Interrupted
         On Ctrl-C.
     OutputError
@@ -61,6 +63,8 @@ def train_headset(
     """
     folder, recipe = Path(folder), recipe_of(recipe.settings())
     check_place(folder, HEADSET)
+    if start is not None and folder.exists() and folder.samefile(start):
+        raise InputError(f"--out {folder} is also what is read (--start {start}); give another name")
     checkpoint = folder.parent / f".{folder.name}.checkpoint"
     began_as = None if start is None else read_headset_model(start)
     training = Training(arrays, recipe, checkpoint, None if start is None else Path(start))
