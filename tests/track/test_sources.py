@@ -208,6 +208,76 @@ def test_a_folder_is_read_in_natural_order_at_its_pace(tmp_path: Path):
     assert [picture.time_s for picture in pictures] == pytest.approx(np.arange(12) / 50)
 
 
+def _number_of(picture: np.ndarray) -> int:
+    return round((picture.mean() - 66) / 8)
+
+
+@pytest.mark.parametrize("fast", [True, False])
+def test_pictures_that_a_folder_lost_leave_their_time_empty(fast: bool, tmp_path: Path):
+    folder = _folder(tmp_path / "takes", [f"take2_{number:03d}a.png" for number in range(12)])
+    for number in (5, 6, 7):
+        (folder / f"take2_{number:03d}a.png").unlink()
+    source = open_source(str(folder), Pace(fast=fast, fps=20))
+    pictures = _all(source)
+    steps = np.array([_number_of(picture.pixels) for picture in pictures]) / 20
+    assert source.length_s == pytest.approx(12 / 20)
+    times = np.array([picture.time_s for picture in pictures])
+    if fast:
+        assert times == pytest.approx(steps)
+    else:
+        assert (times >= steps - 1e-6).all(), "a busy machine is late, and never early"
+
+
+@pytest.mark.parametrize("fps", [30, 100])
+def test_a_folder_that_lost_pictures_stays_beside_the_others_also_when_they_come_again(
+    fps: int, tmp_path: Path
+):
+    """At the start, where the time from picture to picture is not known yet, in the middle and at the end."""
+    names = [f"{number}.png" for number in range(20)]
+    whole, lossy = (_folder(tmp_path / name, names) for name in ("whole", "lossy"))
+    for number in (0, 7, 8, 19):
+        (lossy / f"{number}.png").unlink()
+    pace = Pace(fast=True, fps=fps, again=True)
+    together = []
+    with open_capture({"whole": str(whole), "lossy": str(lossy)}, pace) as capture:
+        for _ in range(40):
+            sample = capture.read()
+            seen = {name: _number_of(picture) for name, picture in sample.pictures.items()}
+            together.append((seen["whole"], seen.get("lossy", -1)))
+            assert len(together) < 3 or sample.time_s == pytest.approx((len(together) - 1) / fps)
+    assert [number for number, _ in together] == [*range(20)] * 2
+    both = [(one, other) for one, other in together[3:] if one not in (0, 7, 8, 19)]
+    assert all(one == other for one, other in both)
+    assert all(other <= one for one, other in together[3:20]), "the last one that came stands in"
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        [f"{1_700_000_000_000_000_000 + 33_333_333 * number}.png" for number in range(6)],
+        [f"{2 * number}.png" for number in range(6)],
+        ["a1.png", "a2.png", "b7.png", "b8.png"],
+        ["1.jpg", "1.png", "5.png"],
+        ["first.png", "second.png"],
+    ],
+)
+def test_names_that_do_not_count_pictures_say_nothing_of_their_times(names: list[str], tmp_path: Path):
+    """Of a clock, each second one, of two takes, twice one number, and none."""
+    pictures = _all(open_source(str(_folder(tmp_path / "takes", names)), Pace(fast=True, fps=50)))
+    assert [picture.time_s for picture in pictures] == pytest.approx(np.arange(len(names)) / 50)
+
+
+def test_folders_of_other_numbers_begin_together(tmp_path: Path):
+    """Each camera's program counts from where it likes."""
+    folders = {
+        name: str(_folder(tmp_path / name, [f"{start + number}.png" for number in range(5)]))
+        for name, start in (("left", 0), ("right", 1000))
+    }
+    with open_capture(folders, Pace(fast=True)) as capture:
+        seen = [[_number_of(picture) for picture in sample.pictures.values()] for sample in capture]
+    assert seen == [[number] * 2 for number in range(5)]
+
+
 def test_a_folder_that_grows_is_followed_until_it_stops(tmp_path: Path):
     folder = _folder(tmp_path / "takes", ["0.png"])
 

@@ -44,6 +44,11 @@ class Backlog:
         """From one picture to the next, lately; infinite where it is not known yet."""
         return median(self._steps_s) if self._steps_s else float("inf")
 
+    @property
+    def together_s(self) -> float:
+        """By how much a picture of another camera may differ that goes with one of this."""
+        return _TOGETHER * self.step_s
+
     def add(self, picture: Picture, came_s: float) -> None:
         """Put a picture at the end; those that came more than `LONGEST_S` before it go."""
         if self._last_s is not None:
@@ -79,9 +84,8 @@ def of_one_moment(backlogs: Mapping[str, Backlog]) -> list[str]:
         By the camera's name; none is empty.
     """
     first = min(backlogs.values(), key=lambda each: each.time_s)
-    apart_s = _TOGETHER * first.step_s
     return [
         name
         for name, each in backlogs.items()
-        if min(each.time_s - first.time_s, abs(each.came_s - first.came_s)) <= apart_s
+        if min(each.time_s - first.time_s, abs(each.came_s - first.came_s)) <= first.together_s
     ]

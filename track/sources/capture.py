@@ -18,7 +18,8 @@ EMPTY_AFTER_S = 0.25
 webcams give in the dark, are 0.2 s apart."""
 
 WAIT_S = 0.02
-"""For the other cameras, once one has a new picture; and how far apart pictures of films are that go together."""
+"""For the other cameras, once one has a new picture; and how far apart pictures of films are, at most, that go
+together."""
 
 LATE_S = 0.1
 """Older pictures do not go with the newest one: eyes and mouth would be of two faces."""
@@ -172,7 +173,8 @@ class Capture:
         if not waiting:
             return []
         if not self.live:
-            latest_s = min(each.time_s for each in waiting.values()) + WAIT_S
+            first = min(waiting.values(), key=lambda each: each.time_s)
+            latest_s = first.time_s + min(WAIT_S, first.together_s)
             return [name for name, each in waiting.items() if each.time_s <= latest_s]
         behind = time.monotonic() - self._caught_up_s > LONGEST_S
         if behind or self._awaited():  # another camera was waited for in vain

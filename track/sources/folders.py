@@ -1,4 +1,7 @@
-"""Pictures of a folder, in the natural order of their names; a folder that still grows is followed."""
+"""Pictures of a folder, in the natural order of their names; a folder that still grows is followed.
+
+Names that count pictures give them their times, so that one that was lost leaves its time empty.
+"""
 
 import re
 import time
@@ -12,6 +15,7 @@ from facegen.formats.picture_size import MOST_PIXELS, picture_size
 from regress.runtime.headset.pictures import MOST_PICTURE_BYTES, PICTURES
 from track.errors import CameraError, InputError
 from track.sources.faults import CameraFault
+from track.sources.numbering import last_number, numbers_of, pictures_in
 from track.sources.source import Picture, Source
 
 FOLLOWED_S = 2.0
@@ -33,6 +37,8 @@ class Folder(Source):
         Whether every picture is wanted, as soon as the one before has been taken; such a folder is not followed.
     again
         Whether it begins again behind its last picture, at once: new ones are not waited for, but found.
+    numbers
+        From the first to the last number of all folders that are read with it; its own by default.
 
     Raises
     ------
@@ -42,15 +48,27 @@ class Folder(Source):
 
     endless = False
 
-    def __init__(self, folder: Path, *, fps: float, fast: bool = False, again: bool = False) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        *,
+        fps: float,
+        fast: bool = False,
+        again: bool = False,
+        numbers: range | None = None,
+    ) -> None:
         self.title, self.live = folder.name or str(folder), not fast
         self._folder, self._step_s, self._again = folder, 1 / fps, again
         self._given: _Natural = []
+        self._own_numbers: range | None = None
         self._waiting = self._listed()
         if not self._waiting:
             raise CameraError(f"{folder} holds no picture; files that end in {', '.join(PICTURES)} are read")
         _read_picture(self._waiting[0])  # one of 16 bits is refused before anything is written
-        self.length_s = None if again else len(self._waiting) * self._step_s
+        known = self._own_numbers is not None
+        self._numbers = (numbers or self._own_numbers) if known else range(len(self._waiting))
+        self._expected = self._numbers.start if known else None
+        self.length_s = None if again else len(self._numbers) * self._step_s
         self._next_s = self._last_s = 0.0
         self._begun_s: float | None = None
 
@@ -85,8 +103,7 @@ class Folder(Source):
         """The next file's picture, None within for a file that is none; None where there is no file yet."""
         self._waiting = self._waiting or self._listed()
         if not self._waiting and self._again:
-            self._given = []
-            self._waiting = self._listed()
+            self._begin_again()
         if not self._waiting:
             return None
         file = self._waiting[0]
@@ -94,14 +111,31 @@ class Folder(Source):
         if pixels is None and self.live and len(self._waiting) == 1 and not last_try:
             return None  # the newest one may be half written
         self._given = _natural(self._waiting.pop(0))
+        number = None if self._own_numbers is None else last_number(file)
+        self._pass_over(number)
+        self._expected = None if number is None else number + 1
         return (pixels,)
+
+    def _begin_again(self) -> None:
+        """Behind the last picture of all folders, so that they stay together."""
+        self._given = []
+        self._waiting = self._listed()
+        if self._waiting:
+            self._pass_over(self._numbers.stop)
+            self._expected = None if self._expected is None else self._numbers.start
+
+    def _pass_over(self, number: int | None) -> None:
+        """Leave the time of pictures that are missing before one of this number."""
+        if number is not None and self._expected is not None:
+            self._next_s += max(0, number - self._expected) * self._step_s
 
     def _listed(self) -> list[Path]:
         """Pictures that come behind the last one that was given."""
         try:
-            files = [file for file in self._folder.iterdir() if file.suffix.lower() in PICTURES]
+            files = pictures_in(self._folder)
         except OSError as error:
             raise CameraError(f"{self._folder} cannot be read ({error.strerror})") from None
+        self._own_numbers = numbers_of(files)
         return sorted((file for file in files if _natural(file) > self._given), key=_natural)
 
 

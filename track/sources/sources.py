@@ -1,7 +1,7 @@
 """The table of sources, and the choice among them by what a person wrote; a new one is a module and a line here."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from track.errors import CameraError
@@ -10,6 +10,7 @@ from track.sources.capture import Capture
 from track.sources.films import Film
 from track.sources.folders import Folder
 from track.sources.lines import Lines
+from track.sources.numbering import shared_numbers
 from track.sources.source import Source
 from track.sources.webcams import WebcamSource
 
@@ -26,11 +27,14 @@ class Pace:
         Pictures a second, of a folder and of lines without times.
     again
         Whether films and folders begin again when they are over.
+    numbers
+        From the first to the last number of folders that are read together (`track.sources.numbering`).
     """
 
     fast: bool = False
     fps: float = 30.0
     again: bool = False
+    numbers: range | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +70,9 @@ SOURCES: dict[str, SourceKind] = {
     "folder": SourceKind(
         description="a folder of pictures",
         matches=lambda text: _there(text, Path.is_dir),
-        open=lambda text, pace: Folder(Path(text), fast=pace.fast, fps=pace.fps, again=pace.again),
+        open=lambda text, pace: Folder(
+            Path(text), fast=pace.fast, fps=pace.fps, again=pace.again, numbers=pace.numbers
+        ),
     ),
     "film": SourceKind(
         description="a film's file",
@@ -94,8 +100,7 @@ def open_source(text: str, pace: Pace | None = None) -> Source:
         raise CameraError(
             f"a camera has no name; give {', or '.join(each.description for each in SOURCES.values())}"
         )
-    kind = next(kind for kind in SOURCES.values() if kind.matches(text))
-    return kind.open(text, pace or Pace())
+    return _kind_of(text).open(text, pace or Pace())
 
 
 def open_capture(texts: Mapping[str, str], pace: Pace | None = None) -> Capture:
@@ -106,10 +111,16 @@ def open_capture(texts: Mapping[str, str], pace: Pace | None = None) -> Capture:
     CameraError
         Where one cannot be opened.
     """
+    folders = [Path(text) for text in texts.values() if _kind_of(text) is SOURCES["folder"]]
+    pace = replace(pace or Pace(), numbers=shared_numbers(folders))
     return Capture({name: _opener(text, pace) for name, text in texts.items()})
 
 
-def _opener(text: str, pace: Pace | None) -> Callable[[], Source]:
+def _kind_of(text: str) -> SourceKind:
+    return next(kind for kind in SOURCES.values() if kind.matches(text))
+
+
+def _opener(text: str, pace: Pace) -> Callable[[], Source]:
     return lambda: open_source(text, pace)
 
 
