@@ -1,5 +1,7 @@
 """A headset's profile with another network: nothing that the former one read, and no placement of its view."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -53,6 +55,16 @@ def test_a_neutral_face_that_was_not_placed_stays(tmp_path):
     assert [each.partition(": ")[2] for each in said] == [
         "its lids were read by another model and are left out; calibrate again"
     ]
+
+
+def test_an_adapted_network_keeps_the_placement_and_reads_lids_itself(tmp_path):
+    pipeline = pipeline_of("headset-tracking3")
+    model = pipeline._predictor.model
+    training = replace(model.training, adapted_from=(FORMER.sha256,))
+    pipeline._predictor = replace(pipeline._predictor, model=replace(model, training=training))
+    used, said = opened(tmp_path, pipeline, FORMER, **PLACED, **READ)
+    assert (used.placement, used.neutral, used.eyes) == (PLACED["placement"], NEUTRAL, {})
+    assert not any("placement" in each for each in said)
 
 
 def test_a_placement_that_is_given_goes_before(tmp_path):
