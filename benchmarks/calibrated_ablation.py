@@ -56,6 +56,10 @@ ROWS: dict[str, Recipe] = {
     "not whitened": replace(DEFAULT, calibrated_whitening=0.0),
     "whitened": replace(DEFAULT, calibrated_whitening=1.0),
     "not stretched": replace(DEFAULT, calibrated_gain=False),
+    **{
+        f"ridge's share {share:g}": replace(DEFAULT, calibrated_linear=share)
+        for share in (0, 0.15, 0.3, 0.5, 0.75)
+    },
     "40 hidden units": replace(DEFAULT, hidden=40),
     "jitter of 1 %": replace(DEFAULT, calibrated_noise=replace(NOISE, jitter=0.01, jitter_most=None)),
     "jitter of 3 %": replace(DEFAULT, calibrated_noise=replace(NOISE, jitter=0.03, jitter_most=None)),

@@ -18,7 +18,12 @@ from tests.regress.drawn import drawn_dataset
 
 QUICK = Recipe(name="default", alphas=(0.3, 3.0), steps=8, search_rows=150, hidden=6)
 QUICK_STABLE = replace(
-    QUICK, calibrated_alignment="stable", calibrated_whitening=0.5, calibrated_gain=True, symmetric=True
+    QUICK,
+    calibrated_alignment="stable",
+    calibrated_whitening=0.5,
+    calibrated_linear=0.3,
+    calibrated_gain=True,
+    symmetric=True,
 )
 """As the default recipe's: networks that compare see points."""
 

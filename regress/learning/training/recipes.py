@@ -55,6 +55,9 @@ class Recipe:
     calibrated_whitening
         Share of their inputs' spread along the principal axes, in its logarithm, that is taken off: 0 leaves faint
         axes faint, 1 makes all alike.
+    calibrated_linear
+        Share of ridge regression on the same rows in their answers (``regress.learning.training.linear_share``); not
+        with ``calibrated_denoise``.
     calibrated_gain
         Whether their answers are stretched about the neutral face's until they spread as far as true weights
         (``regress.learning.training.gain``).
@@ -82,6 +85,7 @@ class Recipe:
     calibrated_alignment: str = "affine"
     calibrated_denoise: bool = False
     calibrated_whitening: float = 0.0
+    calibrated_linear: float = 0.0
     calibrated_gain: bool = False
 
 
@@ -94,6 +98,7 @@ RECIPES: dict[str, Recipe] = {
         calibrated_noise=DetectorNoise(bias=1.0, jitter=0.005, jitter_most=0.03, clean=0.0, eyes=0.7),
         calibrated_alignment="stable",
         calibrated_whitening=0.5,
+        calibrated_linear=0.3,
         calibrated_gain=True,
     ),
     "exact": Recipe(name="exact"),

@@ -10,9 +10,11 @@ from regress.errors import Interrupted
 from regress.learning.levenberg_marquardt import EVIDENCE_ROUNDS, EVIDENCE_STEPS
 from regress.learning.networks import fold
 from regress.learning.progress import Progress, joined
+from regress.learning.training.baseline import fit_baseline
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.fitting import Fit, fit_networks
 from regress.learning.training.gain import stretched
+from regress.learning.training.linear_share import with_linear_share
 from regress.learning.training.preparation import Prepared, prepare
 from regress.learning.training.recipes import Recipe
 from regress.learning.training.record import training_record
@@ -187,4 +189,9 @@ def fit_set(
         networks = dataclasses.replace(
             networks, w1=networks.w1 @ prepared.denoising.back.T, denoising=prepared.denoising
         )
+    elif calibrated and recipe.calibrated_linear:
+        ridge = fit_baseline(
+            dataset, features, mirror=recipe.mirror, noise=recipe.calibrated_noise, calibrated=True, seed=seed
+        )
+        networks = with_linear_share(networks, ridge, recipe.calibrated_linear)
     return FittedSet(prepared=prepared, fit=fit, networks=networks)
