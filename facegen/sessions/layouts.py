@@ -14,7 +14,7 @@ CAMERAS = ("left_eye", "right_eye", "mouth")
 """Cameras of every drawn headset, and of the one that it shares sizes with."""
 
 EYE_MM = (31.5, 0.0, 13.0)
-"""Where cameras are aimed, near the left pupil in the headset's frame: the mean person's is 1.4 mm lower, 2.5 mm ahead."""
+"""Where cameras are aimed in the headset's frame; the mean person's left pupil is 1.4 mm lower and 2.5 mm ahead."""
 MOUTH_MM = (0.0, -74.0, 28.0)
 """Where lips meet, in the same frame: the mean of the mean head's landmarks."""
 
