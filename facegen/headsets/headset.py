@@ -73,7 +73,7 @@ class HeadsetFit:
     """Where the headset sits: the wearer's nose bridge and eye line, in the headset's frame.
 
     Depth (z) and the middle (x) follow the person's nose bridge (landmark index 27). Height counts from the head
-    frame's origin and follows nobody: the mean person's eyes turn 1.4 mm below it, others 0.7 mm from there (sd).
+    frame's origin and follows nobody: the mean person's eyes turn 1.4 mm below it, others 0.9 mm from there (sd).
     """
 
     nose_bridge_mm: Vector
