@@ -39,7 +39,7 @@ done=$1; shift
 "$@" &
 pid=$!
 trap 'kill -TERM "$pid"' TERM
-while :; do wait "$pid"; rc=$?; kill -0 "$pid" 2>/dev/null || break; done
+while :; do rc=0; wait "$pid" || rc=$?; kill -0 "$pid" 2>/dev/null || break; done
 [ "$rc" = 0 ] && mkdir -p "${done%/*}" && : > "$done"
 exit "$rc"
 """

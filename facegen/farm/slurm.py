@@ -48,7 +48,7 @@ for attempt in {attempts}; do
   {command} &
   pid=$!
   [ "$stop" = 0 ] || kill -TERM "$pid"
-  while :; do wait "$pid"; rc=$?; kill -0 "$pid" 2>/dev/null || break; done
+  while :; do rc=0; wait "$pid" || rc=$?; kill -0 "$pid" 2>/dev/null || break; done
   pid=
   case $rc in 0|1|2|74|75|143) break ;; esac
   echo "attempt $attempt of {tries} ended with $rc" >&2  # killed, most often for its memory

@@ -75,10 +75,10 @@ def adapt(
     if out is None:
         raise InputError("--out is needed: a folder for the person's model")
     check_place(out, KIND)
+    predictor = load_headset_predictor(model or HEADSET)
     folder = model_folder(model or HEADSET)
     if out.exists() and out.samefile(folder):
         raise InputError(f"--out {out} is also what is read ({folder}); give another name")
-    predictor = load_headset_predictor(model or HEADSET)
     minute = read_minute(
         predictor,
         (rest, shut, wide, jaw_open, lips_rolled, smile, cheeks, brows_up, pucker),

@@ -192,7 +192,17 @@ def _neutral_frames(model: Model, frames: Frames, neutral: str) -> Frames | None
 
 
 def named_rows(frames: Frames, neutral: str) -> list[int]:
-    """Rows of a frame named by its label, or of frames FIRST-LAST; between faces of one name, of these alone."""
+    """Rows of a frame named by its label, or of frames FIRST-LAST; between faces of one name, of these alone.
+
+    Where pictures of a film have several faces and none is named, the first ones count.
+    """
+    rows = _rows_of(frames, neutral)
+    if rows or frames.numbers is None:
+        return rows
+    return _rows_of(frames, "-".join(f"{picture}/0" for picture in neutral.split("-")))
+
+
+def _rows_of(frames: Frames, neutral: str) -> list[int]:
     if neutral in frames.labels:
         return [frames.labels.index(neutral)]
     # labels may have dashes of their own

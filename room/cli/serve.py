@@ -103,13 +103,13 @@ def serve(
     address = Address(host=host, port=port, certificate=cert, private_key=key)
 
     def started(where: str) -> None:
-        # a command that was refused has written nothing
-        if keys and not known:
-            keep_keys(held, keys)
+        # a command that was refused has written nothing: a recording's place is tried before keys are kept
         if record:
             recorder = Recorder(record, room=names[0], hertz=HERTZ, ended=lambda text: say(f"room: {text}"))
             ending.callback(recorder.close)
             opened.record(recorder)
+        if keys and not known:
+            keep_keys(held, keys)
         print_links(held, names, origins[0] if origins else where)
         if not cert and host not in ("127.0.0.1", "::1", "localhost"):
             say(

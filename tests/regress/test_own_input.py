@@ -145,3 +145,5 @@ def test_a_network_is_not_replaced_by_what_is_adapted_from_it(run, tmp_path: Pat
     assert code == 2
     assert "is also what is read" in err
     assert (tmp_path / "mine" / "model.json").read_bytes() == before
+    code, _, err = run("headset", "adapt", "none", "--rest", "0-9", "--out", tmp_path / "mine")
+    assert code == 2, err

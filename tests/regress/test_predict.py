@@ -48,6 +48,11 @@ def test_a_pause_without_frames_is_no_part_of_a_mean():
     assert [sample.weights[0] for sample in MovingAverage(10).run(samples)] == [0.0, 0.5, 2.0, 2.5]
 
 
+def test_frames_that_always_come_seldom_are_averaged():
+    samples = [Sample(time_s=2.0 * row, weights=np.full(3, row)) for row in range(4)]
+    assert [sample.weights[0] for sample in MovingAverage(10).run(samples)] == [0.0, 0.5, 1.0, 1.5]
+
+
 def test_the_csv_reads_back_with_empty_cells_where_no_face_is(quick_model: Model, dataset: KeypointDataset):
     points = dataset.points[:4].copy()
     points[2] = np.nan
@@ -70,6 +75,8 @@ def test_the_csv_reads_back_with_empty_cells_where_no_face_is(quick_model: Model
         ("1/0-3/0", [0, 2, 4]),
         ("2/1-3/1", [3, 5]),
         ("1/0-3/1", [0, 1, 2, 3, 4, 5]),
+        ("2", [2]),
+        ("1-3", [0, 2, 4]),
         ("take-1", [6]),
         ("take-1-take-2", [6, 7]),
         ("4-5", []),

@@ -18,7 +18,7 @@ import pytest
 from typer.testing import CliRunner
 
 from room.cli import app
-from room.errors import InputError
+from room.errors import InputError, OutputError
 from tests.room.recordings import recorded
 
 pytestmark = pytest.mark.slow
@@ -166,6 +166,13 @@ def test_a_server_that_is_refused_leaves_no_recording_and_no_keys(refused, tmp_p
     assert isinstance(result.exception, InputError), result.exception
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bad", "bad.jsonl"]
     assert (tmp_path / "bad.jsonl").read_text() == "no such thing"
+
+
+def test_a_recording_that_has_no_folder_leaves_no_keys(tmp_path):
+    options = ("--record", str(tmp_path / "none" / "new.jsonl"), "--keys", str(tmp_path / "new.keys"))
+    result = CliRunner().invoke(app, ["serve", "--port", "0", *options])
+    assert isinstance(result.exception, OutputError), result.exception
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(

@@ -212,6 +212,18 @@ def _number_of(picture: np.ndarray) -> int:
     return round((picture.mean() - 66) / 8)
 
 
+def test_a_wait_for_a_picture_behind_many_lost_ones_can_be_ended(tmp_path: Path):
+    for number in (*range(3), *range(100, 400)):
+        cv2.imwrite(str(tmp_path / f"take_{number:03d}.png"), noise(number))
+    source = open_source(str(tmp_path), Pace(fps=5))
+    for _ in range(3):
+        assert source.read() is not None
+    began = time.monotonic()
+    threading.Timer(0.2, source.stop).start()
+    source.read()  # due in 19 s
+    assert time.monotonic() - began < 10
+
+
 @pytest.mark.parametrize("fast", [True, False])
 def test_pictures_that_a_folder_lost_leave_their_time_empty(fast: bool, tmp_path: Path):
     folder = _folder(tmp_path / "takes", [f"take2_{number:03d}a.png" for number in range(12)])

@@ -97,6 +97,7 @@ class Camera:
         self._stop.set()
         with self._news:
             self._news.notify_all()
+        self._source.stop()
         if self._thread.is_alive():
             self._thread.join(self._source.ends_within_s)
         else:

@@ -4,6 +4,7 @@ Names that count pictures give them their times, so that one that was lost leave
 """
 
 import re
+import threading
 import time
 from pathlib import Path
 
@@ -71,6 +72,7 @@ class Folder(Source):
         self.length_s = None if again else len(self._numbers) * self._step_s
         self._next_s = self._last_s = 0.0
         self._begun_s: float | None = None
+        self._stopped = threading.Event()
 
     def read(self) -> Picture | None:
         """The next picture, when it is due; None where no other one has come for `FOLLOWED_S`."""
@@ -80,7 +82,7 @@ class Folder(Source):
                 return None
             time.sleep(_LOOK_EVERY_S)
         if self.live:
-            time.sleep(max(0.0, self._next_s - self.now_s()))
+            self._stopped.wait(max(0.0, self._next_s - self.now_s()))
             if self.now_s() > self._next_s + self._step_s:  # it was not there when it was due
                 self._next_s = self.now_s()
         self._last_s, self._next_s = self._next_s, self._next_s + self._step_s
@@ -95,6 +97,10 @@ class Folder(Source):
         if self._begun_s is None:
             self._begun_s = time.monotonic()
         return time.monotonic() - self._begun_s
+
+    def stop(self) -> None:
+        """Wait no longer for a picture behind many that were lost."""
+        self._stopped.set()
 
     def close(self) -> None:
         """Nothing is held."""

@@ -64,5 +64,8 @@ class Source:
         """What the clock of the pictures' times shows now."""
         return time.monotonic()
 
+    def stop(self) -> None:
+        """Let a `read` that waits come back soon; another thread asks for it."""
+
     def close(self) -> None:
         """Let the camera go; a source can be opened again by making another one."""

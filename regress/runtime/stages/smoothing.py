@@ -14,6 +14,9 @@ from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.stage import DelayingStage, Stage
 from regress.targets import NETWORKS
 
+_SELDOM = 3
+"""Times the last step that a pause is at least, for a mean of frames."""
+
 LONGEST_GAP_S = 0.5
 """Seconds without a face after which smoothing starts afresh: what was before says nothing any more."""
 
@@ -125,12 +128,18 @@ class MovingAverage(Stage):
 
     def __init__(self, frames: int) -> None:
         self._recent: deque[np.ndarray] = deque(maxlen=frames)
-        self._time = None
+        self._time: float | None = None
+        self._step_s: float | None = None
 
     def step(self, sample: Sample) -> Sample:
         """The sample with the mean weights and gaze."""
-        if None not in (sample.time_s, self._time) and sample.time_s - self._time > LONGEST_GAP_S:
-            self._recent.clear()
+        if None not in (sample.time_s, self._time):
+            step_s = sample.time_s - self._time
+            # frames that always come so seldom are no pauses
+            if step_s > max(LONGEST_GAP_S, _SELDOM * (self._step_s or step_s)):
+                self._recent.clear()
+            else:
+                self._step_s = step_s
         self._time = sample.time_s
         row = joined(sample)
         self._recent.append(row)

@@ -63,10 +63,10 @@ def train_headset(
     """
     folder, recipe = Path(folder), recipe_of(recipe.settings())
     check_place(folder, HEADSET)
-    if start is not None and folder.exists() and folder.samefile(start):
-        raise InputError(f"--out {folder} is also what is read (--start {start}); give another name")
     checkpoint = folder.parent / f".{folder.name}.checkpoint"
     began_as = None if start is None else read_headset_model(start)
+    if start is not None and folder.exists() and folder.samefile(start):
+        raise InputError(f"--out {folder} is also what is read (--start {start}); give another name")
     training = Training(arrays, recipe, checkpoint, None if start is None else Path(start))
     resumed = len(training.history)
     network = training.run(progress)
