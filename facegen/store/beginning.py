@@ -50,9 +50,7 @@ def begin(dataset: Dataset) -> None:
                 f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
                 f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
             )
-        with staging(folder, "spec") as stage:
-            _copy_named(dataset, stage)
-            _renew_spec(dataset, stage)
+        _renew(dataset)
         _write_cards(dataset)
         return
     if others:
@@ -62,7 +60,7 @@ def begin(dataset: Dataset) -> None:
     # before anything lies there: it imports modules, and a stop during imports ends the program at once
     text, description = _spec_text(dataset), _description(dataset)
     with staging(folder, "begin") as stage:
-        _copy_named(dataset, stage)
+        _copy(_named(dataset), stage)
         (stage / "spec.toml").write_text(text, encoding="utf-8")
         commit_file(stage / "spec.toml", folder.spec_toml)
         write_json(stage / "dataset.json", description)
@@ -79,27 +77,35 @@ def _spec_text(dataset: Dataset) -> str:
     return tomli_w.dumps(_without_none(table))
 
 
-def _copy_named(dataset: Dataset, stage: Path) -> None:
-    """Copy what the spec names into the folder, where it is not there."""
+def _named(dataset: Dataset) -> dict[Path, str | Path]:
+    """Files that the spec names, by their places in the folder."""
     folder, named = dataset.folder, {}
     if dataset.spec.playback is not None:
         named[folder.recording_csv] = dataset.spec.playback.recording
-    named[folder.headset_toml] = headset_path(dataset.spec.render.headset)
+    return named | {folder.headset_toml: headset_path(dataset.spec.render.headset)}
+
+
+def _copy(named: dict[Path, str | Path], stage: Path) -> None:
     for path, source in named.items():
-        if not os.path.lexists(path):
-            shutil.copyfile(source, stage / path.name)
-            commit_file(stage / path.name, path)
+        shutil.copyfile(source, stage / path.name)
+        commit_file(stage / path.name, path)
 
 
-def _renew_spec(dataset: Dataset, stage: Path) -> None:
+def _renew(dataset: Dataset) -> None:
+    """Write what is missing or stale; a folder that has all of it may be read-only."""
     folder, text = dataset.folder, _spec_text(dataset)
-    if (
+    missing = {path: source for path, source in _named(dataset).items() if not os.path.lexists(path)}
+    fresh = (
         os.path.lexists(folder.spec_toml)
         and read_bytes(folder.spec_toml, most_bytes=MOST_TOML_BYTES) == text.encode()
-    ):
+    )
+    if fresh and not missing:
         return
-    (stage / "spec.toml").write_text(text, encoding="utf-8")
-    commit_file(stage / "spec.toml", folder.spec_toml)
+    with staging(folder, "spec") as stage:
+        _copy(missing, stage)
+        if not fresh:
+            (stage / "spec.toml").write_text(text, encoding="utf-8")
+            commit_file(stage / "spec.toml", folder.spec_toml)
 
 
 def _write_cards(dataset: Dataset) -> None:

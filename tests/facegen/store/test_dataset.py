@@ -165,6 +165,21 @@ def test_what_a_spec_names_is_copied_again_where_it_is_missing(folder):
     assert open_dataset(folder / "out").hash == made.hash
 
 
+def test_a_headset_that_a_stopped_beginning_left_is_replaced(folder):
+    made = resolve(load_spec(folder / "spec.toml"), folder / "out")
+    made.folder.path.mkdir()
+    made.folder.headset_toml.write_text("of another spec")
+    begin(made)
+    assert open_dataset(folder / "out").hash == made.hash
+
+
+def test_a_whole_folder_is_not_written_to(folder, monkeypatch):
+    made = resolve(load_spec(folder / "spec.toml"), folder / "out")
+    begin(made)
+    monkeypatch.setattr("facegen.store.beginning.staging", None)
+    begin(made)
+
+
 def test_rows_are_those_of_the_samples_and_of_no_other_columns(recorded):
     whole = recorded.keypoints()
     numbers = [0, 7, 63]
