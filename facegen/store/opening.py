@@ -92,8 +92,8 @@ def _otherness(dataset: Dataset, described: dict) -> str:
     if described["label_version"] != LABEL_VERSION:
         return (
             f"has labels of version {described['label_version']}, and this version of facegen makes and reads "
-            f"{LABEL_VERSION}; make the dataset anew, or read it with facegen "
-            f"{described['versions'].get('facegen', 'of then')}"
+            f"{LABEL_VERSION}; make the dataset anew, or read it with the facegen "
+            f"that made it ({described['versions'].get('facegen', 'of then')}, by its commit)"
         )
     if any(described.get(key, about) != about for key, about in rigs_of(dataset).items()):
         rigs = " or ".join(map(repr, shares_of(dataset.spec.rig)))

@@ -63,6 +63,7 @@ def adapt(
     import numpy as np
 
     from facegen.console import say
+    from facegen.files import refuse_sources
     from regress.cli.headset_minute import read_minute
     from regress.learning.headset.adaptation import LEAST_GAIN, adapted_graph, changes, judge, read_heads
     from regress.learning.headset.known_frames import known_frames
@@ -77,8 +78,7 @@ def adapt(
     check_place(out, KIND)
     predictor = load_headset_predictor(model or HEADSET)
     folder = model_folder(model or HEADSET)
-    if out.exists() and out.samefile(folder):
-        raise InputError(f"--out {out} is also what is read ({folder}); give another name")
+    refuse_sources(out / "model.json", [folder / "model.json"])
     minute = read_minute(
         predictor,
         (rest, shut, wide, jaw_open, lips_rolled, smile, cheeks, brows_up, pucker),

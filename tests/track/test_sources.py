@@ -19,35 +19,15 @@ from regress.runtime.inputs import Fault
 from tests.track.faces import film_of
 from tests.track.mjpeg_server import MANNERS, MjpegServer, mjpeg_server
 from tests.track.other_servers import SERVERS
+from tests.track.pictures import folder_of, numbered, read_all
 from tests.track.virtual import noise, told
 from track.errors import CameraError
-from track.sources import SOURCES, CameraFault, Pace, Source, open_capture, open_source
+from track.sources import SOURCES, Pace, open_capture, open_source
 from track.sources.addresses import SCHEMES, is_address, without_secrets
-from track.sources.folders import FOLLOWED_S
 from track.sources.lines import Lines
 from track.sources.webcams import WebcamSource, list_webcams
 
 LINE = " ".join(map(str, range(136)))
-
-
-def _numbered(number: int) -> np.ndarray:
-    """A picture (48, 64, 3) whose grey level says its number, and which differs from the same one."""
-    return noise(number) // 20 + np.uint8(60 + 8 * number)
-
-
-def _folder(path: Path, names: list[str]) -> Path:
-    path.mkdir()
-    for number, name in enumerate(names):
-        cv2.imwrite(str(path / name), _numbered(number))
-    return path
-
-
-def _all(source: Source) -> list:
-    pictures = []
-    while (picture := source.read()) is not None:
-        pictures.append(picture)
-    source.close()
-    return pictures
 
 
 @pytest.mark.parametrize(
@@ -200,127 +180,11 @@ def test_a_wrong_password_is_refused():
         assert server.sent == 0
 
 
-def test_a_folder_is_read_in_natural_order_at_its_pace(tmp_path: Path):
-    folder = _folder(tmp_path / "takes", [f"frame_{number}.png" for number in range(12)])
-    (folder / "notes.txt").write_text("no picture")
-    pictures = _all(open_source(str(folder), Pace(fast=True, fps=50)))
-    assert [round((picture.pixels.mean() - 66) / 8) for picture in pictures] == list(range(12))
-    assert [picture.time_s for picture in pictures] == pytest.approx(np.arange(12) / 50)
-
-
-def _number_of(picture: np.ndarray) -> int:
-    return round((picture.mean() - 66) / 8)
-
-
-def test_a_wait_for_a_picture_behind_many_lost_ones_can_be_ended(tmp_path: Path):
-    for number in (*range(3), *range(100, 400)):
-        cv2.imwrite(str(tmp_path / f"take_{number:03d}.png"), noise(number))
-    source = open_source(str(tmp_path), Pace(fps=5))
-    for _ in range(3):
-        assert source.read() is not None
-    began = time.monotonic()
-    threading.Timer(0.2, source.stop).start()
-    source.read()  # due in 19 s
-    assert time.monotonic() - began < 10
-
-
-@pytest.mark.parametrize("fast", [True, False])
-def test_pictures_that_a_folder_lost_leave_their_time_empty(fast: bool, tmp_path: Path):
-    folder = _folder(tmp_path / "takes", [f"take2_{number:03d}a.png" for number in range(12)])
-    for number in (5, 6, 7):
-        (folder / f"take2_{number:03d}a.png").unlink()
-    source = open_source(str(folder), Pace(fast=fast, fps=20))
-    pictures = _all(source)
-    steps = np.array([_number_of(picture.pixels) for picture in pictures]) / 20
-    assert source.length_s == pytest.approx(12 / 20)
-    times = np.array([picture.time_s for picture in pictures])
-    if fast:
-        assert times == pytest.approx(steps)
-    else:
-        assert (times >= steps - 1e-6).all(), "a busy machine is late, and never early"
-
-
-@pytest.mark.parametrize("fps", [30, 100])
-def test_a_folder_that_lost_pictures_stays_beside_the_others_also_when_they_come_again(
-    fps: int, tmp_path: Path
-):
-    """At the start, where the time from picture to picture is not known yet, in the middle and at the end."""
-    names = [f"{number}.png" for number in range(20)]
-    whole, lossy = (_folder(tmp_path / name, names) for name in ("whole", "lossy"))
-    for number in (0, 7, 8, 19):
-        (lossy / f"{number}.png").unlink()
-    pace = Pace(fast=True, fps=fps, again=True)
-    together = []
-    with open_capture({"whole": str(whole), "lossy": str(lossy)}, pace) as capture:
-        for _ in range(40):
-            sample = capture.read()
-            seen = {name: _number_of(picture) for name, picture in sample.pictures.items()}
-            together.append((seen["whole"], seen.get("lossy", -1)))
-            assert len(together) < 3 or sample.time_s == pytest.approx((len(together) - 1) / fps)
-    assert [number for number, _ in together] == [*range(20)] * 2
-    both = [(one, other) for one, other in together[3:] if one not in (0, 7, 8, 19)]
-    assert all(one == other for one, other in both)
-    assert all(other <= one for one, other in together[3:20]), "the last one that came stands in"
-
-
-@pytest.mark.parametrize(
-    "names",
-    [
-        [f"{1_700_000_000_000_000_000 + 33_333_333 * number}.png" for number in range(6)],
-        [f"{2 * number}.png" for number in range(6)],
-        ["a1.png", "a2.png", "b7.png", "b8.png"],
-        ["1.jpg", "1.png", "5.png"],
-        ["first.png", "second.png"],
-    ],
-)
-def test_names_that_do_not_count_pictures_say_nothing_of_their_times(names: list[str], tmp_path: Path):
-    """Of a clock, each second one, of two takes, twice one number, and none."""
-    pictures = _all(open_source(str(_folder(tmp_path / "takes", names)), Pace(fast=True, fps=50)))
-    assert [picture.time_s for picture in pictures] == pytest.approx(np.arange(len(names)) / 50)
-
-
-def test_folders_of_other_numbers_begin_together(tmp_path: Path):
-    """Each camera's program counts from where it likes."""
-    folders = {
-        name: str(_folder(tmp_path / name, [f"{start + number}.png" for number in range(5)]))
-        for name, start in (("left", 0), ("right", 1000))
-    }
-    with open_capture(folders, Pace(fast=True)) as capture:
-        seen = [[_number_of(picture) for picture in sample.pictures.values()] for sample in capture]
-    assert seen == [[number] * 2 for number in range(5)]
-
-
-def test_a_folder_that_grows_is_followed_until_it_stops(tmp_path: Path):
-    folder = _folder(tmp_path / "takes", ["0.png"])
-
-    def grow() -> None:
-        for number in (1, 2, 3):
-            time.sleep(0.3)
-            encoded = cv2.imencode(".png", _numbered(number))[1].tobytes()
-            with open(folder / f"{number}.png", "wb") as file:  # slowly, as some programs write
-                file.write(encoded[:500])
-                file.flush()
-                time.sleep(0.1)
-                file.write(encoded[500:])
-
-    writer = threading.Thread(target=grow)
-    writer.start()
-    source = open_source(str(folder), Pace(fps=30))
-    pictures = _all(source)
-    since_last_s = source.now_s() - pictures[-1].time_s
-    writer.join()
-    assert [picture.fault for picture in pictures] == [None] * 4
-    assert [round((picture.pixels.mean() - 66) / 8) for picture in pictures] == [0, 1, 2, 3]
-    # .4 s apart, less what a busy machine notices one late; by the rate it would be a thirtieth
-    assert np.diff([picture.time_s for picture in pictures]).min() > 0.1, "when they came"
-    assert since_last_s >= FOLLOWED_S
-
-
 @pytest.mark.parametrize("fast", [True, False])
 @pytest.mark.parametrize("kind", ["film", "folder"])
 def test_what_is_kept_can_come_again_and_again_while_time_goes_on(kind: str, fast: bool, tmp_path: Path):
     """Five pictures come two and a half times, each a step behind the one before, and live at the clock's pace."""
-    place = _folder(tmp_path / "takes", [f"{number}.png" for number in range(5)])
+    place = folder_of(tmp_path / "takes", [f"{number}.png" for number in range(5)])
     if kind == "film":
         place = film_of(
             tmp_path / "film.avi", [np.full((48, 64, 3), 40 * number, np.uint8) for number in range(5)]
@@ -342,38 +206,16 @@ def test_what_is_kept_can_come_again_and_again_while_time_goes_on(kind: str, fas
 
 
 def test_a_film_that_is_gone_does_not_come_again(tmp_path: Path):
-    film = film_of(tmp_path / "film.avi", [_numbered(number) for number in range(3)])
+    film = film_of(tmp_path / "film.avi", [numbered(number) for number in range(3)])
     source = open_source(str(film), Pace(fast=True, again=True))
     first = source.read()
     film.unlink()
-    assert [first.pixels is None, *(picture.pixels is None for picture in _all(source))] == [False] * 3
-
-
-def test_a_file_that_is_no_picture_costs_no_more_than_itself(tmp_path: Path):
-    folder = _folder(tmp_path / "takes", ["0.png", "1.png", "2.png"])
-    (folder / "1.png").write_bytes(b"no picture")
-    with open_capture({"camera": str(folder)}, Pace(fast=True)) as capture:
-        samples = list(capture)
-    assert [sample.faults.get("camera") for sample in samples] == [None, CameraFault.UNREADABLE, None]
-    assert [bool(sample.pictures) for sample in samples] == [True, False, True]
-
-
-@pytest.mark.parametrize("first", [0, 1])
-def test_pictures_of_16_bits_are_refused_and_not_called_black(first: int, tmp_path: Path):
-    """Ten bits in sixteen, as cameras of headsets have them; at the start, or behind others."""
-    folder = _folder(tmp_path / "takes", ["0.png", "1.png", "2.png"])
-    for number in range(first, 3):
-        cv2.imwrite(str(folder / f"{number}.png"), _numbered(number).astype(np.uint16) * 4)
-    with (
-        pytest.raises(CameraError, match=r"png has 16 bits a pixel, and 8 are read here; save"),
-        open_capture({"camera": str(folder)}, Pace(fast=True)) as capture,
-    ):
-        list(capture)
+    assert [first.pixels is None, *(picture.pixels is None for picture in read_all(source))] == [False] * 3
 
 
 def test_lines_give_points_with_their_times():
     text = f"0.5 {LINE}\n1.0 {LINE}\n1.5 something else\n2.0\n2.5 {LINE}\n"
-    frames = _all(Lines(fps=30, fast=True, stream=io.StringIO(text)))
+    frames = read_all(Lines(fps=30, fast=True, stream=io.StringIO(text)))
     assert [frame.time_s for frame in frames][:2] == [0.5, 1.0]
     assert len(frames) == 5
     assert [frame.fault for frame in frames][2] is Fault.UNREADABLE
@@ -383,7 +225,7 @@ def test_lines_give_points_with_their_times():
 
 def test_lines_without_times_have_those_of_their_coming_or_of_a_rate():
     text = f"{LINE}\n" * 3
-    fast = _all(Lines(fps=50, fast=True, stream=io.StringIO(text)))
+    fast = read_all(Lines(fps=50, fast=True, stream=io.StringIO(text)))
     assert [frame.time_s for frame in fast] == [0.0, 0.02, 0.04]
     source = Lines(fps=50, stream=io.StringIO(text))
     source.read()

@@ -3,6 +3,7 @@
 import json
 import re
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import hypothesis
@@ -12,7 +13,9 @@ import onnxruntime
 import pytest
 
 from regress.exporters import export_model
-from regress.learning.training import Recipe, read_dataset, train
+from regress.exporters.formula import formula_of
+from regress.exporters.halves import STEP, halves_of
+from regress.learning.training import KeypointDataset, Recipe, read_dataset, train
 from tests.regress.drawn import drawn_dataset, drawn_faces
 from tests.regress.exporters.readers import READERS
 from tests.regress.exporters.test_exporters import AGREEMENT, FORMATS, skip_without_tool
@@ -257,3 +260,15 @@ def agree_on_test_split(model, predict, dataset) -> None:
         person = points[rows[neutral_rows[rows] == row]]
         weights = model.calibrate(points[row][None]).predict(person)
         np.testing.assert_allclose(predict(person, points[row]), weights, atol=AGREEMENT, rtol=0)
+
+
+def test_units_of_half_a_symmetric_set_are_whole_fours(dataset: KeypointDataset):
+    """By as many zeros as are needed: of a rest C makes single steps, and takes half as long again."""
+    quick = Recipe(name="quick", alphas=(0.3,), steps=2, search_rows=100, hidden=5, symmetric=True)
+    model = train(dataset, replace(quick, calibrated_alignment="stable", calibrated_linear=0.3))
+    assert model.calibrated.networks.hidden % 4
+    halves = halves_of(formula_of(model).calibrated)
+    units = len(halves.hidden_weights)
+    assert units % STEP == 0
+    assert halves.hidden_bias.shape == (2 * units,)
+    assert halves.output_weights.shape[1] == 2 * units

@@ -10,7 +10,7 @@ import numpy as np
 import torch
 
 from facegen.conventions import CAMERA_TERMS
-from regress.errors import InputError
+from facegen.files import refuse_sources
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.looks import camera_looks
@@ -65,8 +65,8 @@ def train_headset(
     check_place(folder, HEADSET)
     checkpoint = folder.parent / f".{folder.name}.checkpoint"
     began_as = None if start is None else read_headset_model(start)
-    if start is not None and folder.exists() and folder.samefile(start):
-        raise InputError(f"--out {folder} is also what is read (--start {start}); give another name")
+    if start is not None:
+        refuse_sources(folder / "model.json", [Path(start) / "model.json"])
     training = Training(arrays, recipe, checkpoint, None if start is None else Path(start))
     resumed = len(training.history)
     network = training.run(progress)
