@@ -8,7 +8,7 @@ from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, web
+from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType
 
 from room.places import Place as Scenery
 from room.protocol import Message, decode, encode
@@ -20,7 +20,7 @@ from room.server import Keys, Limits, Relays, Rooms, new_keys
 from room.server.janus import Janus
 from room.state import identity
 from room.state.numbers import COLOURS
-from tests.serving import end
+from tests.serving import serving
 
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.telegraph import Telegraph
@@ -162,15 +162,14 @@ async def open_room(
         engines=engines,
         places=places,
     )
-    runner = web.AppRunner(rooms.application(), access_log=None, shutdown_timeout=0.1)
-    await runner.setup()
-    await web.TCPSite(runner, "127.0.0.1", port).start()
-    place = Place(f"http://127.0.0.1:{runner.addresses[0][1]}", keys)
     try:
-        yield place
+        async with serving(rooms.application(), port) as port:
+            place = Place(f"http://127.0.0.1:{port}", keys)
+            try:
+                yield place
+            finally:
+                await place.session.close()
     finally:
-        await place.session.close()
-        await end(runner)
         if recorder:
             recorder.close()
 

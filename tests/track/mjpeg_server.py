@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from aiohttp import web
 
-from tests.serving import end
+from tests.serving import serving
 
 MANNERS: dict[str, tuple[str, bytes]] = {
     "plain": (
@@ -93,14 +93,9 @@ def mjpeg_server(server: MjpegServer) -> Iterator[MjpegServer]:
     async def serve() -> None:
         app = web.Application()
         app.router.add_get("/stream", server.stream)
-        runner = web.AppRunner(app, shutdown_timeout=0.1)
-        await runner.setup()
-        site = web.TCPSite(runner, "127.0.0.1", server.port, reuse_address=True)
-        await site.start()
-        server.port = runner.addresses[0][1]
-        ready.set()
-        await over.wait()
-        await end(runner)
+        async with serving(app, server.port) as server.port:
+            ready.set()
+            await over.wait()
 
     thread = threading.Thread(target=loop.run_until_complete, args=[serve()])
     thread.start()

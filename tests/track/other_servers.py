@@ -11,7 +11,7 @@ import aiohttp
 import cv2
 from aiohttp import web
 
-from tests.serving import end
+from tests.serving import serving
 from tests.track.virtual import noise
 
 
@@ -77,13 +77,10 @@ def aiohttp_server() -> Iterator[int]:
     async def serve() -> None:
         app = web.Application()
         app.router.add_get("/stream", stream)
-        runner = web.AppRunner(app, shutdown_timeout=0.1)
-        await runner.setup()
-        await web.TCPSite(runner, "127.0.0.1", 0).start()
-        ports.append(runner.addresses[0][1])
-        ready.set()
-        await over.wait()
-        await end(runner)
+        async with serving(app) as port:
+            ports.append(port)
+            ready.set()
+            await over.wait()
 
     thread = threading.Thread(target=loop.run_until_complete, args=[serve()])
     thread.start()

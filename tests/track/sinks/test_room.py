@@ -16,7 +16,7 @@ from aiohttp import web
 from room.protocol import Flag, Message, decode
 from room.protocol.answers import Changed
 from tests.room.guests import open_room
-from tests.serving import end
+from tests.serving import serving
 from tests.track.sinks.receivers import acted, lost
 from track.errors import InputError
 from track.sinks.axes import head_pose
@@ -148,16 +148,13 @@ def test_what_is_no_word_of_a_room_ends_no_thread(word, monkeypatch):
     async def meet() -> None:
         app = web.Application()
         app.router.add_get("/room/a/socket", strange)
-        runner = web.AppRunner(app, access_log=None)
-        await runner.setup()
-        await web.TCPSite(runner, "127.0.0.1", 0).start()
-        link = f"http://127.0.0.1:{runner.addresses[0][1]}/room/a#{'k' * 22}.{'x' * 22}"
-        sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
-        while len(calls) < 3:
-            sink.send(acted())
-            await asyncio.sleep(0.02)
-        await asyncio.to_thread(sink.close)
-        await end(runner)
+        async with serving(app) as port:
+            link = f"http://127.0.0.1:{port}/room/a#{'k' * 22}.{'x' * 22}"
+            sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
+            while len(calls) < 3:
+                sink.send(acted())
+                await asyncio.sleep(0.02)
+            await asyncio.to_thread(sink.close)
 
     asyncio.run(asyncio.wait_for(meet(), 120))
     assert len(told) <= 1
@@ -203,21 +200,18 @@ def by_https(certificates: Path, options: str) -> tuple[list[bytes], list[str]]:
     async def meet() -> None:
         app = web.Application()
         app.router.add_get("/room/a/socket", welcome)
-        runner = web.AppRunner(app, access_log=None)
-        await runner.setup()
         served = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
         served.load_cert_chain(certificates / "room.pem", certificates / "room.key")
-        await web.TCPSite(runner, "127.0.0.1", 0, ssl_context=served).start()
-        link = f"https://127.0.0.1:{runner.addresses[0][1]}/room/a#{'k' * 22}.{'x' * 22}{options}"
-        sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
-        while len(came) < 5 and not told:
-            sink.send(acted())
-            await asyncio.sleep(0.02)
-        if told:  # and never tries again
-            await asyncio.to_thread(sink._thread.join, 60)
-            assert not sink._thread.is_alive()
-        await asyncio.to_thread(sink.close)
-        await end(runner)
+        async with serving(app, certified=served) as port:
+            link = f"https://127.0.0.1:{port}/room/a#{'k' * 22}.{'x' * 22}{options}"
+            sink = await asyncio.to_thread(open_sink, parse_target(f"room:{link}"), told.append)
+            while len(came) < 5 and not told:
+                sink.send(acted())
+                await asyncio.sleep(0.02)
+            if told:  # and never tries again
+                await asyncio.to_thread(sink._thread.join, 60)
+                assert not sink._thread.is_alive()
+            await asyncio.to_thread(sink.close)
 
     asyncio.run(asyncio.wait_for(meet(), 120))
     return came, told
