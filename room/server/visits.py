@@ -71,9 +71,12 @@ class Visits:
         socket = web.WebSocketResponse(
             max_msg_size=MOST_TEXT_BYTES, heartbeat=HEARTBEAT_S, compress=False, timeout=1.0
         )
-        await socket.prepare(request)
+        try:
+            await socket.prepare(request)
+        except ConnectionError:  # gone while it was answered
+            return web.Response()
         transport = request.transport
-        if transport is None:  # gone while it was answered
+        if transport is None:
             return socket
         connection = Connection(socket, self._metrics, cut=transport.abort)
         self._sockets.add(socket)

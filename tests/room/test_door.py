@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from room.server.door import Door
+from tests.hanging_up import hang_up
 from tests.room.guests import SOON_S, open_room
 
 HOSTS = ["192.0.2.1", "192.0.2.2", "2001:db8::1", "2001:db8::2", "2001:db8:0:1::1", None]
@@ -68,3 +69,14 @@ def test_somebody_comes_in_past_many_who_say_nothing(monkeypatch):
                 await socket.close()
 
     asyncio.run(run())
+
+
+def test_who_leaves_during_the_handshake_is_no_fault(caplog):
+    async def run() -> None:
+        async with open_room() as place:
+            for _ in range(20):  # in one thread: the server answers when all of them have gone
+                hang_up(f"{place.address}/room/{place.name}/socket")
+            await place.guest()
+
+    asyncio.run(run())
+    assert caplog.records == []

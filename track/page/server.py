@@ -203,7 +203,10 @@ class Page:
             raise web.HTTPServiceUnavailable(text=f"{MOST_VIEWERS} tabs look already; close one\n")
         # weights do not become smaller by it, and pictures are compressed
         socket = web.WebSocketResponse(max_msg_size=MOST_MESSAGE_BYTES, heartbeat=HEARTBEAT_S, compress=False)
-        await socket.prepare(request)
+        try:
+            await socket.prepare(request)
+        except ConnectionError:  # gone while it was answered
+            return web.Response()
         viewer = Viewer(socket)
         settings = self._newest.settings if self._newest is not None else {}
         sending = asyncio.create_task(viewer.send_newest())

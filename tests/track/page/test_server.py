@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import InputError
 from regress.runtime.sample import Sample
+from tests.hanging_up import hang_up
 from track.messages import Command, Moment, Step
 from track.page import Page, frames
 from track.page.commands import MOST_GAIN, MOST_MESSAGE_BYTES, Seen, read_command
@@ -376,6 +377,17 @@ def test_answers_hold_what_guards_a_browser(page):
     assert "<script>" not in text
     assert "style=" not in text
     assert asyncio.run(ask(page, "/../server.py"))[0] == 404
+
+
+def test_a_tab_that_leaves_during_the_handshake_is_no_fault(page, caplog):
+    async def look():
+        for _ in range(50):
+            hang_up(f"{page.url}stream")
+        async with tab(page):
+            return
+
+    asyncio.run(look())
+    assert caplog.records == []
 
 
 def test_the_end_is_told_to_tabs(asked):
