@@ -10,6 +10,7 @@ from facegen.conventions import BLOCK
 from facegen.labels import label_keypoints
 from facegen.rigs import Rig
 from facegen.sampling import Samples, draw_samples, rig_of
+from facegen.store.arrow_arrays import arrow_array
 from facegen.store.columns import RIG
 from facegen.store.dataset import Dataset
 from facegen.store.keypoint_table import keypoint_table
@@ -48,6 +49,6 @@ def label_block(dataset: Dataset, block: int, drawn: dict[str, Samples]) -> pa.T
         keypoints = label_keypoints(spec, rig, samples)
         padded = np.pad(samples.identity, ((0, 0), (0, width - rig.components)))
         table = keypoint_table(spec, replace(samples, identity=padded), keypoints)
-        tables.append(table.append_column(RIG, pa.array([rig.name] * len(rows), RIG.type)))
+        tables.append(table.append_column(RIG, arrow_array(np.full(len(rows), rig.name), RIG.type)))
         order.append(rows)
-    return pa.concat_tables(tables).take(pa.array(np.argsort(np.concatenate(order))))
+    return pa.concat_tables(tables).take(arrow_array(np.argsort(np.concatenate(order)), pa.int64()))

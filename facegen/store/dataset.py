@@ -17,6 +17,7 @@ from facegen.spec import (
     sample_ranges,
     shares_of,
 )
+from facegen.store.arrow_arrays import arrow_array
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder, shard_samples
 from facegen.store.keypoint_table import column_array, keypoint_schema, read_shard
@@ -125,7 +126,7 @@ class Dataset:
         numbers = np.asarray(numbers, np.int64)
         for shard in np.unique(numbers // SHARD_ROWS):
             table = self.read_shard(self.folder.shard(int(shard)), columns)
-            yield table.take(pa.array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS))
+            yield table.take(arrow_array(numbers[numbers // SHARD_ROWS == shard] % SHARD_ROWS, pa.int64()))
 
     def read_shard(self, path: Path, columns: Sequence[str] | None = None) -> pa.Table:
         """Keypoint shard at a path in this dataset, or some of its columns.

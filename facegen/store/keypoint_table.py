@@ -11,6 +11,7 @@ from facegen.errors import InvalidData
 from facegen.labels import Keypoints, further_columns
 from facegen.sampling import Samples
 from facegen.spec import Spec, shares_of
+from facegen.store.arrow_arrays import DTYPES, arrow_array
 from facegen.store.columns import RIG, shard_columns
 
 MOST_ROW_BYTES = 16 * 1024
@@ -31,29 +32,8 @@ def keypoint_schema(spec: Spec, components: int) -> pa.Schema:
 def keypoint_table(spec: Spec, samples: Samples, keypoints: Keypoints) -> pa.Table:
     """Table of labelled samples; float64 becomes float32 here, cameras and times stay float64."""
     columns = shard_columns(samples.identity.shape[1], further_columns(spec))
-    arrays = [_arrow_array(column.values(samples, keypoints), column.kind) for column in columns]
+    arrays = [arrow_array(column.values(samples, keypoints), column.kind) for column in columns]
     return pa.table(arrays, schema=pa.schema([column.field for column in columns]))
-
-
-_NUMPY = {
-    pa.float32(): np.float32,
-    pa.float64(): np.float64,
-    pa.int32(): np.int32,
-    pa.int64(): np.int64,
-    pa.uint8(): np.uint8,
-    pa.bool_(): np.bool_,
-}
-
-
-def _arrow_array(values: np.ndarray, kind: pa.DataType) -> pa.Array:
-    if pa.types.is_string(kind):
-        return pa.array(values, type=kind)
-    if pa.types.is_fixed_size_list(kind):
-        flat = np.ascontiguousarray(values, dtype=_NUMPY[kind.value_type]).ravel()
-        return pa.FixedSizeListArray.from_arrays(pa.array(flat), type=kind)
-    if pa.types.is_list(kind):
-        return pa.array([[]] * len(values), type=kind)
-    return pa.array(np.ascontiguousarray(values, dtype=_NUMPY[kind]), type=kind)
 
 
 def write_shard(table: pa.Table, path: Path) -> None:
@@ -138,7 +118,7 @@ def column_array(table: pa.Table, name: str) -> np.ndarray:
     column = table.column(name).combine_chunks()
     field = table.schema.field(name)
     if pa.types.is_list(field.type):
-        return np.empty((len(column), 0), _NUMPY[field.type.value_type])
+        return np.empty((len(column), 0), DTYPES[field.type.value_type])
     if not pa.types.is_fixed_size_list(field.type):
         return column.to_numpy(zero_copy_only=False)
     shape = (field.metadata or {}).get(b"shape", str(field.type.list_size).encode()).decode()
