@@ -16,6 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.runtime.inputs import Fault
+from tests.lying_film import lying_film
 from tests.track.faces import film_of
 from tests.track.mjpeg_server import MANNERS, MjpegServer, mjpeg_server
 from tests.track.other_servers import SERVERS
@@ -203,6 +204,15 @@ def test_what_is_kept_can_come_again_and_again_while_time_goes_on(kind: str, fas
         assert (steps > 0).all()
         assert pictures[-1].time_s >= 12 / 30 - 1e-3
         assert 0 <= late_s < 1
+
+
+def test_a_film_is_turned_as_it_says(tmp_path: Path):
+    upright = np.zeros((96, 64, 3), np.uint8)
+    upright[:48] = 220
+    source = open_source(str(lying_film(tmp_path / "phone.mp4", [upright] * 3)), Pace(fast=True))
+    for picture in read_all(source):
+        assert picture.pixels.shape == upright.shape
+        assert np.abs(picture.pixels.astype(int) - upright).mean() < 10
 
 
 def test_a_film_that_is_gone_does_not_come_again(tmp_path: Path):

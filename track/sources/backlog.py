@@ -19,11 +19,17 @@ _STEPS = 9
 
 
 class Backlog:
-    """What one camera gave and nobody took, the oldest first; when it came is by ``time.monotonic``."""
+    """What one camera gave and nobody took, the oldest first; when it came is by ``time.monotonic``.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    step_s
+        From one picture to the next, where it is known before they come.
+    """
+
+    def __init__(self, step_s: float | None = None) -> None:
         self._waiting: deque[tuple[float, Picture]] = deque()
-        self._steps_s: deque[float] = deque(maxlen=_STEPS)
+        self._steps_s: deque[float] = deque([] if step_s is None else [step_s], maxlen=_STEPS)
         self._last_s: float | None = None
 
     def __len__(self) -> int:

@@ -63,7 +63,7 @@ class Camera:
         self._source = opener()
         self.title, self.live, self.endless = self._source.title, self._source.live, self._source.endless
         self.length_s = self._source.length_s
-        self.waiting = Backlog()
+        self.waiting = Backlog(self._source.step_s)
         self.fault: Enum | None = None
         self.ended = False
         self.error: InputError | None = None

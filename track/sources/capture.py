@@ -17,6 +17,10 @@ EMPTY_AFTER_S = 0.25
 """Without a picture for longer a sample without pictures comes, so that who waits can tell: 5 pictures a second, as
 webcams give in the dark, are 0.2 s apart."""
 
+EMPTY_AFTER_STEPS, EMPTY_WITHIN_S = 1.6, 2.0
+"""Of a slower camera: so many times its step, and no later. An ESP32's board gives two or three pictures a second, and
+a face that was gone between each two of them would hardly move."""
+
 WAIT_S = 0.02
 """For the other cameras, once one has a new picture; and how far apart pictures of films are, at most, that go
 together."""
@@ -25,7 +29,7 @@ LATE_S = 0.1
 """Older pictures do not go with the newest one: eyes and mouth would be of two faces."""
 
 _LOOK_EVERY_S = 0.25
-"""By which a wait for kept pictures sees that it was stopped; Windows gives a signal no other chance."""
+"""By which a wait sees that it was stopped; Windows gives a signal no other chance."""
 
 _LEAST_S = 1e-6
 
@@ -98,7 +102,7 @@ class Capture:
         Parameters
         ----------
         within_s
-            How long live cameras are waited for; `EMPTY_AFTER_S` by default.
+            How long live cameras are waited for; `EMPTY_AFTER_S` by default, and longer for slow ones.
 
         Returns
         -------
@@ -111,7 +115,7 @@ class Capture:
         InputError
             Where what comes is not what it should be, as standard input without points.
         """
-        until_s = time.monotonic() + (EMPTY_AFTER_S if within_s is None else within_s)
+        until_s = time.monotonic() + (self._empty_after_s() if within_s is None else within_s)
         with self._news:
             while True:
                 self._raise_errors()
@@ -121,7 +125,7 @@ class Capture:
                 if wait_s is not None and wait_s <= 0:
                     return self._sample()
                 caught_up = not any(camera.waiting for camera in self._cameras.values())
-                self._news.wait(_LOOK_EVERY_S if wait_s is None else wait_s)
+                self._news.wait(_LOOK_EVERY_S if wait_s is None else min(wait_s, _LOOK_EVERY_S))
                 if caught_up:
                     self._caught_up_s = time.monotonic()
 
@@ -156,6 +160,14 @@ class Capture:
         if new:
             until_s = min(camera.waiting.came_s for camera in new) + WAIT_S
         return until_s - time.monotonic()
+
+    def _empty_after_s(self) -> float:
+        """By the quickest camera that is well."""
+        well = [each for each in self._cameras.values() if not each.ended and each.trouble() is None]
+        step_s = min((each.waiting.step_s for each in well), default=np.inf)
+        if not np.isfinite(step_s):
+            return EMPTY_AFTER_S
+        return float(np.clip(EMPTY_AFTER_STEPS * step_s, EMPTY_AFTER_S, EMPTY_WITHIN_S))
 
     def _awaited(self) -> bool:
         """Whether a camera has no picture yet from which one is expected."""

@@ -47,9 +47,9 @@ class Film(Source):
         if self._film is None:
             raise CameraError(f"{path} is no film that can be read; .mp4, .avi, .mkv, .mov and .webm can")
         fps = self._film.get(cv2.CAP_PROP_FPS)
-        self._step_s = 1 / fps if math.isfinite(fps) and fps > 0 else 1 / _TYPICAL_FPS
+        self.step_s = 1 / fps if math.isfinite(fps) and fps > 0 else 1 / _TYPICAL_FPS
         count = self._film.get(cv2.CAP_PROP_FRAME_COUNT)
-        self.length_s = count * self._step_s if math.isfinite(count) and count > 0 and not again else None
+        self.length_s = count * self.step_s if math.isfinite(count) and count > 0 and not again else None
         self._next_s = self._last_s = self._before_s = 0.0
         self._begun_s: float | None = None
 
@@ -64,7 +64,7 @@ class Film(Source):
         # containers without times have 0 for all
         known = math.isfinite(told_s) and (told_s > 0 or self._next_s == 0)
         self._last_s = self._before_s + told_s if known else self._next_s
-        self._next_s = self._last_s + self._step_s
+        self._next_s = self._last_s + self.step_s
         if self.live:
             if self._begun_s is None:
                 self._begun_s = time.monotonic() - self._last_s

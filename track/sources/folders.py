@@ -59,7 +59,7 @@ class Folder(Source):
         numbers: range | None = None,
     ) -> None:
         self.title, self.live = folder.name or str(folder), not fast
-        self._folder, self._step_s, self._again = folder, 1 / fps, again
+        self._folder, self.step_s, self._again = folder, 1 / fps, again
         self._given: _Natural = []
         self._own_numbers: range | None = None
         self._waiting = self._listed()
@@ -69,7 +69,7 @@ class Folder(Source):
         known = self._own_numbers is not None
         self._numbers = (numbers or self._own_numbers) if known else range(len(self._waiting))
         self._expected = self._numbers.start if known else None
-        self.length_s = None if again else len(self._numbers) * self._step_s
+        self.length_s = None if again else len(self._numbers) * self.step_s
         self._next_s = self._last_s = 0.0
         self._begun_s: float | None = None
         self._stopped = threading.Event()
@@ -83,9 +83,9 @@ class Folder(Source):
             time.sleep(_LOOK_EVERY_S)
         if self.live:
             self._stopped.wait(max(0.0, self._next_s - self.now_s()))
-            if self.now_s() > self._next_s + self._step_s:  # it was not there when it was due
+            if self.now_s() > self._next_s + self.step_s:  # it was not there when it was due
                 self._next_s = self.now_s()
-        self._last_s, self._next_s = self._next_s, self._next_s + self._step_s
+        self._last_s, self._next_s = self._next_s, self._next_s + self.step_s
         pixels = found[0]
         fault = CameraFault.UNREADABLE if pixels is None else None
         return Picture(time_s=self._last_s, pixels=pixels, fault=fault)
@@ -133,7 +133,7 @@ class Folder(Source):
     def _pass_over(self, number: int | None) -> None:
         """Leave the time of pictures that are missing before one of this number."""
         if number is not None and self._expected is not None:
-            self._next_s += max(0, number - self._expected) * self._step_s
+            self._next_s += max(0, number - self._expected) * self.step_s
 
     def _listed(self) -> list[Path]:
         """Pictures that come behind the last one that was given."""

@@ -32,6 +32,8 @@ def opened(place: str | int, backend: int) -> cv2.VideoCapture | None:
     if not capture.isOpened() or pixels > MOST_PIXELS:
         capture.release()
         return None
+    # telephones write films as the sensor lies, and how to turn them; OpenCV 4.11 does so for who asks
+    capture.set(cv2.CAP_PROP_ORIENTATION_AUTO, 1)
     return capture
 
 

@@ -44,6 +44,8 @@ class Source:
         Whether no end is foreseen: a camera that gives no more has a fault and is opened again, a film is over.
     length_s
         How long all of its pictures last; None where no end is foreseen, or nobody knows it.
+    step_s
+        From one picture to the next; None where only pictures will tell.
     ends_within_s
         How long `read` may go on after someone wants it closed.
     """
@@ -52,6 +54,7 @@ class Source:
     live: bool = True
     endless: bool = True
     length_s: float | None = None
+    step_s: float | None = None
     ends_within_s: float = (
         15.0  # a driver that hangs gives up after ten seconds (OpenCV's wait for Video4Linux)
     )

@@ -123,7 +123,7 @@ def read_recording(
     if not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS:
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
     check_film_path(path)
-    film = cv2.VideoCapture(os.fspath(path))
+    film = _opened(path)
     try:
         fps = film.get(cv2.CAP_PROP_FPS)
         fitted = [
@@ -155,7 +155,7 @@ def recorded_size(path: Path) -> tuple[int, int]:
                     return size[0], size[1]
         raise InputError(f"{path} has no picture that can be read")
     check_film_path(path)
-    film = cv2.VideoCapture(os.fspath(path))
+    film = _opened(path)
     try:
         width, height = (
             int(film.get(side)) for side in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT)
@@ -220,6 +220,13 @@ def _pictures_in(folder: Path) -> list[Path]:
 def _check_count(frames: int, path: Path) -> None:
     if frames > MOST_FRAMES:
         raise InputError(f"{path} has more than {MOST_FRAMES:,} frames of a camera; give it in parts")
+
+
+def _opened(path: Path) -> cv2.VideoCapture:
+    """A film whose pictures are turned as it says: telephones write them as the sensor lies."""
+    film = cv2.VideoCapture(os.fspath(path))
+    film.set(cv2.CAP_PROP_ORIENTATION_AUTO, 1)
+    return film
 
 
 def _film_frames(film: cv2.VideoCapture, path: Path) -> Iterator[np.ndarray]:

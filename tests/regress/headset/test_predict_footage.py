@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from regress.errors import InputError
 from regress.runtime.headset.faults import FROZEN_FRAMES, Fault, FrozenWatch, fault_sentences, picture_fault
 from regress.runtime.headset.footage import Footage, line_up
-from regress.runtime.headset.recordings import Recording, read_recording, read_rendered
+from regress.runtime.headset.recordings import Recording, read_recording, read_rendered, recorded_size
+from tests.lying_film import lying_film
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 
 SIZES = {"left_eye": (WIDTH, HEIGHT), "right_eye": (WIDTH, HEIGHT), "mouth": (WIDTH, HEIGHT)}
@@ -235,6 +236,16 @@ def test_films_are_read_with_their_rate(tmp_path: Path):
     assert found.pictures.mean(axis=(1, 2)) == pytest.approx(stack.mean(axis=(1, 2)), abs=2)
     footage = line_up({"left_eye": found}, SIZES)
     assert footage.time_s == pytest.approx(np.arange(12) / 25)
+
+
+def test_a_film_is_turned_as_it_says(tmp_path: Path):
+    upright = np.zeros((8 * HEIGHT, 8 * WIDTH, 3), np.uint8)
+    upright[: 4 * HEIGHT] = 220
+    film = lying_film(tmp_path / "eye.mp4", [upright] * 2)
+    assert recorded_size(film) == (8 * WIDTH, 8 * HEIGHT)
+    found = read_recording(film, "left_eye", width=WIDTH, height=HEIGHT)
+    assert (found.pictures[:, : HEIGHT // 2 - 2] > 200).all()
+    assert (found.pictures[:, HEIGHT // 2 + 2 :] < 20).all()
 
 
 @pytest.mark.parametrize(
