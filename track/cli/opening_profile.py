@@ -9,8 +9,8 @@ import numpy as np
 from track.cli.opening import Wishes
 from track.errors import InputError
 from track.profile.neutral import NeutralFace
-from track.profile.places import person_of, profile_path
-from track.profile.profile import Profile, read_profile
+from track.profile.places import person_of, profile_path, read_stored
+from track.profile.profile import Profile
 
 if TYPE_CHECKING:
     from track.session.pipeline import Pipeline
@@ -36,7 +36,7 @@ def open_profile(
     profile = Profile(person=person_of(path)[:64], camera=camera[:200])
     stored = profile
     if path.is_file():
-        stored = read_profile(path)
+        stored = read_stored(path)
         profile = fitted(stored, pipeline, path, say)
     elif wishes.profile is not None and wishes.profile.endswith(".toml"):
         say(f"{path} does not exist yet; calibrating makes it")

@@ -20,6 +20,9 @@ def list_profiles() -> None:
 
     found = stored_profiles()
     for name, profile in found.items():
+        if profile is None:
+            typer.echo(one_line(f"{name}  cannot be read; `track profiles delete {name}` removes it"))
+            continue
         known = ["neutral face"] if profile.neutral is not None else []
         known += [f"{len(profile.ranges)} ranges"] if profile.ranges else []
         known += ["blinks"] if profile.blinks else []
@@ -36,11 +39,10 @@ def show(name: NameArgument) -> None:
     Example: track profiles show me
     """
     from facegen.console import one_line
-    from track.profile.places import stored_path
-    from track.profile.profile import read_profile
+    from track.profile.places import read_stored, stored_path
 
     path = stored_path(name)
-    profile = read_profile(path)
+    profile = read_stored(path)
     who = one_line(f"{profile.person}, {profile.camera}")
     typer.echo(f"{path}: {who}{', mirrored' if profile.mirror else ''}")
     if profile.model is not None:

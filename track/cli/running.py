@@ -49,8 +49,12 @@ def run_session(wishes: Wishes, options: RunOptions, say: Callable[[str], None])
     with contextlib.ExitStack() as closing:
         targets = named_targets(options.to, options.record, options.retarget)
         check_files(targets, wishes, texts, options.avatar)
-        sinks = open_sinks(targets, say, closing)
-        session, capture = open_session(wishes, texts, sinks, say, closing, options=options, must_keep=False)
+        with contextlib.ExitStack() as opened:
+            sinks = open_sinks(targets, say, closing, opened)
+            session, capture = open_session(
+                wishes, texts, sinks, say, closing, options=options, must_keep=False
+            )
+            opened.pop_all()  # they are the session's now
         screen = _open_page(options, session, texts, say, closing) if options.page else None
         with ended_by_signals(session, capture), contextlib.ExitStack() as showing:
             if screen is None and wishes.fast and capture.length_s is not None:

@@ -3,6 +3,7 @@
 import contextlib
 import os
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 RECORDINGS = {".csv": "csv", ".glb": "gltf", ".vrma": "vrma"}
 """Sinks by a recording's ending."""
 
-NAMED = ("csv:", "gltf:")
+NAMED = ("csv", "gltf")
 """Sinks that take any other avatar's names."""
 
 MODEL_FILES = ("model.json", "weights.npz", "network.onnx")
@@ -35,19 +36,29 @@ def named_targets(
     InputError
         Where a sink is not known, or its address or an option cannot be used.
     """
-    from track.sinks.targets import parse_target
+    from track.sinks.targets import Target, parse_target
 
-    written = [("--to", each) for each in to]
+    targets = [("--to", parse_target(each)) for each in to]
     for path in record:
         if path.suffix not in RECORDINGS:
             raise InputError(f"--record {path}: a recording ends with {', '.join(RECORDINGS)}")
-        written.append(("--record", f"{RECORDINGS[path.suffix]}:{path}"))
-    if retarget is not None:
-        written = [
-            (option, f"{each},names={retarget}" if each.startswith(NAMED) else each)
-            for option, each in written
-        ]
-    return [(option, parse_target(each)) for option, each in written]
+        targets.append(("--record", Target(name=RECORDINGS[path.suffix], place=str(path))))
+    if retarget is None:
+        return targets
+    if not any(target.name in NAMED for _, target in targets):
+        raise InputError(
+            f"--retarget {retarget} is for tables and animations, and none is written; --record FILE.csv or FILE.glb "
+            "writes one"
+        )
+    return [
+        (
+            option,
+            replace(target, options={"names": retarget, **target.options})
+            if target.name in NAMED
+            else target,
+        )
+        for option, target in targets
+    ]
 
 
 def paths_of(targets: "Sequence[tuple[str, Target]]") -> set[Path]:
@@ -88,9 +99,12 @@ def check_files(
 
 
 def open_sinks(
-    targets: "Sequence[tuple[str, Target]]", say: Callable[[str], None], closing: contextlib.ExitStack
+    targets: "Sequence[tuple[str, Target]]",
+    say: Callable[[str], None],
+    closing: contextlib.ExitStack,
+    opened: contextlib.ExitStack,
 ) -> "list[Sink]":
-    """Sinks as they were written; ``closing`` says at its end which files are there.
+    """Sinks as they were written; ``closing`` says at its end which files are there, and ``opened`` lets all sinks go.
 
     Raises
     ------
@@ -103,6 +117,7 @@ def open_sinks(
     for _, target in targets:
         replaces = target.is_file and target.path.is_file()
         sinks.append(open_sink(target, say))
+        opened.callback(sinks[-1].close)
         if target.is_file:
             closing.push(partial(_tell_whole, target, say))
         say(f"sending {target.title}{', in place of the file that is there' * replaces}")

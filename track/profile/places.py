@@ -1,5 +1,6 @@
 """Where profiles lie: one file a person and camera in the user's configuration folder, or any file that is named."""
 
+import hashlib
 import re
 from pathlib import Path
 
@@ -52,15 +53,32 @@ def person_of(path: Path) -> str:
     return path.name.removesuffix(ENDING).split(".")[0] or DEFAULT_PERSON
 
 
-def stored_profiles() -> dict[str, Profile]:
-    """Profiles of the folder by their names; those that cannot be read are left out."""
-    found = {}
+def stored_profiles() -> dict[str, Profile | None]:
+    """Profiles of the folder by their names; None for those that cannot be read."""
+    found: dict[str, Profile | None] = {}
     for path in sorted(profile_folder().glob(f"*{ENDING}")):
         try:
             found[path.name.removesuffix(ENDING)] = read_profile(path)
         except InputError:
-            continue
+            found[path.name.removesuffix(ENDING)] = None
     return found
+
+
+def read_stored(path: Path) -> Profile:
+    """Read a profile; of a damaged one in the folder it is said what removes it.
+
+    Raises
+    ------
+    InputError
+        Where it cannot be read.
+    """
+    try:
+        return read_profile(path)
+    except InputError as error:
+        if path.parent != profile_folder():
+            raise
+        name = path.name.removesuffix(ENDING)
+        raise InputError(f"{error}; `track profiles delete {name}` removes it") from error
 
 
 def stored_path(name: str) -> Path:
@@ -114,5 +132,6 @@ def _names_itself(name: str) -> bool:
 
 
 def _as_name(camera: str) -> str:
-    """A camera's title as part of a file's name."""
-    return re.sub(r"[^A-Za-z0-9_-]+", "-", camera).strip("-")[:80].lower() or "camera"
+    """A camera's title as part of a file's name: in ASCII, and with a mark where other letters are lost."""
+    name = re.sub(r"[^A-Za-z0-9_-]+", "-", camera).strip("-")[:80].lower() or "camera"
+    return name if camera.isascii() else f"{name}-{hashlib.sha256(camera.encode()).hexdigest()[:8]}"

@@ -82,6 +82,10 @@ CASES = {
         ["--camera", MOUTH, "--record", "take.csv", "--retarget", "robot", "--no-page"],
         "robot",
     ),
+    "a retargeting of nothing that is written": (
+        ["--camera", MOUTH, "--to", "vmc", "--retarget", "vrm1", "--no-page"],
+        "none is written",
+    ),
     "two cameras of a landmark model": (["--camera", "0", "--camera", "1"], "2 cameras are given"),
     "a headset's camera without a name": (
         ["--model", "headset-tracking3", "--camera", "0"],

@@ -79,7 +79,7 @@ def test_a_take_of_the_page_leaves_the_names_of_recordings_that_come_at_the_end(
     said: list[str] = []
     wishes, options = Wishes(cameras=("-",), fast=True), RunOptions(record=[Path("track-001.csv")])
     with contextlib.ExitStack() as closing:
-        sinks = open_sinks(named_targets(record=options.record), said.append, closing)
+        sinks = open_sinks(named_targets(record=options.record), said.append, closing, contextlib.ExitStack())
         session, _ = open_session(wishes, {"camera": "-"}, sinks, said.append, closing, options=options)
         session.ask(Command(verb="record", value=True))
         session.answer(frames(0, 1)[0])
@@ -98,3 +98,9 @@ def test_lines_that_come_from_a_file_stay(tmp_path):
     assert ended.returncode == 2, ended.stderr
     assert "is also what is read" in ended.stderr
     assert (tmp_path / "take.csv").read_text() == "1 2 3\n"
+
+
+def test_a_recording_s_name_has_any_commas_and_a_retargeting_beside_it():
+    (told,) = named_targets(record=[Path("take,v=1.csv")], retarget="vrm1")
+    assert told[1].path == Path("take,v=1.csv")
+    assert told[1].options == {"names": "vrm1"}

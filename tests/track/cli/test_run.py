@@ -16,6 +16,7 @@ import pytest
 from tests.track.session.faces import SAMPLES, frames
 from track.cli import main
 from track.cli.opening import Wishes, open_pipeline
+from track.cli.running import RunOptions, run_session
 from track.errors import InputError
 from track.messages import Command
 from track.session.session import Session
@@ -93,6 +94,21 @@ def test_a_detector_is_closed_where_the_rest_cannot_be_opened(monkeypatch):
     with pytest.raises(InputError, match="no filter 'smooth'"):
         open_pipeline(Wishes(cameras=("-",), filter_name="smooth"), {"camera": "-"}, pytest.fail)
     assert len(closed) == 1
+
+
+def test_recordings_of_a_start_that_was_stopped_leave_nothing(home, monkeypatch):
+    held = []
+
+    def interrupted(wishes, texts, sinks, *_, **__):
+        held.extend(sinks)  # or the garbage collector would clean up
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("track.cli.running.open_session", interrupted)
+    options = RunOptions(record=[Path("a.csv"), Path("b.glb")], page=False)
+    with pytest.raises(KeyboardInterrupt):
+        run_session(Wishes(cameras=("take.mp4",)), options, lambda said: None)
+    assert len(held) == 2
+    assert [path.name for path in home.iterdir() if "part" in path.name] == []
 
 
 def test_a_film_that_is_over_takes_the_page_along_and_says_so(home, capsys, monkeypatch):

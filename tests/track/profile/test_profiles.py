@@ -144,6 +144,8 @@ def test_each_person_and_camera_has_a_file(folder):
     assert profile_path("anna", "http://host/x?y") == folder / "anna.http-host-x-y.toml"
     assert profile_path("here/p.toml", "camera 0").name == "p.toml"
     assert person_of(folder / "anna.camera-0.toml") == "anna"
+    titles = ["USB摄像头", "USB相机", "Веб-камера", "カメラ", "映.mp4", "像.mp4"]
+    assert len({profile_path(None, title) for title in titles}) == len(titles)
     with pytest.raises(InputError, match="neither a file"):
         profile_path("../anna", "camera 0")
 
@@ -166,7 +168,9 @@ def test_stored_profiles_are_found_by_their_person(folder):
         write_profile(profile_path("anna", camera), Profile(person="anna", camera=camera))
     write_profile(profile_path("ben", "camera 0"), Profile(person="ben", camera="camera 0"))
     (folder / "broken.toml").write_text("x = [")
-    assert list(stored_profiles()) == ["anna.camera-0", "anna.camera-1", "ben.camera-0"]
+    found = stored_profiles()
+    assert list(found) == ["anna.camera-0", "anna.camera-1", "ben.camera-0", "broken"]
+    assert [name for name, profile in found.items() if profile is None] == ["broken"]
     assert stored_path("ben") == folder / "ben.camera-0.toml"
     with pytest.raises(InputError, match="2 profiles"):
         stored_path("anna")
@@ -180,6 +184,13 @@ def test_blinks_are_listed_and_shown(folder):
     )
     assert listed.split() == ["anna.x", "x", "blinks"]
     assert shown.splitlines()[1].split() == ["blink", "eyeBlinkLeft", "0.55", "(open", "0.10)"]
+
+
+def test_of_a_damaged_profile_it_is_said_what_removes_it(folder):
+    (folder / "anna.x.toml").write_text("x = [")
+    listed, shown = (CliRunner().invoke(app, ["profiles", *words]) for words in (["list"], ["show", "anna"]))
+    for told in (listed.stdout, str(shown.exception)):
+        assert "`track profiles delete anna.x` removes it" in told
 
 
 def test_a_file_that_is_no_profile_is_not_deleted(folder):
