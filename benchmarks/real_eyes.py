@@ -8,10 +8,10 @@ Each network sees the films as `regress headset predict` would show them: at the
 finds from the frames alone, with levels of their own; and as they come, squeezed into the network's square, for a row
 of what is lost without. A network's right eye is its left one in a mirror, so each film goes in as either.
 
-The pupil's error is the median distance after an affine fit to the marks (six numbers for 28 frames), r the correlation
-of x and of y with them. A frame without a pupil is told from the others by eyeBlink and by the traced lids' distance;
-AUC 1 is without an error. Film b's eye is shut there. Film a's looks far up, with its white in sight, and eyeBlink has
-no reason to rise. Prints Markdown, which stands in docs/your-camera.md.
+The pupil's errors are median distances, as traced and after an affine fit to the marks (six numbers for 28 frames), r
+the correlation of x and of y with them. A frame without a pupil is told from the others by eyeBlink and by the traced
+lids' distance; AUC 1 is without an error. Film b's eye is shut there. Film a's looks far up, with its white in sight,
+and eyeBlink has no reason to rise. Prints Markdown, which stands in docs/your-camera.md.
 """
 
 import argparse
@@ -71,8 +71,8 @@ def main() -> None:
     arguments = parser.parse_args()
     films = {name: read_film(arguments.real / "eyes" / name) for name in FILMS}
     print(
-        "| film | what | view | pupil r (x, y) | error % of width | shut told by eyeBlink, lids (AUC) | "
-        "eyeBlink shut, open |"
+        "| film | what | view | pupil r (x, y) | error % of width: as traced, fitted | "
+        "shut told by eyeBlink, lids (AUC) | eyeBlink shut, open |"
     )
     print("|---|---|---|---|---|---|---|")
     for number, model in enumerate(arguments.models):
@@ -181,7 +181,8 @@ def row(
         found = marked & np.isfinite(pupils).all(axis=1)
         r, error = pupil_figures(pupils[found], film.pupils[found], film.pictures.shape[2])
         lost = f" ({(marked & ~found).sum()} lost)" if (marked & ~found).any() else ""
-        cells += [f"{r[0]:.3f}, {r[1]:.3f}", f"{error:.2f}{lost}"]
+        raw = error_percent(pupils[found], film.pupils[found], film.pictures.shape[2])
+        cells += [f"{r[0]:.3f}, {r[1]:.3f}", f"{raw:.2f}, {error:.2f}{lost}"]
     else:
         cells += ["", ""]
     if blinks is None or apart is None:
@@ -201,7 +202,12 @@ def pupil_figures(found: np.ndarray, true: np.ndarray, width: int) -> tuple[np.n
     design = np.column_stack([found, np.ones(len(found))])
     fitted = design @ np.linalg.lstsq(design, true, rcond=None)[0]
     r = np.array([np.corrcoef(fitted[:, axis], true[:, axis])[0, 1] for axis in (0, 1)])
-    return r, 100 * float(np.median(np.linalg.norm(fitted - true, axis=1))) / width
+    return r, error_percent(fitted, true, width)
+
+
+def error_percent(found: np.ndarray, true: np.ndarray, width: int) -> float:
+    """Median error in percent of the width."""
+    return 100 * float(np.median(np.linalg.norm(found - true, axis=1))) / width
 
 
 def area_under_curve(high: np.ndarray, low: np.ndarray) -> float:

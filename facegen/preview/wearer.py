@@ -87,8 +87,15 @@ def seen_landmarks(wearer: Wearer, view: View) -> tuple[np.ndarray, np.ndarray]:
     return landmarks_px, seen
 
 
+_EYES = {"left": slice(42, 48), "right": slice(36, 42)}
+"""Landmarks of the wearer's eyes."""
+
+
 def placement_faults(wearer: Wearer) -> list[str]:
-    """Sentences about cameras that cannot do their work: inside the head or behind its face, or without a landmark."""
+    """Sentences about cameras and LEDs that cannot do their work.
+
+    They stand inside the head or behind its face, or a camera sees no landmark, or the eye that its name does not say.
+    """
     faults = []
     for index, camera in enumerate(wearer.headset.cameras):
         view = next(view for view in wearer.views if view.name == camera.name)
@@ -99,10 +106,27 @@ def placement_faults(wearer: Wearer) -> list[str]:
                 f"cameras[{index}] ({camera.name}) stands {1e3 * (depth - place[2]):.0f} mm behind the mean face's "
                 "skin; move position_mm out along z"
             )
-        elif not seen_landmarks(wearer, view)[1].any():
+            continue
+        seen = seen_landmarks(wearer, view)[1]
+        if not seen.any():
             faults.append(
                 f"cameras[{index}] ({camera.name}) sees none of the mean face's 68 landmarks; check target_mm, "
                 "roll_deg and fx"
+            )
+        counts = {side: seen[eye].sum() for side, eye in _EYES.items()}
+        named = [side for side in _EYES if camera.name.lower().startswith(side)]
+        if named and counts[named[0]] < max(counts.values()):
+            faults.append(
+                f"cameras[{index}] ({camera.name}) sees more of the other eye; x is positive to the wearer's left, so "
+                "check position_mm and target_mm, or its name"
+            )
+    for index, led in enumerate(wearer.headset.leds):
+        place = (wearer.head_from_headset @ np.append(led.position, 1.0))[:3]
+        depth = _skin_depth_m(wearer, place)
+        if depth > place[2]:
+            faults.append(
+                f"leds[{index}] ({led.name}) stands {1e3 * (depth - place[2]):.0f} mm behind the mean face's skin; "
+                "move position_mm out along z"
             )
     return faults
 

@@ -98,5 +98,13 @@ def calibrate(
         say(note)
     write_person(out, person)
     said = ", ".join(f"{name} {value:.2f}" for name, value in person.full.items())
-    learned = f"a full movement reads {said}" if said else "only the face at rest was learned from"
-    say(f"{out}: {learned}; give it to `regress headset predict --person {out}`")
+    learned = [f"a full movement reads {said}"] if said else []
+    learned += [
+        f"gaze of {name} is off its targets by {eye.error_deg:.1f} degrees"
+        if looked_at
+        else f"gaze of {name} is centred"
+        for name, eye in person.eyes.items()
+        if eye.direct is not None
+    ]
+    told = ", ".join(learned) or "only the face at rest was learned from"
+    say(f"{out}: {told}; give it to `regress headset predict --person {out}`")

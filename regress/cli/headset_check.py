@@ -1,14 +1,20 @@
 """``regress headset check``: whether a headset's frames fit a model, and where in them to look."""
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from regress.cli.options import BitsOption, CameraOption, LeftEyeOption, MouthOption, RightEyeOption
 from regress.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from regress.runtime.headset.fitness import CameraFitness
+    from regress.runtime.headset.predictor import HeadsetPredictor
 
 
 def check(
@@ -42,7 +48,6 @@ def check(
     from regress.runtime.headset.faults import fault_sentences
     from regress.runtime.headset.fitness import judge
     from regress.runtime.headset.fitness_sheet import fitness_sheet
-    from regress.runtime.headset.placement import CameraPlacement
     from regress.runtime.headset.placement_file import Placement, write_placement
     from regress.runtime.headset.predictor import load_headset_predictor
     from regress.runtime.headset.recordings import read_recording, recorded_size
@@ -106,15 +111,35 @@ def check(
                 network_sha256=found_with.network_sha256,
             ),
         )
-        needed = any(place != CameraPlacement() for place in cameras.values())
-        say(
-            f"placement in {out}; look at --sheet, then give it to `regress headset predict --placement {out}`"
-            if needed
-            else f"placement in {out}: all of each picture, as without it, so predict needs none; look at --sheet"
-        )
+        say(f"placement in {out}{_what_next(predictor, judged, footage, out)}")
     if sheet is not None:
         write_whole(sheet, fitness_sheet(predictor, footage, judged))
         say(f"sheet in {sheet}")
+
+
+def _what_next(
+    predictor: "HeadsetPredictor",
+    judged: "Sequence[CameraFitness]",
+    footage: "Mapping[str, np.ndarray]",
+    out: Path,
+) -> str:
+    """What to do with a placement that was written."""
+    from regress.runtime.headset.misfits import Misfit
+    from regress.runtime.headset.pictures import has_shape_of
+    from regress.runtime.headset.placement import CameraPlacement
+
+    placed = any(
+        one.placement != CameraPlacement()
+        or not has_shape_of(footage[one.camera].shape[:0:-1], predictor.sizes[one.camera])
+        for one in judged
+    )
+    if placed:
+        return f"; look at --sheet, then give it to `regress headset predict --placement {out}`"
+    if any(found.misfit in (Misfit.TURNED, Misfit.LOST) for one in judged for found in one.findings):
+        return (
+            ": all of each picture, as nothing better was found; mend what is said above, and look at --sheet"
+        )
+    return ": all of each picture, as without it, so predict needs none; look at --sheet"
 
 
 def _refuse_recorded(recordings: Iterable[Path], written: dict[str, Path | None]) -> None:

@@ -116,6 +116,8 @@ def targets_of(named: Sequence[str]) -> dict[int, tuple[float, float]]:
             raise InputError(
                 f"--looked-at {text!r} is not FRAME:YAW:PITCH with angles up to {_FARTHEST_DEG:g} degrees, as 120:-10:5"
             )
+        if int(frame) in targets:
+            raise InputError(f"--looked-at names frame {int(frame)} twice; a frame shows one look")
         targets[int(frame)] = (yaw, pitch)
     return targets
 

@@ -156,7 +156,9 @@ def read_minute(
 
 def _within(numbers: np.ndarray, first: int, last: int, option: str) -> np.ndarray:
     """Which frames of a take lie between two that it has."""
-    if not numbers.min() <= first <= last <= numbers.max():
+    if first > last:
+        raise InputError(f"{option}: {first}-{last} runs backwards; write {last}-{first}")
+    if not (numbers.min() <= first and last <= numbers.max()):
         raise InputError(f"{option}: the take has frames {numbers.min()}-{numbers.max()}")
     return (numbers >= first) & (numbers <= last)
 

@@ -66,7 +66,11 @@ def interface_of(model: HeadsetModel, *, graph: str) -> dict[str, Any]:
         "camera_terms": list(model.camera_terms),
         "points": {name: list(points) for name, points in model.points.items()},
         "levels": {
-            name: {"low": [looks.low[0], looks.low[-1]], "high": [looks.high[0], looks.high[-1]]}
+            name: {
+                "low": [looks.low[0], looks.low[-1]],
+                "high": [looks.high[0], looks.high[-1]],
+                "middle": [looks.low[1], looks.high[1]],  # what a placement's low and high become
+            }
             for name, looks in model.looks.items()
         },
         "temporal": _temporal(model),

@@ -14,7 +14,7 @@ from regress.runtime.headset.looks import TakeLooks, looks_of
 from regress.runtime.headset.misfits import Finding, Misfit, light_findings, lost, place_findings, turned
 from regress.runtime.headset.orientation import told_orientation
 from regress.runtime.headset.parts import mirror_partner
-from regress.runtime.headset.pictures import ASPECT
+from regress.runtime.headset.pictures import has_shape_of
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_search import find_placement
 from regress.runtime.headset.predictor import HeadsetPredictor
@@ -99,8 +99,7 @@ def _judge_camera(
     elif told is not None:
         findings.append(turned(name, told))
     misplaced = any(one.misfit in _PLACES for one in findings)
-    same_shape = abs(pictures.shape[2] * height / (pictures.shape[1] * width) - 1) <= ASPECT
-    if same_shape and not misplaced:
+    if has_shape_of((pictures.shape[2], pictures.shape[1]), (width, height)) and not misplaced:
         # within what people of the training differ by: a network that knows them gains nothing by being moved
         placement = CameraPlacement()
     if not (known.low[0] <= looks.low <= known.low[2] and known.high[0] <= looks.high <= known.high[2]):
@@ -153,7 +152,8 @@ def _told_apart(judged: list[CameraFitness], footage: Mapping[str, np.ndarray]) 
             text = (
                 f"{name} and {partner} show the same eye: one is of the other eye; check the paths and the cables"
                 if same
-                else f"{name} and {partner} are exchanged, or both mirrored; exchange their paths, or take --placement"
+                else f"{name} and {partner} are exchanged, or both mirrored; exchange their paths, or take --placement "
+                "where the pictures are mirrored: of exchanged cables it would turn gaze to the wrong side"
             )
             for each in (one, other):
                 kept = [f for f in each.findings if f.misfit is not Misfit.MIRRORED]

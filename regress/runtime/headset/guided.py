@@ -34,6 +34,9 @@ _FULL = 0.6
 _SHUT = 0.7
 """Of the lids' distance at rest, above which lids are not shut, or not seen."""
 
+_MISSED_DEG = 8.0
+"""Off its targets by more than this a gaze is of other targets: eyes miss by 3 degrees in headsets that were drawn."""
+
 _LEAST_REST = 0.005
 """Reading at rest below which a shape is left out of the file."""
 
@@ -231,6 +234,11 @@ def _own_eye(
             "traced_share": float(own.shares[0]) if own.decided else 0.0,
             "error_deg": own.error_deg,
         }
+        if own.error_deg > _MISSED_DEG:
+            notes.append(
+                f"look: {camera} is off its targets by {own.error_deg:.0f} degrees even so; are their signs (left and "
+                f"up are positive) and frame numbers right?"
+            )
     return OwnEye(
         shut_mm=shut,
         rest_mm=rest,

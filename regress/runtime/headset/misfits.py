@@ -94,7 +94,8 @@ def light_findings(name: str, looks: TakeLooks, known: CameraLooks) -> Iterator[
             sentence=f"{name} is soft: its detail is {looks.sharpness:.3f} of its contrast, training's "
             f"{known.sharpness[0]:.3f} to {known.sharpness[2]:.3f}; focus or clean the lens, or compress less",
         )
-    if looks.rim > known.rim[2] + _RIM:
+    # a dark picture's corners are as dark as a rim
+    if looks.rim > known.rim[2] + _RIM and looks.high >= _DARKER * known.high[0]:
         yield Finding(
             camera=name,
             misfit=Misfit.RIM,
@@ -153,8 +154,8 @@ def place_findings(
         yield Finding(
             camera=name,
             misfit=Misfit.MIRRORED,
-            sentence=f"{name} is mirrored, or of the other eye; check which camera is which, or take --placement, "
-            f"which mirrors it",
+            sentence=f"{name} is mirrored, or of the other eye; give the other eye's pictures as that eye's, or take "
+            f"--placement where the camera mirrors: of the other eye it would turn gaze to the wrong side",
         )
     if told is not None and not (upside_down or sideways or placement.mirror):
         yield turned(name, told)
@@ -199,4 +200,8 @@ def lost(name: str) -> Finding:
 
 def turned(name: str, told: str) -> Finding:
     """The finding of a camera of which mean pictures say that it is turned or mixed up."""
-    return Finding(camera=name, misfit=Misfit.TURNED, sentence=f"{name} is turned or mixed up: {told}")
+    return Finding(
+        camera=name,
+        misfit=Misfit.TURNED,
+        sentence=f"{name} is turned or mixed up: {told} If it is turned, write roll_deg (180, 90 or -90) into --out",
+    )

@@ -109,6 +109,11 @@ def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
     return (grey >> (bits - 8)).astype(np.uint8)
 
 
+def has_shape_of(picture: tuple[int, int], view: tuple[int, int]) -> bool:
+    """Whether a picture only needs scaling to become a view; both are (width, height)."""
+    return abs(picture[0] * view[1] / (picture[1] * view[0]) - 1) <= ASPECT
+
+
 def fit_picture(
     grey: np.ndarray, *, width: int, height: int, placement: CameraPlacement | None = None
 ) -> FittedPicture:
@@ -119,10 +124,10 @@ def fit_picture(
         grey = placement.view(grey, width=width, height=height)
     elif grey.shape != (height, width):
         scaled_from = grey.shape[1], grey.shape[0]
-        if abs(scaled_from[0] * height / (scaled_from[1] * width) - 1) > ASPECT:
-            fault = Fault.SHAPE
-        else:
+        if has_shape_of(scaled_from, (width, height)):
             grey = cv2.resize(grey, (width, height), interpolation=cv2.INTER_AREA)
+        else:
+            fault = Fault.SHAPE
     fault = fault or picture_fault(grey)
     picture = np.zeros((height, width), dtype=np.uint8) if fault else grey
     return FittedPicture(

@@ -154,6 +154,8 @@ def recorded_size(path: Path) -> tuple[int, int]:
                 if size is not None:
                     return size[0], size[1]
         raise InputError(f"{path} has no picture that can be read")
+    if not path.exists():
+        raise InputError(f"{path} does not exist; a folder of pictures or a film is needed")
     check_film_path(path)
     film = _opened(path)
     try:
@@ -211,8 +213,13 @@ def _natural(name: str) -> list[str | int]:
 
 
 def _pictures_in(folder: Path) -> list[Path]:
+    """Files by their ending; macOS writes ``._1.png`` beside 1.png on disks of other systems."""
     try:
-        return [file for file in folder.iterdir() if file.suffix.lower() in PICTURES]
+        return [
+            file
+            for file in folder.iterdir()
+            if file.suffix.lower() in PICTURES and not file.name.startswith(".")
+        ]
     except OSError as error:
         raise unreadable(folder, error) from None
 

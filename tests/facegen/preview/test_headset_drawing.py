@@ -40,6 +40,10 @@ def test_cameras_of_headsets_stand_outside_the_face_and_see_it(anny, name):
     [
         ({"position_mm": (32.0, 0.0, 5.0)}, "behind the mean face's skin"),
         ({"target_mm": (60.0, -15.0, 200.0)}, "sees none of the mean face's 68 landmarks"),
+        (
+            {"position_mm": (-40.0, -15.0, 50.0), "target_mm": (-32.0, 0.0, 0.0)},
+            "sees more of the other eye",
+        ),
     ],
 )
 def test_a_camera_that_cannot_do_its_work_is_named(anny, change, words):
@@ -48,3 +52,13 @@ def test_a_camera_that_cannot_do_its_work_is_named(anny, change, words):
     (fault,) = placement_faults(put_on(replace(headset, cameras=(replace(left, **change), *others)), anny))
     assert "cameras[0] (left_eye)" in fault
     assert words in fault
+
+
+def test_an_led_behind_the_skin_is_named(anny):
+    """One in metres, say."""
+    headset = load_headset("tracking3")
+    first, *others = headset.leds
+    inside = replace(first, position_mm=(0.05, 0.0, 0.041))
+    (fault,) = placement_faults(put_on(replace(headset, leds=(inside, *others)), anny))
+    assert f"leds[0] ({first.name})" in fault
+    assert "behind the mean face's skin" in fault

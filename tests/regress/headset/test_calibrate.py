@@ -137,6 +137,7 @@ def test_files_of_other_things_are_refused(run, tmp_path: Path, person: Path, ch
         (["--shut", SHUT], "--rest is needed"),
         (["--rest", SHUT], "eyeBlink"),
         (["--rest", "900-950"], "--rest 900-950: the take has frames 0-99"),
+        (["--rest", "9-0"], "--rest 9-0: 9-0 runs backwards; write 0-9"),
         (["--rest", "0-5000"], "--rest 0-5000: the take has frames 0-99"),
         (["--rest", "nowhere"], "no folder with left_eye"),
         (["--rest", REST, "--looked-at", "3:0:0"], "give --look too"),
@@ -186,6 +187,29 @@ def test_an_eye_that_a_face_s_takes_lack_stays_as_it_is(face: str, run, tmp_path
     right = person.eyes["right_eye"]
     assert right.rest_mm is not None
     assert (right.shut_mm, right.traced is None) == (None, face == "look")
+
+
+def test_a_gaze_is_told_and_one_of_other_targets_is_asked_about(run, tmp_path: Path):
+    words = [
+        "headset",
+        "calibrate",
+        *CAMERAS,
+        "--rest",
+        REST,
+        "--look",
+        "10-80",
+        "--out",
+        tmp_path / "p.json",
+    ]
+    code, _, said = run(*words)
+    assert (code, "gaze of left_eye is centred, gaze of right_eye is centred" in said) == (0, True), said
+    wrong = ["12:30:20", "20:-30:-20", "35:30:-20", "50:-30:20", "65:0:0"]
+    code, _, said = run(*words, *(word for each in wrong for word in ("--looked-at", each)))
+    assert code == 0, said
+    off_deg = read_person(tmp_path / "p.json").eyes["left_eye"].error_deg
+    assert off_deg > 8
+    assert f"look: left_eye is off its targets by {off_deg:.0f} degrees even so" in said
+    assert f"gaze of left_eye is off its targets by {off_deg:.1f} degrees" in said
 
 
 def test_a_person_without_anything_changes_nothing():

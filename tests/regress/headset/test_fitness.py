@@ -332,3 +332,40 @@ def test_a_network_of_drawn_headsets_is_not_led_to_the_usual_eye(predictor: Head
     assert not _is_as_drawn(CameraPlacement(), CameraPlacement(x=0.7))
     assert not _is_as_drawn(CameraPlacement(roll_deg=170.0), CameraPlacement(roll_deg=-150.0))
     assert _is_as_drawn(CameraPlacement(roll_deg=170.0), CameraPlacement(roll_deg=-170.0))
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda frames: frames[:, :72], "then give it to `regress headset predict --placement"),
+        (lambda frames: frames[:, ::-1, ::-1], "all of each picture, as nothing better was found"),
+    ],
+    ids=["another shape", "upside down"],
+)
+def test_predict_needs_no_placement_only_where_it_takes_the_frames(
+    run, tmp_path: Path, change: Callable[[np.ndarray], np.ndarray], said: str
+):
+    """Of a mouth's camera no placement is found, and pictures of another shape are not taken without one."""
+    mouth = np.stack(
+        [cv2.imread(str(file), cv2.IMREAD_GRAYSCALE) for file in sorted((TAKE / "mouth").glob("*.png"))]
+    )
+    options = write_take(tmp_path, {"mouth": np.ascontiguousarray(change(mouth))})
+    code, out, told = run(
+        "headset", "check", "headset-tracking3", *options, "--out", tmp_path / "placement.toml"
+    )
+    assert code == 0
+    assert said in told, out + told
+
+
+def test_a_dark_picture_is_in_no_lens_circle(predictor: HeadsetPredictor):
+    """Its corners are as dark as a rim."""
+    mouth = np.stack(
+        [cv2.imread(str(file), cv2.IMREAD_GRAYSCALE) for file in sorted((TAKE / "mouth").glob("*.png"))]
+    )
+    (one,) = judge(predictor, {"mouth": brighter(mouth, 0.35)})
+    assert {finding.misfit for finding in one.findings} == {Misfit.DARK}
+
+
+def test_a_path_that_is_not_there_is_said_to_be_none(run, tmp_path: Path):
+    code, _, told = run("headset", "check", "headset-tracking3", "--left-eye", tmp_path / "nope")
+    assert (code, "nope does not exist" in told) == (2, True), told

@@ -7,10 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from regress.exporters.headset_interface import interface_of
 from regress.runtime.headset.footage import line_up
 from regress.runtime.headset.levels import Levels, level_table, levelled, tables_of
 from regress.runtime.headset.looks import CameraLooks, flicker_of, levels_of, looks_of, rim_of, sharpness_of
 from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.sample import Sample
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording
 
@@ -122,3 +124,12 @@ def test_looks_say_what_was_done_to_pictures():
     dark = np.where(rim, 9, take).astype(np.uint8)
     assert rim_of(dark) == pytest.approx(rim.mean(), abs=0.02)
     assert plain.rim == rim_of(take) < 0.02
+
+
+def test_other_programs_know_what_a_placement_s_levels_become():
+    """By `levels.middle` of headset.json, as docs/your-camera.md has it: of the ranges' ends weights differ by .16."""
+    model = load_headset_predictor("headset-tracking3").model
+    for name, exported in interface_of(model, graph="g.onnx")["levels"].items():
+        dark, bright = exported["middle"]
+        expected = np.rint(dark + (bright - dark) * (np.arange(256) - 112.0) / (254.0 - 112.0)).clip(0, 255)
+        assert np.array_equal(level_table(112.0, 254.0, model.looks[name], fixed=True), expected)

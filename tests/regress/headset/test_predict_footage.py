@@ -223,6 +223,17 @@ def test_frames_are_in_the_order_that_their_names_say(
     assert found.numbers.tolist() == (numbers or list(range(len(names))))
 
 
+def test_what_macos_writes_beside_pictures_is_none(tmp_path: Path):
+    stack = pictures([80, 90, 100])
+    write_pictures(tmp_path, stack, first=1000)
+    plain = read_recording(tmp_path, "left_eye", width=WIDTH, height=HEIGHT)
+    for file in list(tmp_path.iterdir()):
+        (tmp_path / f"._{file.name}").write_bytes(b"\0\x05\x16\x07")
+    found = read_recording(tmp_path, "left_eye", width=WIDTH, height=HEIGHT)
+    assert found.numbers.tolist() == plain.numbers.tolist() == [1000, 1001, 1002]
+    assert np.array_equal(found.pictures, plain.pictures)
+
+
 def test_films_are_read_with_their_rate(tmp_path: Path):
     film = tmp_path / "eye.avi"
     writer = cv2.VideoWriter(str(film), cv2.VideoWriter_fourcc(*"MJPG"), 25, (WIDTH * 8, HEIGHT * 8))

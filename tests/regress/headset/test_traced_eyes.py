@@ -133,6 +133,7 @@ def test_predict_writes_eyes_and_takes_what_was_looked_at(run, tmp_path: Path):
         (["--looked-at", "3:0"], "--looked-at '3:0' is not FRAME:YAW:PITCH"),
         (["--looked-at", "3:nan:0"], "is not FRAME:YAW:PITCH"),
         (["--looked-at", "3:61:0"], "angles up to 60 degrees"),
+        (["--looked-at", "3:0:0", "--looked-at", "3:5:0"], "names frame 3 twice"),
         (["--looked-at", "900:0:0"], "no frame of"),
     ],
 )
