@@ -13,10 +13,11 @@ References
 ---------
 .. [1] www.ifacialmocap.com/for-developer: greeting, ports, grammar.
 .. [2] VRCFaceTracking/VRC_iFacialMocap: takes what comes without a greeting; exchanges left and right of the weights,
-   which it says the app sends as a mirror shows them (``sides=mirrored``), and takes the eyes' angles as they are.
+   which it says the app sends as a mirror shows them (``sides=mirrored``), and takes the eyes' angles as they are. It
+   skips the first weight (``Split('|')[1..^1]``), and reads ``browInnerUp_L`` and ``browInnerUp_R``.
 """
 
-import ipaddress
+import socket
 
 import numpy as np
 
@@ -33,6 +34,14 @@ SIDES = ("own", "mirrored")
 _VERSION_2 = b"sendDataVersion=v2"
 _GREETINGS_A_FRAME = 8
 """Read before each frame: a flood of them must not hold a frame up."""
+
+_FIRST = "tongueOut"
+"""Sent before all others, as VRCFaceTracking's module skips the first: without it a blink was lost."""
+
+_ORDER = (BLENDSHAPES.index(_FIRST), *(i for i, name in enumerate(BLENDSHAPES) if name != _FIRST))
+
+_BROW = "browInnerUp"
+"""Sent for each side as well, by names that ARKit does not have."""
 
 _WHOLE = ("jawLeft", "jawRight", "mouthLeft", "mouthRight")
 
@@ -74,9 +83,9 @@ class IFacialMocap:
         if not has_face(sample):
             return self._last
         percent = np.clip(np.rint(sample.weights * 100), 0, 100).astype(int).tolist()
-        weights = (
-            f"{name}{self._separator}{value}|" for name, value in zip(self._names, percent, strict=True)
-        )
+        named = [(self._names[i], percent[i]) for i in _ORDER]
+        named += [(f"{_BROW}_{side}", percent[BLENDSHAPES.index(_BROW)]) for side in "LR"]
+        weights = (f"{name}{self._separator}{value}|" for name, value in named)
         head, gaze = head_pose(sample.head), sample.gaze
         where = np.zeros(6)
         if head is not None:
@@ -141,8 +150,19 @@ def open_sink(target: Target, tell: Tell) -> Sink:
 
     One on this machine has the port of greetings for itself, and takes what comes without any.
     """
-    host = resolved(target)[1][0]
-    if ipaddress.ip_address(host.partition("%")[0]).is_loopback:
+    family, address = resolved(target)
+    if _is_own(family, address):
         return GreetedSink(target, tell, **target.options)
-    everywhere = "::" if ":" in host else "0.0.0.0"
+    everywhere = "::" if family == socket.AF_INET6 else "0.0.0.0"
     return GreetedSink(target, tell, **target.options, listen=(everywhere, PORT))
+
+
+def _is_own(family: socket.AddressFamily, address: tuple) -> bool:
+    """Whether an address is this machine's, be it the loopback's or not: nobody listens at those of others."""
+    host, _, *rest = address
+    with socket.socket(family, socket.SOCK_DGRAM) as trial:
+        try:
+            trial.bind((host, 0, *rest))
+        except OSError:
+            return False
+    return True

@@ -4,6 +4,7 @@ import math
 import socket
 
 import numpy as np
+import psutil
 import pytest
 from hypothesis import given
 
@@ -14,13 +15,16 @@ from track.sinks.targets import Target, open_sink, parse_target
 
 
 def parsed(datagram: bytes) -> tuple[dict[str, int], dict[str, list[float]]]:
-    """Weights and bones, by the module's rules: parts between bars, exactly one sign of equality, whole numbers."""
+    """Weights and bones, by the module's rules: parts between bars, exactly one sign of equality, whole numbers.
+
+    The module skips the first weight, which its own table shows as 0.
+    """
     text = datagram.decode("ascii")
     assert text.endswith("|")
     halves = text.split("=")
     assert len(halves) == 2
     weights, bones = {}, {}
-    for part in halves[0].split("|")[:-1]:
+    for part in halves[0].split("|")[1:-1]:
         name, value = part.split("&" if "&" in part else "-")
         weights[name] = int(value)
     for part in halves[1].split("|")[:-1]:
@@ -40,9 +44,12 @@ def test_a_receiver_reads_all_of_it(version):
         sink.close()
     assert (b"&" in datagram) == (version == 2)
     weights, bones = parsed(datagram)
-    assert len(weights) == 52
+    assert len(weights) == 51 + 2
+    assert datagram.startswith(b"tongueOut")
     for name, weight in zip(BLENDSHAPES, sample.weights, strict=True):
-        assert weights[app_name(name)] == pytest.approx(100 * weight, abs=0.5001)
+        if name != "tongueOut":
+            assert weights[app_name(name)] == pytest.approx(100 * weight, abs=0.5001)
+    assert weights["browInnerUp_L"] == weights["browInnerUp_R"] == weights["browInnerUp"]
     yaw, pitch, roll = np.degrees(sample.head[3:])
     np.testing.assert_allclose(bones["head"], [-pitch, -yaw, roll, -0.1, 0.05, -0.6], atol=1e-4)
     left_yaw, left_pitch, right_yaw, right_pitch = np.degrees(sample.gaze)
@@ -60,7 +67,9 @@ def test_names_are_the_app_s():
 def test_mirrored_sides_are_what_vrcfacetracking_takes():
     sample = acted()
     own, mirrored = (parsed(IFacialMocap(sides=sides)(sample)[0]) for sides in ("own", "mirrored"))
-    assert {app_name(mirrored_name(name)): own[0][app_name(name)] for name in BLENDSHAPES} == mirrored[0]
+    sent = [name for name in BLENDSHAPES if name != "tongueOut"]
+    exchanged = {app_name(mirrored_name(name)): own[0][app_name(name)] for name in sent}
+    assert exchanged.items() <= mirrored[0].items()
     assert own[1] == mirrored[1]
     # the module's gaze of an eye, positive to the person's right, and upwards
     (pitch, yaw, _), (left_yaw, left_pitch) = mirrored[1]["leftEye"], sample.gaze[:2]
@@ -125,6 +134,21 @@ def test_a_port_that_is_taken_is_told_once_and_sending_goes_on():
         sink.close()
     assert len(told) == 1
     assert "is taken" in told[0]
+
+
+def test_a_receiver_on_this_machine_has_the_port_of_greetings(monkeypatch):
+    """By any address of the machine: that of its network was taken for another machine's."""
+    own = [
+        each.address
+        for all_ in psutil.net_if_addrs().values()
+        for each in all_
+        if each.family == socket.AF_INET
+    ]
+    asked = []
+    monkeypatch.setattr("track.sinks.ifacialmocap.GreetedSink", lambda *_, **options: asked.append(options))
+    for host in (*own, "203.0.113.77"):
+        open_sink(parse_target(f"ifacialmocap:{host}"), pytest.fail)
+    assert asked == [{}] * len(own) + [{"listen": ("0.0.0.0", 49983)}]
 
 
 @given(sample=ANY_SAMPLE)
