@@ -204,7 +204,7 @@ def tiny_formula() -> Formula:
 PAPER = {
     "face.c": "0dfc6f8d5043fa0cc5569e97c92188376433969f1cc7e7a7bec434000a85b046",
     "face.h": "a004f0cef493a05f4ea89ed71394779720c7b99abd6d66817c832d05b25172da",
-    "face.js": "1e6354c97ccde5bbc059cecfd52de888ed16ffd06a822e5bb12a1148abf88e3e",
+    "face.js": "b46c4fb09ff0e81bd43571e042a958059eb7708847bea8e09703fd3a35fca347",
     "face.d.ts": "dc4faf26e758fcb51b3805c07af21b8801282a1029b1607378e03288bca1b487",
     "face.json": "978bcd4c2cf64433597009a4fd2ca97573e7d4f924e63ba6ecf0c112fb270e02",
 }

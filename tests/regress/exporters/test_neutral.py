@@ -151,6 +151,11 @@ int main(void)
     if (!face_neutral(&players[0], (const float (*)[2])none)) return 3;
     answer(&players[0]);
     answer(0);
+    for (int i = 0; i < 68; i++) {
+        neutral[1][i][0] = 320.3f;
+        neutral[1][i][1] = 240.7f;
+    }
+    if (face_neutral(&players[0], (const float (*)[2])neutral[1])) return 4;
     return 0;
 }
 """
@@ -182,10 +187,18 @@ const players = [player(one), player(Float32Array.from(other.flat())), player(no
 const kept = new Float32Array(52);
 const weights = [...players, players[0]].map((answer) => Array.from(answer(face)));
 weights.push(Array.from(players[0](face.flat(), kept)), Array.from(kept));
-const refused = [one.map((point, i) => (i === 9 ? [1, NaN] : point)), one.slice(1)].map((neutral) => {
+const lacking = (point) => one.map((known, i) => (i === 9 ? point : known));
+const none68 = one.map(() => [320.3, 240.7]);
+const refused = [
+  lacking([1, NaN]), lacking([1, null]), lacking(null), lacking([1, null]).flat(), none68, one.slice(1),
+].map((neutral) => {
   try { player(neutral); return "taken"; } catch (error) { return `${error.name}: ${error.message}`; }
 });
-console.log(JSON.stringify({ weights, refused, same: players[2] === predict }));
+const blind = [lacking([null, null]), lacking(null), lacking([null, null]).flat()].flatMap((face) => [
+  predict(face), players[0](face),
+]);
+const unseen = blind.every((weights) => weights.every(Number.isNaN));
+console.log(JSON.stringify({ weights, refused, unseen, same: players[2] === predict }));
 """
 
 
@@ -204,8 +217,18 @@ def test_several_players_in_one_javascript_program(calibratable, files, faces):
     weights = np.concatenate([model.predict(faces[:1]) for model in models])
     np.testing.assert_allclose(written["weights"], weights, atol=AGREEMENT, rtol=0)
     assert written["same"]
-    for refusal, word in zip(written["refused"], ("missing", "length 67"), strict=True):
+    assert written["unseen"], "JSON has null for NaN"
+    for refusal, word in zip(written["refused"], [*["missing"] * 5, "length 67"], strict=True):
         assert re.match(f"RangeError: .*{word}", refusal)
+
+
+@pytest.mark.parametrize("chosen", ["onnx", "c", "javascript"])
+def test_a_face_without_size_has_no_answer(chosen, exported):
+    """The mean of equal numbers is off by rounding: what is left of them has a shape."""
+    places = np.random.default_rng(5).uniform(0, [1280, 720], (100, 1, 2))
+    collapsed = np.repeat(places, 68, axis=1).astype(np.float32)
+    for neutral in (None, NEUTRAL):
+        assert np.isnan(exported(chosen)(collapsed, neutral)).all()
 
 
 @pytest.mark.parametrize("chosen", FORMATS)

@@ -1,5 +1,5 @@
 /* Features are the points themselves, turned and scaled as lays the anchors upon the reference by least squares, and
- * about the anchors' middle. Anchors in one place have no such map: NaN. */
+ * about the anchors' middle. Anchors in one place, but for rounding, have no such map: NaN. */
 static void ${of}measure(const float points[${GUARD}_POINTS][2], double feature[${OF}FEATURES])
 {
     double face[${GUARD}_POINTS][2], centre[2] = {0, 0}, along = 0, across = 0, spread = 0;
@@ -16,7 +16,8 @@ static void ${of}measure(const float points[${GUARD}_POINTS][2], double feature[
         across += x * ${of}reference[i][1] - y * ${of}reference[i][0];
         spread += x * x + y * y;
     }
-    along /= spread > 0 ? spread : NAN;
+    spread = spread > 1e-24 * (centre[0] * centre[0] + centre[1] * centre[1]) ? spread : NAN;
+    along /= spread;
     across /= spread;
     for (i = 0; i < ${GUARD}_POINTS; i++) {
         const double x = face[i][0] - centre[0];

@@ -1,11 +1,16 @@
 $signature {
-${measured}${layers}${inputs}function flatten(points) {
+${measured}${layers}${inputs}/* JSON writes NaN as null, which would count as 0. */
+function numberOf(value) {
+  return typeof value === "number" ? value : NaN;
+}
+
+function flatten(points) {
   if (points.length === 136) {
-    for (let i = 0; i < 136; i++) flat[i] = points[i];
+    for (let i = 0; i < 136; i++) flat[i] = numberOf(points[i]);
   } else if (points.length === 68) {
     for (let i = 0; i < 68; i++) {
-      flat[2 * i] = points[i][0];
-      flat[2 * i + 1] = points[i][1];
+      flat[2 * i] = numberOf(points[i]?.[0]);
+      flat[2 * i + 1] = numberOf(points[i]?.[1]);
     }
   } else {
     throw new RangeError("points has length " + points.length + "; 136 numbers or 68 pairs are needed");

@@ -1,4 +1,5 @@
-/* The turn and scale that lay the anchors upon the reference by least squares. Anchors in one place have none: NaN. */
+/* The turn and scale that lay the anchors upon the reference by least squares. Anchors in one place, but for rounding,
+ * have none: NaN. */
 function align() {
   let cx = 0, cy = 0, along = 0, across = 0, spread = 0;
   for (const i of anchors) {
@@ -11,7 +12,7 @@ function align() {
     across += x * v - y * u;
     spread += x * x + y * y;
   });
-  if (!(spread > 0)) spread = NaN;
+  if (!(spread > 1e-24 * (cx * cx + cy * cy))) spread = NaN;
   map[0] = map[3] = along / spread;
   map[1] = across / spread;
   map[2] = -map[1];
