@@ -58,5 +58,14 @@ def read_weight_table(
             raise FormatError(f"{path}: a cell is no number ({error})") from error
     weights = values[:, : len(BLENDSHAPES)]
     if fps is None and "time_s" in columns:
-        return weights, values[:, -1] - values[0, -1]
+        return weights, _from_first(values[:, -1])
     return weights, np.arange(len(values)) / (fps or DEFAULT_FPS)
+
+
+def _from_first(time_s: np.ndarray) -> np.ndarray:
+    """Times from the first known one; a row without a time, as one without a face, has that of the row before."""
+    known = np.flatnonzero(np.isfinite(time_s))
+    if not len(known):
+        return time_s
+    last = np.searchsorted(known, np.arange(len(time_s)), side="right") - 1
+    return time_s[known[np.maximum(last, 0)]] - time_s[known[0]]

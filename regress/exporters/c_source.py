@@ -20,6 +20,12 @@ from regress.exporters.halves import Halves, halves_of
 LINE_WIDTH = 110
 C_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
+_TAKEN = frozenset(
+    "alone calibrated assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg "
+    "stdbool stddef stdint stdio stdlib string tgmath time wchar wctype features".split()
+)
+"""The file has static functions of the first two; a header of the others hides C's own from ``#include <math.h>``."""
+
 _PREDICT = "void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
 _ALONE = "static void alone_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
 _CALIBRATED = """\
@@ -36,12 +42,16 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
     Raises
     ------
     InputError
-        The name cannot begin a C identifier.
+        The name cannot begin a C identifier, or hides what C has.
     """
     if not C_IDENTIFIER.fullmatch(name):
         raise InputError(
             f"--name {name!r} becomes part of C names such as {name}_predict: use letters, digits and "
             f"underscores, a letter first"
+        )
+    if name.lower() in _TAKEN:
+        raise InputError(
+            f"--name {name!r} is taken by a header of C or a function of the file; name another, as face"
         )
     words = {
         "name": name,

@@ -174,6 +174,15 @@ def test_a_frame_without_irises_in_a_take_with_them_is_guessed():
     assert Looks(fade=True).step(nowhere) is nowhere
 
 
+def test_an_eye_whose_iris_is_not_known_goes_with_the_other_one():
+    face, irises, pose = seen(np.zeros(3), np.radians([12.0, 4, 12, 4]))
+    irises[1] = np.nan
+    one = gaze_angles(face[None], irises[None], pose, CAMERA, MEAN_EYES)[0]
+    np.testing.assert_allclose(np.degrees(one), [[12, 4], [12, 4]], atol=0.5)
+    irises[0] = np.nan
+    assert np.isnan(gaze_angles(face[None], irises[None], pose, CAMERA, MEAN_EYES)).all()
+
+
 @given(yaw=within(40), pitch=within(15))
 def test_the_quick_yaw(yaw: float, pitch: float):
     face, _, _ = seen(np.array([yaw, pitch, 0]), np.zeros(4))

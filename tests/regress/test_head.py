@@ -248,3 +248,10 @@ def test_a_person_s_shape_has_expressions_alone():
     own = shape_of_person(SHAPE.points)
     assert len(own.modes) < len(SHAPE.modes)
     assert np.linalg.norm(own.modes) < np.linalg.norm(SHAPE.modes)
+
+
+def test_a_neutral_take_without_a_whole_face_is_refused():
+    faces = drawn_faces(np.random.default_rng(3), 2)
+    faces[:, 5] = np.nan
+    with pytest.raises(InputError, match="no face of the neutral frames is whole"):
+        HeadPose(HeadSettings(neutral=faces))

@@ -16,7 +16,7 @@ from regress.runtime.inputs import Frames
 from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames
 from regress.runtime.sample import Sample
-from regress.runtime.stages.smoothing import MovingAverage
+from regress.runtime.stages.smoothing import MeanSmoothing, MovingAverage
 from regress.runtime.writers.csv_table import weights_csv
 from tests.regress.drawn import drawn_faces
 
@@ -50,7 +50,9 @@ def test_a_pause_without_frames_is_no_part_of_a_mean():
 
 def test_frames_that_always_come_seldom_are_averaged():
     samples = [Sample(time_s=2.0 * row, weights=np.full(3, row)) for row in range(4)]
-    assert [sample.weights[0] for sample in MovingAverage(10).run(samples)] == [0.0, 0.5, 1.0, 1.5]
+    assert [sample.weights[0] for sample in MovingAverage(10).run(samples)] == [0.0, 1.0, 1.5, 2.0]
+    assert [sample.weights[0] for sample in MeanSmoothing(3).run(samples)] == [0.0, 1.0, 1.5, 2.0]
+    assert [sample.weights[0] for sample in MeanSmoothing(1, ahead=1).run(samples)] == [0.0, 1.5, 2.0, 2.5]
 
 
 def test_the_csv_reads_back_with_empty_cells_where_no_face_is(quick_model: Model, dataset: KeypointDataset):

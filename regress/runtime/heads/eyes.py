@@ -90,7 +90,8 @@ def gaze_angles(
 ) -> np.ndarray:
     """Yaw and pitch of each eye in the head frame.
 
-    A closing eye goes with the other one; where both close, the gaze goes back to straight ahead.
+    A closing eye, or one whose iris is not known, goes with the other one; where both close, the gaze goes back to
+    straight ahead.
 
     Parameters
     ----------
@@ -100,14 +101,17 @@ def gaze_angles(
     Returns
     -------
     (n, 2, 2) float64
-        Radians; yaw to the subject's left, pitch upwards. NaN where an iris is not known.
+        Radians; yaw to the subject's left, pitch upwards. NaN where neither iris is known.
     """
     with np.errstate(all="ignore"):  # what cannot be computed is NaN
         angles = _angles(*_seen(faces, _known(irises), poses, camera, eyes))
-    trust = np.clip((openings(faces) / eyes.opening - _SHUT) / (_OPEN - _SHUT), 0, 1)
+    known = np.isfinite(angles).all(axis=-1)
+    trust = np.clip((openings(faces) / eyes.opening - _SHUT) / (_OPEN - _SHUT), 0, 1) * known
+    angles = np.where(known[..., None], angles, 0)
     others = (1 - trust) * trust[:, ::-1]
     shared = trust[..., None] * angles + others[..., None] * angles[:, ::-1]
-    return shared / np.maximum(trust + others, 0.5)[..., None]
+    shared /= np.maximum(trust + others, 0.5)[..., None]
+    return np.where(known.any(axis=-1)[:, None, None], shared, np.nan)
 
 
 def _known(irises: np.ndarray) -> np.ndarray:

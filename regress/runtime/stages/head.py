@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from regress.errors import InputError
 from regress.runtime.heads.camera import CameraSettings, FaceCamera
 from regress.runtime.heads.eyes import MEAN_EYES, gaze_angles, own_eyes
 from regress.runtime.heads.fit import FACING, fit_poses, own_shape
@@ -52,6 +53,10 @@ class HeadPose(BatchStage):
         self._shape, self._eyes = load_head_shape(), MEAN_EYES
         if settings.neutral is not None:
             whole = np.isfinite(settings.neutral).all(axis=(1, 2))
+            if not whole.any():
+                raise InputError(
+                    "no face of the neutral frames is whole; choose frames in which all points are seen"
+                )
             faces = settings.neutral[whole]
             camera = settings.camera.camera(faces[0], self._shape)
             self._shape = own_shape(faces, camera, self._shape)

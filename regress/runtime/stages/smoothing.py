@@ -115,6 +115,25 @@ class LandmarkSmoothing(Stage):
         return replace(sample, points=self._filter.step(sample.time_s, laid).reshape(LANDMARK_COUNT, 2))
 
 
+class _Pauses:
+    """Tells a pause from frames that always come so seldom."""
+
+    def __init__(self) -> None:
+        self._time_s: float | None = None
+        self._step_s: float | None = None
+
+    def before(self, time_s: float | None) -> bool:
+        """Whether there was one before the next frame; of a frame without a time nobody knows."""
+        last_s, self._time_s = self._time_s, time_s
+        if last_s is None or time_s is None:
+            return False
+        step_s, usual_s = time_s - last_s, self._step_s
+        paused = step_s > max(LONGEST_GAP_S, _SELDOM * (usual_s or 0.0))
+        if usual_s is None or not paused:
+            self._step_s = step_s  # a first one that is long may be a pause, and is taken for one
+        return paused
+
+
 class MovingAverage(Stage):
     """Mean of each frame's weights and gaze and those before it, fewer at the start: what a live stream has.
 
@@ -128,19 +147,12 @@ class MovingAverage(Stage):
 
     def __init__(self, frames: int) -> None:
         self._recent: deque[np.ndarray] = deque(maxlen=frames)
-        self._time: float | None = None
-        self._step_s: float | None = None
+        self._pauses = _Pauses()
 
     def step(self, sample: Sample) -> Sample:
         """The sample with the mean weights and gaze."""
-        if None not in (sample.time_s, self._time):
-            step_s = sample.time_s - self._time
-            # frames that always come so seldom are no pauses
-            if step_s > max(LONGEST_GAP_S, _SELDOM * (self._step_s or step_s)):
-                self._recent.clear()
-            else:
-                self._step_s = step_s
-        self._time = sample.time_s
+        if self._pauses.before(sample.time_s):
+            self._recent.clear()
         row = joined(sample)
         self._recent.append(row)
         return sample if np.isnan(row).any() else with_row(sample, np.nanmean(self._recent, axis=0))
@@ -161,13 +173,11 @@ class MeanSmoothing(DelayingStage):
         self._behind, self._ahead = behind, ahead
         self._recent: deque[tuple[Sample, np.ndarray]] = deque()
         self._given = 0
-        self._time = np.nan
+        self._pauses = _Pauses()
 
     def feed(self, sample: Sample) -> list[Sample]:
         """The sample of ``ahead`` frames ago, with mean weights and gaze."""
-        time_s = np.nan if sample.time_s is None else sample.time_s
-        held = self.finish() if time_s - self._time > LONGEST_GAP_S else []
-        self._time = time_s
+        held = self.finish() if self._pauses.before(sample.time_s) else []
         self._recent.append((sample, joined(sample)))
         return [*held, self._next()] if len(self._recent) - self._given > self._ahead else held
 

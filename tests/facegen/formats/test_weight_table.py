@@ -71,3 +71,11 @@ def test_a_recording_comes_through_a_pipe(tmp_path):
     read, _ = read_weight_table(f"/dev/fd/{reader}")
     os.close(reader)
     np.testing.assert_allclose(read, weights, atol=1e-9)
+
+
+def test_rows_without_a_time_have_that_of_the_row_before(tmp_path):
+    """As of a first frame whose detector gave no time: all times were unknown by it."""
+    path = tmp_path / "take.csv"
+    names = ",".join(["time_s", *BLENDSHAPES])
+    path.write_text("\n".join([names, *(f"{time}{',0.5' * 52}" for time in ("", "2.0", "", "2.5"))]))
+    assert read_weight_table(path)[1].tolist() == [0, 0, 0, 0.5]

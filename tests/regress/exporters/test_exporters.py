@@ -284,6 +284,9 @@ def test_c_header_serves_c_plus_plus(calibrated, tmp_path):
 def test_c_refuses_names_that_c_cannot_say(model, tmp_path):
     with pytest.raises(InputError, match="letters, digits and underscores"):
         export_model(model, tmp_path, name="my-face", formats=["c"])
+    for taken in ("math", "Math", "alone", "calibrated"):
+        with pytest.raises(InputError, match="taken by a header of C"):
+            export_model(model, tmp_path, name=taken, formats=["c"])
     assert list(tmp_path.iterdir()) == []
 
 
