@@ -15,6 +15,7 @@ from typing import Annotated, Literal
 
 from pydantic import (
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     Field,
     StringConstraints,
@@ -48,6 +49,7 @@ def _line(text: str) -> str:
 
 Name = Annotated[
     str,
+    BeforeValidator(lambda text: _line(text) if isinstance(text, str) else text),
     StringConstraints(
         strip_whitespace=True,
         min_length=1,

@@ -43,6 +43,8 @@ JOIN = """(() => {
   form.elements.camera.checked = true;
   form.requestSubmit();
 })()"""
+WRITTEN = "document.querySelector('#chat input').value"
+SUBMIT = """document.querySelector('#chat input').value ||= 'hello', document.querySelector('#chat').requestSubmit()"""
 
 
 def test_a_camera_that_has_something_to_say_lets_notices_be_read():
@@ -128,8 +130,9 @@ def test_who_is_muted_shares_nothing_and_is_told():
                 )
                 await chair.say(kind="moderate", action="mute", number=number)
                 await tab.until("meeting.known.get(meeting.own.number).person.muted")
+                assert "nobody hears you" in await tab.ask(STATE)
                 await tab.ask(f"void {PICTURE}")
-                await tab.until(f"{STATE}.includes('has muted you')")
+                await tab.until(f"{STATE}.includes('nothing is shared')")
                 assert await tab.ask("globalThis.taken") == 0, "it is refused before anything is taken"
                 # a mute that the page hears of only after it has taken the picture
                 await tab.ask("void Object.defineProperty(meeting.people, 'self', { value: undefined })")
@@ -139,5 +142,51 @@ def test_who_is_muted_shares_nothing_and_is_told():
                 assert await tab.ask("globalThis.taken") == 1
                 assert not await tab.ask("meeting.sharing.shares || meeting.board.shown")
                 assert not any(changed.person.shares for changed in chair.all(Changed))
+
+    asyncio.run(run())
+
+
+def test_a_line_that_is_not_sent_stays_and_so_does_what_a_hand_is_on():
+    """The list is changed in place: a slider that is dragged, a button with the keyboard's focus."""
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'moderator')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Ada")
+                ben = await place.guest(name="Ben")
+                await tab.until("document.querySelectorAll('#people li').length === 2")
+                await tab.ask(
+                    "void (globalThis.mute = document.querySelectorAll('#people li')[1].querySelector('button'))"
+                )
+                await tab.ask("globalThis.mute.focus()")
+                await ben.say(kind="voice", open=True)
+                await tab.until(
+                    "!document.querySelector('#people').textContent.includes('Benmicrophone off')"
+                )
+                assert await tab.ask("document.activeElement === globalThis.mute")
+                await tab.ask("void (meeting.line.open = false)")
+                await tab.ask(SUBMIT)
+                assert await tab.ask(f"{STATE}.startsWith('Not sent')")
+                assert await tab.ask(WRITTEN) == "hello"
+                await tab.ask("void (meeting.line.open = true)")
+                await tab.ask(SUBMIT)
+                assert await tab.ask(WRITTEN) == ""
+                await tab.ask("meeting.hear({ kind: 'notice', text: 'that was too fast', about: 'chat' })")
+                assert await tab.ask(WRITTEN) == "hello"
+
+    asyncio.run(run())
+
+
+def test_a_browser_without_pictures_is_told_before_anything_is_asked():
+    async def run() -> None:
+        async with open_room() as place, chromium("--disable-3d-apis") as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await tab.until("document.querySelector('#word')?.textContent.includes('WebGL')")
+                assert await tab.ask("document.querySelector('#join button').disabled")
+                # the whole link in the same tab is another try, as after half of one
+                await tab.ask("void (location.hash = 'half')")
+                await tab.until("document.querySelector('#word')?.textContent.includes('not whole')")
 
     asyncio.run(run())

@@ -209,7 +209,9 @@ WISH = """(() => {{
   share.value = '{}';
   share.dispatchEvent(new Event('change'));
 }})()"""
-STOP = "[...document.querySelectorAll('#people button')].find((each) => each.textContent === 'stop sharing').click()"
+STOP = """[...document.querySelectorAll('#people button:not([hidden])')].find(
+  (each) => each.textContent === 'stop sharing'
+).click()"""
 SHARED = "document.querySelector('#shared')"
 
 

@@ -13,9 +13,19 @@ from tests.room.page import come_in
 pytestmark = [needs_chromium, pytest.mark.slow]
 
 SIZES = ((360, 640), (400, 780), (800, 600), (1080, 700), (1600, 900))
-NAMES = ("Bea", "Dr. Maximiliana Featherstone-Ogilvy", "Carl")
-PARTS = ("#mirror", "nav", "nav > div", "#leave", "aside", "#people", "#lines", "#chat", "#replay")
-APART = ("#mirror", "nav > div", "#leave", "aside", "#replay")
+NAMES = ("Bea", "Dr. Maximiliana Featherstone-Ogilvy", "W" * 40)
+WORDS = {
+    "#state": "Not sent: the connection is broken; press Enter again when it is back.",
+    "#mark": "You are recorded",
+    "#shared": "Dr. Maximiliana Featherstone-Ogilvy shares the screen",
+    "#told": "ada.glb is not shown to the others: it is larger than 32 MiB, the most that is shown to others.",
+}
+"""What the page has to say, all at once."""
+PARTS = ("#mirror", "nav", "nav > div", "#leave", "aside", "#people", "#lines", "#chat", "#replay", *WORDS)
+APART = ("#mirror", "nav > div", "#leave", "aside", "#replay", *WORDS)
+SLIDERS = """[...document.querySelectorAll('#people input:not([hidden])')].map(
+  (slider) => slider.getBoundingClientRect().right
+)"""
 BOXES = """Object.fromEntries(%s.map((part) => {
   const { left, top, right, bottom } = document.querySelector(part).getBoundingClientRect();
   return [part, [left, top, right, bottom]];
@@ -62,6 +72,12 @@ async def observe() -> list[str]:
             await guest.say(kind="chat", text="And one that Ada reads.")
             await tab.until("document.querySelector('#lines li')")
             await tab.ask("document.querySelector('#replay').hidden = false")  # as in a replay
+            await tab.ask(
+                f"Object.entries({json.dumps(WORDS)}).forEach(([part, text]) => "
+                "Object.assign(document.querySelector(part), { hidden: false, textContent: text }))"
+            )
+            await tab.ask(f"meeting.tell({json.dumps(WORDS['#state'])})")  # or it is written over
+            await tab.until("document.querySelector('#state').textContent")
             for width, height in SIZES:
                 await tab.look(width=width, height=height)
                 seen = await boxes(tab, *PARTS)
@@ -73,6 +89,8 @@ async def observe() -> list[str]:
                 wrong += [
                     f"{width}: {a} on {b}" for a, b in combinations(APART, 2) if overlap(seen[a], seen[b])
                 ]
+                right = max(await tab.ask(SLIDERS))
+                wrong += [f"{width}: a slider ends at {right}"] if right > seen["#people"][2] else []
                 lines = seen["#lines"]
                 wrong += [f"{width}: no line is read"] if lines[3] - lines[1] < 40 else []
             await tab.ask("document.querySelector('#leave').click()")

@@ -45,10 +45,11 @@ export class Brought {
     });
     addEventListener("dragover", (event) => event.preventDefault());
     addEventListener("drop", (event) => {
-      const file = [...(event.dataTransfer?.files ?? [])].find(isAvatar);
-      if (!file) return; // others may want it
-      event.preventDefault();
-      void this.wear(file);
+      event.preventDefault(); // or the browser opens the file, and the meeting is gone
+      const files = [...(event.dataTransfer?.files ?? [])];
+      const file = files.find(isAvatar);
+      if (file) void this.wear(file);
+      else if (files.length) this.tell("An avatar is a .glb or a .vrm; pictures and PDFs go by Share …");
     });
   }
 
@@ -64,9 +65,19 @@ export class Brought {
       this.digest = undefined;
       if (this.isIn && (await this.send())) this.tell(lacks || `The others see you as ${file.name}.`);
     } catch (error) {
-      if (!(error instanceof AvatarError)) throw error;
-      this.tell(error.message);
+      if (!(error instanceof AvatarError)) console.warn(`${file.name}:`, error);
+      this.tell(error instanceof AvatarError ? error.message : `${file.name} cannot be shown: it seems damaged. Export it again.`);
     }
+  }
+
+  /** Whether this page wants one's own avatar to be worn. */
+  get wanted(): boolean {
+    return this.file !== undefined;
+  }
+
+  /** Say nothing any more: the meeting is over. */
+  end(): void {
+    this.tell("");
   }
 
   /** After coming in: bring it again to a server that has forgotten it. */
@@ -77,6 +88,7 @@ export class Brought {
 
   /** What one wears by the room's list; empty where it is one of the room's avatars. */
   wears(own: string): void {
+    if (this.worn && !own) this.tell(""); // that the others see it is true no longer
     this.worn = own;
     this.button.textContent = own ? "Take my avatar off" : "My avatar …";
   }

@@ -52,9 +52,11 @@ export class Controls {
       }
     });
     find("program").addEventListener("click", () => {
-      const command = `track --to 'room:${faceLink}'`;
-      void navigator.clipboard?.writeText(command).catch(() => undefined);
-      prompt("Copied. Run this on the machine with the camera or headset; whoever has this link moves your face:", command);
+      const command = `track --to "room:${faceLink}"`; // cmd.exe knows no other quotes
+      const copied = navigator.clipboard?.writeText(command).then(() => "Copied. ", () => "") ?? Promise.resolve("");
+      void copied.then((word) =>
+        prompt(`${word}Run this on the machine with the camera or headset; whoever has this link moves your face:`, command),
+      );
     });
     find("lock").addEventListener("click", () => wishes.lock());
     find("consent").addEventListener("click", () => wishes.consent());

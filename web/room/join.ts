@@ -69,7 +69,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   const word = document.querySelector<HTMLElement>("#word")!;
   const level = document.querySelector<HTMLMeterElement>("#level")!;
   avatar.replaceChildren(...avatars.map((each) => new Option(each)));
-  name.value = localStorage.getItem("name") ?? "";
+  name.value ||= localStorage.getItem("name") ?? ""; // a quick hand has typed already
   let microphone: Microphone | undefined;
 
   const listen = async (): Promise<void> => {
@@ -88,8 +88,8 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
       word.textContent = sentence(error);
     }
   };
-  voice.addEventListener("change", () => void listen());
-  devices.addEventListener("change", () => void listen());
+  let listening = listen();
+  for (const each of [voice, devices]) each.addEventListener("change", () => (listening = listen()));
   const shown = setInterval(() => {
     const db = 20 * Math.log10(Math.max(microphone?.level ?? 0, 1e-6));
     level.value = Math.max(0, 1 - db / SILENT_DB);
@@ -100,9 +100,9 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
       if (name.value.trim()) resolve();
     });
   });
-  const listening = listen();
   await submitted;
-  await listening; // the question for the microphone is answered first
+  word.textContent ||= voice.checked ? "Answer the browser's question for the microphone, or untick Microphone." : "";
+  for (let last; last !== listening; ) await (last = listening); // another one may have been chosen meanwhile
   clearInterval(shown);
   localStorage.setItem("name", name.value.trim());
   form.hidden = true;

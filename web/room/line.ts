@@ -33,8 +33,10 @@ export class Line {
     addEventListener("online", () => !this.open && this.connect());
   }
 
-  say(said: Said): void {
+  /** Say something; false where the line is broken, and it was not said. */
+  say(said: Said): boolean {
     if (this.open) this.socket!.send(JSON.stringify(said));
+    return this.open;
   }
 
   /** Send this person's state, unless the last ones have not gone yet: newer ones say more. */

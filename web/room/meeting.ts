@@ -5,6 +5,7 @@ import { Brought } from "./brought.js";
 import { Controls } from "./controls.js";
 import { sentence } from "./join.js";
 import { Line } from "./line.js";
+import { newsOf } from "./news.js";
 import type { Microphone } from "./microphone.js";
 import { Offering } from "./offering.js";
 import { People, type Known } from "./people.js";
@@ -37,7 +38,14 @@ export class Meeting {
   private readonly replaying = new Replaying((said) => this.line.say(said));
   private readonly sidebar: Sidebar;
   private readonly line: Line;
-  private readonly status = new Status(find("state"), () => [this.presence.camera?.word ?? "", this.voice.word]);
+  private readonly status = new Status(find("state"), () => [
+    this.lineWord,
+    this.cameraWord,
+    this.presence.camera?.word ?? "",
+    this.voice.word,
+  ]);
+  private lineWord = "";
+  private cameraWord = "";
   private locked = false;
 
   constructor(
@@ -71,13 +79,13 @@ export class Meeting {
     this.sidebar = new Sidebar(
       this.voice,
       (action, number) => this.line.say({ kind: "moderate", action, number }),
-      (text) => this.line.say({ kind: "chat", text }),
+      (text) => this.chat(text),
     );
     this.line = new Line(address, join, {
       welcome: (welcome) => this.welcome(welcome),
       answer: (answer) => this.hear(answer),
       state: (number, message) => this.see(number, message),
-      broken: () => this.status.hold("The connection broke; coming back …", performance.now()),
+      broken: () => (this.lineWord = "The connection broke; coming back …"),
       ended: (text) => this.end(text),
     });
     this.brought = new Brought(`${location.pathname}/avatar`, join.key, join.secret, () => this.line.say({ kind: "undress" }));
@@ -109,7 +117,7 @@ export class Meeting {
     try {
       find("neutral").hidden = !(await this.presence.watch());
     } catch (error) {
-      this.tell(`No camera: ${sentence(error)}`);
+      this.cameraWord = `No camera: ${sentence(error)}`;
     }
   }
 
@@ -128,7 +136,8 @@ export class Meeting {
     for (const person of welcome.people) this.people.meet(person);
     this.brought.again();
     this.locked = welcome.locked;
-    this.tell(this.meetingPlace.word);
+    this.lineWord = "";
+    if (this.meetingPlace.word) this.tell(this.meetingPlace.word);
     if (this.sharing.shares) this.line.say({ kind: "share", on: true }); // a server that started anew forgot it
     this.line.say({ kind: "voice", open: this.microphone?.isOpen ?? false });
     this.show();
@@ -136,9 +145,14 @@ export class Meeting {
 
   private hear(answer: Answer): void {
     switch (answer.kind) {
-      case "person":
+      case "person": {
+        const before = this.people.self;
         this.people.meet(answer.person);
+        const wants = { shares: this.sharing.shares, wears: this.brought.wanted };
+        const news = answer.person.id === before?.id ? newsOf(before, answer.person, wants) : "";
+        if (news) this.tell(news);
         break;
+      }
       case "left":
         this.voice.part(this.people.part(answer.number)?.id ?? "");
         this.stage.pointers.drop(answer.number);
@@ -167,7 +181,9 @@ export class Meeting {
         return;
       case "notice":
       case "refused":
-        if (answer.kind === "notice" && answer.about === "share") this.offering.end(); // nobody sees what was taken already
+        if (answer.kind === "refused") return void (this.lineWord = answer.text);
+        if (answer.about === "share") this.offering.end(); // nobody sees what was taken already
+        if (answer.about === "chat") this.sidebar.unsaid();
         this.tell(answer.text);
         return;
       default:
@@ -214,6 +230,12 @@ export class Meeting {
     this.line.say({ kind: "consent", recorded });
   }
 
+  private chat(text: string): boolean {
+    const sent = this.line.say({ kind: "chat", text });
+    if (!sent) this.tell("Not sent: the connection is broken; press Enter again when it is back.");
+    return sent;
+  }
+
   private leave(): void {
     this.line.leave();
     this.end("You have left. Load the page again to come back.");
@@ -244,7 +266,9 @@ export class Meeting {
     this.people.clear();
     this.stage.end();
     find("people").replaceChildren();
-    document.querySelector("nav")!.hidden = true; // nothing to do here any more; what was said can still be read
+    // nothing to do here any more; what was said can still be read
+    for (const part of document.querySelectorAll<HTMLElement>("nav, #mark, #shared, #replay, #chat")) part.hidden = true;
+    this.brought.end();
     this.status.end(text, performance.now());
   }
 }

@@ -87,7 +87,8 @@ export class Offering {
       this.meeting.say(true);
     } catch (error) {
       const refused = error instanceof DOMException && error.name === "NotAllowedError";
-      this.meeting.tell(refused ? "" : `Nothing is shared: ${error instanceof Error ? error.message : error}.`);
+      const why = error instanceof Error ? error.message.replace(/\.$/, "") : error;
+      this.meeting.tell(refused ? "" : `Nothing is shared: ${why}.`);
     }
   }
 

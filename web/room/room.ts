@@ -5,14 +5,29 @@ import { about, ask, randomText, readLink, secretOf } from "./join.js";
 import { Meeting } from "./meeting.js";
 import { Place } from "./place.js";
 
+/** Whether there is WebGL 2, which the picture is drawn with. */
+function drawsPictures(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  context?.getExtension("WEBGL_lose_context")?.loseContext(); // browsers hold few
+  return context !== null;
+}
+
 const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
 
+function refuse(text: string): void {
+  find("join").hidden = false;
+  find("word").textContent = text;
+  find("join").querySelector("button")!.disabled = true;
+}
+
 async function main(): Promise<void> {
+  addEventListener("hashchange", () => location.reload()); // another link was put into the same tab
   const link = readLink();
-  if (!link) {
-    find("word").textContent = "This link is not whole: it ends with # and 22 characters. Ask for it again.";
-    find("join").querySelector("button")!.disabled = true;
-    return;
+  if (!link) return refuse("This link is not whole: it ends with # and 22 characters. Ask for it again.");
+  if (!drawsPictures()) {
+    return refuse(
+      "This browser draws no 3D pictures (WebGL). Switch on hardware acceleration in its settings, or take another browser; then load the page again.",
+    );
   }
   const place = Place.load(link.room); // while the person fills in the form
   const choice = await ask(await Wardrobe.names(), await about(link));

@@ -1,0 +1,20 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { newsOf } from "../news.js";
+import type { Person } from "../texts.js";
+
+const ada = { number: 1, id: "a", name: "Ada", muted: false, own: "d".repeat(64), shares: true } as Person;
+const wants = { shares: true, wears: true };
+
+test("who is muted, undressed or cut short is told so", () => {
+  assert.match(newsOf(ada, { ...ada, muted: true, shares: false }, wants), /muted you/);
+  assert.match(newsOf({ ...ada, muted: true }, ada, wants), /speak again/);
+  assert.match(newsOf(ada, { ...ada, own: "" }, wants), /avatar off/);
+  assert.match(newsOf(ada, { ...ada, shares: false }, wants), /ended your sharing/);
+});
+
+test("what one did oneself is no news", () => {
+  assert.equal(newsOf(ada, { ...ada, own: "", shares: false }, { shares: false, wears: false }), "");
+  assert.equal(newsOf(ada, { ...ada, voice: true }, wants), "");
+});
