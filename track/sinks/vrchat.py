@@ -27,6 +27,7 @@ from track.sinks.udp import UdpSink
 
 PORT = 9000
 FULL_GAZE_RAD = np.pi / 4
+_PARAMETERS = "/avatar/parameters/"
 
 PUPIL_ENDS = (0.2, 0.65)
 """Pupil over iris, of an adult's pupil of 2.3 and of 7.6 mm."""
@@ -49,7 +50,9 @@ class VrChat:
     """
 
     def __init__(self, prefix: str = "v2", bits: int = 0) -> None:
-        self._address, self._bits = f"/avatar/parameters/{prefix}/", bits
+        # people paste whole addresses, and some avatars have no prefix
+        prefix = prefix.strip("/").removeprefix(_PARAMETERS.strip("/")).strip("/")
+        self._address, self._bits = f"{_PARAMETERS}{prefix}/" if prefix else _PARAMETERS, bits
         targets = [read_retargeting("unified_expressions"), read_retargeting(str(_COMBINED))]
         driven = [target.factors.any(axis=0) for target in targets]
         self._names = [
@@ -80,7 +83,7 @@ class VrChat:
         seen = has_face(sample)
         for name in ("EyeTrackingActive", "ExpressionTrackingActive", "LipTrackingActive"):
             if self._changed(name, seen):
-                yield message(f"/avatar/parameters/{name}", seen)
+                yield message(_PARAMETERS + name, seen)
         if not seen:
             return
         shapes = np.clip(sample.weights @ self._factors, self._low, self._high)

@@ -127,8 +127,13 @@ def test_bits_are_the_number_that_vrcfacetracking_makes(value, bits):
     assert values["JawXNegative"] == (value < 0)
 
 
-def test_a_prefix_of_the_avatar_s():
-    assert "JawOpen" in parameters(VrChat(prefix="FT/v2")(acted()), "/avatar/parameters/FT/v2/")
+@pytest.mark.parametrize("prefix", ["FT/v2", "/FT/v2/", "/avatar/parameters/FT/v2/"])
+def test_a_prefix_of_the_avatar_s(prefix):
+    assert "JawOpen" in parameters(VrChat(prefix=prefix)(acted()), "/avatar/parameters/FT/v2/")
+
+
+def test_an_avatar_without_a_prefix():
+    assert "JawOpen" in parameters(VrChat(prefix="")(acted()), "/avatar/parameters/")
 
 
 def test_what_did_not_change_is_sent_again_each_second_alone():
