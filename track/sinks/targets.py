@@ -69,7 +69,11 @@ SINKS: dict[str, SinkKind] = {
         description="VRChat itself: Unified Expressions as an avatar's parameters, and the eyes",
         module="vrchat",
         port=9000,
-        options={"prefix": (), "bits": tuple(map(str, range(9)))},
+        options={
+            "prefix": (),
+            "bits": tuple(map(str, range(9))),
+            "eyes": ("both", "parameters", "native"),
+        },
     ),
     "room": SinkKind(
         description="a person's face in a room, by the link that the room's page shows to that person",

@@ -12,7 +12,8 @@ References
    documentation: a gaze of 1 is 45 degrees.
 """
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from importlib import resources
 
 import numpy as np
@@ -32,8 +33,8 @@ _PARAMETERS = "/avatar/parameters/"
 PUPIL_ENDS = (0.2, 0.65)
 """Pupil over iris, of an adult's pupil of 2.3 and of 7.6 mm."""
 
-_ALL_AFTER = 30
-"""Samples after which everything is sent again, changed or not: datagrams are lost, and avatars are changed."""
+_ALL_AFTER_S = 1.0
+"""After which everything is sent again, changed or not: datagrams are lost, and avatars are changed."""
 
 _COMBINED = resources.files("track.sinks") / "vrchat_parameters.toml"
 
@@ -47,9 +48,21 @@ class VrChat:
         What stands before a parameter's name; many avatars have ``FT/v2``.
     bits
         Of each parameter; 0 sends floats.
+    eyes
+        Which are sent: ``parameters``, VRChat's own (``native``), or ``both``. VRCFaceTracking sends its own only to
+        avatars without parameters of eyes; of a wink they shut both by half.
+    clock
+        Seconds.
     """
 
-    def __init__(self, prefix: str = "v2", bits: int = 0) -> None:
+    def __init__(
+        self,
+        prefix: str = "v2",
+        bits: int = 0,
+        eyes: str = "both",
+        *,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         # people paste whole addresses, and some avatars have no prefix
         prefix = prefix.strip("/").removeprefix(_PARAMETERS.strip("/")).strip("/")
         self._address, self._bits = f"{_PARAMETERS}{prefix}/" if prefix else _PARAMETERS, bits
@@ -69,14 +82,15 @@ class VrChat:
             for part in ("factors", "low", "high")
         )
         self._sent: dict[str, float] = {}
-        self._until_all = 0
+        self._clock, self._all_s = clock, -np.inf
+        self._parameters, self._native = eyes != "native", eyes != "parameters"
 
     def __call__(self, sample: Sample) -> list[bytes]:
         """Bundles of one sample; without a face they say so, and nothing moves."""
-        if self._until_all == 0:
+        now_s = self._clock()
+        if now_s - self._all_s >= _ALL_AFTER_S:
             self._sent.clear()
-            self._until_all = _ALL_AFTER
-        self._until_all -= 1
+            self._all_s = now_s
         return list(bundles(self._messages(sample)))
 
     def _messages(self, sample: Sample) -> Iterator[bytes]:
@@ -89,23 +103,40 @@ class VrChat:
         shapes = np.clip(sample.weights @ self._factors, self._low, self._high)
         for name, value in zip(self._names, shapes.tolist(), strict=True):
             yield from self._parameter(name, value)
-        closed = np.clip(sample.weights[_BLINKS], 0, 1)
-        wide = np.clip(sample.weights[_WIDES], 0, 1)
-        for side, shut, open_wide in zip(("Left", "Right"), closed.tolist(), wide.tolist(), strict=True):
-            yield from self._parameter(f"EyeOpen{side}", 1 - shut)
-            yield from self._parameter(f"EyeLid{side}", 0.75 * (1 - shut) + 0.25 * open_wide)
-        yield message("/tracking/eye/EyesClosedAmount", float(closed.mean()))
+        closed, wide, squint, smile, frown, stretch = np.clip(sample.weights[_PAIRS], 0, 1)
+        yield from self._sides("SmileSad", smile - np.maximum(frown, stretch), mean=True)
+        yield from self._sides("MouthSad", np.maximum(frown, stretch))
+        gaze = None if sample.gaze is None or np.isnan(sample.gaze).any() else sample.gaze
+        if self._parameters:
+            yield from self._lids(closed, wide, squint)
+            yield from () if gaze is None else self._looks(gaze)
+        if self._native:
+            yield message("/tracking/eye/EyesClosedAmount", float(closed.mean()))
+            if gaze is not None:  # down and to the right are positive
+                yield message("/tracking/eye/LeftRightPitchYaw", *(-np.degrees(gaze[[1, 0, 3, 2]])).tolist())
         if sample.eyes is not None:
             yield from self._pupils(sample.eyes.pupil)
-        if sample.gaze is None or np.isnan(sample.gaze).any():
-            return
-        # right and up are positive in parameters, right and down in VRChat's own eyes
-        across, up = np.clip(sample.gaze.reshape(2, 2).T * [[-1], [1]] / FULL_GAZE_RAD, -1, 1)
+
+    def _lids(self, closed: np.ndarray, wide: np.ndarray, squint: np.ndarray) -> Iterator[bytes]:
+        yield from self._sides("EyeOpen", 1 - closed, mean=True)
+        yield from self._sides("EyeClosed", closed, mean=True)
+        yield from self._sides("EyeLid", 0.75 * (1 - closed) + 0.25 * wide, mean=True)
+        for name, larger in (("EyeWide", wide), ("EyeSquint", squint), ("EyesSquint", squint)):
+            yield from self._parameter(name, float(larger.max()))
+
+    def _looks(self, gaze: np.ndarray) -> Iterator[bytes]:
+        """Parameters of where eyes look: right and up are positive."""
+        across, up = np.clip(gaze.reshape(2, 2).T * [[-1], [1]] / FULL_GAZE_RAD, -1, 1)
         for side, x, y in zip(("Left", "Right", ""), [*across, across.mean()], [*up, up.mean()], strict=True):
             yield from self._parameter(f"Eye{side}X", float(x))
             yield from self._parameter(f"Eye{side}Y", float(y))
-        degrees = -np.degrees(sample.gaze[[1, 0, 3, 2]])
-        yield message("/tracking/eye/LeftRightPitchYaw", *degrees.tolist())
+
+    def _sides(self, name: str, pair: np.ndarray, *, mean: bool = False) -> Iterator[bytes]:
+        """Parameters of both sides, and of their mean where VRCFaceTracking has one."""
+        for side, value in zip(("Left", "Right"), pair.tolist(), strict=True):
+            yield from self._parameter(f"{name}{side}", value)
+        if mean:
+            yield from self._parameter(name, float(pair.mean()))
 
     def _pupils(self, shares: np.ndarray) -> Iterator[bytes]:
         """Pupils' diameters as shares of the widest, and how far they are dilated between their ends."""
@@ -138,12 +169,16 @@ class VrChat:
         return changed
 
 
-_BLINKS, _WIDES = (
-    [BLENDSHAPE_INDEX[f"{shape}{side}"] for side in ("Left", "Right")] for shape in ("eyeBlink", "eyeWide")
+_PAIRS = np.array(
+    [
+        [BLENDSHAPE_INDEX[f"{shape}{side}"] for side in ("Left", "Right")]
+        for shape in ("eyeBlink", "eyeWide", "eyeSquint", "mouthSmile", "mouthFrown", "mouthStretch")
+    ]
 )
+"""Of which parameters are made otherwise than by sums: lids, and the larger one of two."""
 
 
 def open_sink(target: Target, tell: Tell) -> Sink:
     """VRChat's parameters on their way."""
-    bits = int(target.options.get("bits", "0"))
-    return UdpSink(target, VrChat(prefix=target.options.get("prefix", "v2"), bits=bits), tell)
+    options = dict(target.options)
+    return UdpSink(target, VrChat(bits=int(options.pop("bits", "0")), **options), tell)

@@ -11,7 +11,7 @@ from regress.runtime.stages.retargeting.target_file import read_retargeting
 from tests.track.sinks.receivers import ANY_SAMPLE, acted, lost, received, receiver
 from tests.track.sinks.test_vmc import messages
 from track.sinks.targets import open_sink, parse_target
-from track.sinks.vrchat import _ALL_AFTER, _COMBINED, VrChat
+from track.sinks.vrchat import _COMBINED, VrChat
 
 V2 = "/avatar/parameters/v2/"
 
@@ -53,6 +53,51 @@ def test_a_receiver_reads_all_of_it():
     np.testing.assert_allclose(eyes, [-left_pitch, -left_yaw, -right_pitch, -right_yaw], atol=1e-4)
     (closed,) = (each.params for each in got if each.address == "/tracking/eye/EyesClosedAmount")
     assert closed == [pytest.approx((weight["eyeBlinkLeft"] + weight["eyeBlinkRight"]) / 2, abs=1e-6)]
+
+
+def test_what_is_no_sum_is_there_as_well():
+    """By UnifiedExpressionsParameters.cs and UnifiedSimpleExpressions.cs."""
+    weight = {
+        "eyeBlinkLeft": 1.0,
+        "eyeBlinkRight": 0.5,
+        "eyeWideRight": 0.4,
+        "eyeSquintLeft": 0.3,
+        "mouthSmileLeft": 0.2,
+        "mouthFrownLeft": 0.6,
+        "mouthStretchLeft": 0.7,
+        "mouthStretchRight": 0.1,
+    }
+    weights = np.zeros(52)
+    weights[[BLENDSHAPE_INDEX[name] for name in weight]] = list(weight.values())
+    values = parameters(VrChat()(Sample(weights=weights)))
+    expected = {
+        "EyeOpen": 0.25,
+        "EyeClosed": 0.75,
+        "EyeClosedLeft": 1.0,
+        "EyeLid": (0.75 * 0.5 + 0.25 * 0.4) / 2,
+        "EyeWide": 0.4,
+        "EyeSquint": 0.3,
+        "EyesSquint": 0.3,
+        "MouthSadLeft": 0.7,
+        "MouthSadRight": 0.1,
+        "SmileSadLeft": -0.5,
+        "SmileSadRight": -0.1,
+        "SmileSad": -0.3,
+    }
+    assert {name: values[name] for name in expected} == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("eyes", "parameter", "native"), [("parameters", 1, 0), ("native", 0, 1), ("both", 1, 1)]
+)
+def test_eyes_go_where_they_are_wanted(eyes, parameter, native):
+    """Of a wink VRChat's own eyes shut by half, both of them."""
+    told = [each.address for each in messages(VrChat(eyes=eyes)(acted()))]
+    for name in ("EyeLidLeft", "EyeOpen", "EyeLeftX"):
+        assert told.count(V2 + name) == parameter
+    for name in ("EyesClosedAmount", "LeftRightPitchYaw"):
+        assert told.count(f"/tracking/eye/{name}") == native
+    assert V2 + "JawOpen" in told
 
 
 def test_pupils_and_their_dilation_go_where_they_are_known():
@@ -137,11 +182,15 @@ def test_an_avatar_without_a_prefix():
 
 
 def test_what_did_not_change_is_sent_again_each_second_alone():
-    vrchat, sample = VrChat(), acted()
-    sizes = [len(parameters(vrchat(sample))) for _ in range(2 * _ALL_AFTER)]
-    whole = sizes[0]
-    assert whole > 100
-    assert sizes == ([whole] + [0] * (_ALL_AFTER - 1)) * 2
+    sample = acted()
+    for fps in (5, 30, 120):
+        times = iter(np.arange(2 * fps + 1) / fps)
+        vrchat = VrChat(clock=lambda times=times: next(times))
+        sizes = [len(parameters(vrchat(sample))) for _ in range(2 * fps)]
+        whole = sizes[0]
+        assert whole > 100
+        assert sizes == ([whole] + [0] * (fps - 1)) * 2
+    vrchat = VrChat(clock=lambda: 0.0)
     moved = Sample(weights=sample.weights.copy(), gaze=sample.gaze)
     vrchat(sample)
     moved.weights[BLENDSHAPE_INDEX["jawOpen"]] = 0.125
