@@ -180,13 +180,15 @@ def _description(plan: PackPlan) -> dict:
 
 def _begin(folder: DatasetFolder, description: dict) -> None:
     about = folder.path / ABOUT
+    with output_errors(folder.path):  # looked into first: an equal run beside this one may begin the pack meanwhile
+        full = folder.path.is_dir() and any(entry.name != "tmp" for entry in folder.path.iterdir())
     if about.is_file():
         if read_json(about) != description:
             raise InputError(f"{folder.path}: holds another pack; choose another folder, or delete this one")
         return
+    if full:
+        raise InputError(f"{folder.path}: is not empty and holds no pack; choose another folder")
     with output_errors(folder.path):
-        if folder.path.is_dir() and any(entry.name != "tmp" for entry in folder.path.iterdir()):
-            raise InputError(f"{folder.path}: is not empty and holds no pack; choose another folder")
         folder.path.mkdir(parents=True, exist_ok=True)
     with staging(folder, "begin") as stage:
         write_json(stage / ABOUT, description)

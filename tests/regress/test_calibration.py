@@ -48,6 +48,13 @@ def test_the_median_of_neutral_frames_counts_and_missing_ones_do_not(quick_model
         quick_model.calibrate(FACES[0, :67])
 
 
+def test_one_odd_neutral_frame_does_no_harm_wherever_it_stands(quick_model: Model):
+    odd, rest = FACES[1:2], np.repeat(FACES[:1], 2, axis=0)
+    expected = quick_model.calibrate(rest).predict(FACES)
+    for frames in ([odd, rest], [rest, odd], [rest[:1], odd, rest[:1]]):
+        assert np.allclose(quick_model.calibrate(np.concatenate(frames)).predict(FACES), expected)
+
+
 def test_a_model_without_calibrated_networks_says_so(quick_model: Model, dataset: KeypointDataset):
     bare = dataclasses.replace(quick_model, calibrated=None)
     for act in (

@@ -69,9 +69,10 @@ def test_dropped_frames_are_drawn_for_any_share(share, run, size, seed):
     )
 
 
-def test_frames_are_dropped_in_runs_at_their_share():
-    dropped = draw_dropped(np.random.Generator(np.random.PCG64(1)), 200_000, share=0.1, run=6.0)
-    assert dropped.mean() == pytest.approx(0.1, rel=0.1)
+@pytest.mark.parametrize("share", [0.1, 0.5])
+def test_frames_are_dropped_in_runs_at_their_share(share):
+    dropped = draw_dropped(np.random.Generator(np.random.PCG64(1)), 200_000, share=share, run=6.0)
+    assert dropped.mean() == pytest.approx(share, rel=0.1)
     runs = np.flatnonzero(np.diff(dropped.astype(int)) == 1).size
     assert dropped.sum() / runs == pytest.approx(6.0, rel=0.1)
     assert not draw_dropped(np.random.Generator(np.random.PCG64(1)), 100, share=0.0, run=6.0).any()
@@ -93,3 +94,12 @@ def test_stills_are_dropped_each_by_itself(anny):
     dropped = np.concatenate(lost)
     assert dropped.mean() == pytest.approx(0.3, abs=0.03)
     assert (dropped[1:] & dropped[:-1]).mean() == pytest.approx(0.09, abs=0.02)
+
+
+def test_offsets_follow_the_face_s_roll():
+    """Upright, across and down stay so; a head that leans to its left takes them along, as a picture has them."""
+    offsets = np.zeros((1, 68, 2))
+    offsets[0, 0], offsets[0, 1] = [1, 0], [0, 1]
+    np.testing.assert_allclose(along_face(offsets, np.eye(3)[None])[0, :2], [[1, 0], [0, 1]])
+    turned = along_face(offsets, np.array([[[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]]))[0, :2]
+    np.testing.assert_allclose(turned, [[0, -1], [1, 0]], atol=1e-12)
