@@ -180,7 +180,8 @@ def _description(plan: PackPlan) -> dict:
 
 def _begin(folder: DatasetFolder, description: dict) -> None:
     about = folder.path / ABOUT
-    with output_errors(folder.path):  # looked into first: an equal run beside this one may begin the pack meanwhile
+    # looked into first: an equal run beside this one may begin the pack meanwhile
+    with output_errors(folder.path):
         full = folder.path.is_dir() and any(entry.name != "tmp" for entry in folder.path.iterdir())
     if about.is_file():
         if read_json(about) != description:
