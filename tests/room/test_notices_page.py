@@ -190,3 +190,23 @@ def test_a_browser_without_pictures_is_told_before_anything_is_asked():
                 await tab.until("document.querySelector('#word')?.textContent.includes('not whole')")
 
     asyncio.run(run())
+
+
+def test_a_microphone_that_is_unplugged_is_told_to_all():
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Ada")
+                ben = await place.guest(name="Ben")
+                await tab.until("meeting.microphone?.isOpen")
+                await tab.ask(
+                    "void meeting.microphone.stream.getAudioTracks()[0].dispatchEvent(new Event('ended'))"
+                )
+                await tab.until(f"{STATE}.startsWith('Your microphone is gone')")
+                assert await tab.ask("document.querySelector('#mute').textContent") == "No microphone"
+                await ben.told(
+                    Changed, lambda answer: answer.person.name == "Ada" and not answer.person.voice
+                )
+
+    asyncio.run(run())

@@ -30,10 +30,14 @@ export class Controls {
     wishes: Wishes,
   ) {
     this.showMute();
-    this.mute.addEventListener("click", () => {
-      this.microphone!.isOpen = !this.microphone!.isOpen;
+    const sayMute = (): void => {
       wishes.say({ kind: "voice", open: this.microphone!.isOpen });
       this.showMute();
+    };
+    if (microphone) microphone.onGone = sayMute;
+    this.mute.addEventListener("click", () => {
+      this.microphone!.isOpen = !this.microphone!.isOpen;
+      sayMute();
     });
     find("neutral").addEventListener("click", () => wishes.neutral());
     find("seat").addEventListener("click", () => wishes.sit());
@@ -90,8 +94,9 @@ export class Controls {
   }
 
   private showMute(): void {
-    this.mute.textContent = this.microphone ? (this.microphone.isOpen ? "Mute me" : "Unmute me") : "No microphone";
-    this.mute.disabled = !this.microphone;
-    this.mute.setAttribute("aria-pressed", String(this.microphone ? !this.microphone.isOpen : false));
+    const microphone = this.microphone?.gone ? undefined : this.microphone;
+    this.mute.textContent = microphone ? (microphone.isOpen ? "Mute me" : "Unmute me") : "No microphone";
+    this.mute.disabled = !microphone;
+    this.mute.setAttribute("aria-pressed", String(microphone ? !microphone.isOpen : false));
   }
 }

@@ -41,6 +41,7 @@ export class Meeting {
   private readonly status = new Status(find("state"), () => [
     this.lineWord,
     this.cameraWord,
+    this.microphone?.word ?? "",
     this.presence.camera?.word ?? "",
     this.voice.word,
   ]);

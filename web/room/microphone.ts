@@ -28,6 +28,10 @@ export class Microphone {
   /** Of the last 20 ms, 0 to 1 (0 dB). */
   level = 0;
   speaking = false;
+  /** Whether it was unplugged, or taken away by the system. */
+  gone = false;
+  /** Called when it goes. */
+  onGone = (): void => undefined;
   private readonly sign = new SpeakingSign();
   private open = true;
 
@@ -38,6 +42,18 @@ export class Microphone {
     private readonly isVoice: (frame: Int16Array) => boolean,
   ) {
     node.port.onmessage = ({ data }: MessageEvent<Int16Array>) => this.hear(data);
+    for (const track of stream.getAudioTracks()) {
+      track.addEventListener("ended", () => {
+        this.gone = true;
+        this.isOpen = false;
+        this.onGone();
+      });
+    }
+  }
+
+  /** What a person should know of it for as long as it is so. */
+  get word(): string {
+    return this.gone ? "Your microphone is gone; plug it in and load the page again." : "";
   }
 
   /** Ask for a microphone; throws what the browser says where there is none, or the person refuses. */
