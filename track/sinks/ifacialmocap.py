@@ -17,8 +17,6 @@ References
    skips the first weight (``Split('|')[1..^1]``), and reads ``browInnerUp_L`` and ``browInnerUp_R``.
 """
 
-import socket
-
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, MIRRORED_BLENDSHAPES
@@ -26,7 +24,7 @@ from regress.runtime.sample import Sample
 from track.sinks.axes import head_pose, unity_euler_deg, unity_position
 from track.sinks.sink import Sink, Tell, has_face
 from track.sinks.targets import Target
-from track.sinks.udp import UdpSink, resolved
+from track.sinks.udp import UdpSink, is_of_this_machine, resolved
 
 PORT = 49983
 GREETING = b"iFacialMocap_sahuasouryya9218sauhuiayeta91555dy3719"
@@ -150,19 +148,7 @@ def open_sink(target: Target, tell: Tell) -> Sink:
 
     One on this machine has the port of greetings for itself, and takes what comes without any.
     """
-    family, address = resolved(target)
-    if _is_own(family, address):
+    if is_of_this_machine(target):
         return GreetedSink(target, tell, **target.options)
-    everywhere = "::" if family == socket.AF_INET6 else "0.0.0.0"
+    everywhere = "::" if ":" in resolved(target)[1][0] else "0.0.0.0"
     return GreetedSink(target, tell, **target.options, listen=(everywhere, PORT))
-
-
-def _is_own(family: socket.AddressFamily, address: tuple) -> bool:
-    """Whether an address is this machine's, be it the loopback's or not: nobody listens at those of others."""
-    host, _, *rest = address
-    with socket.socket(family, socket.SOCK_DGRAM) as trial:
-        try:
-            trial.bind((host, 0, *rest))
-        except OSError:
-            return False
-    return True

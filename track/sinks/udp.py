@@ -63,3 +63,14 @@ def resolved(target: Target) -> tuple[socket.AddressFamily, tuple]:
     except (socket.gaierror, UnicodeError) as error:
         raise InputError(f"--to {target.name}: host {target.host!r} is not known ({error})") from error
     return found[0][0], found[0][4]
+
+
+def is_of_this_machine(target: Target) -> bool:
+    """Whether a target's address is this machine's, be it the loopback's or not: nobody listens at those of others."""
+    family, (host, _, *rest) = resolved(target)
+    with socket.socket(family, socket.SOCK_DGRAM) as trial:
+        try:
+            trial.bind((host, 0, *rest))
+        except OSError:
+            return False
+    return True

@@ -1,6 +1,7 @@
 """glTF files: skins, placed nodes, interleaved and quantised accessors, text files with their data inside."""
 
 import base64
+import copy
 import json
 import tracemalloc
 from pathlib import Path
@@ -182,11 +183,11 @@ def head(path: Path) -> Path:
 
 
 def changed(document: dict, place: str, value: Any) -> dict:
-    """The document with another value at ``nodes.0.mesh``."""
+    """The document with another value at ``nodes.0.mesh``; a copy of it, which a second change may be in."""
     record, keys = document, [int(key) if key.isdigit() else key for key in place.split(".")]
     for key in keys[:-1]:
         record = record[key]
-    record[keys[-1]] = value
+    record[keys[-1]] = copy.deepcopy(value)
     return document
 
 
