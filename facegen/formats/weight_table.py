@@ -58,14 +58,13 @@ def read_weight_table(
             raise FormatError(f"{path}: a cell is no number ({error})") from error
     weights = values[:, : len(BLENDSHAPES)]
     if fps is None and "time_s" in columns:
-        return weights, _from_first(values[:, -1])
+        time_s = filled_times(values[:, -1])
+        return weights, time_s - time_s[0]
     return weights, np.arange(len(values)) / (fps or DEFAULT_FPS)
 
 
-def _from_first(time_s: np.ndarray) -> np.ndarray:
-    """Times from the first known one; a row without a time, as one without a face, has that of the row before."""
+def filled_times(time_s: np.ndarray) -> np.ndarray:
+    """Times of which an unknown one is that of the row before, or the first known one; zeros where none is known."""
     known = np.flatnonzero(np.isfinite(time_s))
-    if not len(known):
-        return time_s
     last = np.searchsorted(known, np.arange(len(time_s)), side="right") - 1
-    return time_s[known[np.maximum(last, 0)]] - time_s[known[0]]
+    return time_s[known[np.maximum(last, 0)]] if len(known) else np.zeros(len(time_s))

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES, Part
+from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, Part
 from facegen.geometry import apply_transform, project
 from facegen.headsets import Headset, head_from_headset
 from facegen.preview.portraits import drawn_mesh
@@ -87,10 +87,6 @@ def seen_landmarks(wearer: Wearer, view: View) -> tuple[np.ndarray, np.ndarray]:
     return landmarks_px, seen
 
 
-_EYES = {"left": slice(42, 48), "right": slice(36, 42)}
-"""Landmarks of the wearer's eyes."""
-
-
 def placement_faults(wearer: Wearer) -> list[str]:
     """Sentences about cameras and LEDs that cannot do their work.
 
@@ -100,12 +96,8 @@ def placement_faults(wearer: Wearer) -> list[str]:
     for index, camera in enumerate(wearer.headset.cameras):
         view = next(view for view in wearer.views if view.name == camera.name)
         place = (wearer.head_from_headset @ camera.headset_from_camera)[:3, 3]
-        depth = _skin_depth_m(wearer, place)
-        if depth > place[2]:
-            faults.append(
-                f"cameras[{index}] ({camera.name}) stands {1e3 * (depth - place[2]):.0f} mm behind the mean face's "
-                "skin; move position_mm out along z"
-            )
+        if inside := _behind_skin(wearer, place):
+            faults.append(f"cameras[{index}] ({camera.name}) {inside}")
             continue
         seen = seen_landmarks(wearer, view)[1]
         if not seen.any():
@@ -113,8 +105,8 @@ def placement_faults(wearer: Wearer) -> list[str]:
                 f"cameras[{index}] ({camera.name}) sees none of the mean face's 68 landmarks; check target_mm, "
                 "roll_deg and fx"
             )
-        counts = {side: seen[eye].sum() for side, eye in _EYES.items()}
-        named = [side for side in _EYES if camera.name.lower().startswith(side)]
+        counts = {side: seen[list(LANDMARK_GROUPS[f"{side}_eye"])].sum() for side in ("left", "right")}
+        named = [side for side in counts if camera.name.lower().startswith(side)]
         if named and counts[named[0]] < max(counts.values()):
             faults.append(
                 f"cameras[{index}] ({camera.name}) sees more of the other eye; x is positive to the wearer's left, so "
@@ -122,13 +114,19 @@ def placement_faults(wearer: Wearer) -> list[str]:
             )
     for index, led in enumerate(wearer.headset.leds):
         place = (wearer.head_from_headset @ np.append(led.position, 1.0))[:3]
-        depth = _skin_depth_m(wearer, place)
-        if depth > place[2]:
-            faults.append(
-                f"leds[{index}] ({led.name}) stands {1e3 * (depth - place[2]):.0f} mm behind the mean face's skin; "
-                "move position_mm out along z"
-            )
+        if inside := _behind_skin(wearer, place):
+            faults.append(f"leds[{index}] ({led.name}) {inside}")
     return faults
+
+
+def _behind_skin(wearer: Wearer, place: np.ndarray) -> str | None:
+    """What is wrong with a place in the head frame, if it lies behind the face's skin."""
+    depth = _skin_depth_m(wearer, place)
+    if depth <= place[2]:
+        return None
+    return (
+        f"stands {1e3 * (depth - place[2]):.0f} mm behind the mean face's skin; move position_mm out along z"
+    )
 
 
 def _skin_depth_m(wearer: Wearer, place: np.ndarray) -> float:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
+from facegen.formats.weight_table import filled_times
 from regress.errors import InputError
 from regress.runtime.sample import Sample
 
@@ -59,10 +60,7 @@ class Prediction:
         """
         if any(sample.time_s is None for sample in self.samples):
             raise InputError(f"{self.source} does not say when its frames were taken; give --fps")
-        time_s = np.array([sample.time_s for sample in self.samples])
-        known = np.flatnonzero(np.isfinite(time_s))
-        last = np.searchsorted(known, np.arange(len(time_s)), side="right") - 1
-        return time_s[known[np.maximum(last, 0)]] if len(known) else np.zeros(len(time_s))
+        return filled_times(np.array([sample.time_s for sample in self.samples]))
 
     def _stacked(self, field: str) -> np.ndarray | None:
         rows = [getattr(sample, field) for sample in self.samples]

@@ -15,7 +15,6 @@ function drawsPictures(): boolean {
 const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
 
 function refuse(text: string): void {
-  find("join").hidden = false;
   find("word").textContent = text;
   find("join").querySelector("button")!.disabled = true;
 }

@@ -1,3 +1,5 @@
+/** Whom a moderator acts on is told, and what one does oneself is no news. */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
