@@ -24,14 +24,20 @@ rig_app = typer.Typer(
 
 @rig_app.command(name="list")
 def list_() -> None:
-    """Print the rigs that facegen can build, with licence and source.
+    """Print the rigs that facegen can build and the heads that were added, with licence and source.
 
     Example: facegen rig list
     """
     from facegen.rigs.building import RIGS
+    from facegen.rigs.record import built_rigs, read_record
 
+    here = built_rigs()
     for name, rig in RIGS.items():
-        typer.echo(f"{name:12} {rig.licence:10} {rig.origin}")
+        typer.echo(f"{name:12} {'built' if name in here else 'not built':10} {rig.licence:10} {rig.origin}")
+    for name in here:
+        if name not in RIGS:
+            record = read_record(name)
+            typer.echo(f"{name:12} {'added':10} {record['licence']:10} {record['source']}")
 
 
 @rig_app.command()

@@ -46,6 +46,12 @@ def rigs_folder() -> Path:
     return Path(os.environ.get("FACEGEN_RIGS") or assets_folder() / "build")
 
 
+def built_rigs(folder: Path | None = None) -> list[str]:
+    """Names of the rigs of which both files lie in a folder; default `rigs_folder`."""
+    folder = Path(folder) if folder is not None else rigs_folder()
+    return sorted(file.stem for file in folder.glob("*.npz") if os.path.isfile(file.with_suffix(".json")))
+
+
 def made_again(name: str) -> str:
     """What to do about a rig whose files are not what was written."""
     if name in VERSIONS:
@@ -66,7 +72,7 @@ def read_record(name: str, folder: Path | None = None) -> dict:
     folder = Path(folder) if folder is not None else rigs_folder()
     path = folder / f"{name}.json"
     if not os.path.isfile(path) or not os.path.isfile(path.with_suffix(".npz")):
-        built = ", ".join(sorted(file.stem for file in folder.glob("*.npz"))) or "none"
+        built = ", ".join(built_rigs(folder)) or "none"
         known = name in VERSIONS
         cure = (
             f"make it with: facegen rig build {name}{_BUILT_FROM.get(name, '')}"

@@ -87,6 +87,13 @@ def test_a_rig_that_was_not_built_says_how_to_build_it(tmp_path: Path) -> None:
         load_rig("ict", tmp_path)
 
 
+def test_half_of_a_rig_is_none(anny: Rig, tmp_path: Path) -> None:
+    save_rig(anny, tmp_path)
+    (tmp_path / "anny.json").unlink()
+    with pytest.raises(MissingAsset, match=r"built: none"):
+        load_rig("anny", tmp_path)
+
+
 def test_folder_comes_from_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("FACEGEN_RIGS", str(tmp_path))
     assert rigs_folder() == tmp_path

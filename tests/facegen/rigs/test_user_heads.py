@@ -63,6 +63,15 @@ def test_landmarks_are_those_of_the_head_that_was_written(anny: Rig, glb: Rig, f
     assert glb.licence == "CC0-1.0"
 
 
+def test_the_list_of_rigs_says_what_is_built_and_what_was_added(files, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setenv("FACEGEN_RIGS", str(tmp_path))
+    add_rig(*files, name="mine")
+    lines = [line.split() for line in CliRunner().invoke(app, ["rig", "list"]).output.splitlines()]
+    assert [line[0] for line in lines] == ["anny", "ict", "mine"]
+    assert lines[0][1:3] == lines[1][1:3] == ["not", "built"]
+    assert lines[2][1:3] == ["added", load_rig("mine").licence]
+
+
 def test_missing_shapes_are_named_and_zero_and_spelling_does_not_matter(anny: Rig, tmp_path: Path) -> None:
     absent = ("tongueOut", "eyeBlinkLeft", "eyeBlinkRight", "cheekPuff")
 
