@@ -1,6 +1,6 @@
 /** One avatar: a model whose face, eyes and head follow a `Face`. */
 
-import { Group, Object3D, Quaternion, type Mesh, type Material, Texture } from "three";
+import { Group, Object3D, Quaternion, type Material, type SkinnedMesh, Texture } from "three";
 import { clone } from "three/addons/utils/SkeletonUtils.js";
 import type { VRM } from "@pixiv/three-vrm";
 
@@ -121,13 +121,19 @@ export class Avatar {
   /** Free what the graphics card holds of it, and of every `another`. */
   dispose(): void {
     this.root.removeFromParent();
-    this.root.traverse((node) => {
-      const { geometry, material } = node as Partial<Mesh>;
-      geometry?.dispose();
-      for (const each of [material ?? []].flat() as Material[]) {
-        for (const value of Object.values(each)) if (value instanceof Texture) value.dispose();
-        each.dispose();
-      }
-    });
+    release(this.root);
   }
+}
+
+/** Free what the graphics card holds of all that hangs on a node. */
+export function release(root: Object3D): void {
+  root.traverse((node) => {
+    const { geometry, material, skeleton } = node as Partial<SkinnedMesh>;
+    geometry?.dispose();
+    skeleton?.dispose();
+    for (const each of [material ?? []].flat() as Material[]) {
+      for (const value of Object.values(each)) if (value instanceof Texture) value.dispose();
+      each.dispose();
+    }
+  });
 }

@@ -1,6 +1,6 @@
 /** Avatars in the browser: load a .glb or .vrm, drive it by the 52 ARKit weights, gaze and head; shared by track and room. */
 
-export { Avatar } from "./avatar.js";
+export { Avatar, release } from "./avatar.js";
 export { findBone, type BoneName } from "./bones.js";
 export { rotation, type Face } from "./face.js";
 export { AvatarError, fetchAvatar, loadAvatar } from "./load.js";

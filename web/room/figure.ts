@@ -1,8 +1,8 @@
 /** One person as others see them: avatar and body where they stand, a name, and a sign while they speak. */
 
-import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3, type Object3D } from "three";
+import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3, type Object3D, type SkinnedMesh } from "three";
 
-import type { Avatar } from "../avatar/index.js";
+import { release, type Avatar } from "../avatar/index.js";
 import { EYES_M, makeBody, SEATED_M } from "./body.js";
 import { headGesture, Limbs } from "./limbs.js";
 import { FLAG, type Message } from "./protocol.js";
@@ -28,7 +28,9 @@ export class Figure {
   private lowered = 0;
   private readonly before = new Vector3();
   private readonly label = new Sprite(new SpriteMaterial({ transparent: true, depthWrite: false }));
-  private readonly sign: Mesh;
+  private readonly sign: Mesh<RingGeometry, MeshBasicMaterial>;
+  /** The simple body under a head, of nobody else. */
+  private readonly made: Group | undefined;
   private readonly turn = new Quaternion();
   private readonly angles = new Euler();
   private time = 0;
@@ -42,7 +44,8 @@ export class Figure {
     height: number,
   ) {
     const whole = height > WHOLE_M;
-    const body = whole ? avatar.root : height > BUST_M ? new Group() : makeBody(number);
+    this.made = whole || height > BUST_M ? undefined : makeBody(number);
+    const body = whole ? avatar.root : (this.made ?? new Group());
     this.limbs = new Limbs(body, whole ? avatar.vrm : undefined);
     this.standing = whole ? 0 : EYES_M;
     body.traverse((node) => {
@@ -161,6 +164,10 @@ export class Figure {
     this.label.material.map?.dispose();
     this.label.material.dispose();
     this.sign.geometry.dispose();
+    this.sign.material.dispose();
+    if (this.made) release(this.made);
+    // meshes and pictures belong to all who wear this avatar, but each has bones of their own
+    this.avatar.root.traverse((node) => (node as Partial<SkinnedMesh>).skeleton?.dispose());
     this.root.removeFromParent();
   }
 }

@@ -89,7 +89,10 @@ export class People {
   private async clothe(known: Known, person: Person, wears: string): Promise<void> {
     const still = (): boolean => this.known.get(person.number) === known && known.wears === wears;
     const own = person.own ? this.brought.fetch(person.own) : undefined;
-    if (!known.figure || !person.own) this.dress(known, this.wardrobe.plain());
+    if (!known.figure || !person.own) {
+      const plain = this.wardrobe.plain();
+      this.dress(known, plain, () => plain.avatar.dispose());
+    }
     const ready = await this.wardrobe.another(person.avatar);
     if (ready && still()) this.dress(known, ready, dye(ready.avatar.root, coloursOf(person)));
     const brought = await own;
