@@ -1,7 +1,7 @@
 """Draws random numbers whose left and right sides correlate as much as the spec says."""
 
 import numpy as np
-from scipy.special import ndtr, ndtri
+import scipy
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, mirrored_name
 
@@ -43,4 +43,4 @@ def _correlated(left: np.ndarray, right: np.ndarray, correlation: float) -> np.n
         return left
     # uniforms correlate by 6/pi asin(r/2) where their Gaussians correlate by r
     r = 2 * np.sin(np.pi / 6 * correlation)
-    return ndtr(r * ndtri(left) + np.sqrt(1 - r * r) * ndtri(right))
+    return scipy.special.ndtr(r * scipy.special.ndtri(left) + np.sqrt(1 - r * r) * scipy.special.ndtri(right))

@@ -1,7 +1,7 @@
 """Draws glints: spots of light that are added to a view's finished radiance."""
 
 import numpy as np
-from scipy.special import erf
+import scipy
 
 from facegen.labels.glints import Glints
 
@@ -74,6 +74,6 @@ def _add_spot(image: np.ndarray, middle_px: np.ndarray, sigma_px: float, volume:
         if first > last:  # rays of a star leave the picture
             return
         edges = np.arange(first, last + 2) - 0.5
-        profile.append(np.diff(0.5 * erf((edges - middle) / (sigma_px * np.sqrt(2.0)))))
+        profile.append(np.diff(0.5 * scipy.special.erf((edges - middle) / (sigma_px * np.sqrt(2.0)))))
         window.append(slice(first, last + 1))
     image[window[1], window[0]] += volume * profile[1][:, None] * profile[0]

@@ -3,7 +3,7 @@
 from functools import lru_cache
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from facegen.conventions import LANDMARK_GROUPS, Part
 from facegen.rigs import Rig
@@ -32,7 +32,9 @@ def cavity_surface(landmarks: np.ndarray, scale: float) -> tuple[np.ndarray, np.
     size of a mean head's.
     """
     border = landmarks[list(LANDMARK_GROUPS["inner_lip"])]
-    rim = CubicSpline(np.arange(9), np.concatenate([border, border[:1]]), bc_type="periodic")
+    rim = scipy.interpolate.CubicSpline(
+        np.arange(9), np.concatenate([border, border[:1]]), bc_type="periodic"
+    )
     # from the subject's right corner over the upper lip to the left one, as the landmarks run
     ring = rim(np.arange(AROUND) * (8.0 / AROUND))
     middle = ring.mean(axis=0)

@@ -11,11 +11,12 @@ References
    smaller from the canines on, as the crowns' own curvature is part of the measured ones.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 AROUND = 20
 LEVELS = np.array([-0.35, 0.0, 0.1, 0.25, 0.42, 0.6, 0.75, 0.86, 0.94, 0.98, 1.0])
@@ -115,7 +116,7 @@ def neck(tooth: Tooth) -> tuple[float, float]:
 
 
 @lru_cache(maxsize=32)
-def _outlines(tooth: Tooth) -> tuple[PchipInterpolator, PchipInterpolator, PchipInterpolator]:
+def _outlines(tooth: Tooth) -> tuple[Callable[[np.ndarray], np.ndarray], ...]:
     """Half width, outer and inner surface by height, millimetres."""
     w, nw, face, depth = tooth.width / 2, tooth.neck_width / 2, tooth.face, tooth.depth
     if tooth.kind in ("incisor", "canine"):
@@ -135,7 +136,7 @@ def _outlines(tooth: Tooth) -> tuple[PchipInterpolator, PchipInterpolator, Pchip
         back = face - 0.5 - tooth.neck_depth
         inner = [back + 0.3, back, face - depth + 0.1, face - depth + 0.15]
         inner += [face - depth + 0.6, face - depth + 1.1, face - depth + 1.7]
-    return tuple(PchipInterpolator(heights, values) for values in (half, outer, inner))
+    return tuple(scipy.interpolate.PchipInterpolator(heights, values) for values in (half, outer, inner))
 
 
 def _ring(tooth: Tooth, level: float, size: float, x: np.ndarray, d: np.ndarray) -> np.ndarray:

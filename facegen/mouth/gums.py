@@ -5,7 +5,7 @@ gap below their contacts. The surface is one grid; teeth stand through it.
 """
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from facegen.mouth.arch import Course
 
@@ -99,12 +99,14 @@ def _edge(necks: np.ndarray, size: float, arch: str) -> tuple[np.ndarray, ...]:
     columns = np.unique(np.linspace(knots[order][:-1], knots[order][1:], PER_TOOTH // 2 + 1))
 
     def along(values: list[np.ndarray]) -> np.ndarray:
-        return PchipInterpolator(knots[order], np.concatenate(values)[order])(columns)
+        return scipy.interpolate.pchip_interpolate(knots[order], np.concatenate(values)[order], columns)
 
     def plain(values: np.ndarray, far: np.ndarray, near: np.ndarray) -> np.ndarray:
         stations = np.concatenate([s, knots[len(s) + len(between) :]])
         sort = np.argsort(stations)
-        return PchipInterpolator(stations[sort], np.concatenate([values, far, near])[sort])(columns)
+        return scipy.interpolate.pchip_interpolate(
+            stations[sort], np.concatenate([values, far, near])[sort], columns
+        )
 
     smooth_outer = plain(outer - 0.4 * mm, outers[2], outers[3])
     smooth_edge = plain(np.full(2 * teeth, h.mean()), edges[2], edges[3])

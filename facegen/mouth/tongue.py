@@ -1,7 +1,7 @@
 """The tongue: a soft body from the throat to its tip, resting in the lower arch or put out over the lip."""
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 ALONG, AROUND = 40, 32
 REST = np.array(
@@ -60,10 +60,10 @@ def tongue_surface(
     at = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(middle, axis=0), axis=1))])
     stations = np.linspace(0.0, 1.0, len(REST))
     flat = np.minimum(HALF_HEIGHT, max(0.42 * room_mm / size, 2.2))
-    half_width = (
-        size * width * PchipInterpolator(stations, HALF_WIDTH * (1.0 + lift * reach * (BROAD - 1.0)))(share)
-    )
-    half_height = size * PchipInterpolator(stations, HALF_HEIGHT + lift * (flat - HALF_HEIGHT))(share)
+    broad = HALF_WIDTH * (1.0 + lift * reach * (BROAD - 1.0))
+    half_width = size * width * scipy.interpolate.pchip_interpolate(stations, broad, share)
+    high = HALF_HEIGHT + lift * (flat - HALF_HEIGHT)
+    half_height = size * scipy.interpolate.pchip_interpolate(stations, high, share)
     left = np.clip((at[-1] - at) / (size * ROUND_MM), 0.0, 1.0)
     tip = np.sqrt(np.clip(1.0 - (1.0 - left) ** 2, 0.0, 1.0))
     half_width, half_height = half_width * tip, half_height * (0.25 + 0.75 * tip) * np.sqrt(tip)
@@ -96,7 +96,7 @@ def tongue_surface(
 def _dense(line: np.ndarray, until: float, share: np.ndarray) -> np.ndarray:
     """Points (n, 2) of the smooth line through ``line`` (k, 2), at shares (n,) of its first ``until`` (a share too)."""
     knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
-    return PchipInterpolator(knots, line)(until * knots[-1] * share)
+    return scipy.interpolate.pchip_interpolate(knots, line, until * knots[-1] * share)
 
 
 def _smooth(x: float) -> float:

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse import csgraph
+import scipy
 
 from facegen.conventions import Part
 from facegen.rigs.rig import Rig
@@ -30,7 +29,9 @@ def lash_strips(rig: Rig) -> tuple[LashStrip, ...]:
     quads = faces[(faces >= 0).all(axis=1)]
     if not len(quads):
         return ()
-    strip_of_vertex = csgraph.connected_components(_edges(quads, len(rig.vertices)), directed=False)[1]
+    strip_of_vertex = scipy.sparse.csgraph.connected_components(
+        _edges(quads, len(rig.vertices)), directed=False
+    )[1]
     grids = []
     for strip in np.unique(strip_of_vertex[quads[:, 0]]):
         grid = _grid(quads[strip_of_vertex[quads[:, 0]] == strip], rig.vertices, rig.eye_center)
@@ -49,10 +50,10 @@ def _outwards(grid: np.ndarray, vertices: np.ndarray) -> np.ndarray:
     return grid if first < last else grid[::-1]
 
 
-def _edges(quads: np.ndarray, count: int) -> sparse.csr_matrix:
+def _edges(quads: np.ndarray, count: int) -> scipy.sparse.csr_matrix:
     """Symmetric (count, count) matrix of how many quads share each edge."""
     sides = np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2)
-    once = sparse.csr_matrix((np.ones(len(sides)), sides.T), shape=(count, count))
+    once = scipy.sparse.csr_matrix((np.ones(len(sides)), sides.T), shape=(count, count))
     return once + once.T
 
 
@@ -61,7 +62,7 @@ def _grid(quads: np.ndarray, vertices: np.ndarray, eye_center: np.ndarray) -> np
     edges = _edges(quads, len(vertices))
     uses = np.bincount(quads.ravel(), minlength=len(vertices))
     border = edges.tocoo()
-    rim = sparse.csr_matrix((border.data == 1, (border.row, border.col)), shape=edges.shape)
+    rim = scipy.sparse.csr_matrix((border.data == 1, (border.row, border.col)), shape=edges.shape)
     loop = [int(np.flatnonzero(uses == 1)[0])]
     while True:
         ahead = [int(n) for n in rim[loop[-1]].nonzero()[1] if n not in loop[-2:]]
@@ -80,7 +81,9 @@ def _grid(quads: np.ndarray, vertices: np.ndarray, eye_center: np.ndarray) -> np
     roots = lengths[int(away[0] > away[1])]
 
     def steps(side: list[int]) -> np.ndarray:
-        reached = csgraph.dijkstra(edges, directed=False, unweighted=True, indices=side, min_only=True)
+        reached = scipy.sparse.csgraph.dijkstra(
+            edges, directed=False, unweighted=True, indices=side, min_only=True
+        )
         return reached[used].astype(int)
 
     used = np.unique(quads)

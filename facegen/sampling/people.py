@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.special import ndtr, ndtri
+import scipy
 
 from facegen.conventions import BLOCK, SPLITS
 from facegen.randomness import stream
@@ -48,9 +48,9 @@ def draw_people(spec: Spec, rig: Rig, block: int) -> People:
     female = traits_rng.random(BLOCK) < spec.identity.female
     age_years = draw(spec.identity.age_years, traits_rng, BLOCK)
     ancestry = traits_rng.dirichlet([spec.identity.ancestry_concentration] * 3, BLOCK)
-    edge = ndtr(LARGEST_SCORE)
+    edge = scipy.special.ndtr(LARGEST_SCORE)
     unit = stream(spec.seed, "identity", block).random((BLOCK, rig.components))
-    scores = ndtri((1 - edge) + unit * (2 * edge - 1)) * spec.identity.spread
+    scores = scipy.special.ndtri((1 - edge) + unit * (2 * edge - 1)) * spec.identity.spread
     known = {
         "one": np.ones(BLOCK),
         "female": female.astype(np.float64),

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from facegen.conventions import MIRRORED_LANDMARKS, Part
 from facegen.rigs import Rig
@@ -83,7 +83,7 @@ def _outer_triangles(rig: Rig, landmarks: np.ndarray) -> tuple[np.ndarray, np.nd
     reach = np.linalg.norm(away, axis=-1)
     near = reach < NEAR_M
     triangles, part, away, reach = triangles[near], part[near], away[near], reach[near]
-    neighbours = cKDTree(away / reach[:, None]).query(away / reach[:, None], k=12)[1]
+    neighbours = scipy.spatial.cKDTree(away / reach[:, None]).query(away / reach[:, None], k=12)[1]
     outer = reach > reach[neighbours].max(axis=1) - LINING_M
     return triangles[outer], part[outer]
 

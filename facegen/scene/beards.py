@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from facegen.conventions import Part
 from facegen.rigs import Rig
@@ -102,7 +102,7 @@ def draw_beard(person: np.random.Generator, session: np.random.Generator, rig: R
     lock = np.arange(grows.sum())
     if length >= SHORT_M and len(lock) > CLUMP:
         leaders = lock[::CLUMP]
-        lock = leaders[cKDTree(root[grows][leaders]).query(root[grows])[1]]
+        lock = leaders[scipy.spatial.cKDTree(root[grows][leaders]).query(root[grows])[1]]
     return Beard(
         kind=kind,
         length_m=float(length),
@@ -171,6 +171,6 @@ def _outside(points: np.ndarray, triangles: np.ndarray, vertices: np.ndarray) ->
         axis=-1,
     )
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    nearest = cKDTree(skin).query(points.reshape(-1, 3))[1].reshape(points.shape[:2])
+    nearest = scipy.spatial.cKDTree(skin).query(points.reshape(-1, 3))[1].reshape(points.shape[:2])
     above = ((points - skin[nearest]) * normal[nearest]).sum(axis=-1)
     return points + np.maximum(CLEAR_M - above, 0.0)[..., None] * normal[nearest]

@@ -9,7 +9,7 @@ the ears.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from facegen.conventions import Part
 from facegen.rigs import EyeGeometry, Rig
@@ -140,7 +140,7 @@ def _skin_before(rig: Rig, vertices: np.ndarray, rim_points: np.ndarray) -> np.n
     """How far forward (n,) the skin reaches about places (n, 3), metres along z."""
     skin = vertices[np.unique(rig.faces[np.isin(rig.part, (Part.SKIN, Part.BROWS)), :3])]
     skin = skin[(skin[:, 2] > -0.03) & (np.abs(skin[:, 1]) < 0.06)]
-    distance, nearest = cKDTree(skin[:, :2]).query(rim_points[:, :2], k=6)
+    distance, nearest = scipy.spatial.cKDTree(skin[:, :2]).query(rim_points[:, :2], k=6)
     # on the temples, where the skin runs along z, the farthest of a wide ring would be far before the place itself
     return np.where(distance < 4e-3, skin[nearest, 2], -np.inf).max(axis=1)
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from facegen.rigs import Rig
 from facegen.rigs.lash_strips import LashStrip, lash_strips
@@ -126,6 +126,9 @@ def _sampled(grid: np.ndarray, at: np.ndarray) -> np.ndarray:
     """Values (s, p, 3) of a grid (m, n, 3) at places (s, p, 2) in steps, between them by straight lines."""
     coordinates = np.moveaxis(at, -1, 0)
     return np.stack(
-        [ndimage.map_coordinates(grid[..., axis], coordinates, order=1, mode="nearest") for axis in range(3)],
+        [
+            scipy.ndimage.map_coordinates(grid[..., axis], coordinates, order=1, mode="nearest")
+            for axis in range(3)
+        ],
         axis=-1,
     )

@@ -5,9 +5,9 @@ from math import isfinite
 from typing import Annotated, Any, Literal
 
 import numpy as np
+import scipy
 from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 from pydantic_core import PydanticCustomError
-from scipy.special import ndtr, ndtri
 
 DEFAULT_SDS = 3.0
 """A normal distribution without ``within`` is cut at this many standard deviations."""
@@ -31,10 +31,10 @@ def draw(distribution: Distribution, rng: np.random.Generator, size: int | tuple
     unit = rng.random(size)
     if distribution.kind == "normal":
         below, above = (
-            ndtr((edge - distribution.mean) / distribution.sd)
+            scipy.special.ndtr((edge - distribution.mean) / distribution.sd)
             for edge in (distribution.low, distribution.high)
         )
-        value = distribution.mean + distribution.sd * ndtri(below + unit * (above - below))
+        value = distribution.mean + distribution.sd * scipy.special.ndtri(below + unit * (above - below))
         return np.clip(value, distribution.low, distribution.high)
     return distribution.low + unit * (distribution.high - distribution.low)
 
