@@ -20,7 +20,8 @@ AVATARS := room/server/static/avatars
 PLACES := room/server/static/places
 LEARNER := $(VENV)/.learner
 MADE    := $(OUT)/.made
-PIP     := $(BIN)/python -m pip install --quiet --disable-pip-version-check
+# Python compiles what is imported, and keeps it where it may; pip would compile all of 1.9 GB first, in half of the time
+PIP     := $(BIN)/python -m pip install --quiet --disable-pip-version-check $(if $(PYTHONDONTWRITEBYTECODE),,--no-compile)
 INSTALL := $(PIP) --constraint constraints.txt
 # what comes is what was locked: a file of another content, also of the same version, is refused
 LOCKED  := $(PIP) --no-deps --require-hashes --only-binary :all: --requirement
@@ -32,11 +33,12 @@ TESTED  := headset-test headset-slip
 # a file's tests stay together, and share what they made; tests/conftest.py says which files come first, and which stay beside each other
 SHARED  := --dist loadfile --no-loadscope-reorder
 TWO     := --numprocesses 2 $(SHARED)
+LONG    := slow or blender or longer
 # the others have been run without PyTorch
 TORCHED  = $(shell grep --recursive --files-with-matches --fixed-strings 'importorskip("torch")' tests) tests/test_layers.py
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lock rig dataset train export headset headset-any models rig-of-clone samples web room-face room-avatars wheel test test-farm test-headset test-quick docs-test fuzz lint format \
+.PHONY: help setup lock rig dataset train export headset headset-any models rig-of-clone samples web room-face room-avatars wheel test test-farm test-headset test-quick durations docs-test fuzz lint format \
   clean distclean
 .DELETE_ON_ERROR:
 
@@ -102,8 +104,8 @@ wheel: | $(BIN)/python  ## Wheel and sdist in dist
 	$(INSTALL) build
 	$(BIN)/python -m build --outdir dist .
 
-test: $(TESTER) $(RIG)  ## All tests but those of farms
-	$(BIN)/python -m pytest $(TWO) --durations 30 --durations-min 10 --ignore tests/real_tools
+test: test-quick  ## All tests but those of farms, the quick ones first
+	$(BIN)/python -m pytest $(TWO) --durations 30 --durations-min 10 --ignore tests/real_tools -m "$(LONG)"
 
 test-farm: $(TESTER) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
 	$(BIN)/python -m pytest tests/real_tools
@@ -112,8 +114,11 @@ test-headset: $(TESTER) models/headset-tiny/report.html  ## Headset networks: wh
 	$(BIN)/regress headset predict models/headset-tiny datasets/out/headset-tiny --out models/headset-tiny.csv
 	$(BIN)/python -m pytest $(TWO) $(TORCHED)
 
-test-quick: $(TESTER) $(RIG)  ## Tests that need neither Blender nor much time (six minutes on two cores)
-	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not slow and not blender"
+test-quick: $(TESTER) $(RIG)  ## The 4,300 quick tests: two minutes on two cores say whether the tree is broken
+	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not ($(LONG))"
+
+durations: $(TESTER) $(RIG)  ## Measure anew which tests are quick, on a machine with nothing else to do
+	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not slow and not blender" --record-durations
 
 fuzz: $(TESTER) $(RIG)  ## Damaged inputs, new ones for MINUTES=60 (SEED= repeats); tests/hostile/corpus keeps what fails
 	$(BIN)/python -m tests.hostile fuzz --minutes $(MINUTES) $(if $(SEED),--seed $(SEED))

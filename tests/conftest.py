@@ -12,10 +12,11 @@ from xdist.scheduler import LoadFileScheduling
 
 from facegen.rigs import Rig, load_rig
 from facegen.rigs.building import build_rig
+from tests.durations import Recorder, mark_longer, measured
 from tests.hostile import summary
 
 
-def pytest_configure() -> None:
+def pytest_configure(config: pytest.Config) -> None:
     """A stop from outside ends as Ctrl-C does: fixtures still take down what they put up."""
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     # tests that import onnxruntime by themselves, as a user's program does, tell Microsoft nothing of this machine
@@ -23,6 +24,8 @@ def pytest_configure() -> None:
     # a busy machine makes any example slow; speed is measured in benchmarks/
     settings.register_profile("facegen", deadline=None)
     settings.load_profile("facegen")
+    if config.getoption("--record-durations") and "PYTEST_XDIST_WORKER" not in os.environ:
+        config.pluginmanager.register(Recorder())
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -32,11 +35,16 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help="fail where a Python that the wheel is tried on is missing",
     )
+    parser.addoption("--record-durations", action="store_true", help="write tests/durations.json anew")
     parser.addoption("--update-golden", action="store_true", help="write golden files anew, to be read over")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Long files come first, which processes share: at the end of a run none is left alone with a minute's work."""
+    """Long files come first, which processes share: at the end of a run none is left alone with a minute's work.
+
+    What takes long stands apart by a mark: `make test` begins with all others.
+    """
+    mark_longer(items, measured())
     slow = {item.path for item in items if item.get_closest_marker("slow")}
     count = Counter(item.path for item in items)
     items.sort(key=lambda item: (item.path not in slow, item.path not in slow and -count[item.path]))
