@@ -24,6 +24,9 @@ from regress.runtime.headset.typical import likeness, typical_picture
 _STEPS = 6
 """In which a placement is refined from a start; a film of a real eye settles in five."""
 
+_FEW = 16
+"""Frames, evenly chosen, by which steps are taken; what they lead to is judged by all that the search has."""
+
 _SMALLEST, _LARGEST, _EDGE = 0.3, 1.7, 0.1
 """Sizes of views over pictures (the largest over a picture's longer side), and how near to a picture's edge the middle
 of a view may lie: beyond, the view shows repeated edges for the most part, in which networks see what they like."""
@@ -87,6 +90,11 @@ def placement_of_points(
     )
 
 
+def evenly_chosen(pictures: np.ndarray, most: int) -> np.ndarray:
+    """At most so many of the frames of a take, the first and the last among them."""
+    return pictures[np.linspace(0, len(pictures) - 1, min(len(pictures), most)).round().astype(int)]
+
+
 class Search:
     """Looks at a take's frames (n, h, w) at one placement after the other."""
 
@@ -99,7 +107,8 @@ class Search:
         *,
         fades: bool,
     ) -> None:
-        self._predictor, self._camera, self._points, self._pictures = predictor, camera, points, pictures
+        self._predictor, self._camera, self._points = predictor, camera, points
+        self._pictures, self._few = pictures, evenly_chosen(pictures, _FEW)
         self._view = predictor.sizes[camera]
         self._picture = (pictures.shape[2], pictures.shape[1])
         self.fades = fades
@@ -115,7 +124,7 @@ class Search:
         """The best of the placements through which the steps from a start go."""
         placement, found = start, []
         for _ in range(_STEPS):
-            seen, quality = self._look(placement)
+            seen, quality = self._look(placement, self._few)
             following = placement_of_points(
                 placement, seen, self._points, picture=self._picture, view=self._view
             )
@@ -125,7 +134,11 @@ class Search:
                 FoundPlacement(placement=placement, unsettled=_distance(placement, following), **quality)
             )
             placement = self._held(following)
-        return min(found, key=lambda one: one.score)
+        best = min(found, key=lambda one: one.score)
+        if len(self._few) == len(self._pictures):
+            return best
+        _, quality = self._look(best.placement, self._pictures)
+        return replace(best, **quality)
 
     def _held(self, placement: CameraPlacement) -> CameraPlacement:
         """The nearest placement within the limits."""
@@ -149,7 +162,9 @@ class Search:
     @cached_property
     def surely_upright(self) -> bool:
         """Whether the compass is sure, of the pictures as they come, that the eye stands upright, on either side."""
-        shares = eye_compass().log_shares(self.views(CameraPlacement()), of_right_eye=self._of_right_eye)
+        shares = eye_compass().log_shares(
+            self.views(CameraPlacement(), self._pictures), of_right_eye=self._of_right_eye
+        )
         return bool(shares[:2].max() > shares[2:].max() + _SURELY)
 
     def _upright(self, *, mirror: bool, quarter: int) -> float:
@@ -161,26 +176,28 @@ class Search:
             roll_deg = (90.0 * quarter + 180) % 360 - 180
             whole = [CameraPlacement(mirror=mirror, roll_deg=roll_deg, size=size) for size in _WHOLE]
             shares = [
-                eye_compass().log_shares(self.views(moved), of_right_eye=self._of_right_eye)[0]
+                eye_compass().log_shares(self.views(moved, self._pictures), of_right_eye=self._of_right_eye)[
+                    0
+                ]
                 for placement in whole
                 for moved in _moved(placement)
             ]
             self._uprights[mirror, quarter] = float(np.mean(shares))
         return self._uprights[mirror, quarter]
 
-    def views(self, placement: CameraPlacement) -> np.ndarray:
+    def views(self, placement: CameraPlacement, pictures: np.ndarray) -> np.ndarray:
         """(n, height, width) uint8, levelled."""
         width, height = self._view
         views = np.stack(
-            [placement.view(one, width=width, height=height, fades=self.fades) for one in self._pictures]
+            [placement.view(one, width=width, height=height, fades=self.fades) for one in pictures]
         )
         return level_table(*levels_of(views), self._predictor.model.looks[self._camera])[views]
 
-    def _look(self, placement: CameraPlacement) -> tuple[np.ndarray, dict[str, float]]:
+    def _look(self, placement: CameraPlacement, pictures: np.ndarray) -> tuple[np.ndarray, dict[str, float]]:
         """Points (n, P, 2) in the view, and how good it is."""
         seen, deviations, likenesses = [], [], []
         for moved in _moved(placement):
-            views = self.views(moved)
+            views = self.views(moved, pictures)
             estimates, traced = self._predictor.graph.see({self._camera: views})
             seen.append(traced[self._camera])
             deviations.append(estimates.deviation[:, self._part].mean())

@@ -163,6 +163,17 @@ def test_a_crop_is_placed_where_the_uncropped_frames_are(
     assert np.linalg.norm((through @ middle - straight @ middle)[:2]) < 0.03 * 96
 
 
+def test_the_side_is_told_by_all_frames_and_not_by_the_few_of_the_steps(take: Take):
+    """A third of the frames come upright, those that the steps see; the others come in a mirror."""
+    predictor = load_headset_predictor("headset-any")
+    pictures = take["left_eye"][:48]
+    few = np.linspace(0, 47, 16).round().astype(int)
+    seen = np.ascontiguousarray(pictures[:, :, ::-1])
+    seen[few] = pictures[few]
+    assert find_placement(predictor, "left_eye", seen).placement.mirror
+    assert not find_placement(predictor, "left_eye", seen[few]).placement.mirror
+
+
 def _square(matrix: np.ndarray) -> np.ndarray:
     return np.vstack([matrix, [0, 0, 1]])
 
