@@ -17,7 +17,7 @@ from regress.runtime.model import Model, save_model
 from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.sample import Sample
 from regress.runtime.stages.filters import DEFAULT_FILTER, FILTERS
-from regress.runtime.stages.kalman import NOISE_LEAST, SURPRISE, KalmanSmoothing
+from regress.runtime.stages.kalman import NOISE_LEAST, SURPRISE, WANDERING, KalmanSmoothing
 from regress.runtime.stages.output import Output, filter_stage
 from regress.runtime.stages.stage import Chain, Stage
 from regress.runtime.writers.csv_table import weights_csv
@@ -90,7 +90,8 @@ def test_nothing_is_carried_over_a_gap(name: str, take: tuple[np.ndarray, np.nda
     weights, time_s = take
     before, after = np.where(np.isnan(weights), np.nan, 0.0), np.where(np.isnan(weights), np.nan, 1.0)
     both = np.concatenate([before, after])
-    times = np.concatenate([time_s, time_s[-1] + 0.51 + time_s])
+    # for means a gap is three times the step before it: some takes have frames all 3 s
+    times = np.concatenate([time_s, time_s[-1] + 9.01 + time_s])
     np.testing.assert_array_equal(left(filter_stage(name), both, times), both)
 
 
@@ -116,6 +117,34 @@ def test_kalman_is_linear_where_nothing_surprises():
         return left(KalmanSmoothing(1 / 30, noise=noise), weights, times)
 
     np.testing.assert_allclose(kalman(first + second), kalman(first) + kalman(second), atol=1e-12)
+
+
+def test_kalman_is_the_exact_smoother_where_nothing_surprises():
+    """Least squares over the whole take: rows less what is seen, and steps, each by its variance."""
+    rng = np.random.default_rng(5)
+    noise = np.full(SHAPES, 0.1)
+    times = np.cumsum(rng.uniform(0.02, 0.1, size=30))
+    seen = 0.5 + rng.uniform(0, SURPRISE * 0.1 / 4, size=(30, SHAPES))
+    steps = np.diff(np.eye(30), axis=0) / np.sqrt(WANDERING * np.diff(times))[:, None]
+    exact = np.linalg.solve(np.eye(30) + steps.T @ steps, seen)
+    # a look ahead that is longer than the take, so that all behind a frame correct it; the first never waits, as nobody
+    # knows when the next will come
+    smoothed = left(KalmanSmoothing(10.0, noise=noise), seen, times)
+    np.testing.assert_array_equal(smoothed[0], seen[0])
+    np.testing.assert_allclose(smoothed[1:], exact[1:], atol=1e-12)
+
+
+def test_kalman_measures_no_noise_across_a_gap():
+    """How far the level before a gap lies from the one behind it is no jitter."""
+    rng = np.random.default_rng(7)
+    jitter = 0.01 * rng.normal(size=(90, SHAPES))
+    times = np.arange(90) / 30 + np.where(np.arange(90) < 45, 0.0, 1.0)
+
+    def behind(level: float) -> np.ndarray:
+        before = np.where(np.arange(90)[:, None] < 45, level, 0.2)
+        return left(filter_stage(DEFAULT_FILTER), before + jitter, times)[45:]
+
+    np.testing.assert_allclose(behind(0.2), behind(0.9), atol=1e-12)
 
 
 def live_lag_ms(stage: Stage, rate: int, height: float) -> np.ndarray:

@@ -1,6 +1,6 @@
 """The solver: exact steps, falling costs, derivatives that are derivatives, named ends."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -206,6 +206,32 @@ def test_evidence_finds_the_strength_of_a_linear_problem():
     assert result.alpha[0] == pytest.approx(expected, rel=0.05)
     exact = np.linalg.solve(matrix[0].T @ matrix[0] + result.alpha[0] * np.eye(60), matrix[0].T @ target)
     assert np.allclose(result.parameters[0], exact, atol=1e-4)
+
+
+def test_evidence_counts_what_the_parameters_have_used_up():
+    """Of 100 rows 60 parameters leave 40 that tell the noise: by all rows it would be two fifths of it."""
+    rng = np.random.default_rng(6)
+    matrix = rng.normal(size=(20, 100, 60))
+    truth = 2 * rng.normal(size=(20, 60))
+    target = np.einsum("mrp,mp->mr", matrix, truth) + 3 * rng.normal(size=(20, 100))
+    problem = Linear(matrix, target)
+    alpha = minimise_with_evidence(problem, np.zeros((20, 60)), np.full(20, 1.0), Settings(steps=20)).alpha
+    assert np.median(alpha) == pytest.approx(9 / 4, rel=0.25)
+
+
+def test_refused_steps_use_up_no_patience():
+    problem = network_problem(3)
+    # held out is what is trained on, so each accepted step lowers the held-out error
+    problem = NetworkProblem(
+        layout=problem.layout, used=problem.used, train=problem.train, held_out=(problem.train,)
+    )
+    first, alpha = 4 * start(problem, 3), np.full(3, 1e-6)
+    undamped = Settings(steps=1, damping=0.0)
+    refused = (minimise(problem, first, alpha, undamped).parameters == first).all(axis=1)
+    assert refused.any()
+    patient = minimise(problem, first, alpha, replace(undamped, steps=30, patience=1))
+    before = problem.monitor(first, np.arange(3))[:, 0]
+    assert (patient.error[refused] < 0.9 * before[refused]).all()
 
 
 def test_effective_parameters_are_about_the_exact_trace():
