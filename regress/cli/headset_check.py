@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -100,7 +101,8 @@ def check(
             )
         )
     if out is not None:
-        cameras = {one.camera: one.placement for one in judged}
+        aspects = {name: pictures.shape[2] / pictures.shape[1] for name, pictures in footage.items()}
+        cameras = {one.camera: replace(one.placement, aspect=aspects[one.camera]) for one in judged}
         found_with = predictor.model
         write_placement(
             out,

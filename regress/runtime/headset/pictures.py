@@ -109,7 +109,7 @@ def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
     return (grey >> (bits - 8)).astype(np.uint8)
 
 
-def has_shape_of(picture: tuple[int, int], view: tuple[int, int]) -> bool:
+def has_shape_of(picture: tuple[int, int], view: tuple[float, float]) -> bool:
     """Whether a picture only needs scaling to become a view; both are (width, height)."""
     return abs(picture[0] * view[1] / (picture[1] * view[0]) - 1) <= ASPECT
 
@@ -121,7 +121,10 @@ def fit_picture(
     scaled_from, fault = None, None
     if placement is not None:
         scaled_from = grey.shape[1], grey.shape[0]
-        grey = placement.view(grey, width=width, height=height)
+        if placement.aspect is None or has_shape_of(scaled_from, (placement.aspect, 1)):
+            grey = placement.view(grey, width=width, height=height)
+        else:
+            fault = Fault.SHAPE
     elif grey.shape != (height, width):
         scaled_from = grey.shape[1], grey.shape[0]
         if has_shape_of(scaled_from, (width, height)):

@@ -37,6 +37,9 @@ class CameraPlacement:
         Whether the view is looked at in a mirror.
     low, high
         Grey levels of the picture that become 2nd and 98th percentiles of training; None leaves levels to `predict`.
+    aspect
+        Width over height of the pictures that it was found in: others show another part of what the camera sees, and
+        are at fault. None takes pictures of any shape.
     """
 
     __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
@@ -48,6 +51,7 @@ class CameraPlacement:
     mirror: bool = False
     low: Level | None = None
     high: Level | None = None
+    aspect: Annotated[float, Interval(ge=0.01, le=100)] | None = None
 
     def __post_init__(self) -> None:
         """Refuse levels of which one is lacking, or that are no range."""

@@ -15,6 +15,7 @@
     mirror = true
     low = 95.0                             # grey levels; both may be left out
     high = 254.0
+    aspect = 1.3333                        # width over height of the pictures; others are at fault; may be left out
 """
 
 import os
@@ -113,6 +114,8 @@ def write_placement(path: str | os.PathLike[str], placement: Placement) -> None:
         lines += [f"roll_deg = {camera.roll_deg:.2f}", f"mirror = {str(camera.mirror).lower()}"]
         if camera.low is not None:
             lines += [f"low = {camera.low:.1f}", f"high = {camera.high:.1f}"]
+        if camera.aspect is not None:
+            lines.append(f"aspect = {camera.aspect:.4f}")
     write_whole(Path(path), "\n".join(lines) + "\n")
 
 

@@ -186,7 +186,9 @@ def test_the_program_says_it_and_predict_takes_what_it_writes(run, take: Take, t
     code, said, _ = run("headset", "check", "headset-tracking3", *options, "--out", out, "--sheet", sheet)
     assert code == 0
     assert "left_eye is mirrored, or of the other eye" in said
-    assert read_placement(out, load_headset_predictor("headset-tracking3").model)["left_eye"].mirror
+    placement = read_placement(out, load_headset_predictor("headset-tracking3").model)["left_eye"]
+    assert placement.mirror
+    assert placement.aspect == pytest.approx(136 / 120, abs=1e-3)
     drawn = cv2.imread(str(sheet))
     assert drawn is not None
     assert drawn.std() > 20
@@ -205,6 +207,11 @@ def test_the_program_says_it_and_predict_takes_what_it_writes(run, take: Take, t
         answers[name] = np.genfromtxt(table, delimiter=",", names=True)["eyeBlinkLeft"]
     assert np.abs(answers["plain"] - answers["placed"]).mean() < 0.08
     assert np.corrcoef(answers["plain"], answers["placed"])[0, 1] > 0.95
+    # frames of another shape are at fault, not looked at in another place
+    wide = write_take(tmp_path / "wide", {"left_eye": placed[:, :90]})
+    words = ("headset-tracking3", *wide, "--placement", out, "--out", tmp_path / "wide.csv")
+    _, _, told = run("headset", "predict", *words)
+    assert "all of its 40 frames have a picture of another shape" in told
 
 
 def test_a_sheet_of_another_ending_is_refused_before_anything_is_judged(run, tmp_path: Path):

@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.errors import InputError
+from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.footage import line_up
 from regress.runtime.headset.model import CameraInput, HeadsetModel, HeadsetTraining
 from regress.runtime.headset.pictures import fit_picture
@@ -120,7 +121,9 @@ def test_a_view_within_its_picture_is_not_blurred(placement):
 @given(
     st.dictionaries(
         st.text(string.ascii_letters + string.digits + "_-.", max_size=20).map("c".__add__),
-        placements.flatmap(lambda one: st.sampled_from([one, replace(one, low=-3.5, high=240.25)])),
+        placements.flatmap(
+            lambda one: st.sampled_from([one, replace(one, low=-3.5, high=240.25, aspect=4 / 3)])
+        ),
         min_size=1,
         max_size=4,
     ),
@@ -132,7 +135,8 @@ def test_a_file_says_what_was_written(tmp_path_factory, cameras, model):
     found = read_placement(path, model_of(cameras))
     assert list(found) == list(cameras)
     for name, one in cameras.items():
-        for field, digits in (("x", 4), ("y", 4), ("size", 4), ("roll_deg", 2), ("low", 1), ("high", 1)):
+        written = {"x": 4, "y": 4, "size": 4, "roll_deg": 2, "low": 1, "high": 1, "aspect": 4}
+        for field, digits in written.items():
             wanted = getattr(one, field)
             wanted = None if wanted is None else pytest.approx(wanted, abs=0.51 * 10**-digits)
             assert getattr(found[name], field) == wanted
@@ -225,6 +229,18 @@ def test_points_are_given_in_the_pixels_that_were_recorded(tmp_path: Path):
 
     found = traced_points(Predictor(), footage)["left_eye"]
     np.testing.assert_allclose(found[:, 0], np.tile([0.6 * 160 - 0.5, 0.4 * 90 - 0.5], (3, 1)), atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("height", "fault"), [(120, None), (60, None), (90, Fault.SHAPE), (160, Fault.SHAPE)]
+)
+def test_a_placement_takes_pictures_of_its_own_shape_alone(height: int, fault: Fault | None):
+    """Pictures of 16 : 9 from a camera that gave 4 : 3 show another part of what it sees."""
+    found = CameraPlacement(x=0.6, size=0.7, aspect=4 / 3)
+    width = height * 4 // 3 if fault is None else 160
+    picture = np.random.default_rng(1).integers(60, 200, (height, width), np.uint8)
+    assert fit_picture(picture, width=64, height=64, placement=found).fault is fault
+    assert fit_picture(picture, width=64, height=64, placement=replace(found, aspect=None)).fault is None
 
 
 def test_a_live_picture_is_placed_as_a_recorded_one(tmp_path: Path):
