@@ -162,9 +162,7 @@ class Search:
     @cached_property
     def surely_upright(self) -> bool:
         """Whether the compass is sure, of the pictures as they come, that the eye stands upright, on either side."""
-        shares = eye_compass().log_shares(
-            self.views(CameraPlacement(), self._pictures), of_right_eye=self._of_right_eye
-        )
+        shares = self._log_shares(CameraPlacement())
         return bool(shares[:2].max() > shares[2:].max() + _SURELY)
 
     def _upright(self, *, mirror: bool, quarter: int) -> float:
@@ -175,15 +173,15 @@ class Search:
         if (mirror, quarter) not in self._uprights:
             roll_deg = (90.0 * quarter + 180) % 360 - 180
             whole = [CameraPlacement(mirror=mirror, roll_deg=roll_deg, size=size) for size in _WHOLE]
-            shares = [
-                eye_compass().log_shares(self.views(moved, self._pictures), of_right_eye=self._of_right_eye)[
-                    0
-                ]
-                for placement in whole
-                for moved in _moved(placement)
-            ]
+            shares = [self._log_shares(moved)[0] for placement in whole for moved in _moved(placement)]
             self._uprights[mirror, quarter] = float(np.mean(shares))
         return self._uprights[mirror, quarter]
+
+    def _log_shares(self, placement: CameraPlacement) -> np.ndarray:
+        """(8,) what the compass says of a view of all frames."""
+        return eye_compass().log_shares(
+            self.views(placement, self._pictures), of_right_eye=self._of_right_eye
+        )
 
     def views(self, placement: CameraPlacement, pictures: np.ndarray) -> np.ndarray:
         """(n, height, width) uint8, levelled."""
