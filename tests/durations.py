@@ -32,8 +32,10 @@ class Recorder:
         """Hear of a test's setup, call or end."""
         self._seconds[function_of(report.nodeid)] += report.duration
 
-    def pytest_sessionfinish(self) -> None:
-        """Write what was measured."""
+    def pytest_sessionfinish(self, exitstatus: int) -> None:
+        """Write what was measured, unless the run was stopped or a test failed."""
+        if exitstatus:
+            return
         seconds = {name: round(took, 2) for name, took in sorted(self._seconds.items()) if took >= LEAST_S}
         self.path.write_text(json.dumps(seconds, indent=0) + "\n", encoding="utf-8")
 

@@ -58,5 +58,7 @@ def test_setup_counts_and_cases_add_up(tmp_path: Path) -> None:
     ):
         report = pytest.TestReport(node, ("a.py", 0, node), {}, "passed", None, when, duration=took)
         recorder.pytest_runtest_logreport(report)
-    recorder.pytest_sessionfinish()
+    recorder.pytest_sessionfinish(pytest.ExitCode.INTERRUPTED)
+    assert not list(tmp_path.iterdir())
+    recorder.pytest_sessionfinish(pytest.ExitCode.OK)
     assert (tmp_path / "durations.json").read_text() == '{\n"a": 0.6\n}\n'
