@@ -1,5 +1,6 @@
 /** The row of buttons under the picture: what each does is the meeting's, what it says is here. */
 
+import { openByKeys } from "./lists.js";
 import type { Microphone } from "./microphone.js";
 import { ANIMATIONS } from "./protocol.js";
 import type { Person, Said, Welcome } from "./texts.js";
@@ -44,6 +45,7 @@ export class Controls {
     this.select.replaceChildren(
       ...ANIMATIONS.map((name, number) => new Option(number ? `${number} ${name}` : "Gesture …", String(number))),
     );
+    openByKeys(this.select);
     this.select.addEventListener("change", () => {
       wishes.gesture(Number(this.select.value), false);
       this.select.blur();

@@ -1,5 +1,6 @@
 /** The list and buttons by which somebody shares: a window, a picture, or a PDF page by page. */
 
+import { openByKeys } from "./lists.js";
 import type { Paper } from "./paper.js";
 import type { Sharing } from "./sharing.js";
 
@@ -33,6 +34,7 @@ export class Offering {
     // telephones have no windows to give
     if (!("getDisplayMedia" in (navigator.mediaDevices ?? {}))) share.querySelector("[value=window]")!.remove();
     share.hidden = !screens;
+    openByKeys(share);
     const [picture, paper] = [find<HTMLInputElement>("file"), find<HTMLInputElement>("paper")];
     share.addEventListener("change", () => {
       const wish = share.value;
