@@ -162,7 +162,7 @@ $(TESTER): $(READY) requirements-dev.lock
 # is told of the index of builds for processors alone, which PyTorch's own page names. Those are other files of the same
 # version, so no hashes are asked of it.
 $(LEARNER): $(READY)
-	$(INSTALL) --no-build-isolation --editable '.[factory,headset]'
+	$(INSTALL) torch
 	@touch $@
 
 # the exact files of the lock, by their hashes; no script of any package runs
