@@ -31,6 +31,7 @@ from tests.room.page import (
     other,
 )
 from tests.room.speech import write_bursts
+from tests.room.test_sharing import PICTURE
 from track.sinks.targets import open_sink, parse_target
 
 pytestmark = [needs_chromium, pytest.mark.slow]
@@ -164,6 +165,8 @@ async def restarted(folder: Path) -> dict[str, object]:
                 )
                 await tab.ask(WAITS)
             await ben.until(f"{other('Ada')}.newest?.floor_m[0] === 2.5")
+            await ben.ask(f"void {PICTURE}")
+            await ada.until(f"{other('Ben')}.person.shares && meeting.board.shown")
         for tab in tabs:
             await tab.until("document.querySelector('#state').textContent.includes('broke')")
             await tab.until("waits.length > 4")  # the next wait is as long as any
@@ -175,9 +178,11 @@ async def restarted(folder: Path) -> dict[str, object]:
             seconds = time.monotonic() - start
             for tab in tabs:
                 await tab.until(CONNECTED)
+            await ada.until(f"{other('Ben')}.person.shares && meeting.board.shown")
             return {
                 "seconds": seconds,
                 "longest wait": [await tab.ask("Math.max(...waits)") for tab in tabs],
+                "still shares": await ben.ask("meeting.sharing.shares && meeting.sharing.granted"),
                 "place": await ben.ask(f"{other('Ada')}.newest.floor_m"),
                 "same voices": [
                     await tab.ask("before[1] === [...meeting.voice.lines.peers.values()][0]") for tab in tabs
@@ -193,6 +198,7 @@ def test_a_server_that_starts_again_has_its_people_back_and_voices_never_stop(tm
     )
     assert found["place"] == [2.5, -1.5]
     assert found["same voices"] == [True, True]
+    assert found["still shares"]
 
 
 async def under_way(guest: Guest, number: int, count: int) -> list[float]:

@@ -35,6 +35,7 @@ export class Wardrobe {
       const address = `/static/avatars/${name}.glb`;
       const loading = fetchAvatar(address, name).catch((error: unknown) => {
         console.warn(`avatar ${name}:`, error);
+        this.loaded.delete(name); // the next who wears it may have more luck
         return undefined;
       });
       this.loaded.set(name, loading);

@@ -50,10 +50,10 @@ export class Controls {
       wishes.gesture(Number(this.select.value), false);
       this.select.blur();
     });
-    addEventListener("keydown", ({ key, target, ctrlKey, metaKey, altKey }) => {
+    addEventListener("keydown", ({ key, repeat, target, ctrlKey, metaKey, altKey }) => {
       const typing = target instanceof HTMLElement && target.closest("input, textarea, select");
       const number = Number(key);
-      if (!typing && !ctrlKey && !metaKey && !altKey && Number.isInteger(number) && number >= 0 && number < ANIMATIONS.length && key.trim()) {
+      if (!typing && !repeat && !ctrlKey && !metaKey && !altKey && Number.isInteger(number) && number >= 0 && number < ANIMATIONS.length && key.trim()) {
         wishes.gesture(number, true);
       }
     });

@@ -72,18 +72,23 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   name.value ||= localStorage.getItem("name") ?? ""; // a quick hand has typed already
   let microphone: Microphone | undefined;
 
+  let newest = 0;
   const listen = async (): Promise<void> => {
+    const choice = ++newest;
     microphone?.close();
     microphone = undefined;
     word.textContent = "";
     if (!voice.checked) return;
     try {
-      microphone = await Microphone.ask(devices.value || undefined);
+      const given = await Microphone.ask(devices.value || undefined);
+      if (choice !== newest) return given.close(); // something else was chosen while the browser asked
+      microphone = given;
       const found = (await navigator.mediaDevices.enumerateDevices()).filter(({ kind }) => kind === "audioinput");
       const chosen = devices.value;
       devices.replaceChildren(...found.map(({ label, deviceId }) => new Option(label || "microphone", deviceId)));
       if (chosen) devices.value = chosen;
     } catch (error) {
+      if (choice !== newest) return;
       voice.checked = false;
       word.textContent = sentence(error);
     }
@@ -102,7 +107,8 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   });
   await submitted;
   word.textContent ||= voice.checked ? "Answer the browser's question for the microphone, or untick Microphone." : "";
-  for (let last; last !== listening; ) await (last = listening); // another one may have been chosen meanwhile
+  // another one may be chosen meanwhile, or none: that answers for the one that the browser still asks about
+  for (let last; last !== listening; ) await Promise.race([(last = listening), once([voice, devices], "change")]);
   clearInterval(shown);
   localStorage.setItem("name", name.value.trim());
   form.hidden = true;
@@ -110,6 +116,10 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   const echoes = !!microphone && !headphones.checked && "userAgentData" in navigator; // only Chromium has that
   const recorded = recording && consent.value === "yes";
   return { name: name.value.trim(), avatar: avatar.value, own: field<HTMLInputElement>("own").files?.[0], microphone, camera: camera.checked, echoes, recorded };
+}
+
+function once(elements: readonly HTMLElement[], event: string): Promise<unknown> {
+  return new Promise((resolve) => elements.forEach((each) => each.addEventListener(event, resolve, { once: true })));
 }
 
 /** What a browser's refusal of a device means. */

@@ -6,6 +6,12 @@ import type { Answer, Said, Welcome } from "./texts.js";
 /** A server that starts again is back in a second: short waits first, and never so long that people miss three seconds of it. */
 const WAITS_MS = [200, 400, 800, 1000, 2000];
 
+/**
+ * States without a word from the server, which gives each back within a tick, until the line counts as broken: ten seconds
+ * of a page in front. Of a network that is gone a socket says nothing for minutes. Behind `online` a second is enough.
+ */
+const UNANSWERED = { most: 300, online: 30 };
+
 export interface Handlers {
   welcome(welcome: Welcome): void;
   answer(answer: Answer): void;
@@ -22,6 +28,7 @@ export class Line {
   private ended = false;
   private tries = 0;
   private sequence = 0;
+  private unanswered = 0;
 
   constructor(
     private readonly address: string,
@@ -30,7 +37,7 @@ export class Line {
   ) {
     this.connect();
     // a laptop that wakes up, or changes networks, need not wait for the next try
-    addEventListener("online", () => !this.open && this.connect());
+    addEventListener("online", () => (this.open ? this.abandon(UNANSWERED.online) : this.connect()));
   }
 
   /** Say something; false where the line is broken, and it was not said. */
@@ -41,7 +48,9 @@ export class Line {
 
   /** Send this person's state, unless the last ones have not gone yet: newer ones say more. */
   move(message: Omit<Message, "sequence" | "time_ms">): void {
-    if (!this.open || this.socket!.bufferedAmount > 4096) return;
+    if (!this.open) return;
+    this.unanswered++;
+    if (this.abandon(UNANSWERED.most) || this.socket!.bufferedAmount > 4096) return;
     this.sequence = (this.sequence + 1) % 2 ** 16;
     this.socket!.send(encode({ ...message, sequence: this.sequence, time_ms: Math.round(performance.now()) }));
   }
@@ -60,6 +69,7 @@ export class Line {
     socket.addEventListener("open", () => socket.send(JSON.stringify({ ...this.join, at_ms: Date.now() })));
     socket.addEventListener("message", ({ data }) => {
       if (socket !== this.socket) return;
+      this.unanswered = 0;
       if (typeof data === "string") this.hear(JSON.parse(data) as Answer);
       else this.see(new Uint8Array(data as ArrayBuffer));
     });
@@ -91,9 +101,20 @@ export class Line {
     }
   }
 
+  /** Give a socket up that so many states went into without a word back; whether it was. */
+  private abandon(unanswered: number): boolean {
+    if (this.unanswered < unanswered) return false;
+    const dead = this.socket;
+    this.socket = undefined;
+    dead?.close();
+    this.closed();
+    return true;
+  }
+
   private closed(): void {
     const was = this.open;
     this.open = false;
+    this.unanswered = 0;
     if (this.ended) return;
     if (was) this.handlers.broken();
     const wait = WAITS_MS[Math.min(this.tries++, WAITS_MS.length - 1)]!;

@@ -133,13 +133,16 @@ export class Meeting {
     this.voice.configure(welcome.ice, welcome.engine);
     this.sharing.configure(welcome.ice);
     this.people.clear();
+    this.stage.pointers.clear();
     this.people.own = welcome.number;
     for (const person of welcome.people) this.people.meet(person);
     this.brought.again();
     this.locked = welcome.locked;
     this.lineWord = "";
     if (this.meetingPlace.word) this.tell(this.meetingPlace.word);
-    if (this.sharing.shares) this.line.say({ kind: "share", on: true }); // a server that started anew forgot it
+    // a server that started anew forgot it, and one that did not may not have heard that it ended
+    const { shares } = this.sharing;
+    if (shares || this.people.self?.shares) this.line.say({ kind: "share", on: shares });
     this.line.say({ kind: "voice", open: this.microphone?.isOpen ?? false });
     this.show();
   }
@@ -265,6 +268,7 @@ export class Meeting {
     this.presence.end();
     this.own = undefined;
     this.people.clear();
+    this.stage.pointers.clear();
     this.stage.end();
     find("people").replaceChildren();
     // nothing to do here any more; what was said can still be read

@@ -14,8 +14,8 @@ const DOT_M = 0.014;
 const UP = new Vector3(0, 1, 0);
 
 interface Beam {
-  readonly dot: Mesh;
-  readonly ray: Line;
+  readonly dot: Mesh<SphereGeometry, MeshBasicMaterial>;
+  readonly ray: Line<BufferGeometry, LineBasicMaterial>;
 }
 
 export class Pointers {
@@ -41,13 +41,19 @@ export class Pointers {
     beam.ray.geometry.setFromPoints([this.from, at]);
   }
 
+  clear(): void {
+    for (const number of [...this.beams.keys()]) this.drop(number);
+  }
+
   drop(number: number): void {
     const beam = this.beams.get(number);
     if (!beam) return;
     this.beams.delete(number);
-    beam.dot.removeFromParent();
-    beam.ray.removeFromParent();
-    beam.ray.geometry.dispose();
+    for (const part of [beam.dot, beam.ray]) {
+      part.removeFromParent();
+      part.geometry.dispose();
+      part.material.dispose();
+    }
   }
 
   /** Where somebody looks, who points: heading and head together say it, from the eyes. */

@@ -80,13 +80,14 @@ export class Replaying {
   }
 
   private key(event: KeyboardEvent): void {
-    const { key, target, ctrlKey, metaKey, altKey } = event;
+    const { key, repeat, target, ctrlKey, metaKey, altKey } = event;
     const typing = target instanceof HTMLElement && target.closest("input, textarea, select, button");
     if (!this.playing || typing || ctrlKey || metaKey || altKey) return;
     const faster = SPEEDS.find((speed) => speed > this.playing!.speed);
     const slower = SPEEDS.filter((speed) => speed < this.playing!.speed).at(-1);
-    if (key === " " || key === "k") this.toggle();
-    else if (key === "j") this.ask({ time_s: Math.max(0, this.time - JUMP_S) });
+    if (key === " " || key === "k") {
+      if (!repeat) this.toggle();
+    } else if (key === "j") this.ask({ time_s: Math.max(0, this.time - JUMP_S) });
     else if (key === "l") this.ask({ time_s: Math.min(this.playing.length_s, this.time + JUMP_S) });
     else if (key === "Home") this.ask({ time_s: 0 });
     else if (key === ">" && faster) this.ask({ speed: faster });

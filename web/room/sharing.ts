@@ -29,8 +29,10 @@ export class Sharing {
     private readonly ended: () => void,
   ) {}
 
+  /** Come in, or come back: the room may have forgotten meanwhile that this page shares. */
   configure(ice: RTCIceServer[]): void {
     this.ice = ice;
+    this.granted = false;
   }
 
   get shares(): boolean {
@@ -74,7 +76,10 @@ export class Sharing {
   meet(people: readonly Person[], own: string): void {
     const sharer = people.find(({ shares }) => shares);
     if (this.own && sharer?.id !== own && (this.granted || sharer)) this.end(); // a moderator's word, or somebody was faster
-    this.granted = this.own !== undefined && sharer?.id === own;
+    const granted = this.own !== undefined && sharer?.id === own;
+    // who looked may have hung up while the room had forgotten it: all are called anew
+    if (granted && !this.granted) for (const id of [...this.viewers.keys()]) this.hangUp(id);
+    this.granted = granted;
     if (this.sharer && (sharer?.id !== this.sharer.id || sharer.visit !== this.sharer.visit)) this.drop();
     if (sharer && sharer.id !== own) this.sharer ??= { id: sharer.id, visit: sharer.visit };
     for (const [id, { visit }] of [...this.viewers]) {
@@ -91,7 +96,7 @@ export class Sharing {
 
   async hear(from: Person, signal: Description | Candidate): Promise<void> {
     try {
-      const connection = signal.kind === "description" && signal.type === "offer" ? this.answerer(from) : this.of(from.id);
+      const connection = signal.kind === "description" && signal.type === "offer" ? this.answerer(from, signal.sdp) : this.of(from.id);
       if (!connection) return;
       if (signal.kind === "candidate") {
         await connection.addIceCandidate(candidateOf(signal));
@@ -132,10 +137,12 @@ export class Sharing {
   }
 
   /** The connection by which the one who shares is seen; nobody else may show anything. */
-  private answerer({ id, number }: Person): RTCPeerConnection | undefined {
+  private answerer({ id, number }: Person, offer: string): RTCPeerConnection | undefined {
     if (this.sharer?.id !== id) return undefined;
-    if (this.sharer.connection?.signalingState === "stable" && this.sharer.connection.connectionState === "connected") return this.sharer.connection;
-    this.sharer.connection?.close();
+    const before = this.sharer.connection;
+    const same = sessionOf(offer) === sessionOf(before?.remoteDescription?.sdp);
+    if (same && before?.signalingState === "stable" && before.connectionState === "connected") return before;
+    before?.close();
     const connection = this.connect(() => number);
     connection.ontrack = ({ track }) => this.show(new MediaStream([track]));
     this.sharer.connection = connection;
@@ -171,4 +178,9 @@ export class Sharing {
     this.sharer = undefined;
     if (!this.own) this.show(undefined);
   }
+}
+
+/** Which connection a description is of: of one and the same all have the session's number (RFC 8866, 5.2). */
+function sessionOf(sdp: string | undefined): string | undefined {
+  return /^o=\S+ (\d+)/m.exec(sdp ?? "")?.[1];
 }

@@ -1,4 +1,4 @@
-"""Lists of things to do, by keys in a real browser: looking what there is does nothing."""
+"""Keys in a real browser: arrows open lists before these do anything, and a key that is held is pressed once."""
 
 import asyncio
 
@@ -50,3 +50,19 @@ def test_arrows_open_a_list_and_enter_chooses(tmp_path, chosen):
     found = asyncio.run(run())
     assert found["ArrowDown"] == found["End"] == []
     assert len(found["Enter"]) == 1
+
+
+HOLD = """[false, true, true, true].map((repeat) => {
+  dispatchEvent(new KeyboardEvent('keydown', { key: '5', code: 'Digit5', repeat }));
+  return meeting.presence.stance.animation;
+})"""
+
+
+@pytest.mark.slow
+@needs_chromium
+def test_a_gestures_key_that_is_held_counts_once_and_again_ends_it(tmp_path):
+    async def run() -> list[object]:
+        async with meet(tmp_path, "Ada") as (_, (tab,)):
+            return [await tab.ask(HOLD), await tab.ask(HOLD)]
+
+    assert asyncio.run(run()) == [[5] * 4, [0] * 4]
