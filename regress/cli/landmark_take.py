@@ -77,7 +77,7 @@ def predict_file(
         say(f"{landmarks}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
     timed = output.needs_times or needs_times(table_format, gltf)
     frames = sound_rows(frames, needs_times=timed, strict=strict)
-    if neutral is None and len(frames.labels) > 1:
+    if neutral is None and len(frames.labels) > 1 and model.calibrated is not None:
         say(
             f"{landmarks}: no neutral face is given, so weights are guesses; --neutral names frames at rest, as in "
             f"{frames.labels[0]}, or looks for them by auto"

@@ -12,7 +12,7 @@ from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
-from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, unpacked_picture
+from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, kept_openness, unpacked_picture
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import Placement, read_placement
 from regress.runtime.headset.predictor import load_headset_predictor
@@ -118,7 +118,7 @@ class HeadsetPipeline(Pipeline):
         for name, side in self._reader.sides.items():
             openness_mm = np.nanmedian([one[side] for one in seen])
             if np.isfinite(openness_mm):
-                found[name] = replace(found[name], **{field: round(float(openness_mm), 3)})
+                found[name] = replace(found[name], **{field: kept_openness(openness_mm)})
         return found
 
     def use_neutral(self, neutral: NeutralFace) -> None:

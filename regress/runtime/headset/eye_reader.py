@@ -19,6 +19,9 @@ IRIS_MM = 11.7
 HALF_SHUT = 0.5
 """Openness below which an eye's pupil is hidden in part: its gaze then follows the other eye's."""
 
+_UNSEEN_DEG = 100.0
+"""Of an eye that no camera sees now, the network guesses the gaze: one that is seen leads."""
+
 HIDDEN_DEG = 20.0
 """Error of the gaze of an eye that is shut."""
 
@@ -99,7 +102,7 @@ class EyeReader:
         """
         openness_mm, openness, pupil = np.full((3, 2), np.nan)
         self._frame += 1
-        gaze_deg, variance = np.degrees(gaze_rad).reshape(2, 2), np.ones(2)
+        gaze_deg, variance = np.degrees(gaze_rad).reshape(2, 2), np.full(2, _UNSEEN_DEG**2)
         for name, eye in self._eyes.items():
             if name not in points or name not in pictures:
                 continue

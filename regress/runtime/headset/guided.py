@@ -8,7 +8,14 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError
 from regress.runtime.headset.eye_reader import EyeReader
-from regress.runtime.headset.person import HIGHEST_REST, LEAST_SPAN, OwnEye, Person, packed_picture
+from regress.runtime.headset.person import (
+    HIGHEST_REST,
+    LEAST_SPAN,
+    OwnEye,
+    Person,
+    kept_openness,
+    packed_picture,
+)
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.traced_eyes import own_gaze
 
@@ -102,6 +109,7 @@ def person_of(
     InputError
         Where there is no ``rest``, or the face was not at rest.
     """
+    looks = {name for name in BLENDSHAPES if name.startswith("eyeLook")}
     if REST not in takes:
         raise InputError(f"--{REST} is needed: other faces are told by how they differ from it")
     reader = EyeReader(predictor)
@@ -111,7 +119,8 @@ def person_of(
         neutral = {name: frames[row] for name, frames in takes[REST].pictures.items()}
     readings = {face: _read(predictor, reader, take, neutral) for face, take in takes.items()}
     at_rest = np.median(readings[REST].weights, axis=0)
-    worst = int(np.argmax(at_rest))
+    # where somebody looks at rest is theirs
+    worst = int(np.argmax(np.where([name in looks for name in BLENDSHAPES], 0.0, at_rest)))
     if at_rest[worst] > HIGHEST_REST:
         raise InputError(
             f"--{REST}: {BLENDSHAPES[worst]} reads {at_rest[worst]:.2f} there; at most {HIGHEST_REST} is a resting face"
@@ -122,7 +131,6 @@ def person_of(
         if camera in takes[REST].pictures:
             eyes[camera] = _own_eye(camera, side, readings, takes, notes)
     kept = takes[REST].pictures if unlevelled is None else unlevelled
-    looks = {name for name in BLENDSHAPES if name.startswith("eyeLook")}
     person = Person(
         network_sha256=predictor.model.network_sha256,
         rest={
@@ -196,7 +204,7 @@ def _own_eye(
     def lids(face: str) -> float | None:
         if face not in readings or not np.isfinite(readings[face].openness_mm[:, side]).any():
             return None
-        return round(float(np.clip(np.nanmedian(readings[face].openness_mm[:, side]), 0, 40)), 3)
+        return kept_openness(np.nanmedian(readings[face].openness_mm[:, side]))
 
     shut, rest, wide = map(lids, ("shut", REST, "wide"))
     looked = LOOK in takes and camera in readings[LOOK].traced_deg

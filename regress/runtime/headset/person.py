@@ -47,7 +47,10 @@ HIGHEST_REST = 0.5
 
 _BLINKS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
-Millimetres = Annotated[float, Interval(ge=0, le=40)]
+_WIDEST_MM = 40.0
+"""Between a person's lids: more is an iris that was traced too small, by which millimetres are counted."""
+
+Millimetres = Annotated[float, Interval(ge=0, le=_WIDEST_MM)]
 Row = Annotated[tuple[Annotated[float, Interval(ge=-1000, le=1000)], ...], Len(3, 3)]
 Affine = Annotated[tuple[Row, ...], Len(2, 2)]
 """Yaw and pitch in degrees from an answer's yaw and pitch and 1."""
@@ -87,6 +90,11 @@ class OwnEye:
         if self.shut_mm is None or self.rest_mm is None or self.rest_mm <= self.shut_mm:
             return float("nan")
         return (openness_mm - self.shut_mm) / (self.rest_mm - self.shut_mm)
+
+
+def kept_openness(openness_mm: float) -> float:
+    """A measured distance of the lids as a person's file keeps it and takes it back."""
+    return round(float(np.clip(openness_mm, 0, _WIDEST_MM)), 3)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -64,7 +64,7 @@ def read_picture(
         Where a picture has 16 bits and ``bits`` is not given, or a level that they do not hold; where it has numbers of
         another kind.
     """
-    grey = _decoded(path)
+    grey = decoded(path)
     if isinstance(grey, Fault):
         return FittedPicture(picture=np.zeros((height, width), dtype=np.uint8), fault=grey, scaled_from=None)
     if grey.dtype != np.uint8:
@@ -72,7 +72,7 @@ def read_picture(
     return fit_picture(grey, width=width, height=height, placement=placement)
 
 
-def _decoded(path: Path) -> np.ndarray | Fault:
+def decoded(path: Path) -> np.ndarray | Fault:
     """Grey levels (h, w) of a picture's file, or what is wrong with it."""
     try:
         if not path.is_file():  # a pipe would never end

@@ -33,7 +33,7 @@ def traced_points(predictor: HeadsetPredictor, footage: Footage) -> dict[str, np
     for column, name in enumerate(footage.cameras):
         if name not in found:
             continue
-        if name in footage.placement:
+        if name in footage.placement and name in footage.scaled_from:
             found[name] = _in_pictures(found[name], footage, name)
         elif name in footage.scaled_from:
             height, width = footage.pictures[name].shape[1:]

@@ -4,7 +4,6 @@ import os
 import re
 import stat
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
 from itertools import count
@@ -13,16 +12,15 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from facegen.documents import read_bytes, unreadable
-from facegen.formats import FormatError
+from facegen.documents import unreadable
 from facegen.formats.film import FILMS, check_film_path
-from facegen.formats.picture_size import MOST_PIXELS, picture_size
+from facegen.formats.picture_size import MOST_PIXELS
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.pictures import (
-    MOST_PICTURE_BYTES,
     PICTURES,
     FittedPicture,
+    decoded,
     fit_picture,
     read_picture,
 )
@@ -149,10 +147,9 @@ def recorded_size(path: Path) -> tuple[int, int]:
     """
     if path.is_dir():
         for file in sorted(_pictures_in(path)):
-            with suppress(OSError, InputError, FormatError):
-                size = picture_size(read_bytes(file, most_bytes=MOST_PICTURE_BYTES))
-                if size is not None:
-                    return size[0], size[1]
+            grey = decoded(file)  # by its header a picture may lie on its side, which EXIF says
+            if not isinstance(grey, Fault):
+                return grey.shape[1], grey.shape[0]
         raise InputError(f"{path} has no picture that can be read")
     if not path.exists():
         raise InputError(f"{path} does not exist; a folder of pictures or a film is needed")

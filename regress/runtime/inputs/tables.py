@@ -20,6 +20,9 @@ _BY_AXIS = tuple(sorted(_POINTS, key=lambda name: name[0]))
 _IRISES = tuple(f"{axis}_{index}" for index in (LANDMARK_COUNT, LANDMARK_COUNT + 1) for axis in "xy")
 """Of the subject's right iris, then of the left one, where a table has them."""
 
+_MESH = f"x_{LANDMARK_COUNT + 2}"
+"""MediaPipe's detector in py-feat writes 478 points in the same columns, in another order."""
+
 _OTHERS = ("frame", "face_id", "timestamp", "success")
 
 _LATEST_S = 1e19
@@ -49,6 +52,11 @@ def read_table(path: Path) -> Frames:
             raise InputError(
                 f"{path} lacks {len(missing)} of the columns x_0 .. x_67, y_0 .. y_67, first {missing[0]}; "
                 "OpenFace and py-feat write them"
+            )
+        if _MESH in table.columns:
+            raise InputError(
+                f"{path} has a column {_MESH}, so its points are of a mesh, as MediaPipe's; 68 in iBUG's order are "
+                "needed, and track --record makes a table of a film's weights by MediaPipe itself"
             )
         table.check((*_POINTS, *_IRISES, *_OTHERS))
         return _frames(table)

@@ -16,11 +16,12 @@ def animated_avatar(prediction: Prediction, avatar: Path) -> AnimatedAvatar:
     """
     title = Path(prediction.source).stem
     head = prediction.head
+    time_s = prediction.known_times_s
     return animate_avatar(
         avatar,
         prediction.names,
         prediction.weights,
-        prediction.known_times_s,
+        time_s - time_s[:1],  # animations begin at 0, and seconds since 1970 are too many for their 32 bits
         title=title,
         head_rad=None if head is None else head[:, 3:],
         gaze_rad=prediction.gaze,

@@ -190,7 +190,8 @@ weights.push(Array.from(players[0](face.flat(), kept)), Array.from(kept));
 const lacking = (point) => one.map((known, i) => (i === 9 ? point : known));
 const none68 = one.map(() => [320.3, 240.7]);
 const refused = [
-  lacking([1, NaN]), lacking([1, null]), lacking(null), lacking([1, null]).flat(), none68, one.slice(1),
+  lacking([1, NaN]), lacking([1, null]), lacking(null), lacking([1, null]).flat(), none68,
+  one.map(([x, y]) => ({ x, y })), one.slice(1),
 ].map((neutral) => {
   try { player(neutral); return "taken"; } catch (error) { return `${error.name}: ${error.message}`; }
 });
@@ -218,7 +219,7 @@ def test_several_players_in_one_javascript_program(calibratable, files, faces):
     np.testing.assert_allclose(written["weights"], weights, atol=AGREEMENT, rtol=0)
     assert written["same"]
     assert written["unseen"], "JSON has null for NaN"
-    for refusal, word in zip(written["refused"], [*["missing"] * 5, "length 67"], strict=True):
+    for refusal, word in zip(written["refused"], [*["missing"] * 6, "length 67"], strict=True):
         assert re.match(f"RangeError: .*{word}", refusal)
 
 

@@ -13,7 +13,15 @@ from typer.testing import CliRunner
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.cli import app
 from regress.errors import InputError
-from regress.runtime.headset.person import FULL_GAIN, OwnEnds, OwnEye, Person, read_person, write_person
+from regress.runtime.headset.person import (
+    FULL_GAIN,
+    OwnEnds,
+    OwnEye,
+    Person,
+    kept_openness,
+    read_person,
+    write_person,
+)
 from regress.runtime.sample import EyeMeasures
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
@@ -60,6 +68,14 @@ def test_lids_say_what_the_network_does_not_and_a_lost_camera_says_nothing():
     assert np.isnan(ends.apply(np.full(52, np.nan), None)).all()
     assert np.isnan(OwnEye(rest_mm=8.0).openness(4.0))
     assert OwnEye(rest_mm=8.0, shut_mm=2.0).openness(5.0) == 0.5
+
+
+@given(st.floats(-100, 100))
+def test_a_distance_of_lids_that_is_kept_is_taken_back(tmp_path_factory, openness_mm: float):
+    path = tmp_path_factory.mktemp("kept") / "anna.json"
+    eye = OwnEye(rest_mm=kept_openness(openness_mm))
+    write_person(path, Person(eyes={"left_eye": eye}))
+    assert read_person(path).eyes == {"left_eye": eye}
 
 
 @pytest.fixture(scope="module")

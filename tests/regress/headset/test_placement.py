@@ -230,6 +230,15 @@ def test_points_are_given_in_the_pixels_that_were_recorded(tmp_path: Path):
     found = traced_points(Predictor(), footage)["left_eye"]
     np.testing.assert_allclose(found[:, 0], np.tile([0.6 * 160 - 0.5, 0.4 * 90 - 0.5], (3, 1)), atol=1e-4)
 
+    other = read_recording(folder, "mouth", width=64, height=64, placement=replace(placement, aspect=4 / 3))
+    assert all(fault is Fault.SHAPE for fault in other.faults)
+    found = traced_points(
+        Predictor(),
+        line_up({"left_eye": recording, "mouth": other}, {"left_eye": (64, 64), "mouth": (64, 64)}),
+    )
+    assert np.isfinite(found["left_eye"]).all()
+    assert np.isnan(found["mouth"]).all(), "a placed camera none of whose pictures counts"
+
 
 @pytest.mark.parametrize(
     ("height", "fault"), [(120, None), (60, None), (90, Fault.SHAPE), (160, Fault.SHAPE)]

@@ -1,5 +1,6 @@
 """Recordings side by side: what is matched, what is wrong with it, and that the rest goes on."""
 
+import struct
 from pathlib import Path
 
 import cv2
@@ -247,6 +248,21 @@ def test_films_are_read_with_their_rate(tmp_path: Path):
     assert found.pictures.mean(axis=(1, 2)) == pytest.approx(stack.mean(axis=(1, 2)), abs=2)
     footage = line_up({"left_eye": found}, SIZES)
     assert footage.time_s == pytest.approx(np.arange(12) / 25)
+
+
+def test_a_picture_is_turned_as_its_exif_says(tmp_path: Path):
+    """Telephones write them so; orientation 6 is a quarter turn."""
+    lying = cv2.resize(pictures(np.array([90.0]))[0], (4 * HEIGHT, 4 * WIDTH))
+    jpeg = cv2.imencode(".jpg", lying)[1].tobytes()
+    entry = struct.pack(">HHIHH", 0x0112, 3, 1, 6, 0)
+    exif = b"Exif\0\0MM\0*" + struct.pack(">IH", 8, 1) + entry + struct.pack(">I", 0)
+    folder = tmp_path / "eye"
+    folder.mkdir()
+    (folder / "0.jpg").write_bytes(
+        jpeg[:2] + b"\xff\xe1" + struct.pack(">H", len(exif) + 2) + exif + jpeg[2:]
+    )
+    assert recorded_size(folder) == (4 * WIDTH, 4 * HEIGHT)
+    assert read_recording(folder, "left_eye", width=WIDTH, height=HEIGHT).faults == (None,)
 
 
 def test_a_film_is_turned_as_it_says(tmp_path: Path):

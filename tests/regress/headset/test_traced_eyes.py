@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from regress.cli.headset_input import read_footage
 from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.eye_reader import HALF_SHUT, IRIS_MM
+from regress.runtime.headset.eye_reader import HALF_SHUT, IRIS_MM, EyeReader
+from regress.runtime.headset.person import OwnEye, Person
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.headset.traced_eyes import corrected, eye_features, fused, traced_eyes
 
@@ -179,3 +180,24 @@ def test_of_many_headsets_the_direct_gaze_stands_alone_where_no_target_decides()
     eyes = traced_eyes(predictor, footage)
     direct, _ = predictor.graph.see({"left_eye": footage.pictures["left_eye"]}, present=footage.present)
     np.testing.assert_allclose(eyes["left_eye"].gaze_deg, np.degrees(direct.gaze[:, 0]), atol=1e-3)
+
+
+@pytest.mark.parametrize("error_deg", [0.5, 3.0])
+def test_an_eye_that_is_seen_leads_one_that_no_camera_sees(error_deg: float):
+    """Whatever the network guesses of the other: that one looks as high, and meets it in front."""
+    predictor = load_headset_predictor("headset-tracking3")
+    take = read_footage(predictor, None, {"left_eye": TAKE / "left_eye"}, from_start=False, fps=None)
+    seen = {"left_eye": take.pictures["left_eye"][0]}
+    points = {
+        name: traced[0]
+        for name, traced in predictor.graph.trace({n: p[None] for n, p in seen.items()}).items()
+    }
+    person = Person(eyes={"left_eye": OwnEye(error_deg=error_deg)})
+    read = []
+    for guess_deg in (-20.0, 0.0, 20.0):
+        reader = EyeReader(predictor, person)
+        _, gaze = reader.read(seen, points, np.radians([5.0, 3.0, guess_deg, guess_deg]))
+        read.append(np.degrees(gaze))
+    yaw_and_pitch, other_pitch = np.array(read)[:, :2], np.array(read)[:, 3]
+    np.testing.assert_allclose(yaw_and_pitch, np.tile(yaw_and_pitch[1], (3, 1)), atol=0.05)
+    np.testing.assert_allclose(other_pitch, yaw_and_pitch[:, 1], atol=0.05)
