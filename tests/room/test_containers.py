@@ -17,9 +17,11 @@ from room.cli import app
 from room.protocol.answers import Left
 from room.server import load_keys
 from room.server.turn import Relays
+from tests.room.avatars import avatar
 from tests.room.engines import free_port, needs_redis, redis, started
 from tests.room.guests import Place
 from tests.room.test_chaos import server
+from tests.room.test_several import bring
 
 ROOM = Path(__file__).resolve().parents[2] / "containers" / "room"
 COMPOSE = yaml.safe_load((ROOM / "compose.yaml").read_text(encoding="utf-8"))
@@ -116,11 +118,16 @@ def test_whose_server_is_killed_comes_back_at_the_same_address(tmp_path):
     async def run(first: subprocess.Popen) -> None:
         place = Place(f"https://127.0.0.1:{front}", load_keys(tmp_path / "room.keys"))
         await place.session.close()
-        place.session = aiohttp.ClientSession(connector=aiohttp.TCPConnector(ssl=False))
+        place.session = aiohttp.ClientSession(connector=aiohttp.TCPConnector(ssl=False, force_close=True))
         north, south = (Place(f"https://127.0.0.1:{port}", place.keys) for port in ports)
         for straight in (north, south):
             await straight.session.close()
             straight.session = place.session
+        # an own avatar comes by another connection, and has to reach the server where its person is
+        for name in ("Cara", "Dan", "Eve", "Finn"):
+            guest = await place.guest(name=name)
+            await bring(place, guest, avatar())
+            await guest.go()
         ada, ben = await north.guest(), await south.guest(name="Ben")  # the first is killed
         await ada.move(floor_m=(3.0, 4.0))
         await ben.until(lambda: ada.number in ben.states)
