@@ -1,6 +1,7 @@
 """What leaves the program: other avatars' shapes, Live Link Face's columns, animated avatars, smooth landmarks."""
 
 import csv
+import dataclasses
 import io
 
 import numpy as np
@@ -12,6 +13,7 @@ from facegen.formats import read_live_link
 from regress.errors import InputError
 from regress.runtime.features import align_similarity, extract
 from regress.runtime.inputs import Frames
+from regress.runtime.model import save_model
 from regress.runtime.stages.retargeting.shipped import shipped_targets
 from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.stages.smoothing import LandmarkSmoothing
@@ -90,6 +92,34 @@ def test_an_avatar_moves(run, quick_model, quick_model_folder, take, tmp_path):
     jaw = np.frombuffer(gltf.binary_blob(), "<f4", 11, view.byteOffset)
     expected = np.delete(quick_model.predict(np.load(take))[:, BLENDSHAPES.index("jawOpen")], 7)
     np.testing.assert_allclose(jaw, expected, atol=1e-6)
+
+
+@pytest.mark.filterwarnings("ignore:Ignoring chunk 2")
+@pytest.mark.parametrize("began_s", [0.0, 3600.0, 1.7e9])
+def test_an_animation_begins_at_zero_whatever_a_recordings_clock_says(
+    began_s, run, quick_model_folder, tmp_path
+):
+    names = [f"{axis}_{index}" for axis in "xy" for index in range(68)]
+    lines = [",".join(["frame", "timestamp", "success", *names])]
+    for number, face in enumerate(FACES):
+        lines.append(",".join(map(str, [number, began_s + number / 25, 1, *face.T.ravel()])))
+    (tmp_path / "take.csv").write_text("\n".join(lines))
+    moved = ("--gltf", avatar(tmp_path / "a.glb"), "--out", tmp_path / "b.glb")
+    code, _, err = run("predict", quick_model_folder, tmp_path / "take.csv", *moved)
+    assert code == 0, err
+    gltf = GLTF2().load(str(tmp_path / "b.glb"))
+    accessor = gltf.accessors[gltf.animations[-1].samplers[0].input]
+    assert accessor.min == [0.0]
+    assert accessor.max == pytest.approx([11 / 25], abs=1e-5)
+
+
+def test_a_model_without_calibrated_networks_asks_for_no_neutral_face(
+    run, quick_model, quick_model_folder, take
+):
+    alone = take.with_name("alone")
+    save_model(dataclasses.replace(quick_model, calibrated=None), alone)
+    said = [run("predict", model, take)[2] for model in (quick_model_folder, alone)]
+    assert ["--neutral" in words for words in said] == [True, False]
 
 
 @pytest.mark.parametrize(("kind", "target"), [("VRM 1.0", "vrm1"), ("VRM 0.x", "vrm0")])
