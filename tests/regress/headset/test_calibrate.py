@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.cli import app
 from regress.errors import InputError
+from regress.runtime.headset import guided
 from regress.runtime.headset.person import (
     FULL_GAIN,
     OwnEnds,
@@ -85,6 +86,15 @@ def person(tmp_path_factory: pytest.TempPathFactory) -> Path:
     result = CliRunner().invoke(app, [str(word) for word in words])
     assert result.exit_code == 0, result.output
     return path
+
+
+@pytest.mark.parametrize(("highest", "code"), [(0.27, 0), (0.0, 2)])
+def test_where_one_looks_at_rest_is_ones_own(run, tmp_path: Path, monkeypatch, highest: float, code: int):
+    """In these frames eyeLookInRight reads .28, and no other shape as much."""
+    monkeypatch.setattr(guided, "HIGHEST_REST", highest)
+    found, _, said = run("headset", "calibrate", *CAMERAS, "--rest", "20-29", "--out", tmp_path / "anna.json")
+    assert found == code, said
+    assert ("is a resting face" in said, "eyeLook" in said) == (code == 2, False)
 
 
 def weights_of(run, tmp_path: Path, *options: object) -> np.ndarray:
