@@ -62,7 +62,9 @@ def resolved(target: Target) -> tuple[socket.AddressFamily, tuple]:
         found = socket.getaddrinfo(target.host, target.port, type=socket.SOCK_DGRAM)
     except (socket.gaierror, UnicodeError) as error:
         raise InputError(f"--to {target.name}: host {target.host!r} is not known ({error})") from error
-    return found[0][0], found[0][4]
+    # some systems name ::1 first for localhost, where receivers that listen by IPv4 alone hear nothing
+    best = min(found, key=lambda each: each[0] != socket.AF_INET)
+    return best[0], best[4]
 
 
 def is_of_this_machine(target: Target) -> bool:

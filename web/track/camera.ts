@@ -18,6 +18,7 @@ const RUNS: readonly (readonly [number, number, boolean])[] = [
 export class Cameras {
   private readonly canvases = new Map<string, HTMLCanvasElement>();
   private names: readonly string[] = [];
+  private cleared = 0;
   private views: Frame["cameras"] = {};
   points = true;
 
@@ -30,6 +31,7 @@ export class Cameras {
   }
 
   clear(): void {
+    this.cleared++;
     this.canvases.clear();
     this.place.replaceChildren();
   }
@@ -47,8 +49,10 @@ export class Cameras {
     const name = this.names[camera];
     const view = name === undefined ? undefined : this.views[name];
     if (name === undefined || !view) return;
+    const { cleared } = this;
     const picture = await createImageBitmap(jpeg).catch(() => undefined);
     if (!picture) return;
+    if (cleared !== this.cleared) return picture.close(); // pictures were switched off while this one was read
     const canvas = this.canvas(name);
     if (canvas.width !== picture.width || canvas.height !== picture.height) {
       [canvas.width, canvas.height] = [picture.width, picture.height];

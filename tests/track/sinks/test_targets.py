@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from tests.track.sinks.receivers import acted, lost, received, receiver
 from track.errors import InputError
 from track.sinks.targets import SINKS, Target, open_sink, parse_target
+from track.sinks.udp import resolved
 
 UDP = [name for name, kind in SINKS.items() if kind.port is not None]
 
@@ -134,3 +135,19 @@ def test_several_at_once_get_the_same_sample(tmp_path):
         assert received(first, 1)
         assert received(second, 1)
     assert len((tmp_path / "a.csv").read_text().splitlines()) == 2
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_name_of_both_kinds_is_sent_to_by_ipv4(monkeypatch, order):
+    """Receivers as VSeeFace listen by IPv4, and Windows names ::1 first."""
+    both = [
+        (socket.AF_INET6, socket.SOCK_DGRAM, 17, "", ("::1", 39539, 0, 0)),
+        (socket.AF_INET, socket.SOCK_DGRAM, 17, "", ("127.0.0.1", 39539)),
+    ][::order]
+    monkeypatch.setattr(socket, "getaddrinfo", lambda *_, **__: both)
+    assert resolved(parse_target("vmc:localhost")) == (socket.AF_INET, ("127.0.0.1", 39539))
+
+
+def test_an_address_of_ipv6_stays_one():
+    family, (host, *_) = resolved(parse_target("vmc:[::1]:5"))
+    assert (family, host) == (socket.AF_INET6, "::1")
