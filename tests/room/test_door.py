@@ -1,58 +1,82 @@
-"""The page before the room, in a real browser: nobody is heard who did not want to be."""
+"""Nobody holds the door: who says nothing gives way to who comes."""
 
 import asyncio
 
 import pytest
+from aiohttp import WSMsgType
+from hypothesis import given
+from hypothesis import strategies as st
 
-from tests.browser import chromium, needs_chromium
-from tests.room.bare_place import BARE
-from tests.room.guests import open_room
-from tests.room.page import AWAKE, UNDRAWN
+from room.server.door import Door
+from tests.hanging_up import hang_up
+from tests.room.guests import SOON_S, open_room
 
-ASKED = """void (() => {
-  const devices = navigator.mediaDevices;
-  const give = devices.getUserMedia.bind(devices);
-  globalThis.given = [];
-  const answered = new Promise((resolve) => (globalThis.answer = resolve));
-  devices.getUserMedia = async (wish) => {
-    await answered;
-    const stream = await give(wish);
-    given.push(stream);
-    return stream;
-  };
-})()"""
-"""From now on the browser's question for a microphone stands until the page's `answer` is called."""
-
-TICK = "document.querySelector('#join [name=voice]').click()"
-COME_IN = """(() => {
-  const form = document.querySelector('#join');
-  form.elements.name.value = 'Ada';
-  form.requestSubmit();
-})()"""
+HOSTS = ["192.0.2.1", "192.0.2.2", "2001:db8::1", "2001:db8::2", "2001:db8:0:1::1", None]
 
 
-@pytest.mark.slow
-@needs_chromium
-@pytest.mark.parametrize("unticked_first", [True, False])
-def test_who_unticks_the_microphone_while_the_browser_asks_comes_in_without(unticked_first):
-    async def run() -> dict[str, object]:
-        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
-            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
-            async with browser.open(link) as tab:
-                await tab.until("document.querySelector('#join select[name=avatar]')?.value")
-                await tab.ask(UNDRAWN)
-                await tab.ask(ASKED)
-                await tab.ask(TICK)
-                await tab.ask(TICK)  # asks anew
-                for act in (TICK, COME_IN) if unticked_first else (COME_IN, TICK):
-                    await tab.ask(act)
-                await tab.until("globalThis.meeting?.own")
-                await tab.ask("answer()")
-                await tab.until(
-                    "given.length === 1 && given[0].getTracks().every((each) => each.readyState === 'ended')"
+@given(st.lists(st.sampled_from(HOSTS), max_size=60))
+def test_never_more_than_so_many_and_a_crowd_cuts_its_own_oldest(hosts):
+    door, standing = Door(most=8), []
+    for index, host in enumerate(hosts):
+        before = list(standing)
+        door.knock(host, lambda index=index: standing.remove(index))
+        cut = [each for each in before if each not in standing]
+        standing.append(index)
+        assert len(standing) <= 8
+        for each in cut:
+            network = _network(hosts[each])
+            counts = [_network(hosts[other]) for other in before]
+            assert counts.count(network) == max(map(counts.count, counts)), (
+                "of the network that most come from"
+            )
+            assert each == next(other for other in before if _network(hosts[other]) == network), "the oldest"
+
+
+def _network(host: str | None) -> str:
+    return "2001:db8::" if host in ("2001:db8::1", "2001:db8::2") else str(host)
+
+
+def test_a_host_that_fills_the_door_keeps_out_nobody_of_another():
+    door, cut = Door(most=8), []
+    for index in range(8):
+        door.knock("192.0.2.1", lambda index=index: cut.append(index))
+    door.knock("192.0.2.2", lambda: cut.append("ada"))
+    for index in range(8, 100):
+        door.knock("192.0.2.1", lambda index=index: cut.append(index))
+    assert cut == list(range(93))
+
+
+@pytest.mark.parametrize("address", ["2001:db8::1%eth0", "::ffff:192.0.2.1", "", None, "unix"])
+def test_every_address_is_taken(address):
+    Door().knock(address, lambda: None)
+
+
+def test_somebody_comes_in_past_many_who_say_nothing(monkeypatch):
+    monkeypatch.setattr("room.server.visits.Door", lambda: Door(most=8))
+
+    async def run() -> None:
+        async with open_room() as place:
+            silent = [await place.connect() for _ in range(20)]
+            ada = await place.guest()
+            async with asyncio.timeout(SOON_S):
+                assert (await silent[0].receive()).type in (
+                    WSMsgType.CLOSE,
+                    WSMsgType.CLOSED,
+                    WSMsgType.ERROR,
                 )
-                return await tab.ask(
-                    "[meeting.microphone === undefined, document.querySelector('#mute').textContent]"
-                )
+            assert not ada.socket.closed
+            for socket in silent:
+                await socket.close()
 
-    assert asyncio.run(run()) == [True, "No microphone"]
+    asyncio.run(run())
+
+
+def test_who_leaves_during_the_handshake_is_no_fault(caplog):
+    async def run() -> None:
+        async with open_room() as place:
+            for _ in range(20):  # in one thread: the server answers when all of them have gone
+                hang_up(f"{place.address}/room/{place.name}/socket")
+            await place.guest()
+
+    asyncio.run(run())
+    assert caplog.records == []

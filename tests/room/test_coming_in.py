@@ -1,0 +1,58 @@
+"""The page before the room, in a real browser: nobody is heard who did not want to be."""
+
+import asyncio
+
+import pytest
+
+from tests.browser import chromium, needs_chromium
+from tests.room.bare_place import BARE
+from tests.room.guests import open_room
+from tests.room.page import AWAKE, UNDRAWN
+
+ASKED = """void (() => {
+  const devices = navigator.mediaDevices;
+  const give = devices.getUserMedia.bind(devices);
+  globalThis.given = [];
+  const answered = new Promise((resolve) => (globalThis.answer = resolve));
+  devices.getUserMedia = async (wish) => {
+    await answered;
+    const stream = await give(wish);
+    given.push(stream);
+    return stream;
+  };
+})()"""
+"""From now on the browser's question for a microphone stands until the page's `answer` is called."""
+
+TICK = "document.querySelector('#join [name=voice]').click()"
+COME_IN = """(() => {
+  const form = document.querySelector('#join');
+  form.elements.name.value = 'Ada';
+  form.requestSubmit();
+})()"""
+
+
+@pytest.mark.slow
+@needs_chromium
+@pytest.mark.parametrize("unticked_first", [True, False])
+def test_who_unticks_the_microphone_while_the_browser_asks_comes_in_without(unticked_first):
+    async def run() -> dict[str, object]:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+                await tab.ask(UNDRAWN)
+                await tab.ask(ASKED)
+                await tab.ask(TICK)
+                await tab.ask(TICK)  # asks anew
+                for act in (TICK, COME_IN) if unticked_first else (COME_IN, TICK):
+                    await tab.ask(act)
+                await tab.until("globalThis.meeting?.own")
+                await tab.ask("answer()")
+                await tab.until(
+                    "given.length === 1 && given[0].getTracks().every((each) => each.readyState === 'ended')"
+                )
+                return await tab.ask(
+                    "[meeting.microphone === undefined, document.querySelector('#mute').textContent]"
+                )
+
+    assert asyncio.run(run()) == [True, "No microphone"]
