@@ -15,12 +15,16 @@ export class Engine implements Lines {
   private track: MediaStreamTrack | null = null;
   private ready = false;
   private playing = new Set<string>();
+  private ice: RTCIceServer[] = [];
 
   constructor(
-    public ice: RTCIceServer[],
     private readonly send: Send,
     private readonly out: { play(id: string, track: MediaStreamTrack): void; stop(id: string): void },
   ) {}
+
+  configure(ice: RTCIceServer[]): void {
+    this.ice = ice;
+  }
 
   /** The engine takes lines from now on, new ones; or it is away. */
   begin(ready: boolean): void {

@@ -6,6 +6,8 @@ export type Send = (said: Description | Candidate) => void;
 
 /** How voices travel. Each way gives to `play` what it brings, by the person's id, and to `stop` whose voice has ended. */
 export interface Lines {
+  /** What a new connection needs: said on coming in, and again on coming back after a break. */
+  configure(ice: RTCIceServer[]): void;
   speakInto(track: MediaStreamTrack | null): void;
   /** Who is here now; `own` is this person's id. */
   meet(people: ReadonlyMap<string, Person>, own: string): void;
@@ -30,4 +32,9 @@ export function saidOf({ candidate, sdpMid, sdpMLineIndex }: RTCIceCandidate, to
 /** What a browser takes of such a text. */
 export function candidateOf({ candidate, mid, line }: Candidate): RTCIceCandidateInit {
   return { candidate, sdpMid: mid ?? null, sdpMLineIndex: line ?? null };
+}
+
+/** Which connection a description is of: of one and the same all have the session's number (RFC 8866, 5.2). */
+export function sessionOf(sdp: string | undefined): string | undefined {
+  return /^o=\S+ (\d+)/m.exec(sdp ?? "")?.[1];
 }

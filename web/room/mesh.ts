@@ -1,10 +1,11 @@
 /**
  * Voices straight from browser to browser (WebRTC, a connection for each pair).
  *
- * Connections follow MDN's "perfect negotiation": either side may offer at any time, and the polite one gives way.
+ * Connections follow MDN's "perfect negotiation": either side may offer at any time, and the polite one gives way. After a long
+ * break one side may have let go of a connection which the other still keeps: a description of another session tells.
  */
 
-import { candidateOf, saidOf, type Lines, type Send } from "./lines.js";
+import { candidateOf, saidOf, sessionOf, type Lines, type Send } from "./lines.js";
 import type { Candidate, Description, Person } from "./texts.js";
 
 interface Peer {
@@ -18,14 +19,25 @@ interface Peer {
 
 export class Mesh implements Lines {
   readonly peers = new Map<string, Peer>();
-  /** What a new connection needs; those that are there stay as they are. */
-  ice: RTCIceServer[] = [];
+  private ice: RTCIceServer[] = [];
   private track: MediaStreamTrack | null = null;
+  /** Whom this page calls, whoever is the polite one: it let go of a connection that they may still keep. */
+  private readonly lost = new Set<string>();
 
   constructor(
     private readonly send: Send,
     private readonly out: { play(id: string, track: MediaStreamTrack): void; stop(id: string): void },
   ) {}
+
+  /** Come in, or come back: what carries a voice goes on; of all else the offers may have been lost with the line. */
+  configure(ice: RTCIceServer[]): void {
+    this.ice = ice;
+    for (const [id, { connection }] of [...this.peers]) {
+      if (connection.connectionState === "connected") continue;
+      this.part(id);
+      this.lost.add(id);
+    }
+  }
 
   speakInto(track: MediaStreamTrack | null): void {
     this.track = track;
@@ -40,14 +52,16 @@ export class Mesh implements Lines {
   meet(people: ReadonlyMap<string, Person>, own: string): void {
     for (const [id, { connection, visit }] of [...this.peers]) {
       const person = people.get(id);
-      const gone = person ? !person.present || person.visit !== visit : connection.connectionState !== "connected";
-      if (gone) this.part(id);
+      const anew = person !== undefined && person.visit !== visit;
+      const away = person ? !person.present : connection.connectionState !== "connected";
+      if (anew || away) this.part(id);
+      if (away && !anew) this.lost.add(id);
     }
     for (const [id, person] of people) {
       if (id === own || !person.present || person.replayed) continue;
       const peer = this.peers.get(id);
       if (peer) peer.number = person.number;
-      else this.call(person, own < id);
+      else this.call(person, own < id, this.lost.delete(id) || own > id);
     }
   }
 
@@ -61,7 +75,8 @@ export class Mesh implements Lines {
   }
 
   async hear(id: string, signal: Description | Candidate): Promise<void> {
-    const peer = this.peers.get(id);
+    const before = this.peers.get(id);
+    const peer = before && signal.kind === "description" ? this.answerer(id, before, signal) : before;
     if (!peer) return;
     const { connection } = peer;
     try {
@@ -69,9 +84,6 @@ export class Mesh implements Lines {
         await connection.addIceCandidate(candidateOf(signal));
         return;
       }
-      const collides = signal.type === "offer" && (peer.offering || connection.signalingState !== "stable");
-      peer.ignoring = !peer.polite && collides;
-      if (peer.ignoring) return;
       await connection.setRemoteDescription(signal);
       if (signal.type === "offer") {
         await connection.setLocalDescription();
@@ -91,7 +103,27 @@ export class Mesh implements Lines {
     for (const id of [...this.peers.keys()]) this.part(id);
   }
 
-  private call({ id, number, visit }: Pick<Person, "id" | "number" | "visit">, polite: boolean): void {
+  /** The connection that takes a description; none where it is of no use any more. */
+  private answerer(id: string, peer: Peer, { type, sdp }: Description): Peer | undefined {
+    const { connection, polite } = peer;
+    const known = connection.remoteDescription?.sdp;
+    const other = known !== undefined && sessionOf(sdp) !== sessionOf(known);
+    const collides = type === "offer" && (peer.offering || connection.signalingState !== "stable");
+    peer.ignoring = !polite && collides;
+    if (peer.ignoring) return undefined;
+    if (type === "offer") return other || (collides && known === undefined) ? this.renew(id, peer, false) : peer;
+    if (other) this.renew(id, peer, true); // what was offered, a connection took that knew nothing of this one
+    return other ? undefined : peer;
+  }
+
+  /** Another connection in place of one that the other side does not have. */
+  private renew(id: string, { number, visit, polite }: Peer, calls: boolean): Peer {
+    this.part(id);
+    return this.call({ id, number, visit }, polite, calls);
+  }
+
+  /** `calls` where this side makes the first offer. */
+  private call({ id, number, visit }: Pick<Person, "id" | "number" | "visit">, polite: boolean, calls: boolean): Peer {
     const connection = new RTCPeerConnection({ iceServers: this.ice });
     const peer: Peer = { connection, polite, visit, offering: false, ignoring: false, number };
     this.peers.set(id, peer);
@@ -112,8 +144,8 @@ export class Mesh implements Lines {
         peer.offering = false;
       }
     };
-    // the impolite one calls: both would only collide. The other answers with its own microphone on the same line
-    if (!polite) connection.addTransceiver(this.track ?? "audio", { direction: "sendrecv" });
+    // one calls, as a rule the impolite one: both would only collide. The other answers with its microphone on the same line
+    if (calls) connection.addTransceiver(this.track ?? "audio", { direction: "sendrecv" });
     else {
       connection.addEventListener("signalingstatechange", () => {
         const transceiver = connection.getTransceivers()[0];
@@ -122,6 +154,7 @@ export class Mesh implements Lines {
         void transceiver.sender.replaceTrack(this.track);
       });
     }
+    return peer;
   }
 
   private describe({ connection, number }: Peer): void {

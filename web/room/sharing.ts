@@ -4,7 +4,7 @@
  * Who shares calls, and the others answer; the room's server says who may. Voices go their own way.
  */
 
-import { candidateOf, saidOf, type Send } from "./lines.js";
+import { candidateOf, saidOf, sessionOf, type Send } from "./lines.js";
 import { Still, type Picture } from "./still.js";
 import type { Candidate, Description, Person } from "./texts.js";
 
@@ -178,9 +178,4 @@ export class Sharing {
     this.sharer = undefined;
     if (!this.own) this.show(undefined);
   }
-}
-
-/** Which connection a description is of: of one and the same all have the session's number (RFC 8866, 5.2). */
-function sessionOf(sdp: string | undefined): string | undefined {
-  return /^o=\S+ (\d+)/m.exec(sdp ?? "")?.[1];
 }

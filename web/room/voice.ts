@@ -35,9 +35,9 @@ export class Voice {
 
   /** What the room says on coming in, again after each break; lines that are there go on. */
   configure(ice: RTCIceServer[], engine: boolean): void {
-    if (engine && !(this.lines instanceof Engine)) this.use(new Engine(ice, this.send, this));
+    if (engine && !(this.lines instanceof Engine)) this.use(new Engine(this.send, this));
     if (!engine && !(this.lines instanceof Mesh)) this.use(new Mesh(this.send, this));
-    if (this.lines instanceof Engine || this.lines instanceof Mesh) this.lines.ice = ice;
+    this.lines?.configure(ice);
   }
 
   /** Let the others hear this, or nothing; may change at any time. */
