@@ -91,7 +91,7 @@ class Simulation:
 
     def run(self, works_s: Sequence[float]) -> list[Taken]:
         """Read all pictures; the reader is busy for each of these times in turn, again and again."""
-        time = SimpleNamespace(monotonic=lambda: self.now_s)
+        time = SimpleNamespace(perf_counter=lambda: self.now_s)
         threads = SimpleNamespace(Condition=lambda: self)
         self.kept: list[Picture] = []
         names = sorted({each.name for each in self.coming})

@@ -280,3 +280,10 @@ def test_elsewhere_numbers_are_tried(monkeypatch: pytest.MonkeyPatch, tmp_path: 
     monkeypatch.setattr("sys.platform", "win32")
     assert [(webcam.number, webcam.name) for webcam in list_webcams()] == [(1, "camera 1")]
     assert tried == list(range(8))
+
+
+def test_all_of_track_reads_the_clock_of_the_pictures():
+    """`Source.now_s` says why: two clocks would not agree, and the other one stands still on some Windows."""
+    modules = sorted((Path(__file__).parents[2] / "track").rglob("*.py"))
+    assert len(modules) > 50
+    assert not [path.name for path in modules if "time.monotonic()" in path.read_text(encoding="utf-8")]

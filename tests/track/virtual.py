@@ -52,25 +52,25 @@ class VirtualCamera(Source):
         *,
         title: str = "virtual camera",
     ) -> None:
-        switches.tries_s.append(time.monotonic())
+        switches.tries_s.append(time.perf_counter())
         if not switches.plugged:
             raise CameraError("it is not plugged in")
         self.title, self._switches, self._picture, self.closed = title, switches, picture, False
-        self._due_s = time.monotonic()
+        self._due_s = time.perf_counter()
 
     def read(self) -> Picture | None:
         assert not self.closed
-        self._due_s = max(self._due_s + 1 / self._switches.fps, time.monotonic())
-        time.sleep(max(0.0, self._due_s - time.monotonic()))
-        until_s = time.monotonic() + 3
-        while self._switches.silent and time.monotonic() < until_s:
+        self._due_s = max(self._due_s + 1 / self._switches.fps, time.perf_counter())
+        time.sleep(max(0.0, self._due_s - time.perf_counter()))
+        until_s = time.perf_counter() + 3
+        while self._switches.silent and time.perf_counter() < until_s:
             time.sleep(0.01)
         if not self._switches.plugged or self._switches.silent:
             return None
         self._switches.given += not self._switches.frozen
         pixels = np.clip(self._picture(self._switches.given) * self._switches.light, 0, 255).astype(np.uint8)
         pixels = np.zeros_like(pixels) if self._switches.dark else pixels
-        self._switches.given_s.append(time.monotonic())
+        self._switches.given_s.append(time.perf_counter())
         return Picture(time_s=self._switches.given_s[-1] + self._switches.clock_s, pixels=pixels)
 
     def close(self) -> None:

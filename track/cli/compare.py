@@ -98,7 +98,7 @@ def compare(
             points = np.zeros((68, 2)) if is_headset(wishes) else sample.points
             if points is not None and np.isfinite(points).all() and np.isfinite(sample.weights).all():
                 # how old the frame is, by the clock that its time is of
-                self.times_s.append(time.monotonic() - (capture.now_s() - sample.time_s))
+                self.times_s.append(time.perf_counter() - (capture.now_s() - sample.time_s))
                 self.weights.append(sample.weights)
                 self.points.append(points)
 

@@ -118,7 +118,7 @@ class Phone:
         self._socket.close()
 
     def frames(self) -> tuple[np.ndarray, np.ndarray]:
-        """Times (n,) by ``time.monotonic`` and weights (n, 52) of what came with a face, in the order of time."""
+        """Times (n,) by ``time.perf_counter`` and weights (n, 52) of what came with a face, in the order of time."""
         came = list(self._came)
         if not came:
             return np.zeros(0), np.zeros((0, len(BLENDSHAPES)))
@@ -140,7 +140,7 @@ class Phone:
                 continue
             frame = read_frame(datagram)
             if frame is not None and frame.weights is not None and len(self._came) < MOST_FRAMES:
-                self._came.append((time.monotonic(), frame))
+                self._came.append((time.perf_counter(), frame))
 
 
 def on_this_clock(arrival_s: np.ndarray, timecode_s: np.ndarray) -> np.ndarray:

@@ -160,17 +160,17 @@ class Page:
             await runner.cleanup()
 
     def _show_when_due(self) -> None:
-        self._loop.call_later(max(0.0, self._due_s - time.monotonic()), self._show)
+        self._loop.call_later(max(0.0, self._due_s - time.perf_counter()), self._show)
 
     def _show(self) -> None:
         """Offer the newest moment to all tabs; in the server's loop."""
-        self._woken, self._due_s = False, time.monotonic() + 1 / FRAMES_PER_SECOND
+        self._woken, self._due_s = False, time.perf_counter() + 1 / FRAMES_PER_SECOND
         moment = self._newest
         if moment is None or not self._viewers:
             return
         self._number += 1
         text = frames.frame(moment, self._number, cameras=self._cameras)
-        now, coded = time.monotonic(), {}
+        now, coded = time.perf_counter(), {}
         if self._wants_pictures and now - self._pictured_at >= 1 / PICTURES_PER_SECOND:
             self._pictured_at = now
             coded = {

@@ -132,8 +132,8 @@ class Session:
         return self.summary()
 
     def _run(self, pictures: Pictures, screen: Screen | None, seconds: float | None) -> None:
-        until_s = None if seconds is None else time.monotonic() + seconds
-        while not self._stopped and (until_s is None or time.monotonic() < until_s):
+        until_s = None if seconds is None else time.perf_counter() + seconds
+        while not self._stopped and (until_s is None or time.perf_counter() < until_s):
             sample = pictures.read(TICK_S if self.adjusting.person.settling else None)
             if sample is None:
                 break
@@ -154,7 +154,7 @@ class Session:
             with self.measures.stage(name):
                 samples = [ready for given in samples for ready in stage.feed(given)]
         answers = self._sent(samples)
-        self.measures.frame(time.monotonic(), None if now_s is None else now_s() - sample.time_s)
+        self.measures.frame(time.perf_counter(), None if now_s is None else now_s() - sample.time_s)
         return answers
 
     def finish(self) -> list[Sample]:
@@ -178,7 +178,7 @@ class Session:
 
     def moment(self, sample: Sample) -> Moment:
         """What the page shows of an answer."""
-        fps, latency_ms = self.measures.shown(time.monotonic())
+        fps, latency_ms = self.measures.shown(time.perf_counter())
         return Moment(
             sample=sample,
             pictures=dict(sample.pictures or {}) if self._pictures_wanted else {},

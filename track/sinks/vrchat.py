@@ -61,7 +61,7 @@ class VrChat:
         bits: int = 0,
         eyes: str = "both",
         *,
-        clock: Callable[[], float] = time.monotonic,
+        clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         # people paste whole addresses, and some avatars have no prefix
         prefix = prefix.strip("/").removeprefix(_PARAMETERS.strip("/")).strip("/")

@@ -57,7 +57,7 @@ class AddressSource(Source):
     def read(self) -> Picture | None:
         """The next picture; None where the server has gone, or sends nothing for some seconds."""
         pixels = grabbed(self._capture)
-        return None if pixels is None else Picture(time_s=time.monotonic(), pixels=pixels)
+        return None if pixels is None else Picture(time_s=time.perf_counter(), pixels=pixels)
 
     def close(self) -> None:
         """End the connection."""

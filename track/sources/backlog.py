@@ -19,7 +19,7 @@ _STEPS = 9
 
 
 class Backlog:
-    """What one camera gave and nobody took, the oldest first; when it came is by ``time.monotonic``.
+    """What one camera gave and nobody took, the oldest first; when it came is by ``time.perf_counter``.
 
     Parameters
     ----------

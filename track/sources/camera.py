@@ -47,7 +47,7 @@ class Camera:
     waiting
         Pictures that nobody took, at times that rise; pixels are None where they are of no use.
     came_s
-        When the last picture came, by ``time.monotonic``.
+        When the last picture came, by ``time.perf_counter``.
     fault
         What is wrong just now.
     ended
@@ -67,7 +67,7 @@ class Camera:
         self.fault: Enum | None = None
         self.ended = False
         self.error: InputError | None = None
-        self.came_s = time.monotonic()
+        self.came_s = time.perf_counter()
         self._clock = RisingClock()
         self._watch = PictureWatch(moving=self.endless)
         self._stop = threading.Event()
@@ -89,7 +89,7 @@ class Camera:
 
     def trouble(self) -> Enum | None:
         """What is wrong with it, that it gives nothing included."""
-        silent = self.endless and time.monotonic() - self.came_s > SILENT_S
+        silent = self.endless and time.perf_counter() - self.came_s > SILENT_S
         return CameraFault.SILENT if self.fault is None and silent else self.fault
 
     def close(self) -> None:
@@ -135,7 +135,7 @@ class Camera:
         with self._news:
             while not self.live and self.waiting and not self._stop.is_set():
                 self._news.wait()
-            self.came_s, self.fault = time.monotonic(), fault
+            self.came_s, self.fault = time.perf_counter(), fault
             self.waiting.add(picture, self.came_s)
             self._news.notify_all()
 

@@ -78,7 +78,7 @@ class Capture:
         self.length_s = None if None in lengths_s else max(lengths_s, default=None)
         self.endless = any(each.endless for each in self._cameras.values())
         # a machine's clock counts from its start, a film's from the film's
-        self._start_s = time.monotonic() if self.endless else 0.0
+        self._start_s = time.perf_counter() if self.endless else 0.0
         self._latest: dict[str, Picture] = {}
         self._last_s, self._count = -np.inf, 0
         self._caught_up_s = -np.inf
@@ -115,7 +115,7 @@ class Capture:
         InputError
             Where what comes is not what it should be, as standard input without points.
         """
-        until_s = time.monotonic() + (self._empty_after_s() if within_s is None else within_s)
+        until_s = time.perf_counter() + (self._empty_after_s() if within_s is None else within_s)
         with self._news:
             while True:
                 self._raise_errors()
@@ -127,7 +127,7 @@ class Capture:
                 caught_up = not any(camera.waiting for camera in self._cameras.values())
                 self._news.wait(_LOOK_EVERY_S if wait_s is None else min(wait_s, _LOOK_EVERY_S))
                 if caught_up:
-                    self._caught_up_s = time.monotonic()
+                    self._caught_up_s = time.perf_counter()
 
     def now_s(self) -> float:
         """What the clock of the samples' times shows now: less a sample's time, how old it is."""
@@ -159,7 +159,7 @@ class Capture:
             return 0.0
         if new:
             until_s = min(camera.waiting.came_s for camera in new) + WAIT_S
-        return until_s - time.monotonic()
+        return until_s - time.perf_counter()
 
     def _empty_after_s(self) -> float:
         """By the quickest camera that is well."""
@@ -188,7 +188,7 @@ class Capture:
             first = min(waiting.values(), key=lambda each: each.time_s)
             latest_s = first.time_s + min(WAIT_S, first.together_s)
             return [name for name, each in waiting.items() if each.time_s <= latest_s]
-        behind = time.monotonic() - self._caught_up_s > LONGEST_S
+        behind = time.perf_counter() - self._caught_up_s > LONGEST_S
         if behind or self._awaited():  # another camera was waited for in vain
             for each in waiting.values():
                 each.leave_newest()

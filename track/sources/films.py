@@ -67,15 +67,15 @@ class Film(Source):
         self._next_s = self._last_s + self.step_s
         if self.live:
             if self._begun_s is None:
-                self._begun_s = time.monotonic() - self._last_s
+                self._begun_s = time.perf_counter() - self._last_s
             if self.now_s() > self._last_s + BEHIND_S:
-                self._begun_s = time.monotonic() - self._last_s
+                self._begun_s = time.perf_counter() - self._last_s
             time.sleep(max(0.0, self._last_s - self.now_s()))
         return Picture(time_s=self._last_s, pixels=pixels)
 
     def now_s(self) -> float:
         """Time in the film: of its own pace, or of the picture that was read last."""
-        return time.monotonic() - self._begun_s if self.live and self._begun_s is not None else self._last_s
+        return time.perf_counter() - self._begun_s if self.live and self._begun_s is not None else self._last_s
 
     def close(self) -> None:
         """Close the file."""

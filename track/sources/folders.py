@@ -76,9 +76,9 @@ class Folder(Source):
 
     def read(self) -> Picture | None:
         """The next picture, when it is due; None where no other one has come for `FOLLOWED_S`."""
-        until_s = time.monotonic() + (FOLLOWED_S if self.live else 0.0)
-        while (found := self._found(last_try=time.monotonic() >= until_s)) is None:
-            if time.monotonic() >= until_s:
+        until_s = time.perf_counter() + (FOLLOWED_S if self.live else 0.0)
+        while (found := self._found(last_try=time.perf_counter() >= until_s)) is None:
+            if time.perf_counter() >= until_s:
                 return None
             time.sleep(_LOOK_EVERY_S)
         if self.live:
@@ -95,8 +95,8 @@ class Folder(Source):
         if not self.live:
             return self._last_s
         if self._begun_s is None:
-            self._begun_s = time.monotonic()
-        return time.monotonic() - self._begun_s
+            self._begun_s = time.perf_counter()
+        return time.perf_counter() - self._begun_s
 
     def stop(self) -> None:
         """Wait no longer for a picture behind many that were lost."""

@@ -33,7 +33,7 @@ class Lines(Source):
         # of its own: a thread that waits in sys.stdin holds a lock that the interpreter wants at its end
         stream = open(sys.stdin.fileno(), encoding="utf-8", closefd=False) if stream is None else stream
         self._samples, self._fps = _begun(read_lines(text_lines(stream)), 1 / fps), fps
-        self._count, self._begun_s, self._behind_s = 0, time.monotonic(), time.monotonic()
+        self._count, self._begun_s, self._behind_s = 0, time.perf_counter(), time.perf_counter()
 
     def read(self) -> Picture | None:
         """The next frame, as soon as it comes; None at the stream's end."""
@@ -42,16 +42,16 @@ class Lines(Source):
             return None
         time_s = sample.time_s
         if time_s is None:
-            time_s = time.monotonic() - self._begun_s if self.live else self._count / self._fps
+            time_s = time.perf_counter() - self._begun_s if self.live else self._count / self._fps
         self._count += 1
         if math.isfinite(time_s):  # a line without a face has none
-            self._behind_s = time.monotonic() - time_s
+            self._behind_s = time.perf_counter() - time_s
         fault = sample.faults.get("points")
         return Picture(time_s=time_s, points=sample.points, irises=sample.irises, fault=fault)
 
     def now_s(self) -> float:
         """What the clock of the newest line shows now."""
-        return time.monotonic() - self._behind_s
+        return time.perf_counter() - self._behind_s
 
     def close(self) -> None:
         """Nothing is held."""

@@ -64,8 +64,12 @@ class Source:
         raise NotImplementedError
 
     def now_s(self) -> float:
-        """What the clock of the pictures' times shows now."""
-        return time.monotonic()
+        """What the clock of the pictures' times shows now.
+
+        All of track reads this one: on Windows before Python 3.13 `time.monotonic` stands still for 15.6 ms, so two
+    XX (https://github.com/python/cpython/issues/88494).
+        """
+        return time.perf_counter()
 
     def stop(self) -> None:
         """Let a `read` that waits come back soon; another thread asks for it."""

@@ -86,7 +86,7 @@ class WebcamSource(Source):
     def read(self) -> Picture | None:
         """The next picture; None where the camera has gone."""
         pixels, self._first = (grabbed(self._capture) if self._first is None else self._first), None
-        return None if pixels is None else Picture(time_s=time.monotonic(), pixels=pixels)
+        return None if pixels is None else Picture(time_s=time.perf_counter(), pixels=pixels)
 
     def close(self) -> None:
         """Let others have the camera."""

@@ -131,7 +131,7 @@ def test_a_simulated_phone_on_the_network_is_aligned(monkeypatch):
     phone, sending = Phone(0), socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     rng, late_s, encode = np.random.default_rng(6), 0.180, LiveLink()
     start_s = now_s = 1000.0
-    monkeypatch.setattr(phones, "time", SimpleNamespace(monotonic=lambda: now_s))
+    monkeypatch.setattr(phones, "time", SimpleNamespace(perf_counter=lambda: now_s))
     until_s = time.monotonic() + 120
     for count, (time_s, row) in enumerate(zip(times_s, weights, strict=True), start=1):
         now_s = start_s + late_s + time_s

@@ -29,21 +29,21 @@ class Pulled(Source):
     title = "camera 0"
 
     def __init__(self, script: Script) -> None:
-        self._script, self._start_s = script, time.monotonic()
+        self._script, self._start_s = script, time.perf_counter()
         script.opened += 1
 
     def read(self) -> Picture | None:
         self._script.row += 1
         if self._script.row == 60 + GONE_AFTER:
             return None
-        since_s = time.monotonic()
+        since_s = time.perf_counter()
         time.sleep(1 / FPS)
-        self._script.slept_s.append(time.monotonic() - since_s)
+        self._script.slept_s.append(time.perf_counter() - since_s)
         return Picture(time_s=self.now_s(), points=talking_face().points[self._script.row])
 
     def now_s(self) -> float:
         """Seconds since it was opened."""
-        return time.monotonic() - self._start_s
+        return time.perf_counter() - self._start_s
 
     def close(self) -> None:
         """Nothing is held."""
@@ -55,8 +55,8 @@ def test_a_camera_that_comes_back_with_another_clock():
     session = new_session(profile=calibrated_profile(), said=said)
     (kept,) = session.sinks
     with Capture({"camera": lambda: Pulled(script)}, pauses_s=(1.2,)) as capture:
-        until_s = time.monotonic() + 120
-        while script.row < 60 + LASTS and time.monotonic() < until_s:
+        until_s = time.perf_counter() + 120
+        while script.row < 60 + LASTS and time.perf_counter() < until_s:
             session.run(capture, seconds=0.2)
     assert script.opened == 2
     assert said.count(f"camera has {CameraFault.UNPLUGGED.value}") == 1
