@@ -11,6 +11,7 @@ import numpy as np
 from facegen.console import say
 from facegen.files import write_whole
 from regress.cli.fault_runs import FaultRuns
+from regress.cli.neutral_faces import neutral_faces, neutral_file
 from regress.cli.options import TableFormat
 from regress.cli.results import needs_times, write_prediction
 from regress.cli.rows import sound_rows
@@ -23,7 +24,6 @@ from regress.runtime.ready_made import LANDMARKS
 from regress.runtime.sample import Sample
 from regress.runtime.stages.filters import DEFAULT_FILTER
 from regress.runtime.stages.head import HeadSettings
-from regress.runtime.stages.neutral import estimate_neutral
 from regress.runtime.stages.output import Output
 from regress.runtime.writers.csv_table import confidence_csv, csv_lines
 
@@ -71,9 +71,11 @@ def predict_file(
     frames = read_frames(landmarks)
     if fps is not None:
         frames = frames.at_rate(fps)
-    if auto_filter and is_film(frames.time_s):
+    takes = frames.takes()
+    main = frames.take(max(takes.values(), key=len))  # a passer-by's rows say nothing of a film's rate
+    if auto_filter and is_film(main.time_s):
         output = dataclasses.replace(output, filter=DEFAULT_FILTER)
-    if fps is None and (rate := frames_a_second(frames.time_s)) > FILM_FPS[1]:
+    if fps is None and (rate := frames_a_second(main.time_s)) > FILM_FPS[1]:
         say(f"{landmarks}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
     timed = output.needs_times or needs_times(table_format, gltf)
     frames = sound_rows(frames, needs_times=timed, strict=strict)
@@ -82,16 +84,20 @@ def predict_file(
             f"{landmarks}: no neutral face is given, so weights are guesses; --neutral names frames at rest, as in "
             f"{frames.labels[0]}, or looks for them by auto"
         )
-    calm = _neutral_frames(model, frames, neutral or "none")
-    calibrated = model if calm is None else model.calibrate(calm.points)
-    prediction = predict_frames(
-        calibrated,
-        frames,
-        output=output,
-        confident=trust is not None,
-        head=_head_settings(camera, calm),
-        keep_guessed_gaze=keep_guessed_gaze,
-    )
+    calm = neutral_faces(model, frames, neutral or "none")
+    samples: list[Sample | None] = [None] * len(frames.labels)
+    for face, rows in takes.items():
+        prediction = predict_frames(
+            model if calm[face] is None else model.calibrate(calm[face].points),
+            frames.take(rows),
+            output=output,
+            confident=trust is not None,
+            head=_head_settings(camera, calm[face]),
+            keep_guessed_gaze=keep_guessed_gaze,
+        )
+        for row, sample in zip(rows, prediction.samples, strict=True):
+            samples[row] = sample
+    prediction = dataclasses.replace(prediction, samples=samples)
     if trust is not None:
         write_whole(trust, confidence_csv(prediction))
     write_prediction(prediction, table_format, out=out, gltf=gltf)
@@ -130,7 +136,7 @@ def predict_pipe(
     """Predict lines of standard input, each as it comes, and write rows to standard output."""
     calm = None
     if neutral not in ("auto", "none"):
-        calm = _neutral_file(neutral, "standard input")
+        calm = neutral_file(neutral, "standard input")
         model = model.calibrate(calm.points)
     head = _head_settings(camera, calm)
     samples = read_lines(text_lines(sys.stdin), fps=fps)
@@ -171,59 +177,3 @@ def _head_settings(camera: CameraSettings | None, calm: Frames | None) -> HeadSe
         neutral_irises=None if calm is None else calm.irises,
         wanted=camera is not None,
     )
-
-
-def _neutral_frames(model: Model, frames: Frames, neutral: str) -> Frames | None:
-    """Neutral frames for this recording, where they are named or found."""
-    if neutral == "none":
-        return None
-    if neutral == "auto":
-        estimate = estimate_neutral(model, frames.points)
-        if not estimate.sure:
-            say(f"{frames.source}: no neutral face found, weights are not calibrated: {estimate.reason}")
-            return None
-        say(f"{frames.source}: neutral face found: {estimate.reason}")
-        return frames.take(estimate.frames)
-    named = named_rows(frames, neutral)
-    if named:
-        return frames.take(named)
-    first, last = frames.labels[0], frames.labels[-1]
-    return _neutral_file(neutral, frames.source, labels=f" ({first} to {last})")
-
-
-def named_rows(frames: Frames, neutral: str) -> list[int]:
-    """Rows of a frame named by its label, or of frames FIRST-LAST; between faces of one name, of these alone.
-
-    Where pictures of a film have several faces and none is named, the first ones count.
-    """
-    rows = _rows_of(frames, neutral)
-    if rows or frames.numbers is None:
-        return rows
-    return _rows_of(frames, "-".join(f"{picture}/0" for picture in neutral.split("-")))
-
-
-def _rows_of(frames: Frames, neutral: str) -> list[int]:
-    if neutral in frames.labels:
-        return [frames.labels.index(neutral)]
-    # labels may have dashes of their own
-    for dash in (place for place, letter in enumerate(neutral) if letter == "-"):
-        first, last = neutral[:dash], neutral[dash + 1 :]
-        if first in frames.labels and last in frames.labels:
-            rows = range(frames.labels.index(first), frames.labels.index(last) + 1)
-            face = _face(frames, first) if _face(frames, first) == _face(frames, last) else None
-            return [row for row in rows if face is None or _face(frames, frames.labels[row]) == face]
-    return []
-
-
-def _face(frames: Frames, label: str) -> str | None:
-    """Which of several faces a picture of a film this is, where its label ``number/face`` says so."""
-    _, sign, face = label.rpartition("/")
-    return face if sign and frames.numbers is not None else None
-
-
-def _neutral_file(neutral: str, source: str, *, labels: str = "") -> Frames:
-    if not Path(neutral).exists():
-        raise InputError(
-            f"--neutral {neutral!r} is neither a frame of {source}{labels}, nor a file; auto and none are allowed too"
-        )
-    return sound_rows(read_frames(neutral))

@@ -29,7 +29,11 @@ def sound_rows(frames: Frames, *, needs_times: bool = False, strict: bool = Fals
     """
     if needs_times and frames.time_s is None:
         raise InputError(f"{frames.source} does not say when its frames were taken; give --fps")
-    samples = Soundness(needs_times=needs_times).run(frames.samples())
+    samples = frames.samples()
+    for rows in frames.takes().values():
+        judged = Soundness(needs_times=needs_times).run([samples[row] for row in rows])
+        for row, sample in zip(rows, judged, strict=True):
+            samples[row] = sample
     faults = [sample.faults.get("points") for sample in samples]
     sentences = fault_sentences(faults)
     if sentences and strict:

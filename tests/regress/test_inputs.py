@@ -201,6 +201,7 @@ def test_frames_that_do_not_count_are_rows(frames: list[str], tmp_path: Path):
 def test_faces_of_one_picture_share_its_time_and_have_names_of_their_own(tmp_path: Path):
     read = read_frames(_with_frames(_pyfeat(tmp_path / "a.csv"), ["4", "4", "5"]))
     assert read.labels == ("4/0", "4/1", "5/0")
+    assert {face: rows.tolist() for face, rows in read.takes().items()} == {"0": [0, 2], "1": [1]}
     assert read.at_rate(10).time_s == pytest.approx([0, 0, 0.1])
 
 
@@ -229,6 +230,14 @@ def test_real_files(real: Path, name: str, rows: int, timed: bool):
     assert (frames.time_s is not None) == timed
     assert len(set(frames.labels)) == rows
     _subjects_right_is_at_the_images_left(frames)
+
+
+def test_coco_pictures_that_are_called_by_names_are_in_the_order_of_their_numbers(tmp_path: Path):
+    triples = np.concatenate([FACES[0], np.full((LANDMARK_COUNT, 1), 2)], axis=1).ravel().tolist()
+    ids = ["frame_10", "frame_9", 3]
+    annotations = [{"id": 1, "image_id": name, "keypoints": triples} for name in ids]
+    (tmp_path / "a.json").write_text(json.dumps({"annotations": annotations}))
+    assert read_frames(tmp_path / "a.json").labels == ("3", "frame_9", "frame_10")
 
 
 def test_a_real_pts_file_counts_from_1(real: Path):

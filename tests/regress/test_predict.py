@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPES
-from regress.cli.landmark_take import named_rows
+from regress.cli.neutral_faces import named_rows
 from regress.learning.training import KeypointDataset
 from regress.runtime.inputs import Frames
 from regress.runtime.model import Model
@@ -73,23 +73,57 @@ def test_the_csv_reads_back_with_empty_cells_where_no_face_is(quick_model: Model
 @pytest.mark.parametrize(
     ("named", "rows"),
     [
-        ("1/0", [0]),
-        ("1/0-3/0", [0, 2, 4]),
-        ("2/1-3/1", [3, 5]),
-        ("1/0-3/1", [0, 1, 2, 3, 4, 5]),
-        ("2", [2]),
-        ("1-3", [0, 2, 4]),
-        ("take-1", [6]),
-        ("take-1-take-2", [6, 7]),
-        ("4-5", []),
+        ("1/0", {"0": [0], "1": []}),
+        ("1/0-3/0", {"0": [0, 1, 2], "1": []}),
+        ("2/1-3/1", {"0": [], "1": [1, 2]}),
+        ("2", {"0": [1], "1": [1]}),
+        ("1-3", {"0": [0, 1, 2], "1": [0, 1, 2]}),
+        ("1/0-3/1", {"0": [], "1": []}),
     ],
 )
-def test_neutral_frames_are_named_with_their_face_and_with_dashes(named: str, rows: list[int]):
-    labels = ("1/0", "1/1", "2/0", "2/1", "3/0", "3/1", "take-1", "take-2")
-    frames = Frames(
-        points=np.zeros((8, 68, 2)), labels=labels, time_s=None, source="here", numbers=np.arange(8)
+def test_neutral_frames_of_a_picture_are_everyones_own(named: str, rows: dict[str, list[int]]):
+    labels = ("1/0", "1/1", "2/0", "2/1", "3/0", "3/1")
+    faces = Frames(
+        points=np.zeros((6, 68, 2)), labels=labels, time_s=None, source="here", faces=("0", "1") * 3
     )
+    assert {face: named_rows(faces.take(kept), named) for face, kept in faces.takes().items()} == rows
+
+
+@pytest.mark.parametrize(("named", "rows"), [("take-1", [0]), ("take-1-take-2", [0, 1]), ("4-5", [])])
+def test_names_of_frames_may_have_dashes(named: str, rows: list[int]):
+    frames = Frames(points=np.zeros((2, 68, 2)), labels=("take-1", "take-2"), time_s=None, source="here")
     assert named_rows(frames, named) == rows
+
+
+def test_each_of_several_faces_is_a_take_of_its_own(run, tmp_path: Path):
+    """Two people of one py-feat table get what each of them gets alone: filtered, and by their own neutral faces."""
+    rng = np.random.default_rng(5)
+    people = [drawn_faces(rng, 40), drawn_faces(rng, 40)]
+    both = [(frame, people[face][frame]) for frame in range(40) for face in range(2)]
+    alone = []
+    for name, rows in [("both", both), *((str(face), list(enumerate(people[face]))) for face in range(2))]:
+        header = ["frame", *(f"{axis}_{point}" for point in range(68) for axis in "xy")]
+        lines = [",".join(map(repr, [frame, *face.ravel().tolist()])) for frame, face in rows]
+        (tmp_path / f"{name}.csv").write_text("\n".join([",".join(header), *lines]) + "\n")
+        code, out, said = run("predict", tmp_path / f"{name}.csv", "--fps", 30, "--neutral", "3-5")
+        assert code == 0, said
+        alone.append([line.split(",")[1:] for line in out.splitlines()[1:]])
+    together, *each = alone
+    assert [together[0::2], together[1::2]] == each
+
+
+def test_a_face_that_is_not_at_rest_is_told_of_and_the_other_is_calibrated(run, tmp_path: Path):
+    faces = drawn_faces(np.random.default_rng(6), 5)
+    header = ["frame", *(f"{axis}_{point}" for point in range(68) for axis in "xy")]
+    frames = [1, 1, 2, 2, 3]
+    lines = [
+        ",".join(map(repr, [frame, *face.ravel().tolist()]))
+        for frame, face in zip(frames, faces, strict=True)
+    ]
+    (tmp_path / "take.csv").write_text("\n".join([",".join(header), *lines]) + "\n")
+    code, _, said = run("predict", tmp_path / "take.csv", "--neutral", "3")
+    assert code == 0
+    assert "weights of face 1 are not calibrated: --neutral names no frame of it" in said
 
 
 def test_a_neutral_frame_without_a_face_is_refused_in_a_sentence(run, tmp_path: Path):

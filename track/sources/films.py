@@ -75,7 +75,9 @@ class Film(Source):
 
     def now_s(self) -> float:
         """Time in the film: of its own pace, or of the picture that was read last."""
-        return time.perf_counter() - self._begun_s if self.live and self._begun_s is not None else self._last_s
+        return (
+            time.perf_counter() - self._begun_s if self.live and self._begun_s is not None else self._last_s
+        )
 
     def close(self) -> None:
         """Close the file."""

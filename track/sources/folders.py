@@ -3,7 +3,6 @@
 Names that count pictures give them their times, so that one that was lost leaves its time empty.
 """
 
-import re
 import threading
 import time
 from pathlib import Path
@@ -12,6 +11,7 @@ import cv2
 import numpy as np
 
 from facegen.documents import read_bytes
+from facegen.formats.natural_order import natural_order
 from facegen.formats.picture_size import MOST_PIXELS, picture_size
 from regress.runtime.headset.pictures import MOST_PICTURE_BYTES, PICTURES
 from track.errors import CameraError, InputError
@@ -60,7 +60,7 @@ class Folder(Source):
     ) -> None:
         self.title, self.live = folder.name or str(folder), not fast
         self._folder, self.step_s, self._again = folder, 1 / fps, again
-        self._given: _Natural = []
+        self._given = natural_order("")
         self._own_numbers: range | None = None
         self._waiting = self._listed()
         if not self._waiting:
@@ -116,7 +116,7 @@ class Folder(Source):
         pixels = _read_picture(file)
         if pixels is None and self.live and len(self._waiting) == 1 and not last_try:
             return None  # the newest one may be half written
-        self._given = _natural(self._waiting.pop(0))
+        self._given = natural_order(self._waiting.pop(0).name)
         number = None if self._own_numbers is None else last_number(file)
         self._pass_over(number)
         self._expected = None if number is None else number + 1
@@ -124,7 +124,7 @@ class Folder(Source):
 
     def _begin_again(self) -> None:
         """Behind the last picture of all folders, so that they stay together."""
-        self._given = []
+        self._given = natural_order("")
         self._waiting = self._listed()
         if self._waiting:
             self._pass_over(self._numbers.stop)
@@ -142,16 +142,10 @@ class Folder(Source):
         except OSError as error:
             raise CameraError(f"{self._folder} cannot be read ({error.strerror})") from None
         self._own_numbers = numbers_of(files)
-        return sorted((file for file in files if _natural(file) > self._given), key=_natural)
-
-
-_Natural = list[tuple[int, str]]
-
-
-def _natural(file: Path) -> _Natural:
-    """By which ``frame_2`` stands before ``frame_10``."""
-    pieces = re.split(r"(\d+)", file.name)
-    return [(int(piece), "") if piece.isdecimal() else (-1, piece) for piece in pieces]
+        return sorted(
+            (file for file in files if natural_order(file.name) > self._given),
+            key=lambda file: natural_order(file.name),
+        )
 
 
 def _read_picture(file: Path) -> np.ndarray | None:

@@ -67,7 +67,7 @@ class Source:
         """What the clock of the pictures' times shows now.
 
         All of track reads this one: on Windows before Python 3.13 `time.monotonic` stands still for 15.6 ms, so two
-    XX (https://github.com/python/cpython/issues/88494).
+        pictures of a camera of 120 Hz had one time (https://github.com/python/cpython/issues/88494).
         """
         return time.perf_counter()
 

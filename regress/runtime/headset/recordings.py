@@ -14,6 +14,7 @@ import numpy as np
 
 from facegen.documents import unreadable
 from facegen.formats.film import FILMS, check_film_path
+from facegen.formats.natural_order import natural_order
 from facegen.formats.picture_size import MOST_PIXELS
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault
@@ -201,12 +202,7 @@ def _in_order(files: list[Path]) -> tuple[list[int], list[Path]]:
             return [number for number, _ in pairs], [file for _, file in pairs]
     if all(_DECIMAL.fullmatch(file.stem) for file in files):
         return [], sorted(files, key=lambda file: Decimal(file.stem))
-    return [], sorted(files, key=lambda file: _natural(file.stem))
-
-
-def _natural(name: str) -> list[str | int]:
-    """Key that sorts 2 before 10."""
-    return [int(part) if part.isdecimal() else part for part in re.split(r"(\d+)", name)]
+    return [], sorted(files, key=lambda file: natural_order(file.stem))
 
 
 def _pictures_in(folder: Path) -> list[Path]:

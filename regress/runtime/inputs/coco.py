@@ -9,6 +9,7 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from facegen.documents import load_json
+from facegen.formats.natural_order import NaturalOrder, natural_order
 from regress.errors import InputError
 from regress.runtime.documents import checked
 from regress.runtime.inputs.frames import Frames, stacked
@@ -71,9 +72,9 @@ def read_coco(path: Path) -> Frames:
     return Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
 
 
-def _order(key: _Id) -> tuple[bool, _Id]:
-    """Numbers before names: the two cannot be compared."""
-    return isinstance(key, str), key
+def _order(key: _Id) -> tuple[bool, int | NaturalOrder]:
+    """Numbers before names, which cannot be compared with them; names by the numbers in them."""
+    return (True, natural_order(key)) if isinstance(key, str) else (False, key)
 
 
 def _face(entry: _Annotation, path: Path) -> np.ndarray:

@@ -33,6 +33,8 @@ class Frames:
         Centres of the irises, the subject's left eye first, where the file has them; NaN where they are not seen.
     numbers : (n,) int64 or None
         Of the pictures that the faces are of, none less than the one before, where the file counts them.
+    faces : tuple of str or None
+        Which of the faces in its picture each is, where pictures of a film have several.
     """
 
     points: np.ndarray
@@ -41,6 +43,7 @@ class Frames:
     source: str
     irises: np.ndarray | None = None
     numbers: np.ndarray | None = None
+    faces: tuple[str, ...] | None = None
 
     @property
     def usable(self) -> np.ndarray:
@@ -56,7 +59,15 @@ class Frames:
             source=self.source,
             irises=None if self.irises is None else self.irises[rows],
             numbers=None if self.numbers is None else self.numbers[rows],
+            faces=None if self.faces is None else tuple(self.faces[row] for row in rows),
         )
+
+    def takes(self) -> dict[str | None, np.ndarray]:
+        """Rows (k,) of each face, in the order of their first ones; where pictures have one face, all rows of None."""
+        if self.faces is None:
+            return {None: np.arange(len(self.labels))}
+        faces = np.array(self.faces)
+        return {face: np.flatnonzero(faces == face) for face in dict.fromkeys(self.faces)}
 
     def at_rate(self, fps: float) -> "Frames":
         """The frames with times of a camera of so many pictures a second.

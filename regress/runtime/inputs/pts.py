@@ -1,6 +1,5 @@
 """iBUG ``.pts`` files: one face each, alone or folders of them in the order of their names."""
 
-import re
 import shlex
 from pathlib import Path
 
@@ -8,6 +7,7 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from facegen.formats import read_pts
+from facegen.formats.natural_order import natural_order
 from regress.errors import InputError
 from regress.runtime.inputs.frames import Frames, stacked
 
@@ -30,7 +30,10 @@ def read_folder(path: Path) -> Frames:
 
     A face is called by its file's name, with the folders between where there are some.
     """
-    files = sorted((file for file in path.rglob("*") if is_pts(file)), key=lambda file: _natural(path, file))
+    files = sorted(
+        (file for file in path.rglob("*") if is_pts(file)),
+        key=lambda file: natural_order(file.relative_to(path).as_posix()),
+    )
     if not files:
         if any(file.suffix.lower() in _PICTURES for file in path.iterdir()):
             raise InputError(
@@ -48,8 +51,3 @@ def _face(path: Path) -> np.ndarray:
     if len(points) != LANDMARK_COUNT:
         raise InputError(f"{path} holds {len(points)} points; the iBUG order of {LANDMARK_COUNT} is needed")
     return points
-
-
-def _natural(folder: Path, file: Path) -> list[tuple[int, str]]:
-    pieces = re.split(r"(\d+)", file.relative_to(folder).as_posix())
-    return [(int(piece), "") if piece.isdecimal() else (-1, piece) for piece in pieces]

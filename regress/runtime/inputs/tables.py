@@ -88,11 +88,11 @@ def _frames(table: CsvRows) -> Frames:
     if any(abs(time) > _LATEST_S for time in time_s):
         raise InputError(f"{table.path}: a timestamp is beyond {_LATEST_S:g} s")
     numbers = _counted(labels) if "frame" in columns else None
-    if len(set(labels)) < len(labels):
-        seen: Counter[str] = Counter()
-        for row, frame in enumerate(labels):
-            labels[row] = f"{frame}/{face_ids[row] if named else seen[frame]}"
-            seen[frame] += 1
+    several = len(set(labels)) < len(labels)
+    if several and not named:
+        face_ids = _places(labels)
+    if several:
+        labels = [f"{frame}/{face}" for frame, face in zip(labels, face_ids, strict=True)]
     return Frames(
         points=points,
         labels=tuple(labels),
@@ -100,7 +100,18 @@ def _frames(table: CsvRows) -> Frames:
         source=str(table.path),
         irises=irises,
         numbers=numbers,
+        faces=tuple(face_ids) if several and numbers is not None else None,
     )
+
+
+def _places(frames: list[str]) -> list[str]:
+    """Which face of its picture each row is, by the order of rows of one name."""
+    seen: Counter[str] = Counter()
+    places = []
+    for frame in frames:
+        places.append(str(seen[frame]))
+        seen[frame] += 1
+    return places
 
 
 def _counted(frames: list[str]) -> np.ndarray | None:

@@ -1,0 +1,98 @@
+"""Which rows of a recording show a face at rest: named by a person, found, or those of another file."""
+
+from pathlib import Path
+
+from facegen.console import say
+from regress.cli.rows import sound_rows
+from regress.errors import InputError
+from regress.runtime.inputs import Frames, read_frames
+from regress.runtime.model import Model
+from regress.runtime.stages.neutral import estimate_neutral
+
+
+def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None, Frames | None]:
+    """Neutral frames of each of the faces in a recording (`Frames.takes`), where they are named or found.
+
+    Parameters
+    ----------
+    model
+        That is to be calibrated.
+    frames
+        Rows that cannot be used have NaN for their points.
+    neutral
+        ``"none"``; ``"auto"``; what `named_rows` takes; or a file, which is of every face.
+
+    Raises
+    ------
+    InputError
+        Where it is none of these, or no named frame has a face.
+    """
+    takes = {face: frames.take(rows) for face, rows in frames.takes().items()}
+    if neutral == "none":
+        return dict.fromkeys(takes)
+    if neutral == "auto":
+        return {face: _found(model, take, _called(face)) for face, take in takes.items()}
+    named = {face: named_rows(take, neutral) for face, take in takes.items()}
+    if any(named.values()):
+        for face in (face for face, rows in named.items() if not rows):
+            say(f"{frames.source}: weights{_called(face)} are not calibrated: --neutral names no frame of it")
+        return {face: takes[face].take(rows) if rows else None for face, rows in named.items()}
+    first, last = frames.labels[0], frames.labels[-1]
+    calm = neutral_file(neutral, frames.source, labels=f" ({first} to {last})")
+    return dict.fromkeys(takes, calm)
+
+
+def named_rows(take: Frames, neutral: str) -> list[int]:
+    """Rows of one face's frame that is named by its label, or of frames FIRST-LAST.
+
+    A picture of a film has the same name for all of its faces; ``NUMBER/FACE`` is one of them.
+    """
+    return _rows_of(take.labels, neutral) or _rows_of(_pictures(take), neutral)
+
+
+def neutral_file(neutral: str, source: str, *, labels: str = "") -> Frames:
+    """Neutral frames of a file of their own; ``source`` and ``labels`` say what else could have been named.
+
+    Raises
+    ------
+    InputError
+        Where there is no such file, or no usable frame in it.
+    """
+    if not Path(neutral).exists():
+        raise InputError(
+            f"--neutral {neutral!r} is neither a frame of {source}{labels}, nor a file; auto and none are allowed too"
+        )
+    return sound_rows(read_frames(neutral))
+
+
+def _found(model: Model, take: Frames, called: str) -> Frames | None:
+    if not take.usable.any():
+        return None
+    estimate = estimate_neutral(model, take.points)
+    if not estimate.sure:
+        say(f"{take.source}: no neutral face found{called}, weights are not calibrated: {estimate.reason}")
+        return None
+    say(f"{take.source}: neutral face found{called}: {estimate.reason}")
+    return take.take(estimate.frames)
+
+
+def _called(face: str | None) -> str:
+    return "" if face is None else f" of face {face}"
+
+
+def _pictures(take: Frames) -> tuple[str, ...]:
+    """What the pictures are called that a take's rows are of; nothing where its labels say all."""
+    if take.faces is None:
+        return ()
+    return tuple(label.removesuffix(f"/{face}") for label, face in zip(take.labels, take.faces, strict=True))
+
+
+def _rows_of(labels: tuple[str, ...], named: str) -> list[int]:
+    if named in labels:
+        return [labels.index(named)]
+    # labels may have dashes of their own
+    for dash in (place for place, letter in enumerate(named) if letter == "-"):
+        first, last = named[:dash], named[dash + 1 :]
+        if first in labels and last in labels:
+            return list(range(labels.index(first), labels.index(last) + 1))
+    return []
