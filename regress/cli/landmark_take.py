@@ -141,7 +141,8 @@ def predict_pipe(
     head = _head_settings(camera, calm)
     samples = read_lines(text_lines(sys.stdin), fps=fps)
     first = list(itertools.islice(samples, 1))
-    if auto_filter and first and first[0].time_s is not None:
+    slowest, quickest = FILM_FPS
+    if auto_filter and first and first[0].time_s is not None and slowest <= (fps or slowest) <= quickest:
         output = dataclasses.replace(output, filter=DEFAULT_FILTER)
     answers = predict_stream(
         itertools.chain(first, samples),

@@ -111,6 +111,7 @@ class Search:
         self._pictures, self._few = pictures, evenly_chosen(pictures, _FEW)
         self._view = predictor.sizes[camera]
         self._picture = (pictures.shape[2], pictures.shape[1])
+        self._aspect = self._picture[0] / self._picture[1]
         self.fades = fades
         largest, self._edge = (_LARGEST_FADED, _EDGE_FADED) if fades else (_LARGEST, _EDGE)
         self._largest = largest * max(self._picture) / self._picture[0]
@@ -128,11 +129,10 @@ class Search:
             following = placement_of_points(
                 placement, seen, self._points, picture=self._picture, view=self._view
             )
-            if self._predictor.model.camera_terms and _is_as_drawn(placement, following):
+            if self._predictor.model.camera_terms and _is_as_drawn(placement, following, self._aspect):
                 following = placement
-            found.append(
-                FoundPlacement(placement=placement, unsettled=_distance(placement, following), **quality)
-            )
+            unsettled = max(_apart(placement, following, self._aspect))
+            found.append(FoundPlacement(placement=placement, unsettled=unsettled, **quality))
             placement = self._held(following)
         best = min(found, key=lambda one: one.score)
         if len(self._few) == len(self._pictures):
@@ -173,7 +173,9 @@ class Search:
         if (mirror, quarter) not in self._uprights:
             roll_deg = (90.0 * quarter + 180) % 360 - 180
             whole = [CameraPlacement(mirror=mirror, roll_deg=roll_deg, size=size) for size in _WHOLE]
-            shares = [self._log_shares(moved)[0] for placement in whole for moved in _moved(placement)]
+            shares = [
+                self._log_shares(moved)[0] for placement in whole for moved in _moved(placement, self._aspect)
+            ]
             self._uprights[mirror, quarter] = float(np.mean(shares))
         return self._uprights[mirror, quarter]
 
@@ -194,13 +196,15 @@ class Search:
     def _look(self, placement: CameraPlacement, pictures: np.ndarray) -> tuple[np.ndarray, dict[str, float]]:
         """Points (n, P, 2) in the view, and how good it is."""
         seen, deviations, likenesses = [], [], []
-        for moved in _moved(placement):
+        for moved in _moved(placement, self._aspect):
             views = self.views(moved, pictures)
             estimates, traced = self._predictor.graph.see({self._camera: views})
             seen.append(traced[self._camera])
             deviations.append(estimates.deviation[:, self._part].mean())
             likenesses.append(self._likeness(views))
-        matrices = [moved.picture_from_view(self._picture, self._view) for moved in _moved(placement)]
+        matrices = [
+            moved.picture_from_view(self._picture, self._view) for moved in _moved(placement, self._aspect)
+        ]
         lids_and_iris = self._points.upper + self._points.lower + self._points.iris
         at = np.array(
             [
@@ -227,30 +231,25 @@ class Search:
         return likeness(typical_picture(views, np.arange(len(views))), self._typical)
 
 
-def _distance(one: CameraPlacement, other: CameraPlacement) -> float:
-    """How far two placements are apart: of the size, of the view's width, or of a radian."""
-    return max(_apart(one, other))
-
-
-def _is_as_drawn(one: CameraPlacement, other: CameraPlacement) -> bool:
+def _is_as_drawn(one: CameraPlacement, other: CameraPlacement, aspect: float) -> bool:
     """Whether two placements are no further apart than eyes in drawn headsets."""
     limits = (np.log(_DRAWN_SIZES), _DRAWN_PLACES, np.radians(_DRAWN_ROLL_DEG))
-    return all(apart <= limit for apart, limit in zip(_apart(one, other), limits, strict=True))
+    return all(apart <= limit for apart, limit in zip(_apart(one, other, aspect), limits, strict=True))
 
 
-def _apart(one: CameraPlacement, other: CameraPlacement) -> tuple[float, float, float]:
-    """By how much two placements differ: logarithm of the size, shares of the view's width, radians."""
-    moved = np.hypot(one.x - other.x, one.y - other.y) / one.size
+def _apart(one: CameraPlacement, other: CameraPlacement, aspect: float) -> tuple[float, float, float]:
+    """How far placements are apart in pictures of an aspect: log of the size, shares of the view's width, radians."""
+    moved = np.hypot(one.x - other.x, (one.y - other.y) / aspect) / one.size
     turned = np.radians((one.roll_deg - other.roll_deg + 180) % 360 - 180)
     return float(abs(np.log(one.size / other.size))), float(moved), float(abs(turned))
 
 
-def _moved(placement: CameraPlacement) -> Iterator[CameraPlacement]:
+def _moved(placement: CameraPlacement, aspect: float) -> Iterator[CameraPlacement]:
     for across, down, scale, turn_deg in _MOVES:
         yield replace(
             placement,
             x=placement.x + across * placement.size,
-            y=placement.y + down * placement.size,
+            y=placement.y + down * placement.size * aspect,
             size=placement.size * scale,
             roll_deg=(placement.roll_deg + turn_deg + 180) % 360 - 180,
         )

@@ -18,7 +18,7 @@ from regress.runtime.headset.misfits import Misfit
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import read_placement
 from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.placement_steps import Search, _is_as_drawn, placement_of_points
+from regress.runtime.headset.placement_steps import Search, _apart, _is_as_drawn, _moved, placement_of_points
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from tests.regress.headset.takes import write_take
 from tests.regress.headset.tiny import write_tiny_model
@@ -339,6 +339,18 @@ def test_a_step_says_how_far_out_the_eye_lies_whatever_the_limits_are(predictor:
     assert wanted.x > 2
 
 
+@pytest.mark.parametrize("width", [200, 320])
+def test_a_view_is_moved_by_as_much_of_its_width_in_pictures_of_any_shape(width: int):
+    """`_MOVES` are of the view; places are shares of the picture's width and height, which differ."""
+    placed = CameraPlacement(x=0.4, y=0.6, size=0.8)
+    across, down = np.diff([(one.x * width, one.y * 200) for one in _moved(placed, width / 200)][:2], axis=0)[
+        0
+    ] / (0.8 * width)
+    assert (across, down) == pytest.approx((-0.06, 0.03))
+    beside, below = replace(placed, x=0.5), replace(placed, y=0.6 + 0.1 * width / 200)
+    assert _apart(placed, beside, width / 200) == pytest.approx(_apart(placed, below, width / 200))
+
+
 def test_a_network_of_drawn_headsets_is_not_led_to_the_usual_eye(predictor: HeadsetPredictor, take: Take):
     """It knows eyes of every size, so the picture as it comes is settled; far out it is led like any network."""
     for model, settled in ((load_headset_predictor("headset-any"), True), (predictor, False)):
@@ -346,10 +358,10 @@ def test_a_network_of_drawn_headsets_is_not_led_to_the_usual_eye(predictor: Head
         search = Search(model, "left_eye", points, take["left_eye"][:8], fades=False)
         found = search.best(CameraPlacement(size=0.85, roll_deg=10.0))
         assert (found.unsettled == 0.0) == settled
-    assert not _is_as_drawn(CameraPlacement(), CameraPlacement(size=1.6))
-    assert not _is_as_drawn(CameraPlacement(), CameraPlacement(x=0.7))
-    assert not _is_as_drawn(CameraPlacement(roll_deg=170.0), CameraPlacement(roll_deg=-150.0))
-    assert _is_as_drawn(CameraPlacement(roll_deg=170.0), CameraPlacement(roll_deg=-170.0))
+    assert not _is_as_drawn(CameraPlacement(), CameraPlacement(size=1.6), 1.0)
+    assert not _is_as_drawn(CameraPlacement(), CameraPlacement(x=0.7), 1.0)
+    assert not _is_as_drawn(CameraPlacement(roll_deg=170.0), CameraPlacement(roll_deg=-150.0), 1.0)
+    assert _is_as_drawn(CameraPlacement(roll_deg=170.0), CameraPlacement(roll_deg=-170.0), 1.0)
 
 
 @pytest.mark.parametrize(
