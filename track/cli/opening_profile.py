@@ -13,6 +13,7 @@ from track.profile.places import person_of, profile_path, read_stored
 from track.profile.profile import Profile
 
 if TYPE_CHECKING:
+    from regress.runtime.headset.placement import CameraPlacement
     from track.session.pipeline import Pipeline
 
 _NOTHING_READ = {"ranges": {}, "rests": {}, "blinks": {}}
@@ -41,7 +42,7 @@ def open_profile(
     elif wishes.profile is not None and wishes.profile.endswith(".toml"):
         say(f"{path} does not exist yet; calibrating makes it")
     if wishes.placement is not None:
-        profile = profile.model_copy(update={"placement": pipeline.read_placement(wishes.placement)})
+        profile = _placed(wishes.placement, profile, pipeline, say)
     profile = _told(wishes.headset, profile, pipeline, say)
     if wishes.neutral in ("auto", "none"):
         profile = profile.model_copy(update={"neutral": None, **_NOTHING_READ})
@@ -86,6 +87,25 @@ def fitted(profile: Profile, pipeline: "Pipeline", path: Path, say: Callable[[st
         )
         left |= {"placement": {}, "neutral": None}
     return profile.model_copy(update=left)
+
+
+def _placed(path: Path, profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:
+    """The profile with a file's placement; without the neutral face where another part of pictures was seen in it."""
+    placement = pipeline.read_placement(path)
+    former = profile.placement
+    moved = any(_part_of(placement.get(name)) != _part_of(former.get(name)) for name in {*placement, *former})
+    left: dict[str, object] = {}
+    if moved and profile.neutral is not None:
+        say("the known neutral face was seen through another placement and is left out: calibrate again")
+        left = {"neutral": None, **_NOTHING_READ}
+    return profile.model_copy(update={"placement": placement, **left})
+
+
+def _part_of(placement: "CameraPlacement | None") -> tuple[float, float, float, float, bool]:
+    """Which part of its camera's pictures counts, without their levels."""
+    if placement is None:
+        return (0.5, 0.5, 1.0, 0.0, False)
+    return (placement.x, placement.y, placement.size, placement.roll_deg, placement.mirror)
 
 
 def _to_be_replaced(profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:

@@ -74,6 +74,23 @@ def test_a_placement_that_is_given_goes_before(tmp_path):
     assert used.placement == {"mouth": CameraPlacement(size=0.9)}
 
 
+@pytest.mark.parametrize(
+    ("text", "stays"),
+    [
+        ("size = 0.8\nlow = 25.0\nhigh = 180.0", True),
+        ("size = 0.9", False),
+        ("size = 0.8\nmirror = true", False),
+    ],
+)
+def test_a_neutral_face_stays_where_the_same_part_of_pictures_is_seen(tmp_path, text: str, stays: bool):
+    path = tmp_path / "placement.toml"
+    path.write_text(f"version = 1\n[cameras.left_eye]\n{text}\n")
+    pipeline = pipeline_of("headset-tracking3")
+    used, said = opened(tmp_path, pipeline, pipeline.mark, given=path, **PLACED, **READ)
+    assert (used.neutral, used.ranges) == ((NEUTRAL, READ["ranges"]) if stays else (None, {}))
+    assert any("seen through another placement" in each for each in said) != stays
+
+
 @pytest.mark.parametrize("name", ["look_around", "smile"])
 def test_each_face_says_which_network_read_it(name):
     """A profile that does not say so would keep its placement with any."""
