@@ -19,7 +19,7 @@ from regress.cli.headset_faces import (
     Take,
     Wide,
 )
-from regress.cli.options import BitsOption, LeftEyeOption, MouthOption, RightEyeOption
+from regress.cli.options import BitsOption, HeadsetOption, LeftEyeOption, MouthOption, RightEyeOption
 from regress.errors import InputError
 
 
@@ -61,6 +61,7 @@ def calibrate(
     mouth: MouthOption = None,
     bits: BitsOption = None,
     placement: Placement = None,
+    headset: HeadsetOption = None,
 ) -> None:
     """Find a person's own ends of each range in a guided minute: rest becomes 0, full movements become 1.
 
@@ -71,6 +72,7 @@ def calibrate(
     """
     from facegen.console import say
     from facegen.files import refuse_ending
+    from regress.cli.headset_input import told_of
     from regress.cli.headset_minute import read_minute
     from regress.runtime.headset.guided import person_of
     from regress.runtime.headset.person import write_person
@@ -80,7 +82,7 @@ def calibrate(
     if out is None:
         raise InputError("--out is needed: the person's file, as anna.json")
     refuse_ending(out, ".json", what="a person's file")
-    predictor = load_headset_predictor(model or HEADSET)
+    predictor = told_of(load_headset_predictor(model or HEADSET), headset)
     minute = read_minute(
         predictor,
         (rest, shut, wide, jaw_open, lips_rolled, smile, cheeks, brows_up, pucker, look),

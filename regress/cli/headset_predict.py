@@ -14,6 +14,7 @@ from regress.cli.options import (
     FilterName,
     FilterOption,
     FormatOption,
+    HeadsetOption,
     LeftEyeOption,
     MirrorOption,
     ModelOption,
@@ -57,14 +58,7 @@ def predict(
             help="TOML of `regress headset check`: what of each camera's pictures counts, at which levels.",
         ),
     ] = None,
-    headset: Annotated[
-        str | None,
-        typer.Option(
-            "--headset",
-            metavar="NAME|FILE.toml",
-            help="Headset file of facegen: where the cameras are, told to a model of drawn headsets (headset-any).",
-        ),
-    ] = None,
+    headset: HeadsetOption = None,
     out: OutOption = None,
     table_format: FormatOption = TableFormat.csv,
     retarget: RetargetOption = None,

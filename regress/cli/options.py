@@ -142,6 +142,15 @@ RightEyeOption = Annotated[
 
 MouthOption = Annotated[Path | None, typer.Option("--mouth", help="Short for --camera mouth=PATH.")]
 
+HeadsetOption = Annotated[
+    str | None,
+    typer.Option(
+        "--headset",
+        metavar="NAME|FILE.toml",
+        help="Headset file of facegen: where the cameras are, told to a model of drawn headsets (headset-any).",
+    ),
+]
+
 BitsOption = Annotated[
     int | None,
     typer.Option(

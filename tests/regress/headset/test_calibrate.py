@@ -88,6 +88,27 @@ def person(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+def test_calibrate_is_told_of_the_cameras_that_predict_is_told_of(run, tmp_path: Path):
+    """Ends of ranges are those of the network that will read them: rest reads nothing then."""
+    told, files = ("--headset", "tracking3"), {}
+    for name, words in (("told", told), ("untold", ())):
+        files[name] = tmp_path / f"{name}.json"
+        options = [*CAMERAS, *words, "--rest", REST, "--jaw-open", SHUT, "--out", files[name]]
+        code, _, said = run("headset", "calibrate", "headset-any", *options)
+        assert code == 0, said
+    rests = {name: read_person(path).rest for name, path in files.items()}
+    assert rests["told"] != rests["untold"]
+    words = ["headset", "predict", "headset-any", *CAMERAS, "--out", tmp_path / "w.csv"]
+    residue = {}
+    for name, path in files.items():
+        assert run(*words, *told, "--person", path)[0] == 0
+        table = np.genfromtxt(tmp_path / "w.csv", delimiter=",", names=True)
+        at_rest = np.array([table[name][:10] for name in BLENDSHAPES if not name.startswith("eyeLook")])
+        residue[name] = np.median(at_rest, axis=1).max()
+    print(residue)
+    assert residue["told"] < residue["untold"]
+
+
 def test_where_one_looks_at_rest_is_ones_own(run, tmp_path: Path, monkeypatch):
     """In these frames a look reads most, and no face is refused for it."""
     monkeypatch.setattr(guided, "HIGHEST_REST", 0.0)
