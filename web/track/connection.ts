@@ -8,6 +8,8 @@ const PAUSES_S = [0.5, 1, 2, 4, 5];
 const SILENT_S = 2;
 /** WebSocket's word for a server that ends on purpose. */
 const GOING_AWAY = 1001;
+/** HTTP's status where the link's token is another one. */
+const FORBIDDEN = 403;
 
 export type State = "connecting" | "live" | "waiting" | "lost";
 
@@ -75,8 +77,18 @@ export class Connection {
   private closed(code: number): void {
     clearTimeout(this.silence);
     const pause = PAUSES_S[Math.min(this.tries++, PAUSES_S.length - 1)]!;
-    const why = code === GOING_AWAY ? "track has ended" : "track does not answer";
-    this.listener.state("lost", `${why}; this page goes on when it is there again`);
+    void this.lost(code === GOING_AWAY ? "track has ended" : "track does not answer");
     setTimeout(() => this.open(), 1000 * pause);
+  }
+
+  /** Say why; a socket does not tell that the link is of another run, and the page's own address does. */
+  private async lost(why: string): Promise<void> {
+    const answer = this.tries > 1 ? await fetch(location.href, { method: "HEAD" }).catch(() => undefined) : undefined;
+    if (this.socket?.readyState === WebSocket.OPEN) return;
+    const sentence =
+      answer?.status === FORBIDDEN
+        ? "track has another link by now: open the one that it printed last"
+        : `${why}; this page goes on when it is there again`;
+    this.listener.state("lost", sentence);
   }
 }

@@ -138,3 +138,15 @@ def test_the_page_comes_back_by_itself(loop, browser, egg):
                 await stand.tab.until("connection.textContent === 'Nothing comes from the camera'")
 
     loop.run_until_complete(look())
+
+
+def test_a_tab_with_another_runs_link_says_which_to_open(loop, browser, egg):
+    async def look():
+        with Page([].append, steps=STEPS, avatar=egg, token="first" * 4) as page:
+            async with browser.open(page.url) as tab:
+                await tab.until("globalThis.track && connection.dataset.state === 'waiting'")
+                await asyncio.to_thread(page.close)
+                with Page([].append, port=page.port, steps=STEPS, avatar=egg, token="other" * 4):
+                    await tab.until("connection.textContent.startsWith('track has another link')")
+
+    loop.run_until_complete(look())
