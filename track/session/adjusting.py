@@ -133,7 +133,9 @@ class Adjusting:
 
     def _calibrate(self, sample: Sample) -> None:
         calibration = self._calibration
-        self.step = calibration.step(sample.time_s, sample, self._pipeline.signature(sample))
+        self.step = calibration.step(
+            sample.time_s, self._pipeline.calibrated_by(sample), self._pipeline.signature(sample)
+        )
         for outcome in calibration.outcomes():
             self.take(outcome)
         if calibration.finished:

@@ -57,6 +57,10 @@ class Pipeline:
         """What of a frame must keep still while a neutral face is recorded; None where there is no face."""
         raise NotImplementedError
 
+    def calibrated_by(self, sample: Sample) -> Sample:
+        """What of a frame a calibration has to keep for seconds."""
+        return sample
+
     def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
         """The neutral face of frames that show it."""
         raise NotImplementedError

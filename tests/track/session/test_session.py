@@ -1,6 +1,7 @@
 """A session over a talking face: answers, commands, calibration, profiles."""
 
 import threading
+import weakref
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -86,6 +87,25 @@ def test_calibration_finds_the_neutral_face_and_keeps_it():
     assert stored[-1].neutral is not None
     assert stored[-1].model == session.pipeline.mark
     assert said == ["calibration: done"]
+
+
+def test_calibration_by_points_holds_no_pictures_and_keeps_their_size():
+    """Sixty of 1920 x 1080 pixels would take 370 MB."""
+    session = new_session()
+    session.ask(Command(verb="calibrate", value="neutral"))
+    still, given, time_s, held = frames(0, 60), [], 0.0, 0
+    while session.adjusting.step is None or session.adjusting.calibrating:
+        picture = np.zeros((48, 64, 3), np.uint8)
+        given.append(weakref.ref(picture))
+        sample = frames_at(still[int(time_s * 30) % 60], time_s)
+        session.answer(replace(sample, pictures={"camera": picture}))
+        session.sinks[0].samples.clear()
+        del picture, sample
+        held = max(held, sum(each() is not None for each in given))
+        time_s += 1 / 30
+        assert time_s < 20
+    assert held <= 2
+    assert session.profile.neutral.picture == (64, 48)
 
 
 def test_who_moves_is_asked_once_more_and_nothing_is_kept():
