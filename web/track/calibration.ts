@@ -18,6 +18,10 @@ function byId<T extends HTMLElement>(id: string): T {
   return document.getElementById(id) as T;
 }
 
+function runs(phase: string): boolean {
+  return phase.endsWith("countdown") || phase.endsWith("recording");
+}
+
 export class CalibrationView {
   private readonly card = byId("asking");
   private readonly name = byId("asking-name");
@@ -29,6 +33,8 @@ export class CalibrationView {
   private phase = "";
   private most = 1;
   private told = 0;
+  /** Whether this page saw a face being asked for. */
+  private saw = false;
 
   constructor(start: (step: string) => void, cancel: () => void) {
     byId<HTMLFormElement>("calibrate").addEventListener("submit", (event) => {
@@ -42,7 +48,7 @@ export class CalibrationView {
   }
 
   private get runs(): boolean {
-    return this.phase.endsWith("countdown") || this.phase.endsWith("recording");
+    return runs(this.phase);
   }
 
   /** What can be asked for. */
@@ -66,6 +72,8 @@ export class CalibrationView {
     }
     const phase = `${step.name} ${step.state}`;
     if (phase === this.phase && this.card.hidden) return;
+    this.saw ||= runs(phase);
+    if (!this.saw) return; // how one went that was over before this page came
     if (phase !== this.phase) {
       this.phase = phase;
       this.most = Math.max(step.seconds_left, 0.1);

@@ -71,6 +71,9 @@ def test_calibration_says_what_to_do_and_can_be_cancelled(loop, stand):
 
     async def look():
         asking = "document.getElementById('asking')"
+        before = Step(name="smile", state="done", seconds_left=0.0, text="All done")
+        await stand.show(np.full(52, 0.25), step=before)
+        assert await stand.tab.ask(f"{asking}.hidden"), "it was over before this page came"
         await stand.publish_until(f"!{asking}.hidden", step=step)
         assert await stand.tab.ask(f"{asking}.innerText.split('\\n').filter(Boolean)") == [
             "2",
