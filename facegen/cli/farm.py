@@ -140,13 +140,14 @@ def resume(
         names = ", ".join(resumption.postponed)
         say(f"facegen: {names} must wait for tasks that are not done; resume again after them")
     if not resumption.steps:
-        missing = resumption.state.missing
-        say(f"facegen: nothing to submit; {counted(missing, 'thing')} missing, and each has a task")
+        missing, left = resumption.state.missing, resumption.remaining
+        why = "and no job has the step generate" if left.shards or left.samples else "and each has a task"
+        say(f"facegen: nothing to submit; {counted(missing, 'thing')} missing{f', {why}' if missing else ''}")
         print_table({"job": None, "tasks": 0}, as_json=as_json)
         return
+    job = farm.prepare_resumption(opened, resumption, chunk=chunk)
     if retry_quarantined and not dry_run:
         farm.forget_quarantined(opened, resumption)
-    job = farm.prepare_resumption(opened, resumption, chunk=chunk)
     _hand_over(opened, job, dry_run=dry_run, wait=wait, as_json=as_json)
 
 

@@ -1,5 +1,6 @@
 """Writes the command line of each step: tasks run it, and anyone can paste it to run the step by hand."""
 
+import shlex
 from collections.abc import Callable
 
 from facegen.farm.chunks import Chunk
@@ -18,13 +19,22 @@ def generate_command(job: Job, *, spec: str, out: str, what: tuple[str, ...]) ->
 def later_command(job: Job, step: str, *, out: str, packed: str, model: str) -> list[str]:
     """Write the command of a step after ``generate``; a job may have been asked for a slice, which is no fault."""
     python = job.resources.on_farm(job.resources.python)
+    chosen = [] if job.whole else ["--samples", job.samples]
     commands: dict[str, Callable[[], list[str]]] = {
         "validate": lambda: ["facegen", "validate", out, "--partial"],
-        "pack": lambda: ["facegen", "pack", out, "--out", packed],
+        "pack": lambda: ["facegen", "pack", out, "--out", packed, *chosen],
         "train": lambda: ["regress", "train", out, "--out", model],
         "export": lambda: ["regress", "export", model, "--out", f"{model}/exports"],
     }
     return [python, "-m", *commands[step]()]
+
+
+def rigs_line(job: Job) -> str:
+    """Shell line by which tasks find the rigs of the machine that submitted; those of another farm have their own."""
+    if not job.rigs:
+        return ""
+    folder = shlex.quote(job.resources.on_farm(job.rigs))
+    return f"[ ! -d {folder} ] || export FACEGEN_RIGS={folder}\n"
 
 
 def chunk_lines(chunks: tuple[Chunk, ...]) -> str:

@@ -41,6 +41,10 @@ class Job:
         What was asked for, as `facegen.work.wanted_tasks` takes them.
     chunks
         What was missing when the job was made.
+    whole
+        Whether all that the spec asks for was asked for, and no slice of it.
+    rigs
+        Folder of built rigs where the job was submitted, absolute; tasks use it where they find it.
     """
 
     name: Annotated[str, Field(pattern=JOB_NAME)]
@@ -53,6 +57,8 @@ class Job:
     shards: str | None
     chunks: tuple[Chunk, ...]
     resources: Resources
+    whole: bool = True
+    rigs: str = ""
 
     def __post_init__(self) -> None:
         for what, folder in (("--out", self.out), ("--packed", self.packed), ("--model", self.model)):

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from facegen.errors import InputError
-from facegen.farm.commands import generate_command, later_command
+from facegen.farm.commands import generate_command, later_command, rigs_line
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, Submission
 from facegen.farm.shell import check_setup
@@ -192,14 +192,14 @@ def _script(job: Job, command: list[str], *, done: str | None = None) -> dict[st
     }
     if resources.time_s is not None:
         action["timeout"] = resources.time_s
-    files, setup = [], ""
+    files, setup = [], "" if "{{" in job.rigs else rigs_line(job)
     if resources.env_setup is not None:
         check_setup(resources)
         if "{{" in resources.env_setup:
             raise InputError(
                 "--env-setup: OpenJD would read '{{' as the start of a parameter; put it into a script"
             )
-        setup = f"{resources.env_setup}\n"
+        setup += f"{resources.env_setup}\n"
     if setup or done is not None:
         text = setup + (_LAUNCH if done is None else _LAUNCH_AND_SAY)
         files = [{"name": "launch", "type": "TEXT", "filename": "launch.sh", "data": text}]

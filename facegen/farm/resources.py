@@ -6,8 +6,8 @@ from pathlib import Path
 
 from facegen.errors import InputError
 
-MOST_GRACE_S = 24 * 3600.0
-"""No task takes a day, so none needs longer to end."""
+MOST_GRACE_S = 18 * 3600.0
+"""Slurm's notice comes 65,535 s before the end of a task at most; none needs so long to end."""
 
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
 """What ends a line or has no bytes in UTF-8, as parts of names that are not UTF-8: no script can hold it."""

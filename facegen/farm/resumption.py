@@ -3,11 +3,13 @@
 import shutil
 from dataclasses import dataclass
 
-from facegen.errors import InputError
+from facegen.errors import InputError, Unanswered
 from facegen.farm.job import STEPS, Job, asked_jobs
 from facegen.farm.state import FarmState, farm_state
 from facegen.farm.submission import Remaining, prepare, remaining
+from facegen.spec import format_ranges
 from facegen.store import Dataset
+from facegen.work import wanted_tasks
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,7 +19,9 @@ class Resumption:
     Attributes
     ----------
     newest
-        The job whose engine, resources and samples the new one takes over.
+        The job whose engine and resources the new one takes over.
+    samples, shards
+        What all jobs together were asked for, which the new one is asked for.
     state
         How far the dataset is.
     remaining
@@ -29,6 +33,8 @@ class Resumption:
     """
 
     newest: Job
+    samples: str
+    shards: str | None
     state: FarmState
     remaining: Remaining
     steps: dict[str, Job]
@@ -42,6 +48,8 @@ def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Res
     ------
     InputError
         If the dataset was never submitted.
+    Unanswered
+        If an engine does not say whether it is at tasks that it has.
     """
     jobs = {job.name: job for job in asked_jobs(dataset.folder)}
     if not jobs:
@@ -50,8 +58,21 @@ def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Res
         )
     newest = list(jobs.values())[-1]
     state = farm_state(dataset)
-    left = remaining(
-        dataset, newest.samples, shards=newest.shards, busy=state.busy, retry_quarantined=retry_quarantined
+    if state.unknown:
+        raise Unanswered(
+            f"{dataset.folder.path}: {newest.engine} does not say what it does with {', '.join(state.unknown)}, so "
+            "tasks might be submitted twice; resume when it answers"
+        )
+    # an older job may have been asked for more than the newest
+    requests = list(dict.fromkeys((job.samples, job.shards) for job in jobs.values()))
+    left = [
+        remaining(dataset, samples, shards=shards, busy=state.busy, retry_quarantined=retry_quarantined)
+        for samples, shards in requests
+    ]
+    samples, shards = _together(dataset, requests)
+    left = Remaining(
+        shards=sorted({number for some in left for number in some.shards}),
+        samples=sorted({number for some in left for number in some.samples}),
     )
     undone = {step.step: jobs[step.job] for step in state.steps if step.state == "to do"}
     postponed = tuple(undone) if state.busy else ()
@@ -61,10 +82,22 @@ def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Res
         undone["generate"] = newest
     return Resumption(
         newest=newest,
+        samples=samples,
+        shards=shards,
         state=state,
         remaining=left,
         steps={step: undone[step] for step in STEPS if step in undone},
         postponed=postponed,
+    )
+
+
+def _together(dataset: Dataset, requests: list[tuple[str, str | None]]) -> tuple[str, str | None]:
+    if len(requests) == 1:
+        return requests[0]
+    wanted = [wanted_tasks(dataset, samples, shards) for samples, shards in requests]
+    return (
+        format_ranges(sorted({number for some in wanted for number in some.samples})),
+        format_ranges(sorted({number for some in wanted for number in some.shards})),
     )
 
 
@@ -77,8 +110,8 @@ def prepare_resumption(dataset: Dataset, resumption: Resumption, *, chunk: int |
             resumption.remaining,
             engine=newest.engine,
             steps=tuple(steps),
-            samples=newest.samples,
-            shards=newest.shards,
+            samples=resumption.samples,
+            shards=resumption.shards,
             resources=newest.resources,
             chunk=chunk,
             packed=steps.get("pack", newest).packed,

@@ -3,7 +3,6 @@
 Needs the client commands only: no accounting, no rights to slurm.conf, no shared files but the dataset's.
 """
 
-import os
 import re
 import shlex
 import subprocess
@@ -12,7 +11,7 @@ from collections import Counter
 from pathlib import Path
 
 from facegen.errors import FacegenError, InputError, Unanswered
-from facegen.farm.commands import chunk_lines, generate_command, later_command
+from facegen.farm.commands import chunk_lines, generate_command, later_command, rigs_line
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, Submission
 from facegen.farm.shell import check_setup, check_shell
@@ -42,7 +41,7 @@ stop=0 again=0 pid=
 trap 'stop=1 again=1; [ -z "$pid" ] || kill -TERM "$pid" 2>/dev/null' USR1
 trap 'stop=1 again=0; [ -z "$pid" ] || kill -TERM "$pid" 2>/dev/null' TERM INT
 export PYTHONUNBUFFERED=1
-{setup}{prepare}rc=75
+{rigs}{setup}{prepare}rc=75
 for attempt in {attempts}; do
   [ "$stop" = 0 ] || break
   {command} &
@@ -89,6 +88,7 @@ def sbatch_script(job: Job, step: str) -> str:
     finish = "" if step == "generate" else f'[ "$rc" = 0 ] && : > {done}\n'
     return _SCRIPT.format(
         directives="\n".join(f"#SBATCH {directive}" for directive in _directives(job, step, folder)),
+        rigs=rigs_line(job),
         setup=f"{resources.env_setup}\n" if resources.env_setup else "",
         prepare=prepare,
         command=command,
@@ -101,7 +101,7 @@ def sbatch_script(job: Job, step: str) -> str:
 
 def _directives(job: Job, step: str, folder: str) -> list[str]:
     resources = job.resources
-    lines = [f"--job-name=facegen-{job.name}-{step}"]
+    lines = [f"--job-name={_job_name(job, step)}"]
     if step == "generate":
         throttle = f"%{resources.max_parallel}" if resources.max_parallel else ""
         lines.append(f"--array=0-{len(job.chunks) - 1}{throttle}")
@@ -111,8 +111,17 @@ def _directives(job: Job, step: str, folder: str) -> list[str]:
     log = f"{folder}/logs/{step}{'-%a' if step == 'generate' else ''}.out"
     if '"' in folder or "\\" in folder:
         raise InputError(f"{folder!r}: Slurm's scripts cannot name a folder with a quote or a backslash")
+    if resources.time_s is not None and resources.time_s <= resources.grace_s + NOTICE_S:
+        raise InputError(
+            f"--time {resources.time} ({resources.time_s:g} s): Slurm says {NOTICE_S} s before the grace of "
+            f"{resources.grace_s:g} s that a task must end, so it would end at once; raise --time or lower --grace"
+        )
     lines += ["--requeue", "--open-mode=append", f"--signal=B:USR1@{round(resources.grace_s) + NOTICE_S}"]
     return [*lines, f'--output="{_percent(folder)}{log[len(folder) :]}"']
+
+
+def _job_name(job: Job, step: str) -> str:
+    return f"facegen-{job.name}-{step}"
 
 
 def _percent(path: str) -> str:
@@ -177,7 +186,9 @@ class Slurm:
 
     def activity(self, job: Job, submission: Submission) -> Activity | None:
         """Read what squeue lists; jobs that have ended are not in it."""
-        command = ["squeue", "-h", "-r", "-u", str(os.getuid()), "-o", "%F|%K|%T|%r"]
+        # by names, as a colleague may have submitted it; other folders' jobs have the same, and other numbers
+        names = ",".join(_job_name(job, step) for step in submission.ids)
+        command = ["squeue", "-h", "-r", f"--name={names}", "-o", "%F|%K|%T|%r"]
         try:
             listing = _run(command)
         except FacegenError:

@@ -45,6 +45,8 @@ class FarmState:
         Later steps.
     busy
         Missing things that an engine has a task for.
+    unknown
+        Jobs of which their engine was asked, and did not say whether it is at them.
     """
 
     wanted: int
@@ -59,6 +61,7 @@ class FarmState:
     seconds_left: float | None
     steps: tuple[StepState, ...]
     busy: frozenset[Task]
+    unknown: tuple[str, ...]
 
     @property
     def exit_code(self) -> ExitCode:
@@ -77,7 +80,8 @@ def farm_state(dataset: Dataset) -> FarmState:
     done = {task for some in wanted for task in done_tasks(dataset, some)}
     quarantined = {task for some in wanted for task in quarantined_tasks(dataset, some)} - done
     missing = requested - done - quarantined
-    known = [(job, activity) for job, activity in activities(dataset.folder) if activity is not None]
+    asked = activities(dataset.folder)
+    known = [(job, activity) for job, _, activity in asked if activity is not None]
     attempts = list(read_journals(dataset.folder))
     cores = sum(job.resources.cpus * len(activity.running) for job, activity in known)
     by_name = {job.name: activity for job, activity in known}
@@ -106,6 +110,8 @@ def farm_state(dataset: Dataset) -> FarmState:
             if index < len(job.chunks)
             for task in _tasks(dataset, job, index)
         ),
+        # an engine that gave numbers can be asked for them
+        unknown=tuple(job.name for job, given, activity in asked if given.ids and activity is None),
     )
 
 

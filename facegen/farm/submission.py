@@ -1,5 +1,6 @@
 """Submits a job: cuts what is missing into tasks, writes them as scripts or a bundle, hands them to the engine."""
 
+import os
 import shutil
 import tempfile
 from dataclasses import dataclass, replace
@@ -11,9 +12,10 @@ from facegen.farm.engine import Activity, Engine
 from facegen.farm.engines import ENGINES
 from facegen.farm.job import Job, Resources, Submission, list_jobs, new_job_name, write_record
 from facegen.files import output_errors
+from facegen.rigs import rigs_folder
 from facegen.spec import format_ranges
 from facegen.store import Dataset, DatasetFolder, begin
-from facegen.work import Task, plan_work
+from facegen.work import Task, plan_work, wanted_tasks
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,6 +85,10 @@ def prepare(
     OutputError
         If the folder cannot be written.
     """
+    if (
+        "/" in resources.python
+    ):  # tasks begin in another folder; a link stays one, as a virtual environment's Python is
+        resources = replace(resources, python=os.path.abspath(resources.python))
     chunks = cut_chunks(what.shards, what.samples, chunk=chunk) if "generate" in steps else ()
     out = dataset.folder.path.resolve()
     draft = Job(
@@ -97,6 +103,8 @@ def prepare(
         shards=format_ranges(range(dataset.shards)) if samples is None else shards,
         chunks=chunks,
         resources=resources,
+        whole=_is_whole(dataset, samples, shards),
+        rigs=str(rigs_folder().resolve()),
     )
     with tempfile.TemporaryDirectory() as folder:  # what is refused leaves nothing in the dataset
         _write_files(draft, Path(folder))
@@ -108,6 +116,14 @@ def prepare(
         _write_files(job, job.folder)
     write_record(job.folder / "job.json", job)
     return job
+
+
+def _is_whole(dataset: Dataset, samples: str | None, shards: str | None) -> bool:
+    """Whether a request leaves nothing out that the spec asks for."""
+    if samples is None:
+        return True
+    asked, everything = wanted_tasks(dataset, samples, shards), wanted_tasks(dataset, None)
+    return len(asked) >= len(everything) and set(everything.samples) <= set(asked.samples)
 
 
 def _write_files(job: Job, folder: Path) -> None:
@@ -183,10 +199,10 @@ def engine_logs(folder: DatasetFolder) -> list[Path]:
     return sorted((folder.path / "farm").glob("job-*/logs/*.out"))
 
 
-def activities(folder: DatasetFolder) -> list[tuple[Job, Activity | None]]:
+def activities(folder: DatasetFolder) -> list[tuple[Job, Submission, Activity | None]]:
     """All submitted jobs with what their engines do with them."""
     return [
-        (job, _engine(job).activity(job, submission))
+        (job, submission, _engine(job).activity(job, submission))
         for job, submission in list_jobs(folder)
         if submission is not None
     ]

@@ -25,7 +25,7 @@ multiplies the rounding of points too."""
 def check_shard(dataset: Dataset, number: int) -> Iterator[Finding]:
     """Findings in one shard; Parquet's own page checksums are verified on the way."""
     path = dataset.folder.shard(number)
-    where = str(path.relative_to(dataset.folder.path))
+    where = path.relative_to(dataset.folder.path).as_posix()
 
     def finding(what: str, kind: str, *, at: str = "") -> Finding:
         return Finding(where + at, what, kind, remove=where)

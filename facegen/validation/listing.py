@@ -72,7 +72,7 @@ def _render_or_extra(dataset: Dataset, entry: Path, renders: list[int]) -> Findi
 
 
 def _extra(dataset: Dataset, path: Path, what: str, *, kind: str) -> Finding:
-    where = str(path.relative_to(dataset.folder.path))
+    where = path.relative_to(dataset.folder.path).as_posix()
     return Finding(where, what, kind, remove=where)
 
 

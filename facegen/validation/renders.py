@@ -52,7 +52,7 @@ def check_renders(dataset: Dataset, numbers: tuple[int, ...]) -> Iterator[Findin
 def check_render(dataset: Dataset, number: int, samples: Samples) -> Iterator[Finding]:
     """Findings in one rendered sample, whose drawn row is ``samples``."""
     folder = dataset.folder.render(number)
-    place = str(folder.relative_to(dataset.folder.path))
+    place = folder.relative_to(dataset.folder.path).as_posix()
     views = dataset.headset.camera_names
     files = frozenset(f"{view}.{kind}" for view in views for kind in dataset.picture_kinds)
     present = frozenset(entry.name for entry in folder.iterdir())

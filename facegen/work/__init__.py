@@ -1,6 +1,6 @@
 """Makes datasets: tasks, workers, and the supervisor that owns them."""
 
-from facegen.work.allocation import available_cpus, available_memory
+from facegen.work.allocation import available_cpus, available_memory, workers_for
 from facegen.work.blend import save_blend
 from facegen.work.developing import Settings, develop_dataset, develop_sample
 from facegen.work.generate import DEFAULT_GRACE_S, Summary, Work, generate, plan_work
@@ -28,4 +28,5 @@ __all__ = [
     "read_journals",
     "save_blend",
     "wanted_tasks",
+    "workers_for",
 ]

@@ -8,6 +8,9 @@ import psutil
 
 _MIB = 1 << 20
 
+_WINDOWS_WORKERS = 30
+"""Processes: one waits for 63 things at a time there, and for two of each process."""
+
 
 def available_cpus(environ: Mapping[str, str] = os.environ, cgroups: Path = Path("/sys/fs/cgroup")) -> int:
     """Count the processors that this process may use, at least 1.
@@ -24,6 +27,12 @@ def available_cpus(environ: Mapping[str, str] = os.environ, cgroups: Path = Path
     for folder in _own_cgroups(cgroups):
         limits += _cpu_quota(folder)
     return max(1, min(limits))
+
+
+def workers_for(asked: int | None, *, system: str = os.name) -> int:
+    """How many processes work side by side: as many as asked for, else one per processor."""
+    workers = asked or available_cpus()
+    return min(workers, _WINDOWS_WORKERS) if system == "nt" else workers
 
 
 def available_memory(environ: Mapping[str, str] = os.environ, cgroups: Path = Path("/sys/fs/cgroup")) -> int:

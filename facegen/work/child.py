@@ -186,7 +186,8 @@ def _redirect_output(log: Path) -> None:
         sys.stderr.flush()
     except OSError:
         pass
-    ctypes.CDLL(None).fflush(None)  # Blender prints through C, whose lines would end up in the next log
+    system = ctypes.CDLL(None if os.name == "posix" else "ucrtbase")
+    system.fflush(None)  # Blender prints through C, whose lines would end up in the next log
     log.parent.mkdir(parents=True, exist_ok=True)
     handle = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
     os.dup2(handle, 1)

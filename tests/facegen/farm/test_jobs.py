@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from facegen.cli import app
 from facegen.errors import InputError, Unanswered
 from facegen.farm import ENGINES, Activity, Job, Submission, slurm
 from facegen.farm.job import asked_jobs
+from facegen.rigs import rigs_folder
 from facegen.store import DatasetFolder, open_dataset
 from facegen.work import generate
 
@@ -29,7 +31,7 @@ class Told:
     """An engine with the activity of each job that it was told; it writes down what it cancels."""
 
     def __init__(self) -> None:
-        self.doing: dict[str, Activity] = {}
+        self.doing: dict[str, Activity | None] = {}
         self.cancelled: list[str] = []
 
     def files(self, job: Job) -> dict[str, str]:
@@ -43,7 +45,7 @@ class Told:
     def submit(self, job: Job) -> Submission:
         return Submission(ids=dict.fromkeys(job.steps, "7"))
 
-    def activity(self, job: Job, submission: Submission) -> Activity:
+    def activity(self, job: Job, submission: Submission) -> Activity | None:
         return self.doing.get(job.name, Activity())
 
     def cancel(self, job: Job, submission: Submission) -> None:
@@ -97,6 +99,61 @@ def test_a_dry_run_does_not_narrow_what_is_resumed(engine, tmp_path):
     submit(tmp_path, "--samples", "0-9", "--steps", "generate,train", "--dry-run", spec=SPEC + RENDERED)
     assert resume(out) == ("generate",)
     assert asked_jobs(DatasetFolder(out))[-1].samples == "0-19"
+
+
+def test_a_narrower_job_does_not_narrow_what_is_resumed(engine, tmp_path):
+    out = submit(tmp_path, spec=SPEC + RENDERED)
+    submit(tmp_path, "--samples", "0-4", spec=SPEC + RENDERED)
+    engine.doing["job-002"] = Activity(running=frozenset({0, 1}))
+    for _ in range(2):  # the new job is asked for as much, or the next one would be narrower
+        assert resume(out) == ("generate",)
+        job = asked_jobs(DatasetFolder(out))[-1]
+        assert (job.samples, job.whole) == ("0-19", True)
+        assert [chunk.samples for chunk in job.chunks if chunk.samples] == ["5-19"]
+
+
+def test_of_an_engine_that_does_not_answer_nothing_is_submitted_twice(engine, tmp_path):
+    out = submit(tmp_path)
+    engine.doing["job-001"] = None
+    refusal = farm("resume", out).exception
+    assert isinstance(refusal, Unanswered)
+    assert "slurm does not say what it does with job-001" in str(refusal)
+    assert not (out / "farm" / "job-002").exists()
+
+
+def dry_script(folder: Path, step: str, *options: str) -> str:
+    """A step's script for Slurm, which is asked for nothing."""
+    (folder / "spec.toml").write_text(SPEC + RENDERED)
+    words = ("--engine", "slurm", "--steps", "generate,validate,pack", "--dry-run", "--json", *options)
+    done = farm("submit", folder / "spec.toml", "--out", folder / "out", *words)
+    assert done.exit_code == 0, done.output
+    return json.loads(done.stdout)["files"][f"{step}.sh"]
+
+
+@pytest.mark.parametrize(
+    ("asked", "chosen"),
+    [((), ""), (("--samples", "0-19"), ""), (("--samples", "0-4"), " --samples 0-4")],
+    ids=["all", "all by number", "a slice"],
+)
+def test_a_slice_is_packed_as_one(tmp_path, asked: tuple[str, ...], chosen: str):
+    command = next(
+        line for line in dry_script(tmp_path, "pack", *asked).splitlines() if "facegen pack" in line
+    )
+    assert command.strip().removesuffix(" &").endswith(f"--out {tmp_path}/out-packed{chosen}")
+
+
+def test_tasks_find_the_rigs_and_the_python_of_the_folder_that_submitted(tmp_path, monkeypatch):
+    """Slurm's tasks begin in /, where a package that was installed without -e would look for its rigs."""
+    built = rigs_folder().resolve()
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "my rigs").symlink_to(built)
+    monkeypatch.setenv("FACEGEN_RIGS", "my rigs")
+    (tmp_path / "python").write_text('#!/bin/bash\necho "$FACEGEN_RIGS"\n')
+    (tmp_path / "python").chmod(0o755)
+    script = dry_script(tmp_path, "validate", "--python", "./python")
+    (tmp_path / "out" / "farm" / "job-001").mkdir(parents=True, exist_ok=True)
+    done = subprocess.run(["bash"], input=script, cwd="/", capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout.strip()) == (0, str(built)), done.stderr
 
 
 def test_a_bundle_that_cannot_be_cancelled_keeps_no_other_job_from_it(engine, tmp_path):

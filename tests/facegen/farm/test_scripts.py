@@ -129,6 +129,16 @@ def test_what_cannot_be_read_is_refused(resources, words):
         Resources(**resources)
 
 
+def test_a_notice_before_the_beginning_is_refused():
+    """`--time 1:30` are 90 seconds to Slurm, and hours to many people."""
+    job = dataclasses.replace(JOB, resources=Resources(time="1:30"))
+    with pytest.raises(InputError, match=r"--time 1:30 \(90 s\): Slurm says 60 s before the grace of 30 s"):
+        sbatch_script(job, "generate")
+    assert "--time=1:31" in sbatch_script(
+        dataclasses.replace(JOB, resources=Resources(time="1:31")), "generate"
+    )
+
+
 @pytest.mark.parametrize(
     "state", ["RUNNING", "COMPLETING", "CONFIGURING", "PENDING", "SUSPENDED", "REQUEUED"]
 )
