@@ -65,7 +65,7 @@ def build(
 
 @rig_app.command()
 def add(
-    file: Annotated[Path, typer.Argument(help="glTF head with ARKit morph targets, .glb or .gltf")],
+    file: Annotated[Path, typer.Argument(help="glTF head with ARKit morph targets, .glb, .gltf or .vrm")],
     landmarks: Annotated[
         Path | None, typer.Option(help="JSON file that marks it up; without it, says what the head holds")
     ] = None,

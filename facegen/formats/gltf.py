@@ -5,8 +5,7 @@ Not among the names of `facegen.formats`, because it imports pygltflib, which fe
 References
 ----------
 .. [1] Khronos Group, "glTF 2.0 Specification": 3.6.2 accessors (sparse ones in 3.6.2.3), 3.7.2.2 morph targets,
-   3.7.3 skins, 3.5 nodes. The names of morph targets stand in ``mesh.extras.targetNames``, as its
-   implementation note suggests and Blender, three.js and Ready Player Me write them.
+   3.7.3 skins, 3.5 nodes.
 """
 
 import json
@@ -22,7 +21,8 @@ import numpy as np
 
 from facegen.errors import FormatError
 from facegen.formats.gltf_buffers import read_buffers
-from facegen.formats.gltf_container import check_amount, json_of, read_gltf_bytes
+from facegen.formats.gltf_container import check_amount, is_binary, json_of, read_gltf_bytes
+from facegen.formats.gltf_targets import target_names
 
 MOST_VERTICES = 500_000
 """Of a file's primitives together, ten times a head's of film studios: each takes 3 kB with 52 shapes."""
@@ -81,8 +81,11 @@ def read_gltf(path: Path) -> tuple[GltfPart, ...]:
     from pygltflib import GLTF2
 
     with damage_told(path):
-        check_amount(json_of(read_gltf_bytes(path)), path)
-        gltf = GLTF2().load(str(path))
+        content = read_gltf_bytes(path)
+        check_amount(json_of(content), path)
+        # by what it holds: pygltflib's own `load` takes all but .glb for JSON, .vrm too
+        load = GLTF2.load_binary if is_binary(content) else GLTF2.load_json
+        gltf = load(str(path))
         compressed = [name for name in _COMPRESSED if name in (gltf.extensionsRequired or [])]
         if compressed:
             raise FormatError(
@@ -163,12 +166,10 @@ def _part(
     uv = attributes.get("TEXCOORD_0")
     uv = np.zeros((count, 2)) if uv is None else accessor_values(file, uv, "VEC2", count)
     morphs = {}
-    for name, target in zip(
-        (mesh.extras or {}).get("targetNames", []), primitive.targets or [], strict=False
-    ):
+    for name, target in zip(target_names(mesh), primitive.targets or [], strict=False):
         moved = (target if isinstance(target, dict) else vars(target)).get("POSITION")
         if moved is not None:
-            morphs[str(name)] = _turned(turn, accessor_values(file, moved, "VEC3", count))
+            morphs[name] = _turned(turn, accessor_values(file, moved, "VEC3", count))
     material = None if primitive.material is None else file.item("materials", primitive.material)
     part = GltfPart(
         mesh=_name(mesh),

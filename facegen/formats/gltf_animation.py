@@ -22,6 +22,7 @@ from facegen.formats.gltf_container import glb_bytes, open_glb
 from facegen.formats.gltf_expressions import read_expressions
 from facegen.formats.gltf_eyes import eye_bones
 from facegen.formats.gltf_head import head_bone, listed, record
+from facegen.formats.gltf_targets import target_names
 
 _MOST_WEIGHT = 1e30
 """Of a target at rest: more is no number in float32, in which an animation has it."""
@@ -163,7 +164,7 @@ def _movements(
                 matched.add(key)
     named: set[str] = set()
     for index, mesh in enumerate(faces):
-        for target, key in enumerate(map(_key, _target_names(mesh, path))):
+        for target, key in enumerate(map(_key, _named_targets(mesh))):
             if key in columns and key not in matched:
                 movements.setdefault(index, {}).setdefault(target, {(key, False): 1.0})
                 named.add(key)
@@ -200,16 +201,10 @@ def _targets(mesh: dict[str, Any]) -> list[Any]:
     return listed(record(next(iter(listed(mesh.get("primitives"))), None)).get("targets"))
 
 
-def _target_names(mesh: dict[str, Any], path: Path) -> list[str]:
-    """Names of a mesh's morph targets; some exporters keep them with the first primitive."""
-    first = next(iter(records(mesh, "primitives", path)), {})
-    targets = first.get("targets")
-    for place in (mesh, first):
-        extras = place.get("extras")
-        names = extras.get("targetNames") if isinstance(extras, dict) else None
-        if names and isinstance(names, list) and isinstance(targets, list) and len(names) == len(targets):
-            return list(map(str, names))
-    return []
+def _named_targets(mesh: dict[str, Any]) -> list[str]:
+    """Names of a mesh's morph targets; none where they are not as many."""
+    names = target_names(mesh)
+    return names if len(names) == len(_targets(mesh)) else []
 
 
 def _key(name: str) -> str:

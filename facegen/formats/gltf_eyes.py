@@ -15,6 +15,7 @@ from facegen.formats.gltf import GltfFile, accessor_values, damage_told
 from facegen.formats.gltf_buffers import read_buffers
 from facegen.formats.gltf_container import read_gltf_bytes
 from facegen.formats.gltf_head import HeadBone, named_bone
+from facegen.formats.gltf_targets import target_names
 
 _SIDES = ("left", "right")
 
@@ -28,9 +29,7 @@ def eye_bones(document: dict[str, Any], path: Path) -> tuple[HeadBone, ...]:
     if None in bones:
         return ()
     names = [f"eyelookout{side}" for side in _SIDES]
-    if not any(
-        _letters(name) in names for mesh in document.get("meshes", []) for name in _target_names(mesh)
-    ):
+    if not any(_letters(name) in names for mesh in document.get("meshes", []) for name in target_names(mesh)):
         return tuple(bones)
     with suppress(FormatError), damage_told(path):
         from pygltflib import GLTF2
@@ -50,7 +49,7 @@ def _turns(file: GltfFile, bone: int, name: str) -> bool:
         if node.mesh is None:
             continue
         mesh = file.item("meshes", node.mesh)
-        targets = [at for at, one in enumerate(_target_names(vars(mesh))) if _letters(one) == name]
+        targets = [at for at, one in enumerate(target_names(mesh)) if _letters(one) == name]
         for primitive in mesh.primitives if targets else ():
             moved = _moved(file, primitive, targets[0])
             if number in below and moved.any():
@@ -90,15 +89,9 @@ def _below(file: GltfFile, bone: int) -> set[int]:
     return found
 
 
-def _target_names(mesh: dict[str, Any]) -> list[Any]:
-    extras = mesh.get("extras")
-    names = extras.get("targetNames") if isinstance(extras, dict) else None
-    return names if isinstance(names, list) else []
-
-
-def _letters(name: object) -> str:
+def _letters(name: str) -> str:
     """Of a target's name; ``_L`` and ``_R`` at its end are sides."""
-    text = str(name)
+    text = name
     for short, long in (("_L", "Left"), ("_R", "Right")):
         text = text.removesuffix(short) + long if text.endswith(short) else text
     return "".join(filter(str.isalnum, text.lower()))

@@ -25,6 +25,7 @@ from facegen.store import (
     Dataset,
     DatasetFolder,
     commit_file,
+    is_litter,
     read_description,
     read_json,
     staging,
@@ -182,7 +183,9 @@ def _begin(folder: DatasetFolder, description: dict) -> None:
     about = folder.path / ABOUT
     # looked into first: an equal run beside this one may begin the pack meanwhile
     with output_errors(folder.path):
-        full = folder.path.is_dir() and any(entry.name != "tmp" for entry in folder.path.iterdir())
+        full = folder.path.is_dir() and any(
+            entry.name != "tmp" and not is_litter(entry.name) for entry in folder.path.iterdir()
+        )
     if about.is_file():
         if read_json(about) != description:
             raise InputError(f"{folder.path}: holds another pack; choose another folder, or delete this one")

@@ -84,7 +84,7 @@ def add_rig(
     Parameters
     ----------
     file
-        A .glb or .gltf file with ARKit morph targets.
+        A .glb, .gltf or .vrm file with ARKit morph targets.
     landmarks
         JSON file that marks it up (`facegen.rigs.markup.HeadMarkup`); None asks for what the file holds.
     name

@@ -21,6 +21,7 @@ from facegen.store.keypoint_table import (
     read_shard,
     write_shard,
 )
+from facegen.store.litter import is_litter
 from facegen.store.merging import Merged, merge
 from facegen.store.opening import open_dataset, resolve
 from facegen.store.record import sample_record
@@ -37,6 +38,7 @@ __all__ = [
     "commit_folder",
     "draw_block",
     "exr_bytes",
+    "is_litter",
     "keypoint_schema",
     "keypoint_table",
     "label_block",

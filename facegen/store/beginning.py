@@ -18,12 +18,17 @@ from facegen.store.dataset import Dataset, rigs_of
 from facegen.store.description import FORMAT, read_description
 from facegen.store.folder import commit_file, write_json
 from facegen.store.folder_card import folder_cards
+from facegen.store.litter import is_litter
 from facegen.store.stage import staging
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
 
 _FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "headset.toml", "recording.csv")
 """What `begin` leaves if it is killed before ``dataset.json``, and what a farm puts there before it."""
+
+
+def _is_first(name: str) -> bool:
+    return name in _FIRST_THINGS or is_litter(name)
 
 
 def begin(dataset: Dataset) -> None:
@@ -41,7 +46,7 @@ def begin(dataset: Dataset) -> None:
     """
     folder = dataset.folder
     with output_errors(folder.path):
-        others = folder.path.is_dir() and any(p.name not in _FIRST_THINGS for p in folder.path.iterdir())
+        others = folder.path.is_dir() and any(not _is_first(p.name) for p in folder.path.iterdir())
     # looked at after the listing: another worker may be just beginning, and then this file is there by now
     if os.path.lexists(folder.dataset_json):
         stored_hash = read_description(folder)["spec_hash"]

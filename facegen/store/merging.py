@@ -12,6 +12,7 @@ from facegen.files import output_errors
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder, commit_file, commit_folder
+from facegen.store.litter import is_litter
 from facegen.store.opening import open_dataset
 from facegen.store.stage import staging, sweep
 
@@ -69,7 +70,9 @@ def merge(
     if target.dataset_json.is_file():
         _check_spec(first, target, read_description(target)["spec_hash"])
         datasets.insert(0, open_dataset(out))
-    elif target.path.is_dir() and any(entry.name not in _FIRST_THINGS for entry in target.path.iterdir()):
+    elif target.path.is_dir() and any(
+        entry.name not in _FIRST_THINGS and not is_litter(entry.name) for entry in target.path.iterdir()
+    ):
         raise InputError(f"{target.path}: is not empty and holds no facegen dataset; choose another folder")
     origins, doubles = _origins(datasets)
     for name, one, other in doubles:

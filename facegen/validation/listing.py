@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from facegen.console import counted
-from facegen.store import Dataset
+from facegen.store import Dataset, is_litter
 from facegen.validation.finding import Finding
 
 _SHARD = re.compile(r"shard-([0-9]{5,15})\.parquet")
@@ -80,6 +80,7 @@ def _entries(folder: Path) -> Iterator[Path]:
     try:
         with os.scandir(folder) as entries:
             for entry in entries:
-                yield Path(entry.path)
+                if not is_litter(entry.name):
+                    yield Path(entry.path)
     except FileNotFoundError:
         return  # nothing was made yet

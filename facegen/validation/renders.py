@@ -15,7 +15,7 @@ from facegen.sampling import Samples
 from facegen.scene import Layers
 from facegen.scene.beards import LENGTH_M
 from facegen.sessions import draw_sample_scene
-from facegen.store import Dataset, draw_block, read_exr, read_json, read_png, sample_record
+from facegen.store import Dataset, draw_block, is_litter, read_exr, read_json, read_png, sample_record
 from facegen.validation.agreement import disagreements
 from facegen.validation.finding import Finding, FindingKind
 from facegen.validation.keypoints import FAR_SHARE, REPROJECTION_PX
@@ -55,7 +55,7 @@ def check_render(dataset: Dataset, number: int, samples: Samples) -> Iterator[Fi
     place = folder.relative_to(dataset.folder.path).as_posix()
     views = dataset.headset.camera_names
     files = frozenset(f"{view}.{kind}" for view in views for kind in dataset.picture_kinds)
-    present = frozenset(entry.name for entry in folder.iterdir())
+    present = frozenset(entry.name for entry in folder.iterdir() if not is_litter(entry.name))
     for name in sorted(present - files - {SIDECAR}):
         inner = f"{place}/{name}"
         yield Finding(inner, "is no file of a rendered sample", "extra-file", remove=inner)

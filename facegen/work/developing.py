@@ -16,6 +16,7 @@ from facegen.store import (
     DatasetFolder,
     commit_file,
     commit_folder,
+    is_litter,
     png_bytes,
     read_exr,
     read_json,
@@ -146,7 +147,7 @@ def _begin(dataset: Dataset, out: Path, settings: Settings) -> None:
             )
         return
     with output_errors(out):
-        if out.is_dir() and any(p.name != "tmp" for p in out.iterdir()):
+        if out.is_dir() and any(p.name != "tmp" and not is_litter(p.name) for p in out.iterdir()):
             raise InputError(f"{out}: is not empty and holds no developed pictures; choose another folder")
         out.mkdir(parents=True, exist_ok=True)
     with staging(DatasetFolder(out), "begin") as stage:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
+from facegen.formats.gltf import read_gltf
 from facegen.formats.gltf_animation import animate_avatar
 from facegen.formats.gltf_container import glb_bytes, open_glb
 from facegen.formats.gltf_eyes import eye_bones
@@ -86,6 +87,22 @@ def _found(path: Path) -> list[int]:
 )
 def test_bones_that_turn(changes: dict, bones: list[int], tmp_path: Path):
     assert _found(avatar(tmp_path / "a.glb", **changes)) == bones
+
+
+def test_names_may_stand_with_the_first_primitive(tmp_path: Path):
+    path = avatar(tmp_path / "a.glb", moved=(LEFT, REST))
+    document, chunks = open_glb(path)
+    mesh = document["meshes"][0]
+    mesh["primitives"][0]["extras"] = mesh.pop("extras")
+    path.write_bytes(glb_bytes(document, chunks, path))
+    assert _found(path) == []
+    assert [list(part.morphs) for part in read_gltf(path)] == [list(NAMES)]
+
+
+def test_a_vrm_is_read_as_the_binary_file_that_it_is(tmp_path: Path):
+    plain = read_gltf(avatar(tmp_path / "a.glb"))
+    worn = read_gltf(avatar(tmp_path / "a.vrm"))
+    assert [part.positions.tolist() for part in worn] == [part.positions.tolist() for part in plain]
 
 
 def test_bones_that_vrm_names(tmp_path: Path):

@@ -35,6 +35,15 @@ def test_a_headset_beside_the_spec_is_used_and_copied(folder):
     assert opened.hash == dataset.hash
 
 
+def test_a_folder_that_somebody_looked_into_is_begun(folder):
+    """macOS' Finder and Windows' Explorer leave these there."""
+    (folder / "out").mkdir()
+    for name in (".DS_Store", "Thumbs.db", "desktop.ini"):
+        (folder / "out" / name).write_bytes(b"\0")
+    begin(resolve(load_spec(folder / "spec.toml"), folder / "out"))
+    assert open_dataset(folder / "out").headset.name == "mine"
+
+
 def test_where_a_headset_lies_does_not_matter_but_what_it_says_does(folder):
     hash_here = resolve(load_spec(folder / "spec.toml"), folder / "out").hash
     (folder / "elsewhere").mkdir()

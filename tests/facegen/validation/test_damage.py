@@ -110,6 +110,13 @@ def test_extra_files_and_shards(copy):
     }
 
 
+def test_what_systems_leave_in_folders_is_no_fault(copy):
+    for place in (SAMPLE, "renders/000", "renders", "keypoints", "."):
+        for name in (".DS_Store", "._sample.json", "Thumbs.db", ".nfs0000000001"):
+            (copy / place / name).write_bytes(b"\0")
+    assert found(copy) == ()
+
+
 def test_a_label_moved_by_5_px_in_a_render(copy):
     def move(record: dict) -> None:
         record["views"]["mouth"]["points_2d"][57][0] += 5
@@ -206,14 +213,14 @@ def test_repair_and_generate_restore_identical_bytes(copy, rendered):
     path = copy / SAMPLE / "left_eye.png"
     path.write_bytes(path.read_bytes()[:100])
     shutil.copytree(copy / SAMPLE, copy / "renders" / "001" / "001000")
-    (copy / "renders" / "000" / "000000" / "Thumbs.db").write_text("junk")
+    (copy / "renders" / "000" / "000000" / "notes.txt").write_text("junk")
     run = CliRunner()
     assert run.invoke(app, ["validate", str(copy), "--workers", "1"]).exit_code == 1
     result = run.invoke(app, ["validate", str(copy), "--workers", "1", "--repair", "--json"])
     assert result.exit_code == 75
     said = json.loads(result.stdout.strip().splitlines()[-1])
     assert said["repair"] == {
-        "removed": [SHARD, "renders/000/000000/Thumbs.db", SAMPLE, "renders/001/001000"],
+        "removed": [SHARD, "renders/000/000000/notes.txt", SAMPLE, "renders/001/001000"],
         "samples": "1",
     }
     assert run.invoke(app, ["validate", str(copy), "--workers", "1"]).exit_code == 75
