@@ -28,6 +28,7 @@ public class FaceWeights : MonoBehaviour
     float[] shown;
     Worker worker;
     int[] shapes;
+    float[] whole; // 100 in an FBX file, 1 in a glTF file that glTFast has read
 
     // The person's neutral face, 136 numbers as points; zeros where it is not known. One component for each player.
     // Models of the paper's recipe, and exports with --neutral, have no such input.
@@ -37,6 +38,8 @@ public class FaceWeights : MonoBehaviour
     {
         worker = new Worker(ModelLoader.Load(asset), BackendType.CPU);
         shapes = System.Array.ConvertAll(Names, IndexOf);
+        whole = System.Array.ConvertAll(shapes, index => index < 0 ? 0f : avatar.sharedMesh.GetBlendShapeFrameWeight(
+            index, avatar.sharedMesh.GetBlendShapeFrameCount(index) - 1));
         shown = new float[Names.Length];
     }
 
@@ -74,7 +77,7 @@ public class FaceWeights : MonoBehaviour
             if (shapes[i] >= 0 && !float.IsNaN(weights[i]))
             {
                 shown[i] += newest * (weights[i] - shown[i]);
-                avatar.SetBlendShapeWeight(shapes[i], 100f * shown[i]);
+                avatar.SetBlendShapeWeight(shapes[i], whole[i] * shown[i]);
             }
     }
 

@@ -100,8 +100,9 @@ def animate_avatar(
     movements, matched = _movements(document, faces, columns.keys(), path)
     if not matched:
         raise FormatError(
-            f"{path} has no morph target called {names[0]}, {names[1]} or like any other of the {len(names)} "
-            "shapes, and no expression; a retargeting to its own names may help"
+            f"{path} has no morph target called {', '.join(names[:2])}"
+            f"{f' or like any other of the {len(names)} shapes' if len(names) > 2 else ''}, and no expression; a "
+            "retargeting to its own names may help"
         )
     for index, targets in sorted(movements.items()):
         rest = _at_rest(nodes[index], faces[index], len(_targets(faces[index])), index, path)

@@ -28,7 +28,9 @@ def export(
 ) -> None:
     """Write a model for other programs: landmarks in, 52 weights out, alignment included.
 
-    Every file agrees with `regress predict` to 1e-4. Example: regress export models/default --format onnx
+    Every file agrees with `regress predict --filter none --keep-guessed-gaze` to 1e-4.
+
+    Example: regress export models/default --format onnx
     """
     from regress.cli.rows import sound_rows
     from regress.exporters import export_model

@@ -73,6 +73,12 @@ def predict_file(
         frames = frames.at_rate(fps)
     takes = frames.takes()
     main = frames.take(max(takes.values(), key=len))  # a passer-by's rows say nothing of a film's rate
+    if len(takes) > 1 and needs_times(table_format, gltf):
+        say(
+            f"{landmarks}: pictures have several faces, and an animation or a recording is of one: "
+            f"face {main.faces[0]} is written, with {len(main.labels)} of {len(frames.labels)} rows"
+        )
+        frames, takes = main, main.takes()
     if auto_filter and is_film(main.time_s):
         output = dataclasses.replace(output, filter=DEFAULT_FILTER)
     if fps is None and (rate := frames_a_second(main.time_s)) > FILM_FPS[1]:

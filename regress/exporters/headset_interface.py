@@ -104,5 +104,6 @@ def _temporal(model: HeadsetModel) -> dict[str, Any] | None:
     return {
         "fps": model.temporal.fps,
         "taps": model.temporal.taps,
-        "meaning": "what is said is the sum of taps[k] times the answer k frames before; shapes, then gaze",
+        "meaning": "output i, of the shapes and then of the gaze, is the sum over k of taps[i][k] times output i of k "
+        "frames before, shapes kept from 0 to 1; the first frame stands for those before it",
     }

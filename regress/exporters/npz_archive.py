@@ -10,7 +10,7 @@ Points to weights, for ``points`` (n, 68, 2), with ``z = numpy.load(path)``::
             c, s = (a * r).sum((1, 2)), (a * (r[:, ::-1] * [1, -1])).sum((1, 2))
             map = numpy.array([[c, s], [-s, c]]).transpose(2, 0, 1) / (a * a).sum((1, 2))[:, None, None]
             return ((points - middle) @ map).reshape(len(points), -1)
-        map = numpy.linalg.inv(a.mT @ a) @ (a.mT @ r)    # (n, 2, 2); a.mT swaps the last two axes
+        map = numpy.linalg.solve(a.swapaxes(1, 2) @ a, a.swapaxes(1, 2) @ r)    # (n, 2, 2)
         map = map if z[of + "alignment"] == "affine" else numpy.eye(2)
         length = lambda pairs: numpy.linalg.norm((points[:, pairs[:, 1]] - points[:, pairs[:, 0]]) @ map, axis=-1)
         return length(z[of + "edges"]) / length(z[of + "width_landmarks"][None])

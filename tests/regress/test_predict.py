@@ -112,6 +112,20 @@ def test_each_of_several_faces_is_a_take_of_its_own(run, tmp_path: Path):
     assert [together[0::2], together[1::2]] == each
 
 
+@pytest.mark.parametrize("several", [False, True])
+def test_what_holds_one_face_gets_the_one_that_is_seen_longest(run, tmp_path: Path, several: bool):
+    faces = drawn_faces(np.random.default_rng(7), 9)
+    header = ["frame", *(f"{axis}_{point}" for point in range(68) for axis in "xy")]
+    frames = [*range(8), 3] if several else range(8)
+    rows = sorted(zip(frames, faces, strict=False), key=lambda row: row[0])
+    lines = [",".join(map(repr, [frame, *face.ravel().tolist()])) for frame, face in rows]
+    (tmp_path / "take.csv").write_text("\n".join([",".join(header), *lines]) + "\n")
+    code, out, said = run("predict", tmp_path / "take.csv", "--fps", 30, "--format", "livelink")
+    assert code == 0, said
+    assert len(out.splitlines()) == 1 + 8
+    assert ("of one: face 0 is written, with 8 of 9 rows" in said) == several
+
+
 def test_a_face_that_is_not_at_rest_is_told_of_and_the_other_is_calibrated(run, tmp_path: Path):
     faces = drawn_faces(np.random.default_rng(6), 5)
     header = ["frame", *(f"{axis}_{point}" for point in range(68) for axis in "xy")]

@@ -63,8 +63,12 @@ export class FaceCamera {
   private async send(): Promise<void> {
     if (this.busy) return;
     this.busy = true;
-    const picture = await createImageBitmap(this.video);
-    this.tell({ kind: "picture", picture, time: performance.now() }, [picture]);
+    try {
+      const picture = await createImageBitmap(this.video);
+      this.tell({ kind: "picture", picture, time: performance.now() }, [picture]);
+    } catch {
+      this.busy = false; // a camera that is just changing its size
+    }
   }
 
   private tell(message: ToWorker, moved: Transferable[] = []): void {

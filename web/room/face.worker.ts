@@ -5,7 +5,7 @@
  * model by the hash that track holds, the networks from the ready-made model.
  */
 
-import { FaceLandmarker, FilesetResolver, type NormalizedLandmark } from "@mediapipe/tasks-vision";
+import { FaceLandmarker, FilesetResolver, type FaceLandmarkerResult, type NormalizedLandmark } from "@mediapipe/tasks-vision";
 
 import table from "../../track/detectors/data/mediapipe_points.json";
 import { SHAPE_INDEX } from "../avatar/shapes.js";
@@ -84,15 +84,28 @@ const started = start().catch((error: unknown) => {
 
 onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   await started;
+  try {
+    answer(data);
+  } catch (error) {
+    // one picture that cannot be read; without an answer no other would come
+    console.warn("face:", error);
+    tell({ kind: "nobody" });
+  }
+};
+
+let latest = 0;
+
+function answer(data: ToWorker): void {
   if (data.kind === "neutral") {
     collecting = [];
     return;
   }
   const begun = performance.now();
-  const { picture, time } = data;
+  const { picture } = data;
+  // browsers coarsen their clocks, and the detector wants times that rise
+  const time = (latest = Math.max(data.time, latest + 0.001));
   const [width, height] = [picture.width, picture.height];
-  const found = detector.detectForVideo(picture, time);
-  picture.close();
+  const found = detect(picture, time);
   const [mesh] = found.faceLandmarks;
   const matrix = found.facialTransformationMatrixes[0]?.data;
   if (!mesh || !matrix) {
@@ -119,7 +132,15 @@ onmessage = async ({ data }: MessageEvent<ToWorker>) => {
     calibrated,
     ms: performance.now() - begun,
   });
-};
+}
+
+function detect(picture: ImageBitmap, time: number): FaceLandmarkerResult {
+  try {
+    return detector.detectForVideo(picture, time);
+  } finally {
+    picture.close();
+  }
+}
 
 /** 68 landmarks in pixels, x y x y ... */
 function landmarks(mesh: NormalizedLandmark[], width: number, height: number): Float64Array {

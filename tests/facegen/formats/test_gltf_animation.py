@@ -181,6 +181,15 @@ def test_what_cannot_be_animated_is_refused(tmp_path: Path, weights: np.ndarray)
             animate_avatar(path, BLENDSHAPES, values, times, title="take")
 
 
+@pytest.mark.parametrize(
+    ("count", "said"), [(1, "called A, and"), (2, "called A, B, and"), (3, "of the 3 shapes, and")]
+)
+def test_however_many_shapes_are_looked_for_the_sentence_is_whole(tmp_path: Path, count: int, said: str):
+    path = avatar(tmp_path / "a.glb", names=(["x"],))
+    with pytest.raises(FormatError, match=said):
+        animate_avatar(path, ("A", "B", "C")[:count], np.zeros((6, count)), TIMES, title="take")
+
+
 def _rewritten(path: Path, document: dict) -> Path:
     """The avatar with another document and its binary chunk."""
     content = path.read_bytes()

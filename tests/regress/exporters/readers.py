@@ -83,7 +83,7 @@ def read_npz(paths: tuple[Path, ...]):
 
     def predict(points: np.ndarray, neutral: np.ndarray | None = None) -> np.ndarray:
         given = {"z": z, "numpy": np, "points": points.astype(np.float64)}
-        exec(alone.replace(".mT", ".swapaxes(1, 2)"), given)  # .mT is of NumPy 2
+        exec(alone, given)
         if neutral is not None:
             given["neutral"] = neutral[None].astype(np.float64)
             exec(calibrated, given)
