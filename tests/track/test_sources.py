@@ -282,6 +282,16 @@ def test_elsewhere_numbers_are_tried(monkeypatch: pytest.MonkeyPatch, tmp_path: 
     assert tried == list(range(8))
 
 
+def test_elsewhere_than_on_linux_a_number_opens_that_camera_alone(monkeypatch: pytest.MonkeyPatch):
+    """To list them all are opened: lamps go on, and a camera that another program uses is disturbed."""
+    opened: list[int] = []
+    monkeypatch.setattr("sys.platform", "win32")
+    monkeypatch.setattr("track.sources.webcams.opened", lambda number, _: opened.append(number))
+    with pytest.raises(CameraError, match="camera 3 gives no picture, or there is none of this number"):
+        WebcamSource("3")
+    assert opened == [3]
+
+
 def test_all_of_track_reads_the_clock_of_the_pictures():
     """`Source.now_s` says why: two clocks would not agree, and the other one stands still on some Windows."""
     modules = sorted((Path(__file__).parents[2] / "track").rglob("*.py"))

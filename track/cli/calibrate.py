@@ -104,4 +104,6 @@ def calibrate(
         step = session.adjusting.step
         if step is not None and step.state in ("failed", "cancelled"):
             raise InputError(step.text)
+        if not session.adjusting.has_kept:
+            raise InputError("nothing was kept, as the neutral face is another one; calibrate neutral first")
         say(f"kept in {profile_path(profile, ' '.join(capture.titles.values()))}")

@@ -171,13 +171,19 @@ def _open_page(
     return page
 
 
+ENDING = tuple(
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
+)
+"""Ctrl-C, a polite kill, and a terminal that is closed: on Windows, where that is a break, five seconds are left."""
+
+
 @contextlib.contextmanager
 def ended_by_signals(session: "Session", capture: "Capture") -> Iterator[None]:
-    """Let the first Ctrl-C or SIGTERM end the session after its frame; the next one stops at once, as ever."""
+    """Let the first `ENDING` signal end the session after its frame; the next one stops at once, as ever."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    before = {number: signal.getsignal(number) for number in ENDING}
 
     def end(_number: int, _frame: object) -> None:
         session.stop()

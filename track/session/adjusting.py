@@ -75,6 +75,8 @@ class Adjusting:
         )
         self._pipeline, self._say, self._keep = pipeline, say, keep
         self._kept = profile if kept is None else kept
+        self.has_kept = False
+        """Whether anything that calibration found was kept."""
         self._calibration: Calibration | None = None
         self._looks: list[np.ndarray] | None = None
         if profile.told_cameras and pipeline.listens:
@@ -149,6 +151,7 @@ class Adjusting:
         kept = outcome.ranges is None or self._neutral_is_kept
         self._use(learnt(outcome, self.profile, self._pipeline))
         if kept:
+            self.has_kept = True
             self._kept = self.profile
             self._keep(self._kept)
         else:

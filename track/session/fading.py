@@ -49,12 +49,12 @@ class Fading(Stage):
         if sample.weights is None or np.isnan(sample.weights).any():
             return self._without(sample)
         if self._from is None:
-            self._begin(since_s=sample.time_s, during_s=BACK_S)
+            self._begin(sample, since_s=sample.time_s, during_s=BACK_S)
         elif self._missed_s > self._seen_s:
             # after one missed frame the next one counts in full; after many the way back takes its time
-            self._begin(since_s=self._missed_s, during_s=min(BACK_S, self._missed_s - self._seen_s))
+            self._begin(sample, since_s=self._missed_s, during_s=min(BACK_S, self._missed_s - self._seen_s))
         elif self._jumped(sample):
-            self._begin(since_s=self._seen_s, during_s=BACK_S)
+            self._begin(sample, since_s=self._seen_s, during_s=BACK_S)
         self._seen_s = sample.time_s
         passed = sample.time_s - self._blend_since_s
         if passed < self._blend_s:
@@ -62,8 +62,8 @@ class Fading(Stage):
         self._shown = self._held = sample
         return sample
 
-    def _begin(self, *, since_s: float, during_s: float) -> None:
-        self._from = self._shown or _rest()
+    def _begin(self, sample: Sample, *, since_s: float, during_s: float) -> None:
+        self._from = self._shown or _rest(self._held or sample)
         self._blend_since_s, self._blend_s = since_s, during_s
 
     def _without(self, sample: Sample) -> Sample:
@@ -90,10 +90,10 @@ class Fading(Stage):
         return bool(np.linalg.norm(middle - before[0]) > JUMP * max(width, before[1]))
 
 
-def _rest(last: Sample | None = None) -> Sample:
+def _rest(last: Sample) -> Sample:
     """A face at rest that looks ahead, with the head where it was last."""
-    head = None if last is None or last.head is None else np.concatenate([last.head[:3], np.zeros(3)])
-    gaze = None if last is not None and last.gaze is None else np.zeros(4)
+    head = None if last.head is None else np.concatenate([last.head[:3], np.zeros(3)])
+    gaze = None if last.gaze is None else np.zeros(4)
     return Sample(weights=np.zeros(len(BLENDSHAPES)), gaze=gaze, head=head)
 
 

@@ -25,11 +25,11 @@ def learnt(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> Mapping[st
 def _by_neutral(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> Mapping[str, object]:
     neutral = pipeline.neutral_of(outcome.samples)
     pipeline.use_neutral(neutral)  # first: what weights read at rest is read behind it
-    # what was read without this neutral face is no range of it, but of the same person in another seat
+    # beside another neutral face of the same person they are a little off, and without them movements are too small
     kept = profile.ranges if profile.neutral and profile.model == pipeline.mark else {}
     return {
         "neutral": neutral,
-        "ranges": kept if neutral.pictures else {},
+        "ranges": kept,
         "rests": pipeline.rests_of(outcome.samples),
         "blinks": {},
         "eyes": pipeline.eyes_with(profile.eyes, outcome.name, outcome.samples),

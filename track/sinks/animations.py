@@ -13,11 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
-from facegen.files import output_errors
+from facegen.errors import FacegenError
+from facegen.files import output_errors, write_whole
 from facegen.formats.gltf_animation import AnimatedAvatar, animate_avatar
 from facegen.formats.vrm_animation import vrm_animation
+from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
 from regress.runtime.stages.retargeting.target_file import read_retargeting
+from regress.runtime.writers.csv_table import weights_csv
 from track.sinks.axes import quaternion
 from track.sinks.recording import Clock, Recording
 from track.sinks.sink import Sink, Tell, has_face
@@ -114,9 +117,23 @@ class AnimationSink(Sink):
             return
         time, weights, gaze, head = np.split(numbers, np.cumsum(_WIDTHS)[:-1], axis=1)
         take = Take(time_s=time[:, 0], weights=weights, gaze=gaze, head=head, title=self._recording.path.stem)
-        with output_errors(self._recording.path):
-            self._recording.part.write_bytes(self._made(take))
+        try:
+            with output_errors(self._recording.path):
+                self._recording.part.write_bytes(self._made(take))
+        except FacegenError as error:
+            self._recording.drop()
+            raise type(error)(f"{error}; the recorded weights are in {self._rescued(take)}") from error
         self._recording.keep()
+
+    def _rescued(self, take: Take) -> Path:
+        """A table of a take of which no animation can be made, as of an avatar that has changed meanwhile."""
+        path = self._recording.path.with_name(f"{self._recording.path.stem}-weights.csv")
+        samples = [
+            Sample(label=str(row), time_s=float(time_s), weights=weights)
+            for row, (time_s, weights) in enumerate(zip(take.time_s, take.weights, strict=True))
+        ]
+        write_whole(path, weights_csv(Prediction(samples=samples)))
+        return path
 
 
 def open_sink(target: Target, tell: Tell) -> Sink:

@@ -71,8 +71,11 @@ class WebcamSource(Source):
     """
 
     def __init__(self, wanted: str, *, folder: Path = FOLDER) -> None:
-        webcams = list_webcams(folder)
-        numbers, self.title = _numbers(wanted, webcams)
+        # a list is asked for only where it is needed: elsewhere than on Linux all cameras are opened for it
+        if wanted.isdecimal():
+            numbers, self.title = [int(wanted)], f"camera {int(wanted)}"
+        else:
+            numbers, self.title = _numbers(wanted, list_webcams(folder))
         for number in numbers:
             self._capture = opened(number, cv2.CAP_ANY)
             if self._capture is None:
@@ -81,7 +84,7 @@ class WebcamSource(Source):
             if self._first is not None:
                 return
             self._capture.release()
-        raise CameraError(_why_not(wanted, webcams))
+        raise CameraError(_why_not(wanted, folder))
 
     def read(self) -> Picture | None:
         """The next picture; None where the camera has gone."""
@@ -94,9 +97,7 @@ class WebcamSource(Source):
 
 
 def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
-    """Numbers to try, and a title."""
-    if wanted.isdecimal():
-        return [int(wanted)], f"camera {int(wanted)}"
+    """Numbers to try for a part of a name, and a title."""
     fitting = [webcam for webcam in webcams if wanted.lower() in webcam.name.lower()]
     names = sorted({webcam.name for webcam in fitting})
     if len(names) > 1:
@@ -106,7 +107,10 @@ def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
     return [webcam.number for webcam in fitting], names[0] if names else wanted
 
 
-def _why_not(wanted: str, webcams: list[Webcam]) -> str:
+def _why_not(wanted: str, folder: Path) -> str:
+    if wanted.isdecimal() and not sys.platform.startswith("linux"):
+        return f"camera {wanted} gives no picture, or there is none of this number; `track devices` lists those that do"
+    webcams = list_webcams(folder)
     known = any(wanted == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams)
     if not known and (Path(wanted).suffix.lower() in FILMS or len(Path(wanted).parts) > 1):
         return f"there is no file {wanted}; give a film or a folder of pictures that is there, or a webcam's number"

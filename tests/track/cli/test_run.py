@@ -157,14 +157,15 @@ def test_a_retargeted_table_has_the_other_names(home, capsys, monkeypatch):
     assert "jawOpen" not in rows("take.csv")[0]
 
 
-@pytest.mark.skipif(os.name == "nt", reason="Windows sends no SIGINT to one process")
-def test_ctrl_c_ends_it_and_the_recording_is_whole(home):
+@pytest.mark.skipif(os.name == "nt", reason="Windows sends no such signals to one process")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP], ids=["Ctrl-C", "a closed window"])
+def test_a_stop_ends_it_and_the_recording_is_whole(home, number: int):
     words = [*CAMERAS, "--loop", "--no-page", "--record", "take.csv"]
     running = subprocess.Popen([sys.executable, "-m", "track", *words], stderr=subprocess.PIPE, text=True)
     until_s = time.monotonic() + 180
     while not any(part.stat().st_size for part in home.glob(".part-*/*.csv")) and time.monotonic() < until_s:
         time.sleep(0.05)
-    running.send_signal(signal.SIGINT)
+    running.send_signal(number)
     _, told = running.communicate(timeout=180)
     assert running.returncode == 0, told
     assert "Traceback" not in told

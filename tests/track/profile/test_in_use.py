@@ -73,6 +73,14 @@ def calibrate(session, face: str) -> None:
         count += 1
 
 
+def test_another_neutral_face_leaves_ranges_as_they_were(file):
+    """As the sentences of a calibration say, in which a later face fails or that is cancelled."""
+    session, _ = opened(file)
+    calibrate(session, "neutral")
+    after = read_profile(file)
+    assert (after.ranges, after.rests, after.blinks) == ({"jawOpen": 0.6}, {}, {})
+
+
 def test_a_new_neutral_face_is_kept_and_what_is_read_without_the_profile_s_is_not(file):
     before = read_profile(file)
     session, said = opened(file, "none")

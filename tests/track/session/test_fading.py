@@ -48,6 +48,18 @@ def test_it_comes_back_within_a_fifth_of_a_second():
     assert back[0] <= MOST_STEP
 
 
+@pytest.mark.parametrize("gone_s", [1.0, 3.0], ids=["at rest", "given up"])
+def test_the_head_comes_back_without_a_jump(gone_s: float):
+    """An avatar was told that its head looks ahead, also where nothing more was said for a while."""
+    fading, angles = Fading(), []
+    for row, weight in enumerate([0.5] * FPS + [None] * int(gone_s * FPS) + [0.5] * FPS):
+        angles.append(fading.step(sample_at(row / FPS, weight)).head[3])
+    back = np.array(angles[-FPS:])
+    assert back[0] <= MOST_STEP * 0.3
+    assert np.diff(back, prepend=0.0).max() <= 1.01 * 0.3 / (BACK_S * FPS)
+    assert back[int(np.ceil(BACK_S * FPS))] == 0.3
+
+
 def test_one_missed_frame_in_two_changes_nothing():
     weights = [0.5 + 0.4 * np.sin(row / 5) if row % 2 else None for row in range(4 * FPS)]
     values = shown(weights)

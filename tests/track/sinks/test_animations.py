@@ -233,6 +233,23 @@ def test_an_avatar_that_cannot_be_moved_is_said_before_anything_is_recorded(give
     assert [path.name for path in tmp_path.iterdir()] == ["other.glb"]
 
 
+def test_a_take_outlives_its_avatar(tmp_path: Path):
+    """It was there at the beginning, and may be exported anew in the meantime."""
+    worn = avatar(tmp_path / "me.glb")
+    sink = open_sink(parse_target(f"gltf:{tmp_path / 'b.glb'},avatar={worn}"), lambda said: None)
+    for sample in take():
+        sink.send(sample)
+    worn.write_bytes(worn.read_bytes()[:100])
+    with pytest.raises(FormatError, match=r"the recorded weights are in .*b-weights\.csv"):
+        sink.close()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["b-weights.csv", "me.glb"]
+    table = np.genfromtxt(tmp_path / "b-weights.csv", delimiter=",", names=True)
+    sent = np.array([sample.weights for sample in take()])[
+        [0, 1, 4, 5]
+    ]  # with a face, and at times that rise
+    np.testing.assert_allclose([table[name] for name in BLENDSHAPES], sent.T, atol=1e-5)
+
+
 def test_a_long_recording_takes_no_more_memory_and_has_an_end(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
