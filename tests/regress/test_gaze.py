@@ -121,6 +121,17 @@ def test_a_shut_eye_goes_with_the_other_and_both_rest():
     np.testing.assert_array_equal(both, 0)
 
 
+@given(st.floats(0, 1), st.floats(-0.4, 0.4), st.floats(-0.4, 0.4))
+def test_eyes_that_close_go_where_they_look_straight_ahead(closed: float, yaw: float, pitch: float):
+    """Somebody who looks below the camera reads so; with that taken off, a blink looks nowhere else."""
+    ahead = np.array([yaw, pitch, yaw, pitch])
+    face, irises, pose = seen(np.zeros(3), ahead)
+    eyes = replace(MEAN_EYES, ahead=ahead.reshape(2, 2))
+    lids = face + closed * (shut(face, 36, 42) - face)
+    found = gaze_angles(lids[None], irises[None], pose, CAMERA, eyes).ravel()
+    np.testing.assert_allclose(np.degrees(found), np.degrees(ahead), atol=1.0)
+
+
 def _sample(
     head_deg: float, weights: dict[str, float], *, irises: bool = False, gaze_deg: float = 0
 ) -> Sample:

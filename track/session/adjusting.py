@@ -11,7 +11,7 @@ from track.profile.profile import LARGEST_GAIN, Profile
 from track.session.calibration import Calibration, Outcome
 from track.session.faces import faces_of
 from track.session.outcomes import learnt
-from track.session.person import Person
+from track.session.person import Person, centre_of
 from track.session.pipeline import Pipeline
 from track.session.ranges import blinks_of, ends_of
 
@@ -84,6 +84,7 @@ class Adjusting:
         if profile.placement:
             pipeline.use_placement(profile.placement)
         pipeline.use_eyes(profile.eyes)
+        pipeline.look_ahead(centre_of(profile.gaze))
         self._use_known_neutral()
 
     @property
@@ -196,3 +197,4 @@ class Adjusting:
         self.profile = self.profile.model_copy(update=changes)
         self.person.use(self.profile)
         self._pipeline.use_eyes(self.profile.eyes)
+        self._pipeline.look_ahead(centre_of(self.profile.gaze))

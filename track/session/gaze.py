@@ -30,6 +30,10 @@ class IrisGaze(Stage):
             poses = poses_of(heads)
             self._eyes = own_eyes(points, irises, poses, typical_camera(*neutral.picture))
 
+    def look_ahead(self, gaze: np.ndarray) -> None:
+        """Take what eyes read (4,) where they look straight ahead: those that close go there."""
+        self._eyes = replace(self._eyes, ahead=gaze.reshape(2, 2))
+
     def step(self, sample: Sample) -> Sample:
         """The sample with gaze (4,); NaN where irises or head are not known, and as it was where there are none."""
         if sample.irises is None or sample.head is None or not sample.pictures:

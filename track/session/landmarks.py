@@ -72,6 +72,7 @@ class LandmarkPipeline(Pipeline):
         self.mark = ModelMark(kind="landmarks", sha256=_hash_of(model_folder(folder)))
         self._detector, self._detector_name = detector, detector_name
         self._mean_shape = self._model.features.mean_shape
+        self._ahead = np.zeros(4)
         networks = _QuickNetworks(self._model)
         self.stages = {"detector": detector, "soundness": Soundness(needs_times=False)}
         if auto:
@@ -130,7 +131,15 @@ class LandmarkPipeline(Pipeline):
         if self._model.calibrated is not None:
             self.stages["networks"] = _QuickNetworks(self._model.calibrate(points))
         self.stages["head"] = _Head(neutral)
+        self.stages["head"].look_ahead(self._ahead)
         self.stages.pop("auto", None)
+
+    def look_ahead(self, gaze: np.ndarray) -> None:
+        """Let eyes that close go where they look straight ahead, which is taken off behind the pipeline."""
+        self._ahead = gaze
+        head = self.stages.get("head")
+        if isinstance(head, _Head):
+            head.look_ahead(gaze)
 
     def points(self, sample: Sample) -> Mapping[str, np.ndarray]:
         """The landmarks, on the one picture."""
@@ -176,6 +185,11 @@ class _Head(Stage):
         irises = None if neutral is None else neutral.frames("irises")
         self._fitted = HeadPose(HeadSettings(neutral=points, neutral_irises=irises))
         self._given = IrisGaze(neutral)
+
+    def look_ahead(self, gaze: np.ndarray) -> None:
+        """See `HeadPose`."""
+        for stage in (self._fitted, self._given):
+            stage.look_ahead(gaze)
 
     def step(self, sample: Sample) -> Sample:
         return (self._fitted if sample.head is None else self._given).step(sample)

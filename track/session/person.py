@@ -36,7 +36,7 @@ class Person:
         if blinks is not None:
             blinks.known = blinks_known(profile)
         self._ranges = Ranges(profile.factors(), profile.at_rest(), by_lids(profile))
-        self._centre = GazeCentre(_centre(profile.gaze))
+        self._centre = GazeCentre(centre_of(profile.gaze))
         self._mirror, self._fading = Mirror(), Fading()
 
     @property
@@ -53,7 +53,7 @@ class Person:
             if profile.neutral != self._neutral:
                 self._blinks.forget()
         self._neutral = profile.neutral
-        self._centre.centre = _centre(profile.gaze)
+        self._centre.centre = centre_of(profile.gaze)
 
     def unknown(self) -> np.ndarray:
         """(52,) NaN: the weights of a frame without a face."""
@@ -70,5 +70,6 @@ class Person:
         return self._fading.step(sample)
 
 
-def _centre(gaze: Sequence[float] | None) -> np.ndarray:
+def centre_of(gaze: Sequence[float] | None) -> np.ndarray:
+    """What a profile's eyes read (4,) where they look straight ahead; zeros where it does not say."""
     return np.zeros(4) if gaze is None else np.array(gaze)

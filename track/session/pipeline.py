@@ -78,6 +78,9 @@ class Pipeline:
         """A person's own eyes, by camera, with what frames of a face say of them."""
         return dict(eyes)
 
+    def look_ahead(self, gaze: np.ndarray) -> None:
+        """Take what eyes read (4,) where they look straight ahead; who does not lead closed eyes there needs it not."""
+
     def use_neutral(self, neutral: NeutralFace) -> None:
         """Compare frames with this neutral face from now on.
 

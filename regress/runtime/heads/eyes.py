@@ -8,7 +8,7 @@ References
    cornea's apex, which is 0.353 mm behind the middle of such a ball.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -56,10 +56,14 @@ class Eyes:
         From midway between an eye's corners to where its ball turns, head frame.
     opening : (2,) float64
         Height over width.
+    ahead : (2, 2) float64
+        Yaw and pitch that each reads where it looks straight ahead, as somebody's who looks below the camera; zeros
+        where nobody has said it. Eyes that close go there.
     """
 
     ball_m: np.ndarray
     opening: np.ndarray
+    ahead: np.ndarray = field(default_factory=lambda: np.zeros((len(SIDES), 2)))
 
 
 MEAN_EYES = Eyes(ball_m=_BALL_M, opening=np.full(len(SIDES), _AT_REST))
@@ -110,7 +114,8 @@ def gaze_angles(
     angles = np.where(known[..., None], angles, 0)
     others = (1 - trust) * trust[:, ::-1]
     shared = trust[..., None] * angles + others[..., None] * angles[:, ::-1]
-    shared /= np.maximum(trust + others, 0.5)[..., None]
+    least = np.maximum(trust + others, 0.5)
+    shared = (shared + (least - trust - others)[..., None] * eyes.ahead) / least[..., None]
     return np.where(known.any(axis=-1)[:, None, None], shared, np.nan)
 
 

@@ -123,6 +123,23 @@ def test_who_moves_is_asked_once_more_and_nothing_is_kept():
     assert stored == []
 
 
+def test_a_blink_does_not_look_away_behind_a_look_that_was_centred():
+    """Irises of shut eyes are not known, and 0 less the centre looked up from a camera above the screen."""
+    centre = np.array([0.1, -0.2, 0.1, -0.2])
+    shut = frames(0, 1)[0]
+    points = shut.points.copy()
+    for top, low in ((37, 41), (38, 40), (43, 47), (44, 46)):
+        points[top] = points[low] = (points[top] + points[low]) / 2
+    irises = np.array([points[42:48].mean(axis=0), points[36:42].mean(axis=0)])
+    picture = {"camera": np.zeros((480, 640), np.uint8)}
+    shut = replace(shut, points=points, irises=irises, pictures=picture)
+    for profile in (Profile(person="a", camera="b"), calibrated_profile()):
+        session = new_session(filter_name="none", profile=profile.model_copy(update={"gaze": tuple(centre)}))
+        for row in range(30):  # what fades in has faded
+            answer = session.answer(replace(shut, time_s=row / 30))[0]
+        np.testing.assert_allclose(answer.gaze, 0, atol=1e-12)
+
+
 def test_one_look_is_straight_ahead_from_then_on():
     """Eyes that read 0.2 while they look into the camera read 0 there, and the looks follow."""
     stored: list[Profile] = []
