@@ -36,6 +36,9 @@ TWO     := --numprocesses 2 $(SHARED)
 LONG    := slow or blender or longer
 # the others have been run without PyTorch
 TORCHED  = $(shell grep --recursive --files-with-matches --fixed-strings 'importorskip("torch")' tests) tests/test_layers.py
+# test files that another target of the same run has: `make APART='$(TORCHED)' test test-headset` runs none twice
+APART    =
+ELSEWHERE = --ignore tests/real_tools $(APART:%=--ignore %)
 
 .DEFAULT_GOAL := help
 .PHONY: help setup lock rig dataset train export headset headset-any models rig-of-clone samples web room-face room-avatars wheel test test-farm test-headset test-quick durations docs-test fuzz lint format \
@@ -105,7 +108,7 @@ wheel: | $(BIN)/python  ## Wheel and sdist in dist
 	$(BIN)/python -m build --outdir dist .
 
 test: test-quick  ## All tests but those of farms, the quick ones first
-	$(BIN)/python -m pytest $(TWO) --durations 30 --durations-min 10 --ignore tests/real_tools -m "$(LONG)"
+	$(BIN)/python -m pytest $(TWO) --durations 30 --durations-min 10 $(ELSEWHERE) -m "$(LONG)"
 
 test-farm: $(TESTER) $(RIG)  ## Tests with a real Slurm and a real OpenJD, with kills and full disks
 	$(BIN)/python -m pytest tests/real_tools
@@ -115,7 +118,7 @@ test-headset: $(TESTER) models/headset-tiny/report.html  ## Headset networks: wh
 	$(BIN)/python -m pytest $(TWO) $(TORCHED)
 
 test-quick: $(TESTER) $(RIG)  ## The 4,400 quick tests: two minutes on two cores say whether the tree is broken
-	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not ($(LONG))"
+	$(BIN)/python -m pytest $(TWO) $(ELSEWHERE) -m "not ($(LONG))"
 
 durations: $(TESTER) $(RIG)  ## Measure anew which tests are quick, on a machine with nothing else to do
 	$(BIN)/python -m pytest $(TWO) --ignore tests/real_tools -m "not slow and not blender" --record-durations
