@@ -121,7 +121,7 @@ def open_session(
     if must_keep:
         keep = partial(write_profile, path)
     else:
-        keeper = ProfileKeeper(path, say)
+        keeper = ProfileKeeper(path, say, known=stored)
         closing.callback(keeper.close)
         keep = keeper.keep
     session = Session(
