@@ -108,6 +108,9 @@ class Profile(Record):
         The person's own factors, by shape.
     gaze : 4 radians
         What the eyes read when they look straight ahead: yaw and pitch of the left eye, then of the right one.
+    head : 3 radians
+        How the head reads turned when it looks straight ahead, as where the camera stands beside the screen: yaw,
+        pitch and roll.
     mirror
         Whether left and right are exchanged.
     placement
@@ -122,6 +125,7 @@ class Profile(Record):
     camera: Name
     mirror: bool = False
     gaze: Annotated[tuple[FiniteFloat, ...], Len(4, 4)] | None = None
+    head: Annotated[tuple[FiniteFloat, ...], Len(3, 3)] | None = None
     model: ModelMark | None = None
     neutral: NeutralFace | None = None
     ranges: dict[Shape, Annotated[FiniteFloat, Field(ge=SMALLEST_RANGE, le=1.0)]] = Field(

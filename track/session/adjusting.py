@@ -78,7 +78,7 @@ class Adjusting:
         self.has_kept = False
         """Whether anything that calibration found was kept."""
         self._calibration: Calibration | None = None
-        self._looks: list[np.ndarray] | None = None
+        self._looks: list[tuple[np.ndarray, np.ndarray]] | None = None
         if profile.told_cameras and pipeline.listens:
             pipeline.use_cameras(profile.told_cameras)
         if profile.placement:
@@ -119,10 +119,11 @@ class Adjusting:
         """Take from the pipeline's answer to a frame what was asked for."""
         if self._calibration is not None:
             self._calibrate(sample)
-        if self._looks is not None and sample.gaze is not None and not np.isnan(sample.gaze).any():
-            self._looks.append(sample.gaze)
+        if self._looks is not None:
+            look = (_whole(sample.gaze, 4), _whole(None if sample.head is None else sample.head[3:], 3))
+            self._looks += [look] if any(np.isfinite(part).all() for part in look) else []
             if len(self._looks) == CENTRE_FRAMES:
-                self._centre(np.median(self._looks, axis=0))
+                self._centre(*(np.array(parts) for parts in zip(*self._looks, strict=True)))
         if self._keeps_blinks and self._blinks is not None:
             self._keep_blinks(self._blinks.ends)
 
@@ -158,14 +159,20 @@ class Adjusting:
         else:
             self._say(f"{outcome.name} is not kept: it was read without the neutral face of the profile")
 
-    def _centre(self, gaze: np.ndarray) -> None:
+    def _centre(self, gazes: np.ndarray, turns: np.ndarray) -> None:
+        """Take looks (n, 4) and turns of the head (n, 3) for straight ahead; NaN where one is not known."""
         self._looks = None
-        centre = tuple(float(angle) for angle in gaze)
+        found = {}
+        for name, rows in (("gaze", gazes), ("head", turns)):
+            known = rows[np.isfinite(rows).all(axis=1)]
+            if len(known):
+                found[name] = tuple(np.median(known, axis=0).tolist())
         if self._neutral_is_kept:
-            self._change(gaze=centre)
+            self._change(**found)
         else:
-            self._use({"gaze": centre})
-        self._say("the eyes are centred on where they looked")
+            self._use(found)
+        what = " and ".join({"gaze": "the eyes", "head": "the head"}[name] for name in found)
+        self._say(f"{what} are centred on where they looked" if "gaze" in found else f"{what} is centred")
 
     def _keep_blinks(self, ends: Sequence[Ends]) -> None:
         """Keep how the person's blinks read, where the profile's file is of this model and this neutral face."""
@@ -198,3 +205,8 @@ class Adjusting:
         self.person.use(self.profile)
         self._pipeline.use_eyes(self.profile.eyes)
         self._pipeline.look_ahead(centre_of(self.profile.gaze))
+
+
+def _whole(values: np.ndarray | None, count: int) -> np.ndarray:
+    """Numbers as they are; NaN where they are not known."""
+    return np.full(count, np.nan) if values is None else values

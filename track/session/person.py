@@ -9,7 +9,7 @@ from regress.runtime.stages.output import Mirror
 from regress.runtime.stages.own_blinks import OwnBlinks
 from track.profile.profile import Profile
 from track.session.fading import Fading
-from track.session.ranges import GazeCentre, Ranges, blinks_known, by_lids
+from track.session.ranges import GazeCentre, HeadCentre, Ranges, blinks_known, by_lids
 
 
 class Person:
@@ -36,7 +36,7 @@ class Person:
         if blinks is not None:
             blinks.known = blinks_known(profile)
         self._ranges = Ranges(profile.factors(), profile.at_rest(), by_lids(profile))
-        self._centre = GazeCentre(centre_of(profile.gaze))
+        self._centre, self._ahead = GazeCentre(centre_of(profile.gaze)), HeadCentre(_ahead(profile))
         self._mirror, self._fading = Mirror(), Fading()
 
     @property
@@ -53,7 +53,7 @@ class Person:
             if profile.neutral != self._neutral:
                 self._blinks.forget()
         self._neutral = profile.neutral
-        self._centre.centre = centre_of(profile.gaze)
+        self._centre.centre, self._ahead.centre = centre_of(profile.gaze), _ahead(profile)
 
     def unknown(self) -> np.ndarray:
         """(52,) NaN: the weights of a frame without a face."""
@@ -61,7 +61,7 @@ class Person:
 
     def step(self, sample: Sample) -> Sample:
         """A frame behind the pipeline, as the person and the avatar want it."""
-        sample = self._centre.step(sample)
+        sample = self._ahead.step(self._centre.step(sample))
         if self._blinks is not None:
             sample = self._blinks.step(sample)
         sample = self._ranges.step(sample)
@@ -73,3 +73,7 @@ class Person:
 def centre_of(gaze: Sequence[float] | None) -> np.ndarray:
     """What a profile's eyes read (4,) where they look straight ahead; zeros where it does not say."""
     return np.zeros(4) if gaze is None else np.array(gaze)
+
+
+def _ahead(profile: Profile) -> np.ndarray:
+    return np.zeros(3) if profile.head is None else np.array(profile.head)

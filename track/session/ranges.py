@@ -1,17 +1,20 @@
-"""What a person's profile says of the answers: own full movements read as 1, and eyes that look ahead read as 0."""
+"""What a person's profile says of the answers: own full movements read as 1, eyes and heads that look ahead as 0."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from regress.runtime.heads.fit import FACING
 from regress.runtime.headset.parts import side_of
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
+from regress.runtime.stages.head import angles_of
 from regress.runtime.stages.own_blinks import BLINKS, WHOLE, Ends
 from regress.runtime.stages.stage import Stage
 from track.profile.profile import Profile
 from track.session.calibration import SHUT
+from track.session.gaze import poses_of
 
 _BLINK_NAMES = ("eyeBlinkLeft", "eyeBlinkRight")
 
@@ -60,6 +63,34 @@ class GazeCentre(Stage):
         weights = sample.weights.copy()
         weights[LOOKS] = look_weights(gaze)
         return replace(sample, gaze=gaze, weights=weights)
+
+
+class HeadCentre(Stage):
+    """Takes away how the head reads turned when it looks straight ahead; where it is stays.
+
+    Attributes
+    ----------
+    centre : (3,) float64
+        Yaw, pitch and roll in radians; zeros where nobody has said it.
+    """
+
+    def __init__(self, centre: np.ndarray) -> None:
+        self.centre = centre
+
+    def step(self, sample: Sample) -> Sample:
+        """The sample with its head as the screen sees it; one without a head as it is."""
+        if sample.head is None or not self.centre.any() or np.isnan(sample.head).any():
+            return sample
+        ahead, turn = _turns(np.stack([self.centre, sample.head[3:]]))
+        return replace(
+            sample, head=np.concatenate([sample.head[:3], angles_of(FACING @ ahead.T @ turn[None])[0]])
+        )
+
+
+def _turns(angles: np.ndarray) -> np.ndarray:
+    """Rotations (n, 3, 3) of heads with these angles (n, 3), out of looking into the camera."""
+    heads = np.concatenate([np.zeros_like(angles), angles], axis=1)
+    return FACING @ poses_of(heads).rotation
 
 
 def by_lids(profile: Profile) -> np.ndarray:

@@ -8,19 +8,25 @@ from functools import partial
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from threadpoolctl import threadpool_info
 
 from facegen.conventions import BLENDSHAPE_INDEX
+from regress.runtime.heads.fit import FACING
 from regress.runtime.model import load_model
 from regress.runtime.ready_made import model_folder
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
+from regress.runtime.stages.head import angles_of
 from regress.runtime.stages.stage import Chain, Stage
 from tests.track.session.faces import Given, Kept, calibrated_profile, frames, new_session, talking_face
 from track.errors import InputError, OutputError
 from track.messages import Command
 from track.profile.neutral import NeutralFace, lines_of
 from track.profile.profile import Profile
+from track.session.gaze import poses_of
+from track.session.ranges import HeadCentre
 from track.sinks.recording import Recording, free_names
 from track.sinks.tables import open_take
 
@@ -154,6 +160,39 @@ def test_one_look_is_straight_ahead_from_then_on():
     aside = replace(looking, time_s=3.0, gaze=looking.gaze + np.array([0.3, 0, 0.3, 0]))
     answer = session.answer(aside)[0]
     np.testing.assert_allclose(answer.weights[LOOKS], look_weights(np.array([0.3, 0, 0.3, 0])), atol=1e-9)
+
+
+angles = st.tuples(*[st.floats(-0.7, 0.7)] * 3).map(np.array)
+
+
+@given(angles, angles)
+def test_a_head_before_a_screen_turns_as_it_does_before_a_camera_there(ahead: np.ndarray, turn: np.ndarray):
+    """The camera beside the screen sees every turn behind that of a head which looks at the screen."""
+    zeros = np.zeros((2, 3))
+    straight, turned = FACING @ poses_of(np.concatenate([zeros, np.stack([ahead, turn])], axis=1)).rotation
+    seen = np.concatenate([[0.1, 0.2, 0.6], angles_of(FACING @ straight @ turned[None])[0]])
+    shown = HeadCentre(ahead).step(Sample(weights=np.zeros(52), head=seen)).head
+    np.testing.assert_allclose(shown, [0.1, 0.2, 0.6, *turn], atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "gaze", [None, np.array([0.2, -0.1, 0.2, -0.1])], ids=["a head alone", "with a gaze"]
+)
+def test_one_look_is_straight_ahead_for_the_head_too(gaze: np.ndarray | None):
+    stored: list[Profile] = []
+    said: list[str] = []
+    session = new_session(filter_name="none", keep=stored.append, said=said)
+    session.pipeline.stages = {"given": Given()}
+    beside = replace(
+        frames(0, 1)[0], weights=np.zeros(52), gaze=gaze, head=np.array([0, 0, 0.6, 0.3, -0.2, 0.05])
+    )
+    session.ask(Command(verb="recentre"))
+    for row in range(60):
+        answer = session.answer(replace(beside, time_s=row / 30))[0]
+    np.testing.assert_allclose(answer.head, [0, 0, 0.6, 0, 0, 0], atol=1e-12)
+    np.testing.assert_allclose(stored[-1].head, [0.3, -0.2, 0.05])
+    assert (stored[-1].gaze is None) == (gaze is None)
+    assert said[-1].startswith("the head is centred" if gaze is None else "the eyes and the head are centred")
 
 
 def test_the_page_s_recording_is_opened_and_closed():
