@@ -61,7 +61,13 @@ class Job:
     rigs: str = ""
 
     def __post_init__(self) -> None:
-        for what, folder in (("--out", self.out), ("--packed", self.packed), ("--model", self.model)):
+        folders = {
+            "--out": self.out,
+            "--packed": self.packed,
+            "--model": self.model,
+            "FACEGEN_RIGS": self.rigs,
+        }
+        for what, folder in folders.items():
             refuse_control(folder, what=what)
 
     @property
