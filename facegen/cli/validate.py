@@ -38,7 +38,7 @@ def validate(
     from facegen.validation import list_dataset
     from facegen.validation import repair as remove
     from facegen.validation import validate as check
-    from facegen.work import workers_for
+    from facegen.work import available_cpus, side_by_side
 
     opened = open_dataset(dataset)
     listing = list_dataset(opened)
@@ -46,7 +46,7 @@ def validate(
     with progress() as show:
         verdict = check(
             opened,
-            workers=workers_for(workers),
+            workers=side_by_side(workers or available_cpus()),
             listing=listing,
             on_progress=lambda done: show("shards and rendered samples checked", done, total),
         )

@@ -1,6 +1,6 @@
 """Makes datasets: tasks, workers, and the supervisor that owns them."""
 
-from facegen.work.allocation import available_cpus, available_memory, workers_for
+from facegen.work.allocation import available_cpus, available_memory, side_by_side
 from facegen.work.blend import save_blend
 from facegen.work.developing import Settings, develop_dataset, develop_sample
 from facegen.work.generate import DEFAULT_GRACE_S, Summary, Work, generate, plan_work
@@ -27,6 +27,6 @@ __all__ = [
     "quarantined_tasks",
     "read_journals",
     "save_blend",
+    "side_by_side",
     "wanted_tasks",
-    "workers_for",
 ]

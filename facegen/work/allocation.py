@@ -29,9 +29,8 @@ def available_cpus(environ: Mapping[str, str] = os.environ, cgroups: Path = Path
     return max(1, min(limits))
 
 
-def workers_for(asked: int | None, *, system: str = os.name) -> int:
-    """How many processes work side by side: as many as asked for, else one per processor."""
-    workers = asked or available_cpus()
+def side_by_side(workers: int, *, system: str = os.name) -> int:
+    """How many processes can work side by side, of so many that are wanted."""
     return min(workers, _WINDOWS_WORKERS) if system == "nt" else workers
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Literal
 
 from facegen.store import Dataset, begin, staging, sweep
-from facegen.work.allocation import available_cpus, available_memory, workers_for
+from facegen.work.allocation import available_cpus, available_memory, side_by_side
 from facegen.work.limits import Limits
 from facegen.work.supervisor import Supervisor
 from facegen.work.tasks import Task, Wanted, done_tasks, quarantined_tasks, wanted_tasks
@@ -122,7 +122,7 @@ def generate(
         for task in missing:
             shutil.rmtree(dataset.folder.quarantine(task.name), ignore_errors=True)
     cpus = available_cpus()
-    workers = min(workers_for(workers), len(missing))
+    workers = min(side_by_side(workers or cpus), len(missing))
     share = int(MEMORY_SHARE * available_memory() / workers)
     supervisor = Supervisor(
         dataset=dataset,

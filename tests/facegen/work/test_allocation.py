@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from facegen.work import available_cpus, available_memory, workers_for
+from facegen.work import available_cpus, available_memory, side_by_side
 
 BOUND = len(os.sched_getaffinity(0))
 NOWHERE = "/nonexistent"
@@ -34,10 +34,9 @@ def test_a_container_has_a_quota(tmp_path, quota, cpus):
 
 def test_windows_cannot_wait_for_more_than_thirty_processes():
     """`multiprocessing.connection.wait` has 63 handles there, and a supervisor waits for two of each."""
-    assert 2 * workers_for(500, system="nt") <= 63
-    assert workers_for(500, system="posix") == 500
-    assert workers_for(3, system="nt") == 3
-    assert workers_for(None, system="posix") == available_cpus()
+    assert 2 * side_by_side(500, system="nt") <= 63
+    assert side_by_side(500, system="posix") == 500
+    assert side_by_side(3, system="nt") == 3
 
 
 def test_memory_is_the_least_of_what_is_said(tmp_path):
