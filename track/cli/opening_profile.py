@@ -102,10 +102,11 @@ def _placed(path: Path, profile: Profile, pipeline: "Pipeline", say: Callable[[s
 
 
 def _part_of(placement: "CameraPlacement | None") -> tuple[float, float, float, float, bool]:
-    """Which part of its camera's pictures counts, without their levels."""
-    if placement is None:
-        return (0.5, 0.5, 1.0, 0.0, False)
-    return (placement.x, placement.y, placement.size, placement.roll_deg, placement.mirror)
+    """Which part of its camera's pictures counts, without their levels; all of them without a placement."""
+    from regress.runtime.headset.placement import CameraPlacement
+
+    seen = placement or CameraPlacement()
+    return (seen.x, seen.y, seen.size, seen.roll_deg, seen.mirror)
 
 
 def _to_be_replaced(profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:

@@ -184,6 +184,8 @@ def ended_by_signals(session: "Session", capture: "Capture") -> Iterator[None]:
         yield
         return
     before = {number: signal.getsignal(number) for number in ENDING}
+    # `nohup` and shells' background jobs ignore what they are not to be ended by
+    before = {number: handler for number, handler in before.items() if handler is not signal.SIG_IGN}
 
     def end(_number: int, _frame: object) -> None:
         session.stop()

@@ -16,7 +16,7 @@ import pytest
 from tests.track.session.faces import SAMPLES, frames
 from track.cli import main
 from track.cli.opening import Wishes, open_pipeline
-from track.cli.running import RunOptions, run_session
+from track.cli.running import RunOptions, ended_by_signals, run_session
 from track.errors import InputError
 from track.messages import Command
 from track.session.session import Session
@@ -173,6 +173,17 @@ def test_a_stop_ends_it_and_the_recording_is_whole(home, number: int):
     assert table
     assert all(len(row) == len(table[0]) for row in table)
     assert list(home.glob(".part-*")) == []
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGHUP")
+def test_what_nohup_ignores_stays_ignored():
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with ended_by_signals(None, None):
+            assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+            assert signal.getsignal(signal.SIGTERM) is not signal.SIG_DFL
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows sends no SIGINT to one process")
