@@ -85,11 +85,14 @@ def staging(parent: Path, name: str) -> Iterator[Path]:
     Its name ends with this machine, this process and the time, by which `sweep` knows whether anybody still makes it.
     """
     path = parent / f"{name}-{machine_name()}-{os.getpid()}-{time.time_ns()}"
-    path.mkdir()
     try:
+        path.mkdir()  # not before: on a slow disk a stop falls into it, and the folder is made all the same
         yield path
     finally:
-        shutil.rmtree(path, ignore_errors=True)
+        try:
+            shutil.rmtree(path, ignore_errors=True)
+        finally:
+            shutil.rmtree(path, ignore_errors=True)  # where a stop fell into the first
 
 
 def sweep(parent: Path, pattern: str = "*") -> int:

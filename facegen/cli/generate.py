@@ -1,6 +1,5 @@
 """Defines ``facegen generate``."""
 
-import os
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -10,7 +9,6 @@ from facegen.children import answer_stops, ignore_stops
 from facegen.cli.tables import print_table
 from facegen.console import counted, progress, say
 from facegen.errors import ExitCode
-from facegen.program import STOPPED
 
 
 def generate(
@@ -61,7 +59,6 @@ def generate(
 
     Example: facegen generate datasets/tiny.toml --out datasets/out/tiny
     """
-    answer_stops(_leave)
     from facegen.spec import load_spec
     from facegen.store import begin, resolve
     from facegen.work import Limits, plan_work
@@ -121,12 +118,6 @@ def generate(
     if names:
         say(f"facegen: {len(names)} failed three times; their logs are in {out}/quarantine")
         raise typer.Exit(ExitCode.INVALID)
-
-
-def _leave(_signal: int, _frame: object) -> None:
-    """End while modules load and there is nothing to drain: some make an error of their own of any exception."""
-    say(f"facegen: {STOPPED}")
-    os._exit(ExitCode.DRAINED)
 
 
 def _stop_early(_signal: int, _frame: object) -> None:

@@ -1,6 +1,7 @@
 """A file's name never stands for half of it, and the system's refusal is one sentence."""
 
 import os
+import shutil
 import signal
 import stat
 import subprocess
@@ -11,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from facegen.errors import InputError, OutputError
-from facegen.files import output_errors, refuse_ending, swap_folders, whole_file, write_whole
+from facegen.files import output_errors, refuse_ending, staging, swap_folders, whole_file, write_whole
 
 
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
@@ -49,6 +50,24 @@ def test_an_interrupted_writer_leaves_the_old_file(tmp_path):
         interrupted()
     assert path.read_bytes() == b"old\n"
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(("module", "name"), [(Path, "mkdir"), (shutil, "rmtree")])
+def test_a_stage_goes_whole_where_a_stop_falls_into_its_making_or_removal(
+    tmp_path, monkeypatch, module, name
+):
+    slow, stops = getattr(module, name), [KeyboardInterrupt]
+
+    def stopped(path, *arguments, **named):
+        if name == "mkdir" or not stops:
+            slow(path, *arguments, **named)
+        if stops:
+            raise stops.pop()
+
+    monkeypatch.setattr(module, name, stopped)
+    with pytest.raises(KeyboardInterrupt), staging(tmp_path, "stage") as stage:
+        (stage / "half").touch()
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_folder_is_no_place_for_a_file(tmp_path, monkeypatch):

@@ -63,7 +63,14 @@ main()
 
 @pytest.mark.usefixtures("anny")
 @pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
-@pytest.mark.parametrize(("module", "name"), [("facegen.store", "resolve"), ("facegen.work", "generate")])
+@pytest.mark.parametrize(
+    ("module", "name"),
+    [
+        ("facegen.store", "resolve"),
+        ("facegen.store.beginning", "commit_file"),
+        ("facegen.work", "generate"),
+    ],
+)
 def test_a_stop_before_the_first_worker_is_told(tmp_path, module, name, number):
     program = STOPPED_AT.format(module=module, name=name, number=number)
     command = [
@@ -78,6 +85,7 @@ def test_a_stop_before_the_first_worker_is_told(tmp_path, module, name, number):
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 75
     assert done.stderr.splitlines()[-1] == "facegen: stopped; run the same command again"
+    assert not list((tmp_path / "out").glob("tmp/*"))
 
 
 def test_a_child_that_is_born_deaf_hears_no_stop():
