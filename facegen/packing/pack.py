@@ -10,6 +10,7 @@ from pathlib import Path
 from facegen.documents import load_json
 from facegen.errors import InputError
 from facegen.files import output_errors
+from facegen.formats.litter import is_litter
 from facegen.packing.arrays import ARRAYS
 from facegen.packing.card import cards
 from facegen.packing.coco import COCO
@@ -25,7 +26,6 @@ from facegen.store import (
     Dataset,
     DatasetFolder,
     commit_file,
-    is_litter,
     read_description,
     read_json,
     staging,

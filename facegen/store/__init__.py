@@ -21,7 +21,6 @@ from facegen.store.keypoint_table import (
     read_shard,
     write_shard,
 )
-from facegen.store.litter import is_litter
 from facegen.store.merging import Merged, merge
 from facegen.store.opening import open_dataset, resolve
 from facegen.store.record import sample_record
@@ -38,7 +37,6 @@ __all__ = [
     "commit_folder",
     "draw_block",
     "exr_bytes",
-    "is_litter",
     "keypoint_schema",
     "keypoint_table",
     "label_block",

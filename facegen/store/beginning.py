@@ -12,13 +12,13 @@ from facegen.conventions import BLENDSHAPES
 from facegen.documents import MOST_TOML_BYTES, read_bytes
 from facegen.errors import InputError
 from facegen.files import output_errors
+from facegen.formats.litter import is_litter
 from facegen.headsets import headset_path
 from facegen.spec import LABEL_VERSION, spec_table
 from facegen.store.dataset import Dataset, rigs_of
 from facegen.store.description import FORMAT, read_description
 from facegen.store.folder import commit_file, write_json
 from facegen.store.folder_card import folder_cards
-from facegen.store.litter import is_litter
 from facegen.store.stage import staging
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")

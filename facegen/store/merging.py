@@ -9,10 +9,10 @@ from pathlib import Path
 
 from facegen.errors import InputError, InvalidData
 from facegen.files import output_errors
+from facegen.formats.litter import is_litter
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder, commit_file, commit_folder
-from facegen.store.litter import is_litter
 from facegen.store.opening import open_dataset
 from facegen.store.stage import staging, sweep
 

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from facegen.console import counted
-from facegen.store import Dataset, is_litter
+from facegen.formats.litter import is_litter
+from facegen.store import Dataset
 from facegen.validation.finding import Finding
 
 _SHARD = re.compile(r"shard-([0-9]{5,15})\.parquet")

@@ -9,13 +9,14 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, BLOCK, LANDMARK_COUNT, SIDES, Part, Visibility
 from facegen.errors import InputError
+from facegen.formats.litter import is_litter
 from facegen.geometry import Camera, project
 from facegen.labels import label_rendered
 from facegen.sampling import Samples
 from facegen.scene import Layers
 from facegen.scene.beards import LENGTH_M
 from facegen.sessions import draw_sample_scene
-from facegen.store import Dataset, draw_block, is_litter, read_exr, read_json, read_png, sample_record
+from facegen.store import Dataset, draw_block, read_exr, read_json, read_png, sample_record
 from facegen.validation.agreement import disagreements
 from facegen.validation.finding import Finding, FindingKind
 from facegen.validation.keypoints import FAR_SHARE, REPROJECTION_PX

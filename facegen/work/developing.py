@@ -8,6 +8,7 @@ import numpy as np
 
 from facegen.errors import FormatError, InputError, InvalidData
 from facegen.files import output_errors
+from facegen.formats.litter import is_litter
 from facegen.sampling import Shot, draw_shot
 from facegen.sensor import develop_view
 from facegen.sessions import draw_unit_of_session
@@ -16,7 +17,6 @@ from facegen.store import (
     DatasetFolder,
     commit_file,
     commit_folder,
-    is_litter,
     png_bytes,
     read_exr,
     read_json,

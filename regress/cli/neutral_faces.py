@@ -2,12 +2,14 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from facegen.console import say
 from regress.cli.rows import sound_rows
 from regress.errors import InputError
 from regress.runtime.inputs import Frames, read_frames
 from regress.runtime.model import Model
-from regress.runtime.stages.neutral import estimate_neutral
+from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 
 
 def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None, Frames | None]:
@@ -34,8 +36,12 @@ def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None
         return {face: _found(model, take, _called(face)) for face, take in takes.items()}
     named = {face: named_rows(take, neutral) for face, take in takes.items()}
     if any(named.values()):
+        seen = {face: [row for row in rows if takes[face].usable[row]] for face, rows in named.items()}
+        named = seen if any(seen.values()) else named  # of none, the networks say so themselves
         for face in (face for face, rows in named.items() if not rows):
-            say(f"{frames.source}: weights{_called(face)} are not calibrated: --neutral names no frame of it")
+            say(
+                f"{frames.source}: weights{_called(face)} are not calibrated: --neutral names no usable frame of it"
+            )
         return {face: takes[face].take(rows) if rows else None for face, rows in named.items()}
     first, last = frames.labels[0], frames.labels[-1]
     calm = neutral_file(neutral, frames.source, labels=f" ({first} to {last})")
@@ -47,7 +53,9 @@ def named_rows(take: Frames, neutral: str) -> list[int]:
 
     A picture of a film has the same name for all of its faces; ``NUMBER/FACE`` is one of them.
     """
-    return _rows_of(take.labels, neutral) or _rows_of(_pictures(take), neutral)
+    return (
+        _rows_of(take.labels, neutral) or _rows_of(_pictures(take), neutral) or _rows_between(take, neutral)
+    )
 
 
 def neutral_file(neutral: str, source: str, *, labels: str = "") -> Frames:
@@ -68,7 +76,7 @@ def neutral_file(neutral: str, source: str, *, labels: str = "") -> Frames:
 def _found(model: Model, take: Frames, called: str) -> Frames | None:
     if not take.usable.any():
         return None
-    estimate = estimate_neutral(model, take.points)
+    estimate = estimate_neutral(model, take.points, frame_rate(take.time_s))
     if not estimate.sure:
         say(f"{take.source}: no neutral face found{called}, weights are not calibrated: {estimate.reason}")
         return None
@@ -78,6 +86,15 @@ def _found(model: Model, take: Frames, called: str) -> Frames | None:
 
 def _called(face: str | None) -> str:
     return "" if face is None else f" of face {face}"
+
+
+def _rows_between(take: Frames, named: str) -> list[int]:
+    """Rows of pictures from one number to another, of which some, and the ends too, may be left out."""
+    ends = named.split("-")
+    if take.numbers is None or len(ends) != 2 or not all(end.isdecimal() for end in ends):
+        return []
+    first, last = map(int, ends)
+    return np.flatnonzero((first <= take.numbers) & (take.numbers <= last)).tolist()
 
 
 def _pictures(take: Frames) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ from regress.runtime.model import Model, load_model, save_model
 from regress.runtime.networks import evaluate
 from regress.runtime.sample import Sample
 from regress.runtime.stages.networks import AutomaticCalibration, LandmarkNetworks
-from regress.runtime.stages.neutral import estimate_neutral
+from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 from tests.regress.conftest import QUICK, write_dataset
 from tests.regress.drawn import SHAPE_MODES_SEED, drawn_face, drawn_faces, in_pictures
 from tests.regress.exporters.readers import READERS
@@ -225,6 +225,21 @@ def test_auto_does_not_take_talk_for_a_resting_face(quick_model: Model, frames: 
     assert np.mean(rest.frames < frames // 2) > 0.7  # a mouth that talks is shut at times
 
 
+@pytest.mark.parametrize("fps", [10, 60, 120])
+def test_auto_tells_rest_by_seconds_at_any_rate(quick_model: Model, fps: int):
+    for rests in (False, True):
+        film = _talk(np.random.default_rng(1), 300, rests=rests)
+        times = np.linspace(0, len(film) - 1, len(film) * fps // 30)
+        shown = np.array([np.interp(times, np.arange(300), each) for each in film.reshape(300, -1).T]).T
+        estimate = estimate_neutral(quick_model, shown.reshape(-1, 68, 2), fps)
+        assert estimate.sure is rests, estimate.reason
+
+
+def test_the_rate_of_frames_is_that_of_most_and_usual_where_nobody_knows():
+    assert frame_rate(None) == frame_rate(np.array([0.0])) == frame_rate(np.full(5, np.nan)) == 30
+    assert frame_rate(np.array([0, 1, 2, 3, 90]) / 60) == pytest.approx(60)
+
+
 def test_auto_does_not_hang_on_looks_place_or_size(quick_model: Model, dataset: KeypointDataset):
     frames, _ = _recording(dataset, calm=40, moving=40)
     found = estimate_neutral(quick_model, frames)
@@ -239,11 +254,12 @@ def test_live_auto_wants_to_be_sure_twice_and_says_when_it_takes_long(quick_mode
     talk, rest = _talk(rng, 320, rests=False), _talk(rng, 600, rests=True)[:300]
     networks = LandmarkNetworks(quick_model)
     stage = AutomaticCalibration(networks, said.append)
-    for face in talk:
-        stage.step(Sample(points=face))
+    stage.step(Sample(label="1", points=np.full((68, 2), np.nan)))  # counts as a line, and as no face
+    for number, face in enumerate(talk, start=2):
+        stage.step(Sample(label=str(number), points=face))
     assert networks.model is quick_model
     assert len(said) == 1
-    assert said[0].startswith("frame 300: no neutral face found so far (the face is not at rest")
+    assert said[0].startswith("frame 301: no neutral face found so far (the face is not at rest")
     for face in rest:
         stage.step(Sample(points=face))
     assert networks.model is not quick_model

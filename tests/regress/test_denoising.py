@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import MIRRORED_LANDMARKS, mirrored_name
+from regress.errors import InputError
 from regress.learning.networks import fit_denoising
 from regress.learning.training import RECIPES, train
 from regress.learning.training.noise import displace
@@ -65,6 +66,12 @@ def model(dataset) -> Model:
 def test_every_edge_has_its_partner_once_the_edges_are_closed():
     assert sorted(PARTNER) == list(range(len(FEATURES.edges)))
     np.testing.assert_array_equal(closed_under_mirror(FEATURES.edges), FEATURES.edges)
+
+
+def test_too_few_faces_are_told():
+    clean = features_of(FACES[:12])
+    with pytest.raises(InputError, match=r"12 faces are too few .* more people, or train by --recipe exact"):
+        fit_denoising(clean, (features_of(FACES[:12], 0.002) - clean) / 0.002, PARTNER)
 
 
 @pytest.mark.parametrize("size", [0.002, 0.005, 0.01])

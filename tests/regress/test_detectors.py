@@ -1,13 +1,14 @@
 """Training rows of a known detector: as far beside the truth as its table says, and in the parts that it says."""
 
-from dataclasses import replace
+import json
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
 
 from facegen.conventions import LANDMARK_GROUPS
 from regress.learning.training import RECIPES
-from regress.learning.training.detectors import detectors, for_detector
+from regress.learning.training.detectors import detectors, for_detector, noise_of
 from regress.learning.training.noise import draw_displacements
 
 MEAN_PERCENT = {
@@ -47,6 +48,12 @@ def test_the_jitter_of_the_recipe_stays_and_others_are_as_they_were():
     assert known.calibrated_noise.jitter_most == default.calibrated_noise.jitter_most
     assert known.noise.clean == default.noise.clean
     assert replace(known, noise=default.noise, calibrated_noise=default.calibrated_noise) == default
+
+
+def test_a_record_tells_of_the_noise_again():
+    default = RECIPES["default"]
+    for noise in (default.noise, for_detector(default, "mediapipe").calibrated_noise):
+        assert noise_of(json.loads(json.dumps(asdict(noise)))) == noise
 
 
 @pytest.mark.parametrize(

@@ -67,6 +67,9 @@ def test_each_frame_leaves_once_in_its_order(name: str, take: tuple[np.ndarray, 
     present = ~np.isnan(weights[:, 0])
     found = np.array([sample.weights for sample in live])[present]
     assert not len(found) or np.all((found >= weights[present].min(0)) & (found <= weights[present].max(0)))
+    if gaze and name != "one-euro":
+        for sample in live:
+            np.testing.assert_array_equal(sample.gaze, sample.weights[:4])
     if gaze:  # filtered as a weight; One-Euro knows it for quick, as eyes are
         assert all(sample.gaze.shape == (4,) for sample in live)
     file = filter_stage(name).run(samples)
@@ -251,6 +254,29 @@ def test_a_pipe_is_late_by_what_is_stated_and_loses_nothing(quick_model: Model):
     ]
     assert behind[1:-1] == [1] * 18
     assert len(behind) == 20
+
+
+@pytest.mark.parametrize("name", FILTERS)
+@pytest.mark.parametrize(
+    "after", [None, np.nan, 0.0], ids=["no time", "not a number", "a clock that began anew"]
+)
+def test_a_pipe_whose_face_is_lost_is_no_later(name: str, after: float | None):
+    stage, taken = filter_stage(name), 0
+    seen = frames_of(np.full((10, SHAPES), 0.5), np.arange(10) / 30)
+    nothing = np.full(SHAPES, np.nan)
+    lost = [
+        replace(seen[0], label=str(row), time_s=None if after is None else after + row / 30, weights=nothing)
+        for row in range(8)
+    ]
+
+    def lines():
+        nonlocal taken
+        for taken, sample in enumerate([*seen, *lost], start=1):  # noqa: B007
+            yield sample
+
+    behind = [taken - number for number, _ in enumerate(Chain([stage]).stream(lines()), start=1)]
+    assert len(behind) == 18
+    assert max(behind) <= 4
 
 
 @pytest.mark.parametrize(

@@ -114,6 +114,18 @@ def test_a_folder_goes_by_number_not_by_letter(tmp_path: Path):
     assert read_frames(example_file("pts_folder", tmp_path)).labels == ("frame_2", "frame_10", "frame_100")
 
 
+@pytest.mark.parametrize(
+    ("name", "litter"), [("pts", "._frame_2.pts"), ("ck-plus", "._S005_001_00000002_landmarks.txt")]
+)
+def test_what_a_mac_leaves_beside_files_is_no_face(name: str, litter: str, tmp_path: Path):
+    if name == "pts":
+        write_pts(tmp_path / "frame_2.pts", FACES[0])
+    else:
+        np.savetxt(tmp_path / "S005_001_00000002_landmarks.txt", FACES[0])
+    (tmp_path / litter).write_bytes(bytes(range(256)))
+    assert len(read_frames(tmp_path).points) == 1
+
+
 def test_300w_folders_are_read_below_the_folder(tmp_path: Path):
     for place, face in zip(("01_Indoor", "02_Outdoor"), FACES, strict=False):
         (tmp_path / place).mkdir()
@@ -196,6 +208,21 @@ def test_frames_that_do_not_count_are_rows(frames: list[str], tmp_path: Path):
     read = read_frames(_with_frames(_pyfeat(tmp_path / "a.csv"), frames))
     assert read.numbers is None
     assert read.at_rate(10).time_s == pytest.approx([0, 0.1, 0.2])
+
+
+def test_a_table_that_is_sorted_by_faces_is_a_film_of_them_all_the_same(tmp_path: Path):
+    path = _openface(tmp_path / "a.csv")
+    header, *rows = path.read_text().splitlines()
+    cells = [row.split(", ")[1:] for row in rows]
+    sorted_by_face = [("5", "0", 1), ("6", "0", 2), ("5", "1", 0)]  # face 1 of picture 5 comes last
+    lines = [", ".join(["frame", "face_id", *header.split(", ")[1:]])]
+    lines += [", ".join([frame, face, "0.2", *cells[row][1:]]) for frame, face, row in sorted_by_face]
+    path.write_text("\n".join(lines) + "\n")
+    read = read_frames(path)
+    assert read.labels == ("5/0", "5/1", "6/0")
+    assert read.faces == ("0", "1", "0")
+    np.testing.assert_allclose(read.points, np.array(FACES)[[1, 0, 2]], atol=1e-6)
+    assert read.at_rate(10).time_s == pytest.approx([0, 0, 0.1])
 
 
 def test_faces_of_one_picture_share_its_time_and_have_names_of_their_own(tmp_path: Path):

@@ -60,6 +60,15 @@ def test_files_beside_a_model_are_not_lost(quick_model: Model, tmp_path: Path, n
     assert contents(folder) == before
 
 
+def test_what_systems_leave_in_a_folder_is_nobodys(quick_model: Model, tmp_path: Path):
+    folder = tmp_path / "model"
+    for _ in range(2):  # an empty folder but for it, and a model's
+        folder.mkdir(exist_ok=True)
+        (folder / ".DS_Store").write_bytes(b"Bud1")
+        save_model(quick_model, folder)
+    assert load_model(folder).table == quick_model.table
+
+
 def test_a_report_and_exports_go_with_the_model_they_are_of(quick_model: Model, tmp_path: Path):
     for write in (lambda: save_model(quick_model, tmp_path / "a"), lambda: write_tiny_model(tmp_path / "b")):
         write()

@@ -89,6 +89,20 @@ def test_neutral_frames_of_a_picture_are_everyones_own(named: str, rows: dict[st
     assert {face: named_rows(faces.take(kept), named) for face, kept in faces.takes().items()} == rows
 
 
+@pytest.mark.parametrize(
+    ("named", "rows"), [("1-30", [1, 2]), ("10-15", [2]), ("0-9", [0, 1]), ("1-4", []), ("5-x", [])]
+)
+def test_a_range_of_pictures_may_begin_and_end_with_one_that_was_left_out(named: str, rows: list[int]):
+    frames = Frames(
+        points=np.zeros((4, 68, 2)),
+        labels=("0", "5", "15", "45"),
+        time_s=None,
+        source="here",
+        numbers=np.array([0, 5, 15, 45]),
+    )
+    assert named_rows(frames, named) == rows
+
+
 @pytest.mark.parametrize(("named", "rows"), [("take-1", [0]), ("take-1-take-2", [0, 1]), ("4-5", [])])
 def test_names_of_frames_may_have_dashes(named: str, rows: list[int]):
     frames = Frames(points=np.zeros((2, 68, 2)), labels=("take-1", "take-2"), time_s=None, source="here")
@@ -137,7 +151,21 @@ def test_a_face_that_is_not_at_rest_is_told_of_and_the_other_is_calibrated(run, 
     (tmp_path / "take.csv").write_text("\n".join([",".join(header), *lines]) + "\n")
     code, _, said = run("predict", tmp_path / "take.csv", "--neutral", "3")
     assert code == 0
-    assert "weights of face 1 are not calibrated: --neutral names no frame of it" in said
+    assert "weights of face 1 are not calibrated: --neutral names no usable frame of it" in said
+
+
+def test_a_face_whose_neutral_frames_are_lost_keeps_nobody_else_from_theirs(run, tmp_path: Path):
+    faces = drawn_faces(np.random.default_rng(6), 4)
+    header = ["frame", *(f"{axis}_{point}" for point in range(68) for axis in "xy")]
+    lines = [
+        ",".join(map(repr, [frame, *face.ravel().tolist()]))
+        for frame, face in zip([1, 1, 2, 2], faces, strict=True)
+    ]
+    lines[1] = "1" + "," * 136
+    (tmp_path / "take.csv").write_text("\n".join([",".join(header), *lines]) + "\n")
+    code, out, said = run("predict", tmp_path / "take.csv", "--neutral", "1")
+    assert (code, len(out.splitlines())) == (0, 5), said
+    assert "weights of face 1 are not calibrated: --neutral names no usable frame of it" in said
 
 
 def test_a_neutral_frame_without_a_face_is_refused_in_a_sentence(run, tmp_path: Path):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -207,10 +208,23 @@ def test_strengths_by_evidence_need_no_list(dataset: KeypointDataset):
     assert model.record.summary["network"].mean_r2 > 0.3
 
 
-def test_the_exact_points_can_be_read(dataset: KeypointDataset, dataset_folder: Path):
+def test_the_exact_points_can_be_read(dataset: KeypointDataset, dataset_folder: Path, tmp_path: Path):
     with pytest.raises(InputError, match="lacks the column 'points_2d'"):
         read_dataset(dataset_folder, points="points_2d")
-    assert len(dataset.take(dataset.rows("test")).points) == len(dataset.rows("test"))
+    write_dataset(dataset, tmp_path, more={"points_2d": dataset.points + 3})
+    exact = read_dataset(tmp_path, points="points_2d")
+    np.testing.assert_allclose(exact.points, dataset.points + 3, rtol=1e-6)
+
+
+def test_half_a_dataset_is_told(dataset: KeypointDataset, tmp_path: Path):
+    write_dataset(dataset, tmp_path)
+    description = json.loads((tmp_path / "dataset.json").read_text())
+    for samples, whole in ((20_000, True), (20_001, False)):
+        (tmp_path / "dataset.json").write_text(json.dumps(description | {"samples": samples}))
+        with (
+            nullcontext() if whole else pytest.raises(InputError, match="2 of 3 shards; run facegen generate")
+        ):
+            read_dataset(tmp_path)
 
 
 def test_the_paper_recipe_is_the_papers():

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from regress.errors import InputError
 from regress.runtime.networks.denoising import LEVELS, Denoising
 
 NOISE_AXES = 32
@@ -34,6 +35,11 @@ def fit_denoising(clean: np.ndarray, moved: np.ndarray, partner: np.ndarray) -> 
     Returns
     -------
     Denoising
+
+    Raises
+    ------
+    InputError
+        Where the faces are too few to tell noise by.
     """
     origin = clean.mean(axis=0)
     own = np.eye(len(partner))
@@ -53,6 +59,11 @@ def fit_denoising(clean: np.ndarray, moved: np.ndarray, partner: np.ndarray) -> 
         variances.append(values)
     order = np.argsort(-np.concatenate(variances), kind="stable")
     axes, variances = np.concatenate(axes)[order], np.concatenate(variances)[order]
+    if len(axes) <= NOISE_AXES:
+        raise InputError(
+            f"{len(clean)} faces are too few to tell a detector's noise from what faces do; make a dataset of more "
+            "people, or train by --recipe exact"
+        )
     floor = variances[-NOISE_AXES:].mean()  # the noise that undisturbed faces have
     levels = np.square(LEVELS)
     shown = len(axes) - NOISE_AXES

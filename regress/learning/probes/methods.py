@@ -7,6 +7,7 @@ import numpy as np
 
 from regress.learning.training.baseline import fit_baseline
 from regress.learning.training.dataset import KeypointDataset
+from regress.learning.training.detectors import noise_of
 from regress.learning.training.noise import DetectorNoise
 from regress.learning.training.scores import predicted_outputs
 from regress.runtime.features import extract
@@ -58,7 +59,7 @@ def ridges_of(model: Model, dataset: KeypointDataset) -> tuple[Method, ...]:
         noise = recipe["calibrated_noise" if calibrated else "noise"]
         kinds = {"ridge, undisplaced rows": None}
         if noise is not None:
-            kinds = {"ridge, same rows": DetectorNoise(**noise), **kinds}
+            kinds = {"ridge, same rows": noise_of(noise), **kinds}
         for name, displaced in kinds.items():
             methods.append(_ridge(model, dataset, name, noise=displaced, calibrated=calibrated))
     return tuple(methods)

@@ -109,6 +109,13 @@ def read_dataset(
     shards = sorted((folder / "keypoints").glob("shard-*.parquet"))
     if not shards:
         raise InputError(f"{folder / 'keypoints'} holds no shard-*.parquet; facegen generate writes them")
+    samples = description.get("samples")
+    whole = -(-samples // SHARD_ROWS) if isinstance(samples, int) else len(shards)
+    if len(shards) < whole:
+        raise InputError(
+            f"{folder / 'keypoints'} holds {len(shards)} of {whole} shards; run facegen generate again, which makes "
+            "what is missing"
+        )
     columns = Columns(
         single={"person": "whole", "neutral": "truth", "split": "word"},
         lists={"weights": len(BLENDSHAPES), points: 2 * LANDMARK_COUNT},

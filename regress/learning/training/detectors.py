@@ -75,6 +75,11 @@ class KnownDetector(DetectorNoise):
         return self.drift * draw_bias(rng, count, apart=detectors()[self.detector].passing)
 
 
+def noise_of(record: dict) -> DetectorNoise:
+    """The noise that a model's record tells of."""
+    return KnownDetector(**record) if "detector" in record else DetectorNoise(**record)
+
+
 def for_detector(recipe: Recipe, name: str) -> Recipe:
     """A recipe whose training rows are displaced as one detector displaces points; its jitter stays.
 

@@ -1,11 +1,13 @@
 """CK+ landmarks: ``.txt`` files of 68 lines ``x y``, in folders by subject and sequence."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from facegen.documents import read_text
+from facegen.formats.litter import is_litter
 from regress.errors import InputError
 from regress.runtime.inputs.frames import Frames, stacked
 
@@ -18,7 +20,7 @@ _MOST_BYTES = 64 * 1024
 def is_ck_plus(path: Path) -> bool:
     """Whether this is such a file, or a folder that holds some at any depth."""
     if path.is_dir():
-        return next(path.rglob(f"*{_ENDING}"), None) is not None
+        return next(_files(path), None) is not None
     return path.name.endswith(_ENDING)
 
 
@@ -27,9 +29,13 @@ def read_ck_plus(path: Path) -> Frames:
 
     A sequence goes from neutral to the peak of an expression: its first frame is one for ``--neutral``.
     """
-    files = sorted(path.rglob(f"*{_ENDING}")) if path.is_dir() else [path]
+    files = sorted(_files(path)) if path.is_dir() else [path]
     labels = tuple(file.name.removesuffix(_ENDING) for file in files)
     return Frames(points=stacked(map(_face, files), path), labels=labels, time_s=None, source=str(path))
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    return (file for file in folder.rglob(f"*{_ENDING}") if not is_litter(file.name))
 
 
 def _face(path: Path) -> np.ndarray:

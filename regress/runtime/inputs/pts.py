@@ -7,6 +7,7 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from facegen.formats import read_pts
+from facegen.formats.litter import is_litter
 from facegen.formats.natural_order import natural_order
 from regress.errors import InputError
 from regress.runtime.inputs.frames import Frames, stacked
@@ -31,7 +32,7 @@ def read_folder(path: Path) -> Frames:
     A face is called by its file's name, with the folders between where there are some.
     """
     files = sorted(
-        (file for file in path.rglob("*") if is_pts(file)),
+        (file for file in path.rglob("*") if is_pts(file) and not is_litter(file.name)),
         key=lambda file: natural_order(file.relative_to(path).as_posix()),
     )
     if not files:

@@ -88,6 +88,15 @@ def _frames(table: CsvRows) -> Frames:
     if any(abs(time) > _LATEST_S for time in time_s):
         raise InputError(f"{table.path}: a timestamp is beyond {_LATEST_S:g} s")
     numbers = _counted(labels) if "frame" in columns else None
+    if named and numbers is not None and (np.diff(numbers) < 0).any():
+        # sorted by faces: a film goes from picture to picture
+        order = np.argsort(numbers, kind="stable")
+        points, numbers = points[order], numbers[order]
+        irises = None if irises is None else irises[order]
+        labels, face_ids = [labels[row] for row in order], [face_ids[row] for row in order]
+        time_s = [time_s[row] for row in order] if timed else time_s
+    elif numbers is not None and (np.diff(numbers) < 0).any():
+        numbers = None
     several = len(set(labels)) < len(labels)
     if several and not named:
         face_ids = _places(labels)
@@ -121,7 +130,7 @@ def _counted(frames: list[str]) -> np.ndarray | None:
     except ValueError:
         return None
     counts = (np.abs(numbers) < 2**53).all() and (numbers == np.round(numbers)).all()
-    return numbers.astype(np.int64) if counts and (np.diff(numbers) >= 0).all() else None
+    return numbers.astype(np.int64) if counts else None
 
 
 def _numbers(table: CsvRows, row: list[str], names: tuple[str, ...], picked: list[int]) -> np.ndarray:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from facegen.files import output_errors, staging, swap_folders, sweep, sync, write_whole
+from facegen.formats.litter import is_litter
 from regress.errors import InputError, OutputError
 from regress.runtime.documents import read_document
 
@@ -139,6 +140,7 @@ def _check_old(folder: Path, kind: ModelKind) -> None:
         names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else None
     except OSError as error:
         raise OutputError(f"{folder} cannot be looked into: {error.strerror or error}") from error
+    names = None if names is None else [name for name in names if not is_litter(name)]
     if names == []:
         return
     if names is None or "model.json" not in names:

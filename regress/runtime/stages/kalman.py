@@ -109,7 +109,7 @@ class KalmanSmoothing(DelayingStage):
         row = joined(sample)
         if np.isnan(row).any():
             self._waiting.append((sample, None))
-            return self._ready(sample.time_s)
+            return self._ready(self._supposed(sample.time_s))
         if sample.time_s is None or not np.isfinite(sample.time_s):
             raise InputError(f"frame {sample.label} has no time, which a Kalman filter needs")
         seconds = sample.time_s - self._time
@@ -122,6 +122,17 @@ class KalmanSmoothing(DelayingStage):
         self._last = self._estimate(row, seconds)
         self._waiting.append((sample, self._last))
         return before + self._ready(sample.time_s)
+
+    def _supposed(self, time_s: float | None) -> float:
+        """When a frame without weights was, also by a clock that began anew, or by none."""
+        if time_s is not None and time_s > self._time:
+            return time_s
+        lost = 0
+        for _, estimate in reversed(self._waiting):
+            if estimate is not None:
+                break
+            lost += 1
+        return self._time + lost * self._interval_s
 
     def finish(self) -> list[Sample]:
         """Samples that still wait, with what is known of them; the next one starts afresh."""
@@ -145,9 +156,9 @@ class KalmanSmoothing(DelayingStage):
         mean = self._last.mean + share * surprise
         return _Estimate(mean=mean, variance=(1 - share) * foreseen, foreseen=foreseen)
 
-    def _ready(self, time_s: float | None) -> list[Sample]:
+    def _ready(self, time_s: float) -> list[Sample]:
         """Samples that need not wait any longer at a time; one without weights waits for those before it only."""
-        next_s = -np.inf if time_s is None else time_s + self._interval_s
+        next_s = time_s + self._interval_s
         ready = []
         while self._waiting and (
             self._waiting[0][1] is None or next_s - self._waiting[0][0].time_s > _PATIENCE * self._ahead_s

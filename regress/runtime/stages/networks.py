@@ -10,7 +10,7 @@ from regress.errors import InputError
 from regress.runtime.model import Model
 from regress.runtime.sample import Sample
 from regress.runtime.stages.confidence import confidence
-from regress.runtime.stages.neutral import estimate_neutral
+from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 from regress.runtime.stages.stage import BatchStage, Stage
 
 ESTIMATE_EVERY, ESTIMATE_LATER = 30, 150
@@ -85,25 +85,25 @@ class AutomaticCalibration(Stage):
             raise InputError("the model has no calibrated networks, so a neutral frame is of no use to it")
         self._networks = networks
         self._say = say
-        self._recent: deque[np.ndarray] = deque(maxlen=_REMEMBERED)
+        self._recent: deque[tuple[float, np.ndarray]] = deque(maxlen=_REMEMBERED)
         self._count = 0
         self._sure = 0
 
     def step(self, sample: Sample) -> Sample:
         """Take a frame into account; frames with missing points are left out."""
         if self._sure < SURE_TIMES and np.isfinite(sample.points).all():
-            self._recent.append(sample.points)
+            self._recent.append((np.nan if sample.time_s is None else sample.time_s, sample.points))
             self._count += 1
             if self._count % (ESTIMATE_EVERY if self._count <= TELL_AT else ESTIMATE_LATER) == 0:
-                self._estimate()
+                self._estimate(sample.label)
         return sample
 
-    def _estimate(self) -> None:
-        points = np.array(self._recent)
-        estimate = estimate_neutral(self._networks.model, points)
+    def _estimate(self, label: str) -> None:
+        times, points = (np.array(each) for each in zip(*self._recent, strict=True))
+        estimate = estimate_neutral(self._networks.model, points, frame_rate(times))
         self._sure = self._sure + 1 if estimate.sure else 0
         if self._sure == SURE_TIMES:
             self._networks.model = self._networks.model.calibrate(points[estimate.frames])
-            self._say(f"frame {self._count}: neutral face found ({estimate.reason}); calibrated from here on")
+            self._say(f"frame {label}: neutral face found ({estimate.reason}); calibrated from here on")
         elif self._count == TELL_AT:
-            self._say(f"frame {self._count}: no neutral face found so far ({estimate.reason}); looking on")
+            self._say(f"frame {label}: no neutral face found so far ({estimate.reason}); looking on")

@@ -19,8 +19,11 @@ _ROUNDS = 3
 _AGREEMENT = 0.1
 """Largest weight of a visible shape by which an early and a late half of the calm frames may differ."""
 
-_APART = (3, 6)
-"""Frames, a tenth and a fifth of a second, over which a face that rests stays as it is; two, as syllables repeat."""
+_APART_S = (0.1, 0.2)
+"""Seconds, a tenth and a fifth of a second, over which a face that rests stays as it is; two, as syllables repeat."""
+
+USUAL_FPS = 30.0
+"""Frames a second of a recording without times."""
 
 _STILL_NOISES, _STILL, _RESTLESS = 3.5, 0.06, 0.15
 """A face moves where a visible shape changes by more than so many standard deviations of its noise and by more than
@@ -40,7 +43,14 @@ _SECOND_DIFFERENCE = 0.6745 * 6**0.5
 """Median of |a - 2b + c| of three values of standard deviation 1."""
 
 
-def estimate_neutral(model: Model, points: np.ndarray) -> CalmFrames:
+def frame_rate(time_s: np.ndarray | None) -> float:
+    """Frames a second by their times (n,) in seconds; `USUAL_FPS` where they do not say."""
+    steps = np.diff(np.array([]) if time_s is None else time_s)
+    steps = steps[np.isfinite(steps) & (steps > 0)]
+    return float(1 / np.median(steps)) if len(steps) else USUAL_FPS
+
+
+def estimate_neutral(model: Model, points: np.ndarray, fps: float = USUAL_FPS) -> CalmFrames:
     """Find the calm frames of a recording of one person.
 
     The calibrated networks compare all frames with the median face, then with the median of the calmest tenth, and
@@ -55,6 +65,8 @@ def estimate_neutral(model: Model, points: np.ndarray) -> CalmFrames:
         With calibrated networks.
     points : (n, 68, 2) float64
         In the order of time; frames with NaN are left out.
+    fps
+        Frames a second, by which it is told how long a face was still.
 
     Raises
     ------
@@ -73,11 +85,11 @@ def estimate_neutral(model: Model, points: np.ndarray) -> CalmFrames:
     for _ in range(_ROUNDS):
         compared = model.calibrate(faces[calm]).predict(faces).sum(axis=1)
         calm = np.sort(np.argsort(_standard(compared) + alone, kind="stable")[:count])
-    sure, reason = _judged(model, faces, calm)
+    sure, reason = _judged(model, faces, calm, fps)
     return CalmFrames(frames=usable[calm], sure=sure, reason=reason)
 
 
-def _judged(model: Model, faces: np.ndarray, calm: np.ndarray) -> tuple[bool, str]:
+def _judged(model: Model, faces: np.ndarray, calm: np.ndarray, fps: float) -> tuple[bool, str]:
     """Whether calm frames, by their numbers, are a resting face; and why, in a sentence."""
     if len(faces) < FEWEST_FRAMES:
         return False, f"{len(faces)} frames are usable, and {FEWEST_FRAMES} are needed"
@@ -90,7 +102,9 @@ def _judged(model: Model, faces: np.ndarray, calm: np.ndarray) -> tuple[bool, st
             False,
             f"early and late calm frames differ by weights of {between:.2f}, and {_AGREEMENT} is allowed",
         )
-    moved, noises = _movement(shown, calm)
+    moved, noises = _movement(shown, calm, fps)
+    if not np.isfinite(moved):
+        return False, f"the recording is too short to tell whether a face is still over {_APART_S[1]:g} s"
     if moved > _RESTLESS or (noises > _STILL_NOISES and moved > _STILL):
         return (
             False,
@@ -103,16 +117,17 @@ def _judged(model: Model, faces: np.ndarray, calm: np.ndarray) -> tuple[bool, st
     )
 
 
-def _movement(shown: np.ndarray, calm: np.ndarray) -> tuple[float, float]:
+def _movement(shown: np.ndarray, calm: np.ndarray, fps: float) -> tuple[float, float]:
     """How far the face moves before or after calm frames, whichever is less: in weights, and in their noise.
 
     Of weights (n, k) the one that moves most; of calm frames the share that must be still moves by less.
     """
     noise = np.median(np.abs(shown[2:] - 2 * shown[1:-1] + shown[:-2]), axis=0) / _SECOND_DIFFERENCE
     noise = np.maximum(noise, _LEAST_NOISE) * 2**0.5  # of a difference of two frames
+    apart = np.maximum(np.round(np.multiply(_APART_S, fps)), 1).astype(int)
     sides = np.full((2, len(calm), 2), np.inf)
     for side, sign in zip(sides, (-1, 1), strict=True):
-        others = calm[:, None] + sign * np.array(_APART)
+        others = calm[:, None] + sign * apart
         there = ((others >= 0) & (others < len(shown))).all(axis=1)
         change = np.abs(shown[others[there]] - shown[calm[there], None]).max(axis=1)
         side[there] = np.stack([change.max(axis=1), (change / noise).max(axis=1)], axis=1)

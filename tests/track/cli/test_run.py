@@ -161,7 +161,11 @@ def test_a_retargeted_table_has_the_other_names(home, capsys, monkeypatch):
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP], ids=["Ctrl-C", "a closed window"])
 def test_a_stop_ends_it_and_the_recording_is_whole(home, number: int):
     words = [*CAMERAS, "--loop", "--no-page", "--record", "take.csv"]
-    running = subprocess.Popen([sys.executable, "-m", "track", *words], stderr=subprocess.PIPE, text=True)
+    before = signal.signal(number, signal.SIG_DFL)  # a child of tests under nohup would ignore it as they do
+    try:
+        running = subprocess.Popen([sys.executable, "-m", "track", *words], stderr=subprocess.PIPE, text=True)
+    finally:
+        signal.signal(number, before)
     until_s = time.monotonic() + 180
     while not any(part.stat().st_size for part in home.glob(".part-*/*.csv")) and time.monotonic() < until_s:
         time.sleep(0.05)
