@@ -123,7 +123,9 @@ class Neighbours:
         self._say(Spoken(process=self._meeting.process, line=line))
 
     def called(self, to: str, signal: Signal) -> None:
-        """Somebody of this process calls somebody of another one."""
+        """Somebody of this process calls somebody of another one, who has to know first who shares."""
+        if self._changed:
+            self.entered()
         self._say(Called(process=self._meeting.process, to=to, signal=signal))
 
     def tick(self, *, now: float) -> None:

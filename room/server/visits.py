@@ -10,14 +10,21 @@ from aiohttp import WSMessage, WSMsgType, web
 from room.errors import FormatError, NotAllowed
 from room.protocol.accounts import Part
 from room.protocol.answers import Notice
-from room.protocol.texts import MOST_TEXT_BYTES, Chat, read_join, read_said
+from room.protocol.texts import MOST_TEXT_BYTES, Candidate, Chat, Description, read_join, read_said
 from room.server.connection import PARTING_S, Connection
 from room.server.door import Door
 from room.server.hall import Hall
 from room.server.halls import Halls
 from room.server.headers import same_origin
 from room.server.keys import Keys
-from room.server.limits import BURST_S, CHATS_PER_S, STATES_PER_S, TEXTS_PER_S, Bucket
+from room.server.limits import (
+    BURST_S,
+    CHATS_PER_S,
+    SIGNALS_A_PERSON,
+    STATES_PER_S,
+    TEXTS_PER_S,
+    Bucket,
+)
 from room.server.metrics import Metrics
 from room.state import Seat
 
@@ -132,19 +139,23 @@ class Visits:
         states = Bucket(STATES_PER_S, burst=STATES_PER_S * BURST_S)
         texts = Bucket(TEXTS_PER_S, burst=TEXTS_PER_S * BURST_S)
         chats = Bucket(CHATS_PER_S, burst=CHATS_PER_S * BURST_S)
+        signals = Bucket(
+            TEXTS_PER_S, burst=TEXTS_PER_S * BURST_S + SIGNALS_A_PERSON * hall.meeting.most_people
+        )
         message: WSMessage
         async for message in socket:
             now = time.monotonic()
-            if not (states if message.type is WSMsgType.BINARY else texts).take(now=now):
+            said = read_said(message.data) if message.type is WSMsgType.TEXT else None
+            calls = isinstance(said, Description | Candidate)
+            if not (signals if calls else texts if said else states).take(now=now):
                 raise NotAllowed("too many messages; the page was closed", again=False)
             if hall.meeting.seat(seat.id) is not seat:
                 continue  # removed: the word is on its way
             if message.type is WSMsgType.BINARY:
                 self._metrics.states += 1
                 hall.move(seat, message.data, part)
-            elif message.type is WSMsgType.TEXT:
+            elif said:
                 self._metrics.texts += 1
-                said = read_said(message.data)
                 if part == "face":
                     raise NotAllowed("a program that moves a face sends states, and no texts")
                 if isinstance(said, Chat) and not chats.take(now=now):

@@ -129,6 +129,22 @@ async def test_chat_and_calls_cross_servers(north, south):
 
 
 @two_servers
+async def test_who_shares_is_known_at_another_server_before_the_call(north, south):
+    ada, ben = await north.guest(), await south.guest(name="Ben")
+    await ada.told(Changed, lambda changed: changed.person.name == "Ben")
+    for on in (True, False, True):  # whatever the last account was before
+        await ada.say(kind="share", on=on)
+    await ada.say(kind="description", plane="screen", to=ben.number, type="offer", sdp="v=0")
+    signal = await ben.told(Signal)
+    told = [
+        answer.person.shares
+        for answer in ben.answers[: ben.answers.index(signal)]
+        if isinstance(answer, Changed)
+    ]
+    assert told[-1]
+
+
+@two_servers
 async def test_a_moderator_of_one_server_mutes_removes_and_locks_at_the_other(north, south):
     chair, ada, ben = await north.guest(moderator=True), await south.guest(), await south.guest(name="Ben")
     await chair.told(Changed, lambda changed: changed.person.name == "Ben")

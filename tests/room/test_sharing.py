@@ -97,6 +97,16 @@ async def test_signals_of_the_screen_pass_only_to_and_from_who_shares(place):
     assert len(cy.all(Signal)) == 1, "Ben, who shares nothing, shows Cy nothing"
 
 
+@meeting
+async def test_who_shares_may_call_thirty_people_at_once(place):
+    ada, ben = await place.guest(), await place.guest(name="Ben")
+    await ada.say(kind="share", on=True)
+    for sdp in range(12 * 30):  # an offer and its candidates for each, within a second
+        await ada.say(kind="description", plane="screen", type="offer", sdp=f"v={sdp}", to=ben.number)
+    await ben.told(Signal, lambda told: told.signal.sdp == f"v={12 * 30 - 1}")
+    assert not ada.socket.closed
+
+
 PICTURE = """(async () => {
   const canvas = new OffscreenCanvas(640, 360), pen = canvas.getContext('2d');
   pen.fillStyle = '#e02020'; pen.fillRect(0, 0, 640, 360);

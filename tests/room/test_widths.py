@@ -26,6 +26,26 @@ APART = ("#mirror", "nav > div", "#leave", "aside", "#replay", *WORDS)
 SLIDERS = """[...document.querySelectorAll('#people input:not([hidden])')].map(
   (slider) => slider.getBoundingClientRect().right
 )"""
+WALKED = """(async () => {
+  const { walk } = meeting.presence, from = [walk.x, walk.z];
+  const aside = document.querySelector('aside').getBoundingClientRect();
+  const end = aside.width > innerWidth / 2 ? aside.top : innerHeight;
+  // anywhere in the lower third of what is to be seen of the picture
+  const places = Array.from({ length: 80 }, (_, i) => [i % 20 + 0.5, 0.7 + 0.07 * Math.floor(i / 20)]);
+  const free = places.map(([x, y]) => [x * innerWidth / 20, y * end])
+    .filter(([x, y]) => document.elementFromPoint(x, y)?.id === 'view');
+  if (free.length < 10) return -1;
+  const say = (kind, [x, y]) => document.querySelector('#view').dispatchEvent(
+    new PointerEvent(kind, { pointerId: 1, pointerType: 'touch', clientX: x, clientY: y })
+  );
+  HTMLElement.prototype.setPointerCapture = () => undefined;  // of a finger that is none
+  say('pointerdown', free[0]); say('pointermove', [free[0][0], free[0][1] - 60]);
+  walk.update(0.5);
+  say('pointerup', free[0]);
+  const walked = Math.hypot(walk.x - from[0], walk.z - from[1]);
+  [walk.x, walk.z] = from;
+  return walked;
+})()"""
 BOXES = """Object.fromEntries(%s.map((part) => {
   const { left, top, right, bottom } = document.querySelector(part).getBoundingClientRect();
   return [part, [left, top, right, bottom]];
@@ -91,6 +111,8 @@ async def observe() -> list[str]:
                 ]
                 right = max(await tab.ask(SLIDERS))
                 wrong += [f"{width}: a slider ends at {right}"] if right > seen["#people"][2] else []
+                walked = await tab.ask(WALKED)
+                wrong += [f"{width}: a finger that drags up walks {walked} m"] if walked < 0.1 else []
                 lines = seen["#lines"]
                 wrong += [f"{width}: no line is read"] if lines[3] - lines[1] < 40 else []
             await tab.ask("document.querySelector('#leave').click()")

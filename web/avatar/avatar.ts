@@ -1,6 +1,6 @@
 /** One avatar: a model whose face, eyes and head follow a `Face`. */
 
-import { Group, Object3D, Quaternion, type Material, type SkinnedMesh, Texture } from "three";
+import { Group, Object3D, Quaternion, type Material, type SkinnedMesh, Texture, Vector3 } from "three";
 import { clone } from "three/addons/utils/SkeletonUtils.js";
 import type { VRM } from "@pixiv/three-vrm";
 
@@ -22,6 +22,8 @@ export class Avatar {
   readonly root = new Group();
   readonly morphs: Morphs;
   readonly expressions: Expressions | undefined;
+  /** The head's joint at rest, in metres above the root; undefined where there is no head bone. */
+  readonly headJoint_m: number | undefined;
   /** Turned in place of a head bone where there is none. */
   private readonly whole = new Group();
   private readonly eyes: Eyes;
@@ -44,6 +46,7 @@ export class Avatar {
     this.expressions = vrm?.expressionManager ? new Expressions(vrm.expressionManager, carried) : undefined;
     this.eyes = findEyes(this.root, this.morphs, this.has(SHAPE_INDEX.get("eyeLookOutLeft")!), vrm);
     const [head, neck] = [findBone(model, "head", vrm), findBone(model, "neck", vrm)];
+    this.headJoint_m = head?.getWorldPosition(new Vector3()).y;
     this.head = head ? new Turn(head, this.root) : undefined;
     this.neck = head && neck ? new Turn(neck, this.root) : undefined;
   }

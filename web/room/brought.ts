@@ -12,6 +12,9 @@ const MOST_BYTES = 32 * 2 ** 20;
 /** Whether a file's name is that of an avatar. */
 export const isAvatar = ({ name }: File): boolean => /\.(glb|vrm)$/i.test(name);
 
+/** Answers of a server to which as many come back at once after it began anew: too many of one person's, and of all. */
+const BUSY = [429, 503];
+
 /** A sentence about an avatar stays so long. */
 const TOLD_MS = 15_000;
 
@@ -118,8 +121,14 @@ export class Brought {
       this.digest = ((await answer.json()) as { own: string }).own;
       return true;
     }
-    this.file = undefined;
     const why = answer ? (await answer.text()).trim().replace(/\.$/, "") : "the server could not be reached";
+    if (!answer || BUSY.includes(answer.status)) {
+      this.tell(`${name} is not shown to the others yet: ${why}; it is tried again.`);
+      const { file } = this;
+      setTimeout(() => this.file === file && void this.send(), 1000 * (10 + 30 * Math.random()));
+      return false;
+    }
+    this.file = undefined;
     this.tell(`${name} is not shown to the others: ${why}.`);
     return false;
   }

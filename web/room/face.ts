@@ -13,6 +13,7 @@ export class FaceCamera {
   private readonly worker = new Worker("/static/face.worker.js", { type: "module" });
   private readonly video = document.createElement("video");
   private busy = true;
+  private gone = false;
   private found: OwnFace | undefined;
   private foundAt = -Infinity;
   /** Whether the newest picture was without a face. */
@@ -25,6 +26,12 @@ export class FaceCamera {
     this.video.muted = true;
     this.video.playsInline = true;
     this.video.srcObject = stream;
+    for (const track of stream.getVideoTracks()) {
+      track.addEventListener("ended", () => {
+        this.gone = true;
+        this.word = "Your camera is gone; plug it in and load the page again.";
+      });
+    }
     this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.hear(data);
     this.worker.onerror = ({ message }) => (this.word = `The face detector does not start (${message}); the voice moves your lips.`);
     void this.video.play().then(() => this.feed());
@@ -77,6 +84,7 @@ export class FaceCamera {
 
   private hear(message: FromWorker): void {
     this.busy = false;
+    if (this.gone) return;
     switch (message.kind) {
       case "ready":
         this.word = "";

@@ -13,6 +13,9 @@ import type { Person } from "./texts.js";
 const NAME_M = 0.3;
 /** Taller than this from its lowest to its highest point, an avatar has a body of its own. */
 const WHOLE_M = 1.0;
+/** Of a body without a head bone, where its eyes are; and of what is above the head's joint. */
+const EYES_SHARE = 0.93;
+const FACE_SHARE = 0.4;
 /** Taller than a head with hair and neck, it has shoulders, and hangs in the air as busts do. */
 const BUST_M = 0.36;
 
@@ -38,6 +41,9 @@ export class Figure {
   /** Height of what hangs on `upper` above the floor: a head and its simple body are made around the eyes. */
   private readonly standing: number;
 
+  /** Of a face above the floor while it stands, in metres. */
+  readonly face_m: number;
+
   constructor(
     readonly avatar: Avatar,
     number: number,
@@ -48,6 +54,8 @@ export class Figure {
     const body = whole ? avatar.root : (this.made ?? new Group());
     this.limbs = new Limbs(body, whole ? avatar.vrm : undefined);
     this.standing = whole ? 0 : EYES_M;
+    const joint = avatar.headJoint_m;
+    this.face_m = !whole ? EYES_M : joint === undefined ? EYES_SHARE * height : joint + FACE_SHARE * (height - joint);
     body.traverse((node) => {
       if (/^(mixamorig:?)?RightHand$/.test(node.name)) this.right = node;
     });

@@ -26,6 +26,7 @@ type Worn = Pick<Message, "floor_m" | "heading" | "rotation" | "head_m" | "left_
 
 export class Headset {
   private session: XRSession | undefined;
+  private over = false;
   /** Turn of the body in the room that the headset knows, whose zero is where it looked first. */
   private body = 0;
   private rest: number | undefined;
@@ -49,6 +50,13 @@ export class Headset {
     button.addEventListener("click", () => void (this.session ? this.session.end() : this.enter()));
     // the button is there only where a headset is
     void navigator.xr?.isSessionSupported("immersive-vr").then((supported) => (button.hidden = !supported));
+  }
+
+  /** The meeting is over: nothing is left to be seen in a headset. */
+  leave(): void {
+    this.over = true;
+    this.button.hidden = true;
+    void this.session?.end();
   }
 
   get worn(): boolean {
@@ -120,6 +128,7 @@ export class Headset {
       [this.session, this.rest, this.body] = [session, undefined, 0];
       this.button.textContent = "Take the headset off";
       this.carry();
+      if (this.over) void session.end(); // while the browser asked
     } catch (error) {
       this.tell(`The headset cannot be used (${error instanceof Error ? error.message : error}).`);
     }

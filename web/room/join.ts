@@ -83,6 +83,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
       const given = await Microphone.ask(devices.value || undefined);
       if (choice !== newest) return given.close(); // something else was chosen while the browser asked
       microphone = given;
+      void given.resume();
       const found = (await navigator.mediaDevices.enumerateDevices()).filter(({ kind }) => kind === "audioinput");
       const chosen = devices.value;
       devices.replaceChildren(...found.map(({ label, deviceId }) => new Option(label || "microphone", deviceId)));
@@ -95,6 +96,9 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   };
   let listening = listen();
   for (const each of [voice, devices]) each.addEventListener("change", () => (listening = listen()));
+  // a browser plays, and measures, nothing before its person has touched the page
+  const touched = (): void => void microphone?.resume();
+  for (const each of ["pointerdown", "keydown"]) addEventListener(each, touched);
   const shown = setInterval(() => {
     const db = 20 * Math.log10(Math.max(microphone?.level ?? 0, 1e-6));
     level.value = Math.max(0, 1 - db / SILENT_DB);
@@ -110,6 +114,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   // another one may be chosen meanwhile, or none: that answers for the one that the browser still asks about
   for (let last; last !== listening; ) await Promise.race([(last = listening), once([voice, devices], "change")]);
   clearInterval(shown);
+  for (const each of ["pointerdown", "keydown"]) removeEventListener(each, touched);
   localStorage.setItem("name", name.value.trim());
   form.hidden = true;
   await microphone?.resume();
@@ -122,11 +127,11 @@ function once(elements: readonly HTMLElement[], event: string): Promise<unknown>
   return new Promise((resolve) => elements.forEach((each) => each.addEventListener(event, resolve, { once: true })));
 }
 
-/** What a browser's refusal of a device means. */
-export function sentence(error: unknown): string {
+/** What a browser's refusal of a device means; `then` is what to do once it is allowed. */
+export function sentence(error: unknown, then = "tick again"): string {
   const name = error instanceof DOMException ? error.name : "";
   if (!isSecureContext) return "Browsers give devices to https pages alone; you can still listen and write.";
-  if (name === "NotAllowedError") return "The browser was told not to give the device; allow it beside the address, then tick again.";
+  if (name === "NotAllowedError") return `The browser was told not to give the device; allow it beside the address, then ${then}.`;
   if (name === "NotFoundError") return "No such device was found; you can still listen and write.";
   return `The device cannot be used (${error instanceof Error ? error.message : error}).`;
 }

@@ -40,10 +40,10 @@ export class Meeting {
   private readonly line: Line;
   private readonly status = new Status(find("state"), () => [
     this.lineWord,
-    this.cameraWord,
     this.microphone?.word ?? "",
-    this.presence.camera?.word ?? "",
     this.voice.word,
+    this.presence.camera?.word ?? "",
+    this.cameraWord,
   ]);
   private lineWord = "";
   private cameraWord = "";
@@ -118,7 +118,7 @@ export class Meeting {
     try {
       find("neutral").hidden = !(await this.presence.watch());
     } catch (error) {
-      this.cameraWord = `No camera: ${sentence(error)}`;
+      this.cameraWord = `No camera: ${sentence(error, "load the page again")}`;
     }
   }
 
@@ -153,6 +153,7 @@ export class Meeting {
         const before = this.people.self;
         this.people.meet(answer.person);
         const wants = { shares: this.sharing.shares, wears: this.brought.wanted };
+        if (!answer.person.present || !answer.person.voice) this.speak(answer.person.number, false); // in mid-word, perhaps
         const news = answer.person.id === before?.id ? newsOf(before, answer.person, wants) : "";
         if (news) this.tell(news);
         break;
@@ -202,8 +203,11 @@ export class Meeting {
     known.newest = message;
     known.playback.push(message, performance.now());
     if (number === this.own?.number) this.presence.resume(message);
-    const speaking = (message.flags & FLAG.speaking) !== 0;
-    known.figure?.speak(speaking);
+    this.speak(number, (message.flags & FLAG.speaking) !== 0);
+  }
+
+  private speak(number: number, speaking: boolean): void {
+    this.known.get(number)?.figure?.speak(speaking);
     this.sidebar.speak(number, speaking);
   }
 

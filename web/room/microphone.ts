@@ -61,11 +61,18 @@ export class Microphone {
     const stream = await navigator.mediaDevices.getUserMedia({
       audio: { echoCancellation: true, noiseSuppression: true, autoGainControl: true, ...(device ? { deviceId: device } : {}) },
     });
-    const context = new AudioContext({ sampleRate: HERTZ });
-    await context.audioWorklet.addModule("/static/frames.worklet.js");
-    const node = new AudioWorkletNode(context, "frames", { numberOfOutputs: 0 });
-    context.createMediaStreamSource(stream).connect(node);
-    return new Microphone(stream, context, node, await detector());
+    // of the microphone's own rate: Firefox joins no others; the worklet makes 48 kHz of it
+    const context = new AudioContext();
+    try {
+      await context.audioWorklet.addModule("/static/frames.worklet.js");
+      const node = new AudioWorkletNode(context, "frames", { numberOfOutputs: 0 });
+      context.createMediaStreamSource(stream).connect(node);
+      return new Microphone(stream, context, node, await detector());
+    } catch (error) {
+      for (const track of stream.getTracks()) track.stop(); // or the browser shows that it listens
+      void context.close();
+      throw error;
+    }
   }
 
   get isOpen(): boolean {

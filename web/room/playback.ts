@@ -12,8 +12,8 @@ const LEAST_DELAY_MS = 50;
 const MOST_DELAY_MS = 400;
 /** Of what the delay is larger than needed, given back each second. */
 const SHRINK_PER_S = 0.2;
-/** Longer silence is no lost message: the face goes to rest. */
-export const STALE_MS = 700;
+/** Longer silence is no lost message: the face goes to rest. A browser lets a page that nobody sees speak once a second. */
+export const STALE_MS = 1600;
 /** A face is at rest so much later. */
 const FADE_MS = 600;
 /** Two messages that are further apart are not blended: somebody came back. */

@@ -59,6 +59,7 @@ export class Presence {
     this.ended = true;
     this.camera?.close();
     this.camera = undefined;
+    this.headset.leave();
   }
 
   /** The room has let one in; the others' places come next. */

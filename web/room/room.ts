@@ -46,4 +46,7 @@ async function main(): Promise<void> {
   Object.assign(globalThis, { meeting }); // for tests, and for who looks into the page
 }
 
-void main();
+void main().catch((error: unknown) => {
+  console.error(error);
+  refuse(`The page could not begin (${error instanceof Error ? error.message : error}); allow it to keep data (cookies), and load it again.`);
+});

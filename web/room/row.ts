@@ -65,7 +65,10 @@ export class Row {
       lock: false,
       unlock: false,
     };
-    for (const [action, button] of this.buttons) button.hidden = !acts || !can[action];
+    for (const [action, button] of this.buttons) {
+      button.hidden = !acts || !can[action];
+      button.setAttribute("aria-label", `${ACTS.get(action)}: ${person.name}`);
+    }
     this.small.hidden = !words.length && !acts;
   }
 }

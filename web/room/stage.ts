@@ -48,6 +48,7 @@ export class Stage {
       const self = number === people.own;
       // one's own picture shows what is sent, as a mirror that lags is worse than none; but a program's face only comes back
       const mine = self && person.face === "page" ? presence.sent : undefined;
+      if (self) this.view.face_m = figure.face_m;
       figure.show(mine ?? shown, seconds, this.view.eye);
       this.pointers.show(number, mine ?? shown, figure, this.view.eye, self);
       if (!self) figure.call(person, (shown.flags & FLAG.tracked) !== 0);

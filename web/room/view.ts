@@ -2,6 +2,7 @@
 
 import { DirectionalLight, Group, PCFShadowMap, PerspectiveCamera, Quaternion, Scene, SRGBColorSpace, Vector3, WebGLRenderer, NeutralToneMapping, type Object3D } from "three";
 
+import { EYES_M } from "./body.js";
 import { BACKGROUND, type Place } from "./place.js";
 
 const FIELD_DEG = 50;
@@ -19,6 +20,8 @@ export class View {
   readonly eye = new Vector3();
   /** Carries the camera of a headset. */
   readonly rig = new Group();
+  /** Of one's own face above the floor while one stands: avatars are of all sizes, and eyes of one. */
+  face_m = EYES_M;
   private readonly mirror = new PerspectiveCamera(32, 150 / 170, 0.05, 20);
   readonly renderer: WebGLRenderer;
   private readonly small: CanvasRenderingContext2D;
@@ -65,8 +68,9 @@ export class View {
     // a camera looks along -z, a body along +z
     this.camera.quaternion.copy(turned(heading + Math.PI, pitch));
     const ahead = new Vector3(Math.sin(heading), 0, Math.cos(heading));
-    this.mirror.position.set(x, height - 0.05, z).addScaledVector(ahead, MIRROR_M);
-    this.mirror.lookAt(x, height - 0.06, z);
+    const face = height + this.face_m - EYES_M;
+    this.mirror.position.set(x, face - 0.05, z).addScaledVector(ahead, MIRROR_M);
+    this.mirror.lookAt(x, face - 0.06, z);
   }
 
   /** Call this whenever a picture is due, of the page or of a headset. */

@@ -44,11 +44,13 @@ export class Walk {
         event.preventDefault();
       }
     });
-    addEventListener("keyup", ({ code }) => this.held.delete(code));
+    addEventListener("keyup", ({ code, key }) => {
+      this.held.delete(code);
+      if (key === "Meta") this.held.clear(); // macOS does not say when a key goes up while Command is down
+    });
     addEventListener("blur", () => this.held.clear()); // no key is held for a window that nobody types into
     canvas.addEventListener("pointerdown", (event) => {
-      // with a finger, the lower third of the picture is the floor to walk on
-      const walks = event.pointerType === "touch" && event.clientY > innerHeight * 0.67;
+      const walks = event.pointerType === "touch" && event.clientY > floorFrom();
       this.drag = { id: event.pointerId, x: event.clientX, y: event.clientY, walks };
       canvas.setPointerCapture(event.pointerId);
     });
@@ -88,6 +90,12 @@ export class Walk {
   }
 }
 
+/** With a finger, the lower third of what is to be seen of the picture is the floor to walk on; on a telephone the chat lies below. */
+function floorFrom(): number {
+  const chat = document.querySelector("aside")?.getBoundingClientRect();
+  return 0.67 * (chat && chat.width > innerWidth / 2 ? chat.top : innerHeight);
+}
+
 function typing({ target }: Event): boolean {
-  return target instanceof HTMLElement && target.closest("input, textarea, select") !== null;
+  return target instanceof HTMLElement && target.closest("input, textarea, select, #lines, #people") !== null;
 }

@@ -123,7 +123,9 @@ function showMeasures({ fps, latency }: Frame): void {
 const connection: Connection = new Connection({
   state(state, sentence) {
     showState(state, sentence);
-    if (state === "lost") showFaults([]);
+    if (state !== "lost") return;
+    showFaults([]);
+    calibration.show(null);
   },
   hello(hello: Hello) {
     order = SHAPES.map((shape) => hello.shapes.indexOf(shape));

@@ -15,6 +15,7 @@ export class Recorder {
   private readonly slider = this.moment.querySelector("input")!;
   private readonly output = this.moment.querySelector("output")!;
   private recording = false;
+  private dragged = false;
   /** When the take's start would have been played; undefined while it is not. */
   private playedFrom: number | undefined;
 
@@ -27,8 +28,14 @@ export class Recorder {
       tell(this.recording);
     });
     this.play.addEventListener("click", () => this.playing(this.playedFrom === undefined));
-    this.slider.addEventListener("input", () => {
-      this.playedFrom = performance.now() - 1000 * this.slider.valueAsNumber;
+    this.slider.addEventListener("input", () => this.seek(this.slider.valueAsNumber));
+    this.slider.addEventListener("pointerdown", () => (this.dragged = true));
+    for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => (this.dragged = false));
+    this.slider.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
+      if (step === undefined || this.playedFrom === undefined) return;
+      event.preventDefault(); // by seconds: the slider's own steps are those of frames
+      this.seek(Math.min(Math.max(this.seconds(this.playedFrom) + step, 0), this.take.length));
     });
   }
 
@@ -71,11 +78,21 @@ export class Recorder {
     this.record.querySelector("span")!.textContent = `Stop ${clock(this.take.length)}`;
   }
 
+  private seek(seconds: number): void {
+    this.playedFrom = performance.now() - 1000 * seconds;
+  }
+
+  /** Of a take that is played over and over. */
+  private seconds(playedFrom: number): number {
+    return ((performance.now() - playedFrom) / 1000) % Math.max(this.take.length, 0.1);
+  }
+
   /** What is played just now, over and over; undefined while all is live. */
   played(): Face | undefined {
     if (this.playedFrom === undefined) return undefined;
-    const seconds = ((performance.now() - this.playedFrom) / 1000) % Math.max(this.take.length, 0.1);
-    if (document.activeElement !== this.slider) this.slider.value = `${seconds}`;
+    const seconds = this.seconds(this.playedFrom);
+    if (!this.dragged) this.slider.value = `${seconds}`;
+    this.slider.ariaValueText = clock(seconds);
     this.output.textContent = `${clock(seconds)} / ${clock(this.take.length)}`;
     return this.take.at(seconds);
   }

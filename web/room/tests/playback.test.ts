@@ -101,6 +101,15 @@ test("when nothing comes any more, the face goes to rest where it stands", () =>
   assert.ok(Math.abs(after.floor_m[0]! - before.floor_m[0]!) < 0.05);
 });
 
+test("a page that nobody sees speaks once a second, and a raised hand stays up", () => {
+  const playback = new Playback();
+  for (let step = 0; step < 10; step++) playback.push({ ...sent(step * 1050), flags: 1, animation: 5 }, step * 1050);
+  for (let step = 10; step < 20; step++) {
+    playback.push({ ...sent(step * 1050), flags: 1, animation: 5 }, step * 1050);
+    for (let now = step * 1050; now < (step + 1) * 1050; now += 16) assert.equal(playback.at(now)!.animation, 5);
+  }
+});
+
 for (const ahead of [4_000_000, 3000, -3000]) {
   test(`another clock takes over, ${ahead} ms ahead`, () => {
     const playback = new Playback();
