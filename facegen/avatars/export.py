@@ -13,6 +13,7 @@ from facegen.documents import read_text
 from facegen.errors import InputError
 from facegen.rigs import load_rig, rigs_folder
 from facegen.rigs.makehuman import download_wheel
+from facegen.rigs.versions import VERSIONS
 
 SKINS = {
     "caucasian": ((0.86, 0.67, 0.57), (0.80, 0.60, 0.49)),
@@ -151,7 +152,8 @@ def _licence_text(name: str, licence: str) -> str:
     if path.is_file():
         return read_text(path, most_bytes=MOST_LICENCE_BYTES)
     if licence == "MIT":
-        raise InputError(
-            f"{path} is missing, and MIT asks that its text goes with the shapes; build the rig again with --path"
+        then = (
+            "build the rig again with --path" if name in VERSIONS else "write the text of the licence there"
         )
+        raise InputError(f"{path} is missing, and MIT asks that its text goes with the shapes; {then}")
     return ""

@@ -170,13 +170,18 @@ def _part(
         moved = (target if isinstance(target, dict) else vars(target)).get("POSITION")
         if moved is not None:
             morphs[name] = _turned(turn, accessor_values(file, moved, "VEC3", count))
+    triangles = _triangles(file, primitive.indices, count)
+    if np.median(np.linalg.det(turn)) < 0:
+        triangles = triangles[
+            :, ::-1
+        ]  # a mirrored node turns what is counter-clockwise round (glTF 2.0, 3.7.4)
     material = None if primitive.material is None else file.item("materials", primitive.material)
     part = GltfPart(
         mesh=_name(mesh),
         node=_name(node),
         material=_name(material),
         positions=_turned(turn, positions) + deform[:, :3, 3],
-        triangles=_triangles(file, primitive.indices, count),
+        triangles=triangles,
         uv=np.stack([uv[:, 0], 1.0 - uv[:, 1]], axis=1),
         morphs=morphs,
     )

@@ -95,8 +95,9 @@ def paths_of(rig: Rig) -> Paths:
     """
     landmarks = (rig.landmark_weights[..., None] * rig.vertices[rig.landmark_vertices]).sum(axis=1)
     triangles = triangles_of(rig.cage_faces)
-    vertices, weights = np.zeros((len(JAW), STEPS, 3), np.int64), np.zeros((len(JAW), STEPS, 3))
     width = rig.landmark_vertices.shape[1]
+    corners = max(3, width)
+    vertices, weights = np.zeros((len(JAW), STEPS, corners), np.int64), np.zeros((len(JAW), STEPS, corners))
     vertices[:, 0, :width], weights[:, 0, :width] = rig.landmark_vertices[JAW], rig.landmark_weights[JAW]
     for i in JAW:
         inside = np.array([0.0, max(landmarks[i, 1], landmarks[LOWER_LIP, 1]), landmarks[i, 2]])
@@ -111,7 +112,7 @@ def paths_of(rig: Rig) -> Paths:
                 break
             near = np.argmin(np.abs(hits.distance - distance))  # the same sheet of skin as the point before
             distance = hits.distance[near]
-            vertices[i, step], weights[i, step] = triangles[hits.triangle[near]], hits.share[near]
+            vertices[i, step, :3], weights[i, step, :3] = triangles[hits.triangle[near]], hits.share[near]
     return Paths(vertices=vertices, weights=weights)
 
 

@@ -111,7 +111,10 @@ def _check_eyes(center: np.ndarray, radius: np.ndarray) -> None:
     apart = center[0, 0] - center[1, 0]
     least, most = EYE_DISTANCE_M
     if apart < 0.0:
-        raise InputError("the left eye lies at smaller x than the right one; left is the subject's, at x > 0")
+        raise InputError(
+            "the left eye lies at smaller x than the right one; left is the subject's, at x > 0, of a head that looks "
+            "along +z: turn one that looks along -z, as those of VRM 0.x do, by 180 degrees about y"
+        )
     if not least < apart < most:
         raise InputError(
             f"the eyes are {1e3 * apart:.3g} mm apart, heads have {1e3 * least:.0f} to {1e3 * most:.0f}; glTF "

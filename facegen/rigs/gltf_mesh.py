@@ -112,13 +112,19 @@ def eyeballs(eyes: EyeMarks, parts: tuple[GltfPart, ...]) -> tuple[np.ndarray, n
         if isinstance(eye, Ball):
             center, radius = np.array(eye.center), eye.radius
         else:
-            points = np.concatenate([part.positions for part in parts if _is(part, eye)])
+            # primitives of one mesh may share their vertices, the face's among them
+            points = np.concatenate(
+                [part.positions[np.unique(part.triangles)] for part in parts if _is(part, eye)]
+            )
             if eyes.left == eyes.right:
                 x = points[:, 0]
                 points = points[(x > 0.5 * (x.min() + x.max())) == (side == 0)]
             if len(np.unique(points, axis=0)) < 10:
                 raise InputError(f"{eye!r} has {len(points)} vertices; an eyeball is fitted to at least 10")
-            center, radius = fit_sphere(points)
+            try:
+                center, radius = fit_sphere(points)
+            except np.linalg.LinAlgError:  # a flat disc, of an iris
+                center, radius = points[0], 0.0
             residual = np.sqrt(np.mean((np.linalg.norm(points - center, axis=1) - radius) ** 2))
             if not residual < BALL_RESIDUAL * radius:
                 raise InputError(

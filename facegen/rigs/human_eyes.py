@@ -61,7 +61,9 @@ def _centers(rig: Rig, side: int, identity: np.ndarray, radius: np.ndarray) -> n
     top, bottom = _height_at(upper, center[:, 0]), _height_at(lower, center[:, 0])
     center[:, 1] = top - PUPIL_SHARE * (top - bottom)
     margins = np.concatenate([upper[:, 1:-1], lower[:, 1:-1]], axis=1)
-    near = np.abs(margins[..., 0] - center[:, None, 0]) < BEFORE_IRIS_M
+    beside_m = np.abs(margins[..., 0] - center[:, None, 0])
+    # of coarse lids on wide eyes none may lie before the iris: then the nearest decide
+    near = beside_m < np.maximum(BEFORE_IRIS_M, 1.01 * beside_m.min(axis=1, keepdims=True))
     for _ in range(_STEPS):
         away = margins - center[:, None]
         length = np.linalg.norm(away, axis=-1)

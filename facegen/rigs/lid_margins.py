@@ -5,6 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 from facegen.rigs.evaluation import evaluate
+from facegen.rigs.marking import face_sides
 from facegen.rigs.rig import Rig
 
 
@@ -14,15 +15,18 @@ def lid_margins(rig: Rig, eye: int) -> tuple[np.ndarray, np.ndarray]:
 
     Both have the canthi, and what subdivision put between the cage's vertices.
     """
-    sides = np.stack([rig.faces, np.roll(rig.faces, -1, axis=1)], axis=-1).reshape(-1, 2)
+    sides = face_sides(rig.faces)[0]
     sides = np.concatenate([sides, sides[:, ::-1]])
     margins = []
     for coarse in (rig.upper_lid[eye], rig.lower_lid[eye]):
         beside = {int(vertex): set(sides[sides[:, 0] == vertex, 1].tolist()) for vertex in coarse}
         fine = [int(coarse[0])]
         for vertex, following in zip(coarse[:-1].tolist(), coarse[1:].tolist(), strict=True):
+            if following == vertex:
+                continue  # the shorter of two margins ends with its last vertex again
             if following not in beside[vertex]:
-                fine += sorted(beside[vertex] & beside[following])[:1]
+                between = beside[vertex] & beside[following]
+                fine += sorted(made for made in between if made >= rig.cage_vertices)[:1]
             fine.append(following)
         margins.append(np.array(fine))
     return margins[0], margins[1]

@@ -39,8 +39,9 @@ def crease_fields(rig: Rig) -> dict[str, np.ndarray]:
     """
     nearest, faded = np.full(len(rig.vertices), np.inf), np.zeros(len(rig.vertices))
     for margin in rig.upper_lid:
-        start, stop = rig.vertices[margin[:-1]], rig.vertices[margin[1:]]
-        step = stop - start
+        start, step = rig.vertices[margin[:-1]], np.diff(rig.vertices[margin], axis=0)
+        real = step.any(axis=1)  # the shorter of two margins ends with its last vertex again
+        start, step = start[real], step[real]
         from_start = rig.vertices[:, None] - start
         share = np.clip((from_start * step).sum(axis=-1) / (step * step).sum(axis=-1), 0.0, 1.0)
         away = from_start - share[..., None] * step

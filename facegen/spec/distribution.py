@@ -111,7 +111,7 @@ def _schema(low: float, high: float, unit: str) -> WithJsonSchema:
         }
 
     bounds = pair(number, number)
-    normal = pair(number, {"type": "number", "exclusiveMinimum": 0})
+    normal = pair({"type": "number"}, {"type": "number", "exclusiveMinimum": 0})
     return WithJsonSchema(
         {
             "anyOf": [
@@ -130,10 +130,13 @@ def quantity(low: float, high: float, unit: str) -> Any:
     def check(value: Any) -> Distribution:
         result = parse(value)
         if not low <= result.low <= result.high <= high:
+            drawn = ""
+            if result.kind == "normal" and isinstance(value, dict) and "within" not in value:
+                drawn = f"; this draws from {result.low:g} to {result.high:g}, give within"
             raise PydanticCustomError(
                 "quantity",
-                "must lie between {low} and {high} {unit}",
-                {"low": f"{low:g}", "high": f"{high:g}", "unit": unit},
+                "must lie between {low} and {high} {unit}{drawn}",
+                {"low": f"{low:g}", "high": f"{high:g}", "unit": unit, "drawn": drawn},
             )
         return result
 

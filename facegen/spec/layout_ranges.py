@@ -18,7 +18,7 @@ class LayoutRanges:
     """
 
     count: Annotated[int, Field(ge=0, le=1_000_000)] = 0
-    """Different headsets: person n wears the one of n modulo this; 0 gives everyone their own."""
+    """Different headsets of a rig: person n wears the one of n modulo this; 0 gives everyone their own."""
     eye_distance_mm: quantity(15, 120, "millimetres") = default({"uniform": [25, 60]})
     """From an eye's camera to what its axis meets."""
     eye_azimuth_deg: quantity(-80, 80, "degrees") = default({"uniform": [-20, 60]})

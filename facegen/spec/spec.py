@@ -60,7 +60,8 @@ class Sequence:
     sessions: Annotated[int, Field(ge=1, le=1000)] = 1
     """Sessions of each person: the headset is put on anew, the camera and the room are others."""
     rooms: Annotated[int, Field(ge=1, le=100)] = 3
-    """Rooms; session n of a person is in room n modulo this, and pupils are smaller from room to room."""
+    """Rooms; session n of a person is in room n modulo this, and pupils are smaller from room to room. A sequence with
+    fewer sessions never comes to the last ones."""
     neutral: Clips = Clips(count=1, seconds=2.0)
     """A neutral face, held; these frames are labelled neutral and come first."""
     peak: Clips = Clips(count=0, seconds=3.0)

@@ -29,6 +29,16 @@ def test_bench_times_each_way_or_says_why_not(run, quick_model_folder, monkeypat
             assert "on this machine" in entry["note"]
 
 
+def test_the_base_installation_times_all_but_onnx(run, quick_model_folder, monkeypatch):
+    monkeypatch.setattr(timing, "BATCH_FRAMES", 200)
+    monkeypatch.setattr(timing, "find_spec", lambda name: None)
+    code, out, err = run("bench", quick_model_folder, "--json")
+    assert code == 0, err
+    (onnx,) = (entry for entry in json.loads(out) if entry["name"].startswith("ONNX"))
+    assert onnx["microseconds"] is None
+    assert "learn extra" in onnx["note"]
+
+
 def test_bench_prints_a_line_each(run, quick_model_folder, monkeypatch):
     monkeypatch.setattr(timing, "BATCH_FRAMES", 200)
     code, out, err = run("bench", quick_model_folder)

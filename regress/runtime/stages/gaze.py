@@ -18,9 +18,9 @@ FULL_YAW_RAD, FULL_PITCH_RAD = np.radians([30.0, 25.0])
 TURN_BORNE_RAD, TURN_TOO_FAR_RAD = np.radians([15.0, 25.0])
 """Yaw of the head up to which a guess from the lids stands, and from which it is 0.
 
-On heads of another rig that turn and go on looking ahead the guess errs by .09, .10, .12 and .13 (root mean square, as
+On heads of another rig that turn and go on looking ahead the guess errs by .11, .12, .14 and .16 (root mean square, as
 detected) at 15, 20, 25 and 30 degrees; the weights of people before a screen, whose eyes turn by 5 degrees, are .12:
-beyond 25 degrees 0 is the better guess (benchmarks/gaze.py).
+beyond 20 degrees 0 is the better guess (benchmarks/gaze.py).
 """
 
 WINK_BORNE, WINK_TOO_FAR = 0.2, 0.5

@@ -81,6 +81,26 @@ def test_a_skinned_mesh_stands_where_its_joints_put_it(tmp_path: Path) -> None:
     np.testing.assert_array_equal(part.triangles, [[0, 1, 2]])
 
 
+@pytest.mark.parametrize(
+    ("scale", "order"), [([1, 1, 1], [0, 1, 2]), ([-1, 1, 1], [2, 1, 0]), ([-1, -1, 1], [0, 1, 2])]
+)
+def test_a_mirrored_node_still_shows_its_outside(
+    tmp_path: Path, scale: list[float], order: list[int]
+) -> None:
+    """glTF 2.0, 3.7.4: a negative determinant turns the winding round."""
+    path = write(
+        tmp_path / "mirrored.gltf",
+        [TRIANGLE.tobytes(), MOVED.tobytes()],
+        [{}] * 2,
+        [accessor(0, "VEC3"), accessor(1, "VEC3")],
+        meshes=[mesh()],
+        nodes=[{"mesh": 0, "scale": scale}],
+    )
+    (part,) = read_gltf(path)
+    np.testing.assert_allclose(part.positions, TRIANGLE * scale)
+    np.testing.assert_array_equal(part.triangles, [order])
+
+
 def test_interleaved_quantised_and_sparse_values_under_a_matrix(tmp_path: Path) -> None:
     both = np.concatenate([TRIANGLE, MOVED], axis=1)
     quantised = np.array([[0, 0], [65535, 0], [0, 65535]], "<u2")

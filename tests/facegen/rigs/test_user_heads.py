@@ -1,6 +1,7 @@
 """A user's glTF head becomes a rig, and what is wrong with its files is said in one sentence."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,13 +15,16 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.errors import InputError
 from facegen.formats.gltf import read_gltf
 from facegen.labels import label_keypoints
+from facegen.labels.contour import paths_of
 from facegen.rigs import Rig, evaluate, load_rig
 from facegen.rigs.building import add_rig
 from facegen.rigs.gltf_mesh import blendshape_sources
 from facegen.rigs.human_eyes import EYE_RADIUS_M
 from facegen.rigs.lash_strips import lash_strips
+from facegen.rigs.lid_margins import lid_margins
 from facegen.sampling import draw_samples
 from facegen.sampling.plan import plan_dataset
+from facegen.scene.lids import crease_fields
 from facegen.spec import parse_spec
 from facegen.store import column_array, keypoint_schema, keypoint_table, write_shard
 from tests.facegen.rigs.glb_head import write_head
@@ -61,6 +65,38 @@ def test_landmarks_are_those_of_the_head_that_was_written(anny: Rig, glb: Rig, f
     assert offset[:, lids].max() < 2.5e-4
     assert glb.components == 0
     assert glb.licence == "CC0-1.0"
+
+
+@pytest.mark.parametrize("turns", [0, 1, 2])
+def test_margins_are_those_that_were_marked_whichever_corner_a_triangle_begins_with(glb: Rig, turns: int):
+    """And a margin that is shorter than its other side's, which ends with its last vertex twice."""
+    faces = np.concatenate([np.roll(glb.faces[:, :3], turns, axis=1), glb.faces[:, 3:]], axis=1)
+    assert (faces[:, 3] < 0).all()
+    padded = [np.concatenate([lids, lids[:, -1:]], axis=1) for lids in (glb.upper_lid, glb.lower_lid)]
+    rig = replace(glb, faces=faces, upper_lid=padded[0], lower_lid=padded[1])
+    for eye in range(2):
+        for found, marked in zip(
+            lid_margins(rig, eye), (glb.upper_lid[eye], glb.lower_lid[eye]), strict=True
+        ):
+            assert found.tolist() == list(dict.fromkeys(marked.tolist()))
+    for name, field in crease_fields(rig).items():
+        np.testing.assert_array_equal(field, crease_fields(glb)[name])
+        assert np.isfinite(field).all()
+
+
+def test_a_landmark_of_five_vertices_slides(glb: Rig):
+    """The paths of `sliding_contour` go over triangles, of three."""
+    more = np.zeros((68, 5 - glb.landmark_vertices.shape[1]))
+    rig = replace(
+        glb,
+        landmark_vertices=np.concatenate([glb.landmark_vertices, more.astype(np.int64)], axis=1),
+        landmark_weights=np.concatenate([glb.landmark_weights, more], axis=1),
+    )
+    there = paths_of(glb)
+    paths = paths_of(rig)
+    assert paths.vertices.shape[2] == 5
+    points = [(p.weights[..., None] * glb.vertices[p.vertices]).sum(axis=2) for p in (paths, there)]
+    np.testing.assert_allclose(*points, atol=1e-12)
 
 
 def test_the_list_of_rigs_says_what_is_built_and_what_was_added(files, tmp_path: Path, monkeypatch) -> None:
