@@ -1,14 +1,24 @@
 """`adapt` changes last layers where held-out frames get better by it, and refuses to where they do not."""
 
+import csv
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from regress.learning.headset.adaptation import Heads, HeldOut, KnownFrames, changes, judge
+from regress.learning.headset.adaptation import (
+    Heads,
+    HeldOut,
+    KnownFrames,
+    adapted_graph,
+    changes,
+    judge,
+    read_heads,
+)
 from regress.runtime.headset.outputs import MIRROR
 from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.ready_made import model_folder
 
 SAMPLES = Path(__file__).parents[3] / "docs" / "samples"
 TAKE = SAMPLES / "headset"
@@ -75,6 +85,34 @@ def test_noise_is_refused_and_a_larger_pull_changes_less():
     assert sizes == sorted(sizes, reverse=True)
 
 
+@pytest.mark.slow
+def test_the_graph_with_other_heads_says_what_the_heads_say():
+    """Rows and their biases, of a camera that sees a mirrored face too."""
+    predictor, random = load_headset_predictor("headset-tracking3"), np.random.default_rng(3)
+    graph = (model_folder("headset-tracking3") / "network.onnx").read_bytes()
+    pictures = {
+        name: random.integers(0, 256, (6, height, width), dtype=np.uint8)
+        for name, (width, height) in predictor.sizes.items()
+    }
+    before = read_heads(graph, predictor.model, pictures, None)
+    shapes = [
+        BLENDSHAPE_INDEX[name] for name in ("browInnerUp", "eyeBlinkLeft", "jawOpen", "mouthSmileRight")
+    ]
+    design, keys = before.design(shapes, np.arange(6))
+    change = {key: 0.2 * random.standard_normal(before._width(key[0])) for key in keys}
+    for added in change.values():
+        added[:-1] /= np.sqrt(len(added))
+    moved = (design @ np.concatenate([change[key] for key in keys])).reshape(len(shapes), 6).T
+    after = read_heads(adapted_graph(graph, before, change), predictor.model, pictures, None)
+    wanted = before.weights[:, shapes] + moved
+    inside = (np.minimum(before.weights[:, shapes], wanted) > 0.01) & (
+        np.maximum(before.weights[:, shapes], wanted) < 0.99
+    )
+    assert inside.mean() > 0.2
+    np.testing.assert_allclose(after.weights[:, shapes][inside], wanted[inside], atol=2e-3)
+    assert np.abs(moved[inside]).max() > 0.02
+
+
 def table_of(path: Path, change) -> Path:
     lines = (SAMPLES / "headset.weights.csv").read_text().splitlines()
     names = lines[0].split(",")
@@ -86,6 +124,21 @@ def table_of(path: Path, change) -> Path:
     ]
     path.write_text("\n".join([",".join(["frame", *BLENDSHAPES]), *rows]) + "\n")
     return path
+
+
+def error_of(run, model: str | Path, truth: Path, folder: Path) -> float:
+    """Mean error of all weights of a model that runs by its own graph, beside the rest."""
+    code, _, said = run("headset", "predict", model, *CAMERAS, "--neutral", 0, "--out", folder / "found.csv")
+    assert code == 0, said
+    found, known = (
+        list(csv.DictReader(path.read_text().splitlines())) for path in (folder / "found.csv", truth)
+    )
+    rows = {row["frame"]: row for row in known}
+    return float(
+        np.mean(
+            [abs(float(row[name]) - float(rows[row["frame"]][name])) for row in found for name in BLENDSHAPES]
+        )
+    )
 
 
 @pytest.mark.slow
@@ -102,6 +155,8 @@ def test_a_persons_model_is_written_and_says_what_was_promised(run, tmp_path: Pa
         float(word.rstrip(",")) for word in said.split("err by ")[1].replace("and by ", "").split()[:2]
     )
     assert after < 0.9 * before
+    errors = [error_of(run, model, table, tmp_path) for model in ("headset-tracking3", tmp_path / "anna")]
+    assert errors[1] < 0.9 * errors[0], "the graph that was written has the heads that were judged"
     code, _, told = run("headset", "adapt", *CAMERAS, "--rest", "0-9", "--out", tmp_path / "other")
     assert (code, "one or two faces cannot be adapted to" in told) == (2, True)
 

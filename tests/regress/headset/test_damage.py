@@ -4,6 +4,7 @@ import hashlib
 import json
 import shutil
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from regress.exporters.headset_interface import interface_of
 from regress.learning.headset.arrays import read_arrays
 from regress.report.headset_page import write_headset_report
 from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.onnx_file import MOST_NODES, graph_fault
 from tests.regress.headset.tiny import NAMES, tiny_graph, write_tiny_model
 from tests.regress.test_model_damage import OTHER, paths_of, set_at
 
@@ -179,6 +181,42 @@ def test_graphs_that_are_not_the_models_are_refused_in_one_sentence(
 ):
     refused(resealed(tiny, graph=GRAPHS[damage]))
     assert capfd.readouterr() == ("", "")
+
+
+def sparse(model: onnx.ModelProto, *, elsewhere: bool) -> None:
+    """A weight of which most is zero; its numbers may lie in another file."""
+    values = helper.make_tensor("sparse", TensorProto.FLOAT, [1], [1.0])
+    if elsewhere:
+        values.ClearField("float_data")
+        values.data_location = TensorProto.EXTERNAL
+        values.external_data.add(key="location", value="/etc/passwd")
+    places = helper.make_tensor("places", TensorProto.INT64, [1], [0])
+    model.graph.sparse_initializer.append(helper.make_sparse_tensor(values, places, [4]))
+
+
+def crowded(model: onnx.ModelProto, *, nodes: int) -> None:
+    del model.graph.node[:]
+    model.graph.node.extend([helper.make_node("Identity", ["one"], ["other"])] * nodes)
+
+
+@pytest.mark.parametrize(
+    ("graph", "said"),
+    [
+        (GRAPHS["a branch"], "an operator 'If' with a graph of its own"),
+        (GRAPHS["an operator of another domain"], "of the domain 'com.microsoft'"),
+        (GRAPHS["functions"], "defines functions of its own"),
+        (GRAPHS["numbers in another file"], "keeps numbers in other files"),
+        (GRAPHS["numbers of a constant in another file"], "keeps numbers in other files"),
+        (changed(partial(sparse, elsewhere=True)), "keeps numbers in other files"),
+        (changed(partial(sparse, elsewhere=False)), None),
+        (changed(partial(crowded, nodes=MOST_NODES)), None),
+        (changed(partial(crowded, nodes=MOST_NODES + 1)), "has 100,001 nodes; at most 100,000 are run"),
+        (tiny_graph(SIDE, SIDE, 1.0), None),
+    ],
+)
+def test_what_is_not_run_is_named_before_anything_runs_it(graph: bytes, said: str | None):
+    fault = graph_fault(graph)
+    assert fault is None if said is None else said in fault
 
 
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
