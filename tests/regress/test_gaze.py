@@ -21,6 +21,7 @@ from regress.runtime.heads.camera import CameraSettings, FaceCamera
 from regress.runtime.heads.eyes import CORNERS, MEAN_EYES, REACH_M, gaze_angles, own_eyes
 from regress.runtime.heads.fit import FACING, HeadPoses
 from regress.runtime.inputs import read_frames, read_lines
+from regress.runtime.model import Model
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, Looks, gaze_of, look_weights, yaw_of
 from regress.runtime.stages.head import HeadPose, HeadSettings
@@ -257,7 +258,7 @@ def test_from_irises_to_a_table(kind: str, run, quick_model_folder: Path, tmp_pa
     assert rows[4]["left_eye_yaw_deg"] != ""
 
 
-def test_who_keeps_guesses(run, quick_model_folder: Path, tmp_path: Path):
+def test_who_keeps_guesses(run, quick_model: Model, quick_model_folder: Path, tmp_path: Path):
     """--keep-guessed-gaze leaves the networks' weights; without it only the eight shapes differ."""
     np.save(tmp_path / "take.npy", np.array([seen(np.radians([30.0, 0, 0]), np.zeros(4))[0]]))
     tables = [
@@ -265,6 +266,10 @@ def test_who_keeps_guesses(run, quick_model_folder: Path, tmp_path: Path):
         for more in ((), ("--keep-guessed-gaze",))
     ]
     changed = {name for name, cell in tables[0].items() if cell != tables[1][name]}
+    networks = quick_model.predict(np.load(tmp_path / "take.npy"))[0]
+    kept = [float(tables[1][BLENDSHAPES[index]]) for index in LOOKS]
+    assert kept == pytest.approx(networks[list(LOOKS)], abs=1e-5)
+    assert changed
     assert changed <= {BLENDSHAPES[index] for index in LOOKS}
     assert all(float(tables[0][BLENDSHAPES[index]]) == 0 for index in LOOKS)
 

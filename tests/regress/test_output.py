@@ -21,6 +21,7 @@ from regress.runtime.stages.adjustment_file import read_adjustments
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
 from regress.runtime.stages.smoothing import OneEuroFilter, OneEuroSmoothing, by_region
+from regress.runtime.stages.stage import Chain
 from regress.runtime.writers.csv_table import csv_lines
 from tests.regress.drawn import drawn_face, drawn_faces, in_pictures
 
@@ -173,6 +174,16 @@ def test_a_bad_adjustment_file_is_refused(content: str, said: str, tmp_path):
     assert said in str(caught.value)
 
 
+def test_shapes_are_adjusted_before_they_are_mirrored():
+    """A profile is of the person's own sides."""
+    left, right = (BLENDSHAPE_INDEX[f"mouthSmile{side}"] for side in ("Left", "Right"))
+    weights = np.zeros(52)
+    weights[[left, right]] = 0.8, 0.2
+    halved = {"mouthSmileLeft": ShapeAdjustment(gain=0.5)}
+    (sample,) = Chain(Output(adjustments=halved, mirror=True).stages()).run([Sample(weights=weights)])
+    assert sample.weights[[left, right]] == pytest.approx([0.2, 0.4])
+
+
 def test_the_command_does_it_in_order(run, quick_model: Model, quick_model_folder, tmp_path):
     frames = drawn_faces(np.random.default_rng(4), 12)
     np.save(tmp_path / "take.npy", frames)
@@ -221,6 +232,7 @@ def test_a_pipe_gives_what_a_file_gives(run, quick_model: Model, quick_model_fol
     header, *rows = out.splitlines()
     assert header.split(",") == ["frame", *BLENDSHAPES]
     assert rows[2] == "3" + "," * 52
+    assert [row.endswith(",,") for row in rows] == [number == 2 for number in range(6)]
     for row, weights in zip(rows, expected, strict=True):
         if not row.endswith(",,"):
             assert np.allclose([float(cell) for cell in row.split(",")[1:]], weights, atol=1e-6)
