@@ -141,6 +141,30 @@ def test_dlib_faces_are_called_by_picture_and_number(tmp_path: Path):
     frames = read_frames(path)
     assert frames.labels == ("1.jpg", "1.jpg/2", "2.jpg", "2.jpg/2")
     assert frames.usable.tolist() == [True, True, True, False]
+    assert {face: rows.tolist() for face, rows in frames.takes().items()} == {"1": [0, 2], "2": [1, 3]}
+    assert frames.at_rate(10).time_s == pytest.approx([0, 0, 0.1, 0.1])
+
+
+@pytest.mark.parametrize(
+    ("tracks", "takes"),
+    [
+        (None, {"1": [0, 2], "2": [1]}),
+        ([7, 8, 8], {"7": [0], "8": [1, 2]}),
+        ([7, 7, 8], {"1": [0, 2], "2": [1]}),  # one person twice in a picture
+        ([7, None, 8], {"1": [0, 2], "2": [1]}),
+    ],
+)
+def test_coco_faces_of_one_picture_are_takes_of_their_own(tracks: list | None, takes: dict, tmp_path: Path):
+    path = _coco(tmp_path / "a.json")
+    document = json.loads(path.read_text())
+    for number, annotation in enumerate(document["annotations"]):
+        annotation["image_id"] = document["images"][number // 2]["id"]
+        if tracks is not None:
+            annotation["track_id"] = tracks[number]
+    path.write_text(json.dumps(document))
+    frames = read_frames(path)
+    assert {face: rows.tolist() for face, rows in frames.takes().items()} == takes
+    assert frames.at_rate(10).time_s == pytest.approx([0, 0, 0.1])
 
 
 def test_coco_points_that_are_not_labelled_are_missing(tmp_path: Path):

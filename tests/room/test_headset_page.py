@@ -124,6 +124,12 @@ async def worn(folder: Path) -> dict[str, object]:
         sent = await tab.ask("meeting.line.sequence")
         left = await seen(lambda it: it.sequence > sent)
         found["left behind"] = math.dist(left.floor_m, walked.floor_m)
+        found["field"] = await tab.ask("meeting.stage.view.camera.fov")
+        await tab.ask("document.querySelector('#headset').click()")
+        await tab.until("meeting.presence.headset.worn")
+        await tab.ask("document.querySelector('#leave').click()")
+        await tab.until("!meeting.presence.headset.worn")
+        found["offered"] = await tab.ask("document.querySelector('#headset').checkVisibility()")
         # Chromium's own part is switched off, and it wonders about the word for it in our headers
         found["complaints"] = [line for line in tab.complaints if "xr-spatial-tracking" not in line]
         return found
@@ -163,3 +169,8 @@ def test_a_stick_walks_where_one_looks_and_the_page_goes_on_there(found):
     assert math.degrees(math.atan2(*found["walked"])) == pytest.approx(found["looks"], abs=3)
     assert found["left behind"] <= 0.015
     assert found["complaints"] == []
+
+
+def test_the_pages_view_is_that_of_before_and_who_leaves_the_meeting_leaves_the_headset(found):
+    assert found["field"] == 50
+    assert not found["offered"]

@@ -80,6 +80,7 @@ export class Brought {
 
   /** Say nothing any more: the meeting is over. */
   end(): void {
+    this.file = undefined;
     this.tell("");
   }
 
@@ -125,7 +126,8 @@ export class Brought {
     if (!answer || BUSY.includes(answer.status)) {
       this.tell(`${name} is not shown to the others yet: ${why}; it is tried again.`);
       const { file } = this;
-      setTimeout(() => this.file === file && void this.send(), 1000 * (10 + 30 * Math.random()));
+      this.digest = undefined;
+      setTimeout(() => this.file === file && !this.digest && void this.send(), 1000 * (10 + 30 * Math.random()));
       return false;
     }
     this.file = undefined;

@@ -49,7 +49,7 @@ export class Headset {
   ) {
     button.addEventListener("click", () => void (this.session ? this.session.end() : this.enter()));
     // the button is there only where a headset is
-    void navigator.xr?.isSessionSupported("immersive-vr").then((supported) => (button.hidden = !supported));
+    void navigator.xr?.isSessionSupported("immersive-vr").then((supported) => (button.hidden = !supported || this.over));
   }
 
   /** The meeting is over: nothing is left to be seen in a headset. */

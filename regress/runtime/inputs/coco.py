@@ -12,7 +12,7 @@ from facegen.documents import load_json
 from facegen.formats.natural_order import NaturalOrder, natural_order
 from regress.errors import InputError
 from regress.runtime.documents import checked
-from regress.runtime.inputs.frames import Frames, stacked
+from regress.runtime.inputs.frames import Frames, of_pictures, stacked
 
 _MOST_BYTES = 256 * 1024**2
 """Some 100,000 annotations; as Python's numbers they take four times as much memory."""
@@ -32,6 +32,7 @@ class _Annotation:
     image_id: _Id
     keypoints: Any = None
     face_kpts: Any = None
+    track_id: _Id | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +51,8 @@ def is_coco(path: Path) -> bool:
 def read_coco(path: Path) -> Frames:
     """Every annotation is a frame, by image and annotation id; points with v = 0 are missing.
 
-    A frame is called by its picture's file name, or ``name/ID`` where a picture has several annotations.
+    A frame is called by its picture's file name, or ``name/ID`` where a picture has several annotations. Each face of
+    such pictures is a take of its own, by ``track_id`` where all have one, else by its place among those of a picture.
     """
     try:
         document = checked(_Coco, load_json(path, most_bytes=_MOST_BYTES))
@@ -69,7 +71,16 @@ def read_coco(path: Path) -> Frames:
         name = names.get(entry.image_id, str(entry.image_id))
         labels.append(name if faces[entry.image_id] == 1 else f"{name}/{entry.id}")
     points = stacked((_face(entry, path) for entry in annotations), path)
-    return Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
+    frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
+    return of_pictures(frames, [entry.image_id for entry in annotations], _tracks(annotations))
+
+
+def _tracks(annotations: list[_Annotation]) -> list[str] | None:
+    """Which person each face is, where a file follows them from picture to picture."""
+    tracks = [(entry.image_id, entry.track_id) for entry in annotations]
+    if any(track is None for _, track in tracks) or len(set(tracks)) < len(tracks):
+        return None
+    return [str(track) for _, track in tracks]
 
 
 def _order(key: _Id) -> tuple[bool, int | NaturalOrder]:

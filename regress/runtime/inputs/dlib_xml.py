@@ -8,7 +8,7 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames, stacked
+from regress.runtime.inputs.frames import Frames, of_pictures, stacked
 
 _CHUNK_BYTES = 64 * 1024
 """Read at a time: nothing but faces is kept, whatever else the file holds."""
@@ -20,19 +20,22 @@ def is_dlib_xml(path: Path) -> bool:
 
 
 def read_dlib_xml(path: Path) -> Frames:
-    """Every box is a frame: ``picture.jpg``, or ``picture.jpg/2`` for the second box of a picture.
+    """Every box is a frame: ``picture.jpg``, or ``picture.jpg/2`` for the second box of a picture; a take of its own.
 
     A box without parts has no face; parts are counted from 0 by name, missing ones are NaN.
     """
     labels: list[str] = []
+    pictures: list[int] = []
 
     def faces() -> Iterator[np.ndarray]:
-        for label, face in _boxes(path):
+        for label, picture, face in _boxes(path):
             labels.append(label)
+            pictures.append(picture)
             yield face
 
     points = stacked(faces(), path)
-    return Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
+    frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
+    return of_pictures(frames, pictures)
 
 
 class _Reading:
@@ -40,10 +43,10 @@ class _Reading:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.whole: list[tuple[str, np.ndarray]] = []
+        self.whole: list[tuple[str, int, np.ndarray]] = []
         self.found = False
         self._image: str | None = None
-        self._boxes = 0
+        self._images = self._boxes = 0
         self._face: np.ndarray | None = None
 
     def doctype(self, *_: object) -> None:
@@ -55,6 +58,7 @@ class _Reading:
     def start(self, tag: str, attributes: Mapping[str, str]) -> None:
         if tag == "image" and self._image is None:
             self._image, self._boxes = attributes.get("file", ""), 0
+            self._images += 1
         elif tag == "box" and self._image is not None and self._face is None:
             self._boxes += 1
             self._face = np.full((LANDMARK_COUNT, 2), np.nan)
@@ -64,7 +68,7 @@ class _Reading:
     def end(self, tag: str) -> None:
         if tag == "box" and self._face is not None:
             name = self._image if self._boxes == 1 else f"{self._image}/{self._boxes}"
-            self.whole.append((name, self._face))
+            self.whole.append((name, self._images, self._face))
             self.found, self._face = True, None
         elif tag == "image" and self._face is None:
             self._image = None
@@ -84,8 +88,8 @@ class _Reading:
         self._face[index] = place
 
 
-def _boxes(path: Path) -> Iterator[tuple[str, np.ndarray]]:
-    """Name and face (68, 2) of each box, as the file is read."""
+def _boxes(path: Path) -> Iterator[tuple[str, int, np.ndarray]]:
+    """Name, number of the picture and face (68, 2) of each box, as the file is read."""
     reading, parser = _Reading(path), expat.ParserCreate()
     parser.StartDoctypeDeclHandler = reading.doctype
     parser.StartElementHandler, parser.EndElementHandler = reading.start, reading.end

@@ -1,6 +1,7 @@
 """Frames of landmarks, whatever file they came from."""
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
@@ -85,6 +86,27 @@ class Frames:
             Sample(label=label, time_s=time, points=points, irises=irises)
             for label, time, points, irises in zip(self.labels, times, self.points, eyes, strict=True)
         ]
+
+
+def of_pictures(frames: Frames, pictures: Sequence[Hashable], faces: Sequence[str] | None = None) -> Frames:
+    """The frames with the pictures they are of, in whose order they are, where some picture has several faces.
+
+    Parameters
+    ----------
+    frames
+        Without ``numbers`` and ``faces``.
+    pictures
+        What each is of.
+    faces
+        Which of the faces each is; by default its place among those of its picture, from 1.
+    """
+    if len(set(pictures)) == len(pictures):
+        return frames
+    rank = {picture: number for number, picture in enumerate(dict.fromkeys(pictures))}
+    if faces is None:
+        seen: Counter[Hashable] = Counter()
+        faces = [str(seen.update([picture]) or seen[picture]) for picture in pictures]
+    return replace(frames, numbers=np.array([rank[picture] for picture in pictures]), faces=tuple(faces))
 
 
 def split_irises(points: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
