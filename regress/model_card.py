@@ -86,7 +86,7 @@ def card_markdown(name: str, folder: Path) -> str:
         f"| {file} | `{_sha256(folder / file)}` | {(folder / file).stat().st_size:,} |"
         for file in ("model.json", kind.numbers)
     )
-    drawn = kind is HEADSET and read_headset_model(folder).camera_terms
+    drawn = kind is HEADSET and read_headset_model(folder).of_many_headsets
     template = (
         resources.files("regress") / "data" / "cards" / ("headset-any.md" if drawn else f"{kind.name}.md")
     )

@@ -18,7 +18,14 @@ from regress.cli.headset_faces import (
     Take,
     Wide,
 )
-from regress.cli.options import BitsOption, LeftEyeOption, MouthOption, RightEyeOption
+from regress.cli.options import (
+    BitsOption,
+    FpsOption,
+    FromStartOption,
+    LeftEyeOption,
+    MouthOption,
+    RightEyeOption,
+)
 from regress.errors import InputError
 
 
@@ -48,6 +55,8 @@ def adapt(
     left_eye: LeftEyeOption = None,
     right_eye: RightEyeOption = None,
     mouth: MouthOption = None,
+    from_start: FromStartOption = False,
+    fps: FpsOption = None,
     bits: BitsOption = None,
     placement: Placement = None,
 ) -> None:
@@ -84,6 +93,8 @@ def adapt(
         (rest, shut, wide, jaw_open, lips_rolled, smile, cheeks, brows_up, pucker),
         camera or [],
         {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth},
+        from_start=from_start,
+        fps=fps,
         bits=bits,
         placement=placement,
         labels=weights,

@@ -19,7 +19,15 @@ from regress.cli.headset_faces import (
     Take,
     Wide,
 )
-from regress.cli.options import BitsOption, HeadsetOption, LeftEyeOption, MouthOption, RightEyeOption
+from regress.cli.options import (
+    BitsOption,
+    FpsOption,
+    FromStartOption,
+    HeadsetOption,
+    LeftEyeOption,
+    MouthOption,
+    RightEyeOption,
+)
 from regress.errors import InputError
 
 
@@ -59,6 +67,8 @@ def calibrate(
     left_eye: LeftEyeOption = None,
     right_eye: RightEyeOption = None,
     mouth: MouthOption = None,
+    from_start: FromStartOption = False,
+    fps: FpsOption = None,
     bits: BitsOption = None,
     placement: Placement = None,
     headset: HeadsetOption = None,
@@ -90,6 +100,8 @@ def calibrate(
         {"left_eye": left_eye, "right_eye": right_eye, "mouth": mouth},
         looked_at=looked_at or [],
         distance_m=distance_m,
+        from_start=from_start,
+        fps=fps,
         bits=bits,
         placement=placement,
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from facegen.formats.film import FILMS
 from regress.errors import InputError
 
 if TYPE_CHECKING:
@@ -53,6 +54,8 @@ def read_minute(
     *,
     looked_at: Sequence[str] = (),
     distance_m: float = float("inf"),
+    from_start: bool = False,
+    fps: float | None = None,
     bits: int | None = None,
     placement: Path | None = None,
     labels: Path | None = None,
@@ -69,6 +72,8 @@ def read_minute(
         ``FRAME:YAW:PITCH`` of frames of ``look``.
     distance_m
         Of what was looked at there.
+    from_start, fps
+        Whether cameras' first frames are matched, and their rate, which goes before that of films.
     placement
         TOML with the cameras' places.
     labels
@@ -90,7 +95,9 @@ def read_minute(
     places = {} if placement is None else read_placement(placement, predictor.model)
 
     def read(cameras: dict[str, Path]) -> "Footage":
-        return read_footage(predictor, None, cameras, from_start=False, fps=None, bits=bits, placement=places)
+        return read_footage(
+            predictor, None, cameras, from_start=from_start, fps=fps, bits=bits, placement=places
+        )
 
     targets = targets_of(looked_at)
     if targets and LOOK not in named:
@@ -207,9 +214,14 @@ def _cameras_in(folder: Path, predictor: "HeadsetPredictor", option: str) -> dic
     """A face's folder of pictures or film of each camera, by the camera's name."""
     found = {}
     for name in predictor.sizes:
-        films = sorted(folder.glob(f"{name}.*")) if folder.is_dir() else []
+        beside = sorted(folder.glob(f"{name}.*")) if folder.is_dir() else []
+        films = [path for path in beside if path.suffix.lower() in FILMS]
         if (folder / name).is_dir():
             found[name] = folder / name
+        elif len(films) > 1:
+            raise InputError(
+                f"{option} {folder}: {' and '.join(path.name for path in films)} are of one camera; keep one"
+            )
         elif films:
             found[name] = films[0]
     if not found:

@@ -36,10 +36,8 @@ def tell_of(footage: Footage, predictor: HeadsetPredictor, *, strict: bool) -> N
     if strict and not footage.present[:, footage.recorded].all():
         raise InputError(f"{'; '.join(footage.notes)}; without --strict the other cameras' pictures count")
     # a network of many headsets has no mean picture that says how an eye lies
-    drawn = bool(predictor.model.camera_terms)
-    turned = (
-        told_by_compass(footage, eye_compass()) if drawn else told_orientation(footage, predictor.typical)
-    )
+    many = predictor.model.of_many_headsets
+    turned = told_by_compass(footage, eye_compass()) if many else told_orientation(footage, predictor.typical)
     for note in (*footage.notes, *turned):
         say(note)
 

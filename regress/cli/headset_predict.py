@@ -14,6 +14,8 @@ from regress.cli.options import (
     FilterName,
     FilterOption,
     FormatOption,
+    FpsOption,
+    FromStartOption,
     HeadsetOption,
     LeftEyeOption,
     MirrorOption,
@@ -44,12 +46,7 @@ def predict(
     left_eye: LeftEyeOption = None,
     right_eye: RightEyeOption = None,
     mouth: MouthOption = None,
-    from_start: Annotated[
-        bool,
-        typer.Option(
-            "--from-start", help="Match first frames, not numbers: eyes of one take, mouth of another."
-        ),
-    ] = False,
+    from_start: FromStartOption = False,
     bits: BitsOption = None,
     placement: Annotated[
         Path | None,
@@ -101,10 +98,7 @@ def predict(
     smooth: SmoothOption = 1,
     cutoff_hz: OneEuroOption = None,
     beta: BetaOption = OneEuro.beta,
-    fps: Annotated[
-        float | None,
-        typer.Option("--fps", min=1e-3, max=1e6, help="Frames a second; goes before a film's own."),
-    ] = None,
+    fps: FpsOption = None,
     adjust: Annotated[
         Path | None,
         typer.Option(

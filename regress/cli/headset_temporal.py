@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from facegen.console import say
+from regress.errors import InputError
 
 _COLUMNS = {"geometry_mm": "mm", "r2": "R2", "blink_r2": "blink R2", "gaze_deg": "gaze deg", "shake": "shake"}
 
@@ -27,13 +28,19 @@ def temporal(
     from regress.learning.headset.taps import fit_temporal
     from regress.runtime.headset.folder import describe_headset_model
     from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.ready_made import model_folder, ready_made_models
 
-    predictor, arrays = load_headset_predictor(model), read_arrays(clips)
+    folder = model_folder(model)
+    if folder in ready_made_models().values():
+        raise InputError(
+            f"{model} comes with the package, which is not written into; copy {folder} and name the copy"
+        )
+    predictor, arrays = load_headset_predictor(folder), read_arrays(clips)
     found = fit_temporal(predictor, arrays)
     worn = arrays.description["headset"]
     if worn != predictor.model.headset:
         say(f"the clips are of the headset {worn}, and the model's is {predictor.model.headset}")
-    describe_headset_model(replace(predictor.model, temporal=found), model)
+    describe_headset_model(replace(predictor.model, temporal=found), folder)
     typer.echo(f"{'':<14} " + " ".join(f"{title:>9}" for title in _COLUMNS.values()))
     for name, figures in found.scores.items():
         values = (getattr(figures, column) for column in _COLUMNS)

@@ -151,6 +151,14 @@ HeadsetOption = Annotated[
     ),
 ]
 
+FromStartOption = Annotated[
+    bool,
+    typer.Option("--from-start", help="Match first frames, not numbers: eyes of one take, mouth of another."),
+]
+FpsOption = Annotated[
+    float | None,
+    typer.Option("--fps", min=1e-3, max=1e6, help="Frames a second; goes before a film's own."),
+]
 BitsOption = Annotated[
     int | None,
     typer.Option(

@@ -7,7 +7,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError
 from regress.learning.headset.adaptation import KnownFrames
-from regress.runtime.headset.guided import FACES, LOOK, REST, GuidedTake, neutral_row
+from regress.runtime.headset.guided import FACES, LOOK, REST, WAY_INTO_FACE, GuidedTake, neutral_row
 from regress.runtime.headset.predictor import HeadsetPredictor
 
 STRETCHES = 8
@@ -44,7 +44,11 @@ def known_frames(
     """
     if REST not in takes:
         raise InputError("--rest is needed: frames are compared with it")
-    stacks = [_thinned(takes[face].pictures, _MOST_OF_FACE)[0] for face in takes if face != LOOK]
+    stacks = [
+        _thinned(takes[face].pictures, _MOST_OF_FACE, first=0.0 if face == REST else WAY_INTO_FACE)[0]
+        for face in takes
+        if face != LOOK
+    ]
     faces = [face for face in takes if face != LOOK]
     parts = [_of_face(face, shown) for face, shown in zip(faces, stacks, strict=True)]
     if labelled is not None:
@@ -77,10 +81,13 @@ def known_frames(
     return pictures, neutral, frames
 
 
-def _thinned(pictures: Mapping[str, np.ndarray], most: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Pictures of as many frames at most, and which ones."""
+def _thinned(
+    pictures: Mapping[str, np.ndarray], most: int, *, first: float = 0.0
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """Pictures of as many frames at most, and which ones; none of the ``first`` share."""
     count = len(next(iter(pictures.values())))
-    chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+    start = int(first * count)
+    chosen = np.unique(np.linspace(start, count - 1, min(count - start, most)).round().astype(int))
     return {name: frames[chosen] for name, frames in pictures.items()}, chosen
 
 

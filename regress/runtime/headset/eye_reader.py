@@ -102,20 +102,28 @@ class EyeReader:
         """
         openness_mm, openness, pupil = np.full((3, 2), np.nan)
         self._frame += 1
-        gaze_deg, variance = np.degrees(gaze_rad).reshape(2, 2), np.full(2, _UNSEEN_DEG**2)
+        direct = np.degrees(gaze_rad).reshape(2, 2)
+        gaze_deg, variance = direct.copy(), np.full(2, _UNSEEN_DEG**2)
         for name, eye in self._eyes.items():
             if name not in points or name not in pictures:
                 continue
             side, seen = self.sides[name], points[name].astype(np.float64)
             diameter = self._diameter(name, seen)
             own = self._own.get(name, OwnEye())
-            openness_mm[side] = IRIS_MM * _apart(seen, eye) / diameter
+            apart_mm = IRIS_MM * _apart(seen, eye) / diameter
             known = own if own.rest_mm is not None and own.shut_mm is not None else self._usual[name]
-            openness[side] = known.openness(openness_mm[side])
-            pupil[side] = self._pupil(name, pictures[name], seen)
-            gaze_deg[side] = self._own_gaze(name, own, seen, diameter, gaze_deg[side])
-            hidden = np.clip(1 - openness[side] / HALF_SHUT, 0, 1) if np.isfinite(openness[side]) else 0.0
-            variance[side] = own.error_deg**2 + (HIDDEN_DEG * hidden) ** 2
+            open_to, pupil_to = known.openness(apart_mm), self._pupil(name, pictures[name], seen)
+            hidden = np.clip(1 - open_to / HALF_SHUT, 0, 1) if np.isfinite(open_to) else 0.0
+            error = own.error_deg**2 + (HIDDEN_DEG * hidden) ** 2
+            if not error < variance[side]:
+                continue  # another camera of this eye is surer
+            openness_mm[side], openness[side], pupil[side], variance[side] = (
+                apart_mm,
+                open_to,
+                pupil_to,
+                error,
+            )
+            gaze_deg[side] = self._own_gaze(name, own, seen, diameter, direct[side])
         met = meeting(gaze_deg[None], variance)[0]
         measured = EyeMeasures(openness_mm=openness_mm, openness=openness, pupil=pupil)
         return measured, np.radians(met).ravel()

@@ -10,7 +10,7 @@ from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.found_placement import FoundPlacement
-from regress.runtime.headset.looks import TakeLooks, looks_of
+from regress.runtime.headset.looks import MEASURED_FRAMES, TakeLooks, evenly, looks_of
 from regress.runtime.headset.misfits import Finding, Misfit, light_findings, lost, place_findings, turned
 from regress.runtime.headset.orientation import told_orientation
 from regress.runtime.headset.parts import mirror_partner
@@ -24,6 +24,9 @@ FEWEST_FRAMES = 20
 
 _SAME_PICTURES = 0.97
 """Correlation over pixels and frames from which two cameras show one picture."""
+
+_COMPARED, _COMPARED_PX = 32, 160
+"""Frames that are compared for it, and pixels of their longer side: all of a minute's take tens of gigabytes."""
 
 _PLACES = (Misfit.MIRRORED, Misfit.UPSIDE_DOWN, Misfit.SIDEWAYS, Misfit.PLACED, Misfit.LOST)
 """What a placement makes good."""
@@ -82,7 +85,8 @@ def _judge_camera(
     found = find_placement(predictor, name, pictures) if traces_an_eye(predictor, name) else None
     placement = CameraPlacement() if found is None else found.placement
     width, height = predictor.sizes[name]
-    looks = looks_of(np.stack([placement.view(one, width=width, height=height) for one in pictures]))
+    measured = pictures[evenly(len(pictures), MEASURED_FRAMES)]
+    looks = looks_of(np.stack([placement.view(one, width=width, height=height) for one in measured]))
     # what lies outside of the picture is repeated and moves with its edge: a rim and the lamps are seen in all of it
     whole = looks_of(pictures)
     looks = replace(looks, rim=whole.rim, flicker=whole.flicker, saturated=whole.saturated)
@@ -163,11 +167,22 @@ def _told_apart(judged: list[CameraFitness], footage: Mapping[str, np.ndarray]) 
     return list(by_name.values())
 
 
+def _small(pictures: np.ndarray) -> np.ndarray:
+    import cv2
+
+    width, height = (
+        max(1, round(side * _COMPARED_PX / max(pictures.shape[1:]))) for side in pictures.shape[:0:-1]
+    )
+    small = [cv2.resize(one, (width, height), interpolation=cv2.INTER_AREA) for one in pictures]
+    return np.stack(small).astype(np.float64).ravel()
+
+
 def _are_the_same(one: np.ndarray, other: np.ndarray) -> bool:
     if one.shape[1:] != other.shape[1:]:
         return False
-    count = min(len(one), len(other))
-    first, second = (stack[:count].astype(np.float32).ravel() for stack in (one, other))
+    # of the same moments, and small: eyes of one face look alike, and the same pictures are the same at any size
+    chosen = evenly(min(len(one), len(other)), _COMPARED)
+    first, second = (_small(stack[chosen]) for stack in (one, other))
     if first.std() == 0 or second.std() == 0:
         return False
     return float(np.corrcoef(first, second)[0, 1]) > _SAME_PICTURES

@@ -35,7 +35,9 @@ def _block(predictor: HeadsetPredictor, pictures: np.ndarray, one: CameraFitness
     width, height = predictor.sizes[one.camera]
     chosen = pictures[np.linspace(0, len(pictures) - 1, _ACROSS).round().astype(int)]
     views = np.stack([one.placement.view(picture, width=width, height=height) for picture in chosen])
-    levelled = level_table(one.looks.low, one.looks.high, predictor.model.looks[one.camera])[views]
+    low, high = one.placement.low, one.placement.high
+    levels = (one.looks.low, one.looks.high) if low is None or high is None else (low, high)
+    levelled = level_table(*levels, predictor.model.looks[one.camera], fixed=low is not None)[views]
     traced = predictor.graph.trace({one.camera: levelled}).get(one.camera)
     names = predictor.model.points.get(one.camera, ())
     above, below = [], []

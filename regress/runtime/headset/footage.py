@@ -230,7 +230,14 @@ def _numbers(recordings: Mapping[str, Recording], *, still: bool) -> np.ndarray:
             f"the cameras' frame numbers have nothing in common ({found}); --from-start matches takes of different "
             f"recordings"
         )
-    known = np.unique(np.concatenate([recording.numbers for recording in recordings.values()]))
+    known, shown = np.unique(
+        np.concatenate([recording.numbers for recording in recordings.values()]), return_counts=True
+    )
+    if not still and len(recordings) > 1 and shown.max() == 1:
+        raise InputError(
+            "no frame number of one camera is another's, as where files are called by times of clocks of their own; "
+            "--from-start matches first frames"
+        )
     if still or len(known) < 3:
         return known
     gaps, counts = np.unique(np.diff(known), return_counts=True)

@@ -38,6 +38,9 @@ FACES: Mapping[str, tuple[str, ...]] = {
 _FULL = 0.6
 """Quantile of a take that is the full movement: people need a third of the time to get there."""
 
+WAY_INTO_FACE = 1 / 3
+"""Share of a take in which people get there: what is seen there is no full movement yet."""
+
 _SHUT = 0.7
 """Of the lids' distance at rest, above which lids are not shut, or not seen."""
 

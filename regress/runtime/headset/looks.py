@@ -16,8 +16,11 @@ DARK, BRIGHT = 2.0, 98.0
 _RIM = 6
 """Grey levels above the darkest that pixels of a lens's rim have in all frames at most."""
 
-_MOST_MEASURED = 120
+MEASURED_FRAMES = 120
 """Frames, evenly chosen, of which a take is measured: twice as many change no figure in its second digit."""
+
+_MOST_FOLLOWED = 300
+"""Frames one after another in which light is looked at for flicker."""
 
 Level = Annotated[float, Interval(ge=0, le=255)]
 Share = Annotated[float, Interval(ge=0, le=1)]
@@ -79,7 +82,7 @@ class TakeLooks:
 
 def looks_of(pictures: np.ndarray) -> TakeLooks:
     """Measure the pictures (n, h, w) uint8 of a take, in the order of time."""
-    chosen = pictures[_evenly(len(pictures))]
+    chosen = pictures[evenly(len(pictures), MEASURED_FRAMES)]
     low, high = levels_of(chosen)
     return TakeLooks(
         low=low,
@@ -129,10 +132,15 @@ def flicker_of(pictures: np.ndarray) -> float:
     """
     if len(pictures) < 3:
         return 0.0
-    light = np.log(np.maximum(pictures.astype(np.float32), 8))
-    changes = np.median(np.diff(light, axis=0).reshape(len(light) - 1, -1), axis=1)
+    changes, before = [], None
+    for picture in pictures[:_MOST_FOLLOWED]:
+        light = np.log(np.maximum(picture.astype(np.float32), 8))
+        if before is not None:
+            changes.append(np.median(light - before))
+        before = light
     return float(np.median(np.abs(changes)))
 
 
-def _evenly(count: int) -> np.ndarray:
-    return np.linspace(0, count - 1, min(count, _MOST_MEASURED)).round().astype(int)
+def evenly(count: int, most: int) -> np.ndarray:
+    """Rows of as many frames at most, all over a take."""
+    return np.linspace(0, count - 1, min(count, most)).round().astype(int)

@@ -248,6 +248,11 @@ class HeadsetModel:
             raise ValueError(f"outputs must be those of {needed}, points alone may be lacking")
 
     @property
+    def of_many_headsets(self) -> bool:
+        """Whether it learned of headsets that were drawn: no mean picture or usual place is any headset's of them."""
+        return bool(self.camera_terms) and not self.typical
+
+    @property
     def camera_names(self) -> tuple[str, ...]:
         """Names of the cameras, in the order of ``present``."""
         return tuple(camera.name for camera in self.cameras)

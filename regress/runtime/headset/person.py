@@ -194,9 +194,17 @@ def write_person(path: str | os.PathLike[str], person: Person) -> None:
 
     Raises
     ------
+    InputError
+        Where a neutral picture has more in it than a file may hold.
     OutputError
         Where it cannot be written.
     """
+    for name, picture in person.neutral.items():
+        if len(picture) > MOST_PICTURE_CHARACTERS:
+            raise InputError(
+                f"the neutral picture of {name} takes {len(picture):,} characters, and a person's file has "
+                f"{MOST_PICTURE_CHARACTERS:,} for each; train a network of smaller pictures"
+            )
     write_whole(Path(path), json.dumps(asdict(person), indent=1, allow_nan=False) + "\n")
 
 

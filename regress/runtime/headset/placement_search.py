@@ -67,9 +67,9 @@ def find_placement(predictor: HeadsetPredictor, camera: str, pictures: np.ndarra
         See `EyePoints.of`.
     """
     points = EyePoints.of(predictor, camera)
-    chosen = evenly_chosen(pictures, _FRAMES_DRAWN if predictor.model.camera_terms else _FRAMES)
+    chosen = evenly_chosen(pictures, _FRAMES_DRAWN if predictor.model.of_many_headsets else _FRAMES)
     plain = _found(Search(predictor, camera, points, chosen, fades=False))
-    if predictor.model.camera_terms or not (plain.lost or plain.turned or plain.doubt > _DOUBTFUL):
+    if predictor.model.of_many_headsets or not (plain.lost or plain.turned or plain.doubt > _DOUBTFUL):
         return plain
     faded = _found(Search(predictor, camera, points, chosen, fades=True))
     upright_again = plain.turned and not faded.turned

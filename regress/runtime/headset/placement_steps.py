@@ -129,7 +129,7 @@ class Search:
             following = placement_of_points(
                 placement, seen, self._points, picture=self._picture, view=self._view
             )
-            if self._predictor.model.camera_terms and _is_as_drawn(placement, following, self._aspect):
+            if self._predictor.model.of_many_headsets and _is_as_drawn(placement, following, self._aspect):
                 following = placement
             unsettled = max(_apart(placement, following, self._aspect))
             found.append(FoundPlacement(placement=placement, unsettled=unsettled, **quality))

@@ -191,7 +191,7 @@ def traced_eyes(
         seen = [row for row in rows if np.isfinite(gaze[row]).all()]
         wanted = np.array([rows[row] for row in seen]).reshape(-1, 2)
         answers = [gaze, direct[:, int(_is_right(predictor, name))]]
-        if predictor.model.camera_terms:
+        if predictor.model.of_many_headsets:
             # of many headsets the map from points knows none: what the network says itself stands alone
             answers.reverse()
         own = own_gaze([answer[seen] for answer in answers], wanted)

@@ -16,6 +16,8 @@ from regress.learning.headset.adaptation import (
     judge,
     read_heads,
 )
+from regress.learning.headset.known_frames import known_frames
+from regress.runtime.headset.guided import GuidedTake
 from regress.runtime.headset.outputs import MIRROR
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.ready_made import model_folder
@@ -111,6 +113,22 @@ def test_the_graph_with_other_heads_says_what_the_heads_say():
     assert inside.mean() > 0.2
     np.testing.assert_allclose(after.weights[:, shapes][inside], wanted[inside], atol=2e-3)
     assert np.abs(moved[inside]).max() > 0.02
+
+
+def test_the_way_into_a_face_is_no_full_face():
+    """People take a third of a take to get there; the face at rest is there at once."""
+    predictor = load_headset_predictor("headset-tracking3")
+    width, height = predictor.sizes["mouth"]
+    frames = np.arange(90, dtype=np.uint8)[:, None, None] * np.ones((1, height, width), np.uint8)
+    takes = {
+        face: GuidedTake(pictures={"mouth": frames}, targets_deg={}) for face in ("rest", "smile", "pucker")
+    }
+    pictures, _, known = known_frames(predictor, takes)
+    shown = pictures["mouth"][:, 0, 0]
+    smiles = known.weights[:, BLENDSHAPE_INDEX["mouthSmileLeft"]] == 1
+    assert shown[~known.weights.any(axis=1)].min() == 0
+    assert shown[smiles].min() == 30
+    assert smiles.sum() > 4
 
 
 def table_of(path: Path, change) -> Path:

@@ -4,6 +4,7 @@ import json
 import shutil
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.formats.film import encode_film
 from regress.cli import app
 from regress.errors import InputError
 from regress.runtime.headset import guided
@@ -20,6 +22,7 @@ from regress.runtime.headset.person import (
     OwnEye,
     Person,
     kept_openness,
+    packed_picture,
     read_person,
     write_person,
 )
@@ -215,6 +218,46 @@ def test_folders_of_faces_are_takes_and_what_is_not_seen_is_said(run, tmp_path: 
     assert f"{out}: only the face at rest was learned from" in said
     assert read_person(out).full == {}
     assert all(eye.shut_mm is None and eye.lids == 0 for eye in read_person(out).eyes.values())
+
+
+def test_a_table_beside_a_film_is_no_film_and_two_films_are_asked_about(run, tmp_path: Path):
+    folder = tmp_path / "rest"
+    folder.mkdir()
+    frames = (
+        cv2.imread(str(path), cv2.IMREAD_GRAYSCALE) for path in sorted((TAKE / "left_eye").iterdir())[:5]
+    )
+    encode_film(
+        folder / "left_eye.mp4", (cv2.cvtColor(frame, cv2.COLOR_GRAY2BGR) for frame in frames), fps=30
+    )
+    (folder / "left_eye.csv").write_text("frame,time_s\n")
+    words = ["headset", "calibrate", "--rest", folder, "--out", tmp_path / "anna.json"]
+    code, _, said = run(*words)
+    assert code == 0, said
+    shutil.copy(folder / "left_eye.mp4", folder / "left_eye.avi")
+    code, _, said = run(*words)
+    assert (code, "left_eye.avi and left_eye.mp4 are of one camera; keep one" in said) == (2, True), said
+
+
+def test_cameras_that_count_for_themselves_are_calibrated_from_the_start(run, tmp_path: Path):
+    for camera, first in (("left_eye", 0), ("mouth", 1000)):
+        folder = tmp_path / "rest" / camera
+        folder.mkdir(parents=True)
+        for number, path in enumerate(sorted((TAKE / camera).iterdir())[:4]):
+            (folder / f"{first + number}.png").write_bytes(path.read_bytes())
+    words = ["headset", "calibrate", "--rest", tmp_path / "rest", "--out", tmp_path / "anna.json"]
+    code, _, said = run(*words)
+    assert (code, "--from-start" in said) == (2, True), said
+    code, _, said = run(*words, "--from-start")
+    assert code == 0, said
+
+
+def test_a_neutral_picture_that_no_file_holds_is_told(tmp_path: Path):
+    noise = np.random.default_rng(0).integers(0, 256, (800, 600), dtype=np.uint8)
+    with pytest.raises(
+        InputError, match=r"the neutral picture of mouth takes .* a network of smaller pictures"
+    ):
+        write_person(tmp_path / "anna.json", Person(neutral={"mouth": packed_picture(noise)}))
+    assert not (tmp_path / "anna.json").exists()
 
 
 @pytest.mark.parametrize("face", ["shut", "look"])

@@ -1,6 +1,7 @@
 """``regress headset check`` names what was done to rendered frames and places them for `predict`."""
 
 import json
+import tracemalloc
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -11,9 +12,10 @@ import pytest
 
 from regress.errors import InputError
 from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.fitness import judge
+from regress.runtime.headset.fitness import _are_the_same, judge
 from regress.runtime.headset.fitness_sheet import fitness_sheet
 from regress.runtime.headset.found_placement import FoundPlacement
+from regress.runtime.headset.looks import flicker_of
 from regress.runtime.headset.misfits import Misfit
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import read_placement
@@ -399,3 +401,14 @@ def test_a_dark_picture_is_in_no_lens_circle(predictor: HeadsetPredictor):
 def test_a_path_that_is_not_there_is_said_to_be_none(run, tmp_path: Path):
     code, _, told = run("headset", "check", "headset-tracking3", "--left-eye", tmp_path / "nope")
     assert (code, "nope does not exist" in told) == (2, True), told
+
+
+def test_a_minutes_frames_are_looked_at_without_copies_of_them_all():
+    take = np.random.default_rng(0).integers(0, 256, (600, 240, 320), dtype=np.uint8)
+    tracemalloc.start()
+    assert flicker_of(take) < 0.01
+    assert _are_the_same(take, take)
+    assert not _are_the_same(take, take[::-1])
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < take.nbytes

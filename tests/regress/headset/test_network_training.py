@@ -247,6 +247,16 @@ def test_a_recipe_says_how_strong_patches_are(arrays: HeadsetArrays):
     assert losses[0] != losses[1]
 
 
+def test_a_training_that_diverges_says_so_and_keeps_nothing(arrays: HeadsetArrays, tmp_path: Path):
+    recipe = replace(QUICK, learning_rate=1e30, matrix_learning_rate=1e30)
+    training = Training(arrays, recipe, checkpoint=tmp_path / "kept")
+    with pytest.raises(
+        InputError, match=r"no longer a number in epoch \d+; begin anew with a lower learning_rate"
+    ):
+        training.run()
+    assert not (tmp_path / "kept").exists()
+
+
 class Oracle:
     """Says the truth, given the right neutral pictures; and so shows what evaluation asks for."""
 

@@ -102,6 +102,18 @@ def test_clock_times_for_numbers_are_no_grid():
     assert line_up(both, SIZES).numbers.tolist() == numbers
 
 
+def test_cameras_with_clocks_of_their_own_are_told():
+    """Numbers in one range of which none is another's: each frame would have one camera."""
+    clocks = {
+        name: recording(name, pictures([100] * 10), numbers=range(1_000_000 + late, 1_300_000, 33_333))
+        for late, name in enumerate(("left_eye", "right_eye", "mouth"))
+    }
+    with pytest.raises(InputError, match=r"no frame number of one camera is another's.*--from-start"):
+        line_up(clocks, SIZES)
+    assert len(line_up(clocks, SIZES, from_start=True).numbers) == 10
+    assert len(line_up({"mouth": clocks["mouth"]}, SIZES).numbers) == 10
+
+
 def test_takes_of_different_recordings_are_matched_from_the_start():
     eye = recording("left_eye", pictures([100] * 9), numbers=range(9))
     mouth = recording("mouth", pictures([90] * 12), numbers=range(500, 512))

@@ -255,6 +255,16 @@ def test_by_command_taps_go_into_the_model(run, arrays_folder: Path, tmp_path: P
     np.testing.assert_allclose(np.sum(found.taps, axis=1), 1)
 
 
+def test_what_comes_with_the_package_is_not_written_into(
+    run, arrays_folder: Path, tmp_path: Path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    code, _, said = run("headset", "temporal", "headset-tracking3", arrays_folder)
+    assert code == 2
+    assert "headset-tracking3 comes with the package, which is not written into; copy " in said
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_taps_that_make_it_worse_are_told(
     run, arrays_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):

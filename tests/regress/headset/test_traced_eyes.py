@@ -1,6 +1,7 @@
 """Lids and gaze from traced points, on eyes whose truth is known, and as `predict --eyes` writes them."""
 
 import shutil
+from collections import deque
 from dataclasses import replace
 from pathlib import Path
 
@@ -180,6 +181,43 @@ def test_of_many_headsets_the_direct_gaze_stands_alone_where_no_target_decides()
     eyes = traced_eyes(predictor, footage)
     direct, _ = predictor.graph.see({"left_eye": footage.pictures["left_eye"]}, present=footage.present)
     np.testing.assert_allclose(eyes["left_eye"].gaze_deg, np.degrees(direct.gaze[:, 0]), atol=1e-3)
+
+
+def test_of_two_cameras_on_one_eye_the_surer_one_says_the_gaze_and_corrects_it_once():
+    predictor = load_headset_predictor("headset-tracking3")
+    take = read_footage(predictor, None, {"left_eye": TAKE / "left_eye"}, from_start=False, fps=None)
+    seen = {"left_eye": take.pictures["left_eye"][0]}
+    points = {
+        name: traced[0]
+        for name, traced in predictor.graph.trace({n: p[None] for n, p in seen.items()}).items()
+    }
+    shift = ((1.0, 0.0, -8.0), (0.0, 1.0, 0.0))
+    sure, unsure = (
+        OwnEye(direct=shift, error_deg=1.0),
+        OwnEye(direct=((1.0, 0.0, 9.0), shift[1]), error_deg=2.0),
+    )
+
+    def gaze_of(first: OwnEye, second: OwnEye) -> float:
+        reader = EyeReader(predictor, None)
+        reader._eyes["left_eye_nasal"], reader._own = (
+            reader._eyes["left_eye"],
+            {"left_eye": first, "left_eye_nasal": second},
+        )
+        for table in (reader._maps, reader.sides, reader._medians, reader._pupils, reader._usual):
+            table["left_eye_nasal"] = table["left_eye"]
+        reader._diameters["left_eye_nasal"] = deque()
+        both = {"left_eye": seen["left_eye"], "left_eye_nasal": seen["left_eye"]}
+        _, gaze = reader.read(both, dict.fromkeys(both, points["left_eye"]), np.radians([8.0, 0.0, 8.0, 0.0]))
+        return float(np.degrees(gaze[0]))
+
+    alone = EyeReader(predictor, Person(eyes={"left_eye": sure}))
+    _, gaze = alone.read(seen, points, np.radians([8.0, 0.0, 8.0, 0.0]))
+    assert (
+        gaze_of(sure, unsure)
+        == pytest.approx(gaze_of(unsure, sure))
+        == pytest.approx(float(np.degrees(gaze[0])))
+    )
+    assert gaze_of(sure, sure) == pytest.approx(float(np.degrees(gaze[0])))
 
 
 @pytest.mark.parametrize("error_deg", [0.5, 3.0])

@@ -32,7 +32,9 @@ def eyes_of(arrays: HeadsetArrays, rows: np.ndarray) -> np.ndarray:
             f"{arrays.folder} has no camera of a left or right eye; the compass learns from such pictures"
         )
     if len({one.shape[1:] for one in eyes}) > 1:
-        raise InputError(f"{arrays.folder} has eyes' cameras of several sizes; pack it with one --size")
+        raise InputError(
+            f"{arrays.folder} has eyes' cameras of several sizes; give the spec cameras of one, or render.size_px"
+        )
     return np.concatenate(eyes)
 
 

@@ -162,6 +162,11 @@ class Training:
                     group["lr"] = group["peak"] * 0.5 * (1 + math.cos(math.pi * done))
                 optimizer.step()
             losses.append(float(loss.detach()))
+        if not np.isfinite(losses).all():
+            raise InputError(
+                f"the loss is no longer a number in epoch {epoch + 1}; begin anew with a lower learning_rate or "
+                "matrix_learning_rate (--set)"
+            )
         self.history.append({"loss": float(np.mean(losses)), "validation": self._validation_error()})
 
     def _loss(self, batch: Batch, random: np.random.Generator) -> torch.Tensor:
