@@ -80,12 +80,14 @@ def calibrate(
 
     Example: regress headset calibrate --rest minute/rest --shut minute/shut --jaw-open minute/jaw --out anna.json
     """
+    from dataclasses import replace
+
     from facegen.console import say
     from facegen.files import refuse_ending
     from regress.cli.headset_input import told_of
     from regress.cli.headset_minute import read_minute
     from regress.runtime.headset.guided import person_of
-    from regress.runtime.headset.person import write_person
+    from regress.runtime.headset.person import seen_as, write_person
     from regress.runtime.headset.predictor import load_headset_predictor
     from regress.runtime.ready_made import HEADSET
 
@@ -110,7 +112,7 @@ def calibrate(
     person, notes = person_of(predictor, minute.takes, unlevelled=minute.unlevelled)
     for note in notes:
         say(note)
-    write_person(out, person)
+    write_person(out, replace(person, seen_as=seen_as(minute.places, predictor.graph.told_table)))
     said = ", ".join(f"{name} {value:.2f}" for name, value in person.full.items())
     learned = [f"a full movement reads {said}"] if said else []
     learned += [

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ from regress.errors import InputError
 if TYPE_CHECKING:
     from regress.runtime.headset.footage import Footage
     from regress.runtime.headset.guided import GuidedTake
+    from regress.runtime.headset.placement import CameraPlacement
     from regress.runtime.headset.predictor import HeadsetPredictor
 
 _RANGE = re.compile(r"(\d{1,18})-(\d{1,18})")
@@ -38,12 +39,15 @@ class Minute:
     labels
         Pictures by camera, levelled, and weights (m, 52) of frames of the take with a table of weights; NaN of shapes
         that it has not.
+    places
+        Through which cameras were looked at.
     """
 
     takes: "dict[str, GuidedTake]"
     unlevelled: dict[str, np.ndarray]
     notes: tuple[str, ...]
     labels: tuple[dict[str, np.ndarray], np.ndarray] | None = None
+    places: "dict[str, CameraPlacement]" = field(default_factory=dict)
 
 
 def read_minute(
@@ -158,6 +162,7 @@ def read_minute(
         unlevelled=pictures.get(REST, {}),
         notes=tuple(dict.fromkeys(notes)),
         labels=None if labelled is None else (dict(labelled.pictures), known),
+        places=places,
     )
 
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from regress.runtime.headset.footage import Footage
     from regress.runtime.headset.neutral import Neutral
     from regress.runtime.headset.person import Person
+    from regress.runtime.headset.placement import CameraPlacement
     from regress.runtime.headset.predictor import HeadsetPredictor
 
 
@@ -41,6 +42,22 @@ def read_own(predictor: "HeadsetPredictor", path: Path | None, *, still: bool) -
             f"{path}: the model has no camera {strangers[0][:60]!r}; it has {', '.join(predictor.sizes)}"
         )
     return person
+
+
+def tell_of_views(
+    person: "Person | None",
+    places: "Mapping[str, CameraPlacement]",
+    predictor: "HeadsetPredictor",
+    path: Path | None,
+) -> None:
+    """Say where a person was calibrated through other views, or with other words of the cameras, than these."""
+    from regress.runtime.headset.person import seen_as
+
+    if person is not None and person.seen_as not in (None, seen_as(places, predictor.graph.told_table)):
+        say(
+            f"{path} was made with another --placement or --headset, so its neutral pictures and lids do not fit: give "
+            "the same, or calibrate again"
+        )
 
 
 def neutrals_of(

@@ -167,7 +167,7 @@ def predict(
         told_of,
     )
     from regress.cli.headset_notes import check_model, level_notes, rate_note, seat_notes, tell_of
-    from regress.cli.headset_person import neutrals_of, read_own
+    from regress.cli.headset_person import neutrals_of, read_own, tell_of_views
     from regress.cli.output import output_of
     from regress.cli.results import check_targets, needs_times, write_prediction
     from regress.errors import InputError
@@ -228,6 +228,7 @@ def predict(
     if video is not None:
         check_film_name(video)
     placed = {} if placement is None else read_placement(placement, predictor.model)
+    tell_of_views(own, placed, predictor, person)
     footage = read_footage(
         predictor, dataset, paths, from_start=from_start, fps=fps, bits=bits, placement=placed
     )

@@ -87,6 +87,11 @@ class HeadsetGraph:
         """Names of all that it answers with."""
         return frozenset(self._outputs)
 
+    @property
+    def told_table(self) -> np.ndarray | None:
+        """(cameras, 15) float32 that it is told of cameras; None where it is told nothing."""
+        return self._told.get(CAMERA_INPUT)
+
     def told(self, terms: Mapping[str, np.ndarray]) -> "HeadsetGraph":
         """The same graph, told of cameras: ``CAMERA_TERMS`` (14,) by name; of those left out it knows nothing.
 

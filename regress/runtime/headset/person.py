@@ -9,6 +9,7 @@
 """
 
 import base64
+import hashlib
 import json
 import os
 from collections.abc import Mapping
@@ -26,6 +27,7 @@ from facegen.formats.picture_size import picture_size
 from regress.errors import InputError
 from regress.runtime.documents import checked, read_document
 from regress.runtime.headset.model import MOST_CAMERAS
+from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.sample import EyeMeasures
 
 MOST_PERSON_BYTES = 2**24
@@ -113,6 +115,8 @@ class Person:
         By camera.
     neutral
         Neutral pictures by camera, as the network sees them before levels are set: grey PNG in base64.
+    seen_as
+        What `seen_as` gave when the person was read: they are not the same through other views. None where nobody says.
     """
 
     __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
@@ -126,12 +130,23 @@ class Person:
     neutral: Annotated[dict[str, Annotated[str, Len(0, MOST_PICTURE_CHARACTERS)]], Len(0, MOST_CAMERAS)] = (
         field(default_factory=dict)
     )
+    seen_as: Annotated[str, Len(0, 64)] | None = None
 
     def __post_init__(self) -> None:
         """Refuse shapes that there are not."""
         strangers = [name for name in (*self.rest, *self.full) if name not in BLENDSHAPE_INDEX]
         if strangers:
             raise ValueError(f"{strangers[0][:60]!r} is not one of the 52 ARKit names")
+
+
+def seen_as(places: Mapping[str, CameraPlacement], told: np.ndarray | None) -> str:
+    """A word for the views through which cameras are looked at, and for what the network is told of them.
+
+    Levels are left out: they follow a person's pictures.
+    """
+    views = {name: (one.x, one.y, one.size, one.roll_deg, one.mirror) for name, one in places.items()}
+    terms = None if told is None else np.round(told.astype(np.float64), 6).tolist()
+    return hashlib.sha256(json.dumps([views, terms], sort_keys=True).encode()).hexdigest()
 
 
 class OwnEnds:

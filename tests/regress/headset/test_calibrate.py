@@ -104,11 +104,12 @@ def test_calibrate_is_told_of_the_cameras_that_predict_is_told_of(run, tmp_path:
     words = ["headset", "predict", "headset-any", *CAMERAS, "--out", tmp_path / "w.csv"]
     residue = {}
     for name, path in files.items():
-        assert run(*words, *told, "--person", path)[0] == 0
+        code, _, said = run(*words, *told, "--person", path)
+        assert code == 0
+        assert ("was made with another --placement or --headset" in said) == (name == "untold")
         table = np.genfromtxt(tmp_path / "w.csv", delimiter=",", names=True)
         at_rest = np.array([table[name][:10] for name in BLENDSHAPES if not name.startswith("eyeLook")])
         residue[name] = np.median(at_rest, axis=1).max()
-    print(residue)
     assert residue["told"] < residue["untold"]
 
 
@@ -316,6 +317,20 @@ def test_a_placement_is_looked_through_and_another_models_is_refused(run, tmp_pa
     code, _, said = run(*words, "--placement", place)
     assert code == 0, said
     assert read_person(tmp_path / "p.json").neutral["left_eye"] != read_person(person).neutral["left_eye"]
+    for more, otherwise in ((("--placement", place), False), ((), True)):
+        predict = (
+            "headset",
+            "predict",
+            *CAMERAS,
+            "--person",
+            tmp_path / "p.json",
+            "--out",
+            tmp_path / "w.csv",
+        )
+        code, _, said = run(*predict, *more)
+        assert code == 0, said
+        assert ("was made with another --placement or --headset" in said) == otherwise
+    (tmp_path / "w.csv").unlink()
     place.write_text(f'headset = "drawn"\n{place.read_text()}')
     for order in (words, ["headset", "predict", *CAMERAS, "--out", tmp_path / "w.csv"]):
         code, _, said = run(*order, "--placement", place)
