@@ -68,9 +68,10 @@ def validate(
             )
     if verdict.wrong and repaired is None:
         raise typer.Exit(ExitCode.INVALID)
-    if verdict.missing or (repaired is not None and not _only_extras(verdict)):
+    removed = repaired is not None and not _only_extras(verdict)
+    if verdict.missing or removed:
         say(f"facegen: {_missing(verdict, repaired)}; facegen generate goes on with them")
-        raise typer.Exit(ExitCode.OK if partial and repaired is None else ExitCode.DRAINED)
+        raise typer.Exit(ExitCode.OK if partial and not removed else ExitCode.DRAINED)
 
 
 def _only_extras(verdict: "Verdict") -> bool:

@@ -61,7 +61,7 @@ def write_coco(
     path: Path, images: Callable[[], Iterable[LabelledImage]], *, info: dict, licence: str
 ) -> None:
     """Write a file in constant memory; ``images`` is called twice and must give the same both times."""
-    with open(path, "w", encoding="utf-8") as file:
+    with open(path, "w", encoding="utf-8", newline="\n") as file:
         head = {
             "info": info,
             "licenses": [{"id": 1, "name": licence, "url": ""}],

@@ -35,6 +35,8 @@ def cards(folder: Path, about: Mapping, entries: Sequence[Mapping]) -> dict[str,
             described,
             title=title,
             samples=sum(samples.values()),
+            # of a part nobody counts the people
+            of=f"out of a dataset of {described['people']:,} synthetic people",
             data_files=[(split, f"{split}-*.parquet") for split in samples],
             contents=_contents(samples),
         ).encode(),

@@ -30,7 +30,8 @@ def measures_mm(rig: Rig, identity: np.ndarray) -> dict[str, np.ndarray]:
         "interpupillary distance": eyes[:, 0, 0] - eyes[:, 1, 0],
         "mouth width": np.linalg.norm(points[:, 48] - points[:, 54], axis=1),
     }
-    cheek = skin[(y < 0) & (y > 1e-3 * points[:, 33, 1].mean()) & (z > ARCH_M[0]) & (z < ARCH_M[1])]
+    nose_m = 1e-3 * points[:, 33, 1].mean() if len(points) else 0.0
+    cheek = skin[(y < 0) & (y > nose_m) & (z > ARCH_M[0]) & (z < ARCH_M[1])]
     if len(cheek):
         found["face width"] = np.ptp(_skin_mm(rig, identity, cheek)[..., 0], axis=1)
     profile = skin[(np.abs(x) < MIDDLE_M) & (np.abs(y) < ROOT_M) & (z > 0)]
@@ -44,5 +45,6 @@ def measures_mm(rig: Rig, identity: np.ndarray) -> dict[str, np.ndarray]:
 
 def _skin_mm(rig: Rig, identity: np.ndarray, vertices: np.ndarray) -> np.ndarray:
     """Positions (n, v, 3) of some of the neutral faces' vertices, away from the lids."""
-    moved = identity @ rig.identity[:, vertices].reshape(rig.components, -1)
-    return 1e3 * (rig.vertices[vertices] + moved.reshape(len(identity), -1, 3))
+    # sizes in numbers: a user's own head has no identities, and NumPy guesses no size from nothing
+    moved = identity @ rig.identity[:, vertices].reshape(rig.components, 3 * len(vertices))
+    return 1e3 * (rig.vertices[vertices] + moved.reshape(len(identity), len(vertices), 3))

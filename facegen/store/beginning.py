@@ -31,6 +31,33 @@ def _is_first(name: str) -> bool:
     return name in _FIRST_THINGS or is_litter(name)
 
 
+def check_place(dataset: Dataset) -> bool:
+    """Whether a dataset's folder holds this very one already; writes nothing.
+
+    Raises
+    ------
+    InputError
+        If the folder holds a dataset of another spec, or other files.
+    OutputError
+        If the folder cannot be looked into.
+    """
+    folder = dataset.folder
+    with output_errors(folder.path):
+        others = folder.path.is_dir() and any(not _is_first(p.name) for p in folder.path.iterdir())
+    # looked at after the listing: another worker may be just beginning, and then this file is there by now
+    if os.path.lexists(folder.dataset_json):
+        stored_hash = read_description(folder)["spec_hash"]
+        if stored_hash != dataset.hash:
+            raise InputError(
+                f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
+                f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
+            )
+        return True
+    if others:
+        raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
+    return False
+
+
 def begin(dataset: Dataset) -> None:
     """Write ``spec.toml``, ``dataset.json`` and the card of a new dataset; check an old one.
 
@@ -45,28 +72,17 @@ def begin(dataset: Dataset) -> None:
         If the folder cannot be written.
     """
     folder = dataset.folder
-    with output_errors(folder.path):
-        others = folder.path.is_dir() and any(not _is_first(p.name) for p in folder.path.iterdir())
-    # looked at after the listing: another worker may be just beginning, and then this file is there by now
-    if os.path.lexists(folder.dataset_json):
-        stored_hash = read_description(folder)["spec_hash"]
-        if stored_hash != dataset.hash:
-            raise InputError(
-                f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
-                f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
-            )
+    if check_place(dataset):
         _renew(dataset)
         _write_cards(dataset)
         return
-    if others:
-        raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
     with output_errors(folder.path):
         folder.path.mkdir(parents=True, exist_ok=True)
     # before anything lies there: it imports modules, and a stop during imports ends the program at once
     text, description = _spec_text(dataset), _description(dataset)
     with staging(folder, "begin") as stage:
         _copy(_named(dataset), stage)
-        (stage / "spec.toml").write_text(text, encoding="utf-8")
+        (stage / "spec.toml").write_bytes(text.encode())
         commit_file(stage / "spec.toml", folder.spec_toml)
         write_json(stage / "dataset.json", description)
         commit_file(stage / "dataset.json", folder.dataset_json)
@@ -109,7 +125,7 @@ def _renew(dataset: Dataset) -> None:
     with staging(folder, "spec") as stage:
         _copy(missing, stage)
         if not fresh:
-            (stage / "spec.toml").write_text(text, encoding="utf-8")
+            (stage / "spec.toml").write_bytes(text.encode())
             commit_file(stage / "spec.toml", folder.spec_toml)
 
 

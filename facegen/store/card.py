@@ -17,6 +17,7 @@ def card(
     *,
     title: str,
     samples: int,
+    of: str,
     data_files: Sequence[tuple[str, str]],
     contents: str,
 ) -> str:
@@ -32,6 +33,8 @@ def card(
         What people call it.
     samples
         How many there are.
+    of
+        What they are samples of, ``"of 4,000 synthetic people"``.
     data_files
         For each split its name and the files' pattern, as ``datasets.load_dataset(FOLDER)`` takes them from the head of
         the card (https://huggingface.co/docs/hub/datasets-manual-configuration).
@@ -61,7 +64,7 @@ configs:
 
 # {title}
 
-{samples:,} samples of {described["people"]:,} synthetic people, with exact labels.
+{samples:,} samples {of}, with exact labels.
 Nobody in them exists, and nobody annotated anything.
 
 {contents}

@@ -88,7 +88,10 @@ class DatasetFolder:
     def rendered(self) -> list[int]:
         """Numbers of the finished rendered samples, in order."""
         folders = (self.path / "renders").glob("[0-9]*/[0-9]*")
-        return sorted(int(p.name) for p in folders if _RENDER.fullmatch(p.name))
+        # beside its group a folder that was moved aside may lie, "000.old", whose samples are nobody's
+        return sorted(
+            int(p.name) for p in folders if _RENDER.fullmatch(p.name) and p == self.render(int(p.name))
+        )
 
 
 def shard_samples(index: int, *, total: int) -> range:
@@ -129,9 +132,8 @@ def commit_folder(source: Path, target: Path) -> bool:
 
 def write_json(path: Path, content: object) -> None:
     """Write JSON with sorted keys, one way only, so that equal content gives equal bytes."""
-    path.write_text(
-        json.dumps(content, sort_keys=True, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
-    )
+    # not as text: Windows would write other bytes
+    path.write_bytes((json.dumps(content, sort_keys=True, indent=1, ensure_ascii=False) + "\n").encode())
 
 
 def read_json(path: Path) -> dict:

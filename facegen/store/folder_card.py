@@ -52,6 +52,7 @@ def folder_cards(
             described,
             title=title,
             samples=described["samples"],
+            of=f"of {described['people']:,} synthetic people",
             data_files=[(SPLIT, SHARD_PATTERN)],
             contents=_contents(views, split, split_shares),
         ).encode(),

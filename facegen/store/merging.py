@@ -4,16 +4,18 @@ import filecmp
 import os
 import shutil
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from facegen.errors import InputError, InvalidData
 from facegen.files import output_errors
 from facegen.formats.litter import is_litter
+from facegen.number_ranges import format_ranges
+from facegen.store.beginning import begin
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder, commit_file, commit_folder
-from facegen.store.opening import open_dataset
+from facegen.store.opening import open_dataset, resolve
 from facegen.store.stage import staging, sweep
 
 _FIRST_THINGS = ("tmp", "spec.toml", "headset.toml", "recording.csv")
@@ -84,6 +86,7 @@ def merge(
         target.path.mkdir(parents=True, exist_ok=True)
     sweep(target)
     _take_description(first.folder, target)
+    _ask_for_all(datasets, target)
     taken = 0
     for done, (name, origin) in enumerate(origins.items()):
         if origin.path != target.path:
@@ -91,6 +94,15 @@ def merge(
             taken += 1
         on_progress(done + 1, len(origins))
     return Merged(taken=taken, found=len(origins) - taken)
+
+
+def _ask_for_all(datasets: Sequence[Dataset], target: DatasetFolder) -> None:
+    """Let the joined spec ask for what any of them asks for, or runs of which one stopped early would pass as whole."""
+    if len({format_ranges(dataset.samples_to_render()) for dataset in datasets}) == 1:
+        return
+    wanted = sorted(set().union(*(dataset.samples_to_render() for dataset in datasets)))
+    spec = datasets[0].spec
+    begin(resolve(replace(spec, render=replace(spec.render, samples=format_ranges(wanted))), target.path))
 
 
 def _check_spec(first: Dataset, folder: DatasetFolder, found: str) -> None:
@@ -124,11 +136,18 @@ def _names(folder: DatasetFolder) -> Iterator[str]:
 
 def _equal(one: Path, other: Path) -> bool:
     if one.is_file() or other.is_file():
-        return one.is_file() and other.is_file() and filecmp.cmp(one, other, shallow=False)
-    names = sorted(entry.name for entry in one.iterdir())
-    return names == sorted(entry.name for entry in other.iterdir()) and all(
-        filecmp.cmp(one / name, other / name, shallow=False) for name in names
-    )
+        return one.is_file() and other.is_file() and _same(one, other)
+    names, others = (sorted(entry.name for entry in _own(folder)) for folder in (one, other))
+    return names == others and all(_same(one / name, other / name) for name in names)
+
+
+def _same(one: Path, other: Path) -> bool:
+    """Whether two files hold the same; a link that an earlier merge has made is not read."""
+    return os.path.samefile(one, other) or filecmp.cmp(one, other, shallow=False)
+
+
+def _own(folder: Path) -> Iterator[Path]:
+    return (entry for entry in folder.iterdir() if not is_litter(entry.name))
 
 
 def _take(source: Path, target: DatasetFolder, name: str, *, copy: bool) -> None:
@@ -139,7 +158,7 @@ def _take(source: Path, target: DatasetFolder, name: str, *, copy: bool) -> None
         else:
             folder = stage / source.name
             folder.mkdir()
-            for entry in source.iterdir():
+            for entry in _own(source):
                 _link(entry, folder / entry.name, copy=copy)
             commit_folder(folder, target.path / name)
 

@@ -18,6 +18,7 @@ from facegen.labels import label_keypoints
 from facegen.labels.contour import paths_of
 from facegen.rigs import Rig, evaluate, load_rig
 from facegen.rigs.building import add_rig
+from facegen.rigs.callipers import MEASURES, measures_mm
 from facegen.rigs.gltf_mesh import blendshape_sources
 from facegen.rigs.human_eyes import EYE_RADIUS_M
 from facegen.rigs.lash_strips import lash_strips
@@ -65,6 +66,14 @@ def test_landmarks_are_those_of_the_head_that_was_written(anny: Rig, glb: Rig, f
     assert offset[:, lids].max() < 2.5e-4
     assert glb.components == 0
     assert glb.licence == "CC0-1.0"
+
+
+@pytest.mark.parametrize("people", [0, 3])
+def test_a_head_without_identities_is_measured_for_the_page_of_statistics(glb: Rig, people: int):
+    sizes = measures_mm(glb, np.zeros((people, 0)))
+    assert sizes.keys() == set(MEASURES) if people else sizes.keys() < set(MEASURES)
+    assert all(size.shape == (people,) for size in sizes.values())
+    assert all(np.isfinite(size).all() for size in sizes.values())
 
 
 @pytest.mark.parametrize("turns", [0, 1, 2])

@@ -1,5 +1,6 @@
 """Runs of one spec made apart become one dataset; what does not fit is refused before anything is written."""
 
+import filecmp
 import shutil
 from pathlib import Path
 
@@ -61,6 +62,40 @@ def test_other_bytes_under_one_name_are_a_conflict_and_nothing_is_written(render
     with pytest.raises(InvalidData, match=r"renders/000/000001: .* hold different bytes"):
         merge([rendered.folder.path, other], tmp_path / "all")
     assert not (tmp_path / "all").exists()
+
+
+def test_what_systems_leave_beside_samples_is_no_difference_and_links_are_not_read(tmp_path, monkeypatch):
+    """Folders of two runs as somebody looked at them; stand-ins for pictures do, as nothing reads them."""
+    runs = [keypoints(tmp_path / name) for name in ("one", "two")]
+    for run, litter in zip(runs, (".DS_Store", "._mouth.png"), strict=True):
+        folder = run / "renders" / "000" / "000003"
+        folder.mkdir(parents=True)
+        (folder / "mouth.png").write_bytes(b"the same")
+        (folder / litter).write_bytes(b"litter")
+        (run / "renders" / "000.old" / "000003").mkdir(parents=True)  # moved aside
+    merge(runs, tmp_path / "all")
+    assert open_dataset(tmp_path / "all").folder.rendered() == [3]
+    assert [path.name for path in (tmp_path / "all/renders/000/000003").iterdir()] == ["mouth.png"]
+    monkeypatch.setattr(filecmp, "cmp", lambda *_, **__: pytest.fail("a link of the first merge was read"))
+    assert merge(runs[:1], tmp_path / "all").taken == 0
+
+
+def test_a_joined_spec_asks_for_what_any_run_was_asked_for(tmp_path):
+    """`render.samples` is no part of a spec's hash: machines render apart by it."""
+    runs = []
+    for name, samples in (("one", "0-3"), ("two", "4-9,12")):
+        dataset = resolve(parse_spec(SPEC | {"render": {"samples": samples}}, where="test"), tmp_path / name)
+        generate(dataset, "", shards="0", workers=1)
+        runs.append(tmp_path / name)
+    merge(runs, tmp_path / "all")
+    joined = open_dataset(tmp_path / "all")
+    assert list(joined.samples_to_render()) == [*range(10), 12]
+    assert joined.hash == open_dataset(runs[0]).hash
+    merge(runs, tmp_path / "all")
+    assert list(open_dataset(tmp_path / "all").samples_to_render()) == [*range(10), 12]
+    alike = merge(runs[:1], tmp_path / "alone")
+    assert alike.taken == 1
+    assert (tmp_path / "alone/spec.toml").read_bytes() == (runs[0] / "spec.toml").read_bytes()
 
 
 def test_other_keypoints_are_a_conflict(tmp_path):

@@ -224,6 +224,10 @@ def test_repair_and_generate_restore_identical_bytes(copy, rendered):
         "samples": "1",
     }
     assert run.invoke(app, ["validate", str(copy), "--workers", "1"]).exit_code == 75
+    # a slice, which lacks things on purpose, and something that is too much
+    (copy / "renders" / "000" / "000000" / "notes.txt").write_text("junk")
+    words = ["validate", str(copy), "--workers", "1", "--partial"]
+    assert [run.invoke(app, [*words, *more]).exit_code for more in ([], ["--repair"], [])] == [1, 0, 0]
     assert generate(resolve(load_spec(copy / "spec.toml"), copy), workers=1).made == 2
     for part in ("keypoints", "renders"):
         names = sorted(

@@ -12,7 +12,9 @@ from pathlib import Path
 import numpy as np
 import psutil
 import pytest
+from typer.testing import CliRunner
 
+from facegen.cli import app
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import InputError, OutputError
 from facegen.machine import is_alive
@@ -170,6 +172,18 @@ def test_workers_die_with_a_supervisor_that_is_killed(tmp_path):
     while any(is_alive(pid) for pid in children) and time.monotonic() < deadline:
         time.sleep(0.1)
     assert not any(is_alive(pid) for pid in children)
+
+
+@pytest.mark.parametrize("others", [False, True])
+def test_a_dry_run_counts_nothing_of_somebody_elses_folder(tmp_path, others):
+    if others:
+        (tmp_path / "a").mkdir()
+        (tmp_path / "a" / "notes.txt").touch()
+    else:
+        begin(keypoints_dataset(tmp_path / "a"))
+    result = CliRunner().invoke(app, ["generate", str(TINY), "--out", str(tmp_path / "a"), "--dry-run"])
+    assert isinstance(result.exception, InputError)
+    assert ("is not empty" if others else "of another spec") in str(result.exception)
 
 
 def test_a_dataset_that_is_not_one_is_said_to_be_none(tmp_path):
