@@ -16,8 +16,17 @@ STRIP = ".png"
 PIPE = Path("-")
 PAGE = ".html"
 
+_TAKEN = {
+    "--weights": ("rig", "fps", "frames", "size", "landmarks"),
+    "--clip": ("clip", "frames", "size", "landmarks"),
+    "a page of statistics": (),
+    "a contact sheet": ("samples", "columns", "landmarks"),
+}
+"""Options that each kind of picture takes, of those that not all take."""
+
 
 def preview(
+    context: typer.Context,
     dataset: Annotated[Path | None, typer.Argument(help="Folder of a dataset.")] = None,
     out: Annotated[
         Path,
@@ -68,6 +77,9 @@ def preview(
             "preview shows either the folder of a dataset or --weights FILE.csv; give one of them"
         )
     _check_name(out, moving=weights is not None or clip is not None)
+    page = out.suffix.lower() == PAGE
+    still = "a page of statistics" if page else "a contact sheet"
+    _refuse_useless(context, "--weights" if weights is not None else still if clip is None else "--clip")
     if weights is not None:
         from facegen.formats.weight_table import read_weight_table
         from facegen.preview import play_weights
@@ -80,12 +92,23 @@ def preview(
         from facegen.store import open_dataset
 
         _play(clip_of_dataset(open_dataset(dataset), clip), out, frames, size, landmarks)
-    elif out.suffix.lower() == PAGE:
+    elif page:
         _statistics(dataset, out)
     else:
         _sheet(dataset, out, samples, columns, landmarks)
     if out != PIPE:
         print(out)
+
+
+def _refuse_useless(context: typer.Context, shown: str) -> None:
+    """Refuse options that what is shown does not take: it would look as if they had been followed."""
+    for name in dict.fromkeys(name for names in _TAKEN.values() for name in names):
+        source = context.get_parameter_source(name)
+        if name not in _TAKEN[shown] and source is not None and source.name == "COMMANDLINE":
+            flags = next(
+                each.opts + each.secondary_opts for each in context.command.params if each.name == name
+            )
+            raise InputError(f"{shown} takes no {' or '.join(flags)}; leave that out")
 
 
 def _check_name(out: Path, *, moving: bool) -> None:

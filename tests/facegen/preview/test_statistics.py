@@ -116,3 +116,26 @@ def test_options_of_pictures_are_refused_where_there_are_none(dataset, tmp_path,
     assert isinstance(refusal, InputError)
     assert f"packed as keypoints, and {flag} is about pictures" in str(refusal)
     assert not (tmp_path / "packs").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--clip", "0", "--fps", "10", "--out", "a.webm"], "--clip takes no --fps"),
+        (["--clip", "0", "--rig", "ict", "--out", "a.webm"], "--clip takes no --rig"),
+        (["--frames", "0-9", "--out", "a.png"], "a contact sheet takes no --frames"),
+        (["--size", "300", "--out", "a.png"], "a contact sheet takes no --size"),
+        (["--samples", "0", "--out", "a.html"], "a page of statistics takes no --samples"),
+        (
+            ["--no-landmarks", "--out", "a.html"],
+            "a page of statistics takes no --landmarks or --no-landmarks",
+        ),
+        (["--weights", "t.csv", "--clip", "0", "--out", "a.png"], "--weights takes no --clip"),
+        (["--weights", "t.csv", "--columns", "3", "--out", "a.png"], "--weights takes no --columns"),
+    ],
+)
+def test_options_that_would_do_nothing_are_refused(dataset, words, said):
+    where = [] if "--weights" in words else [str(dataset.folder.path)]
+    refusal = CliRunner().invoke(app, ["preview", *where, *words]).exception
+    assert isinstance(refusal, InputError)
+    assert f"{said}; leave that out" in str(refusal)
