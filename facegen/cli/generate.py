@@ -65,7 +65,8 @@ def generate(
     from facegen.work import generate as make
 
     dataset = resolve(load_spec(spec), out)
-    check_place(dataset)
+    if dry_run:
+        check_place(dataset)  # else `begin` does
     shards = "" if shards == "none" else shards
     work = plan_work(dataset, samples, shards=shards, retry_quarantined=retry_quarantined)
     if dry_run:

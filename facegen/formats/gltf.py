@@ -171,10 +171,8 @@ def _part(
         if moved is not None:
             morphs[name] = _turned(turn, accessor_values(file, moved, "VEC3", count))
     triangles = _triangles(file, primitive.indices, count)
-    if np.median(np.linalg.det(turn)) < 0:
-        triangles = triangles[
-            :, ::-1
-        ]  # a mirrored node turns what is counter-clockwise round (glTF 2.0, 3.7.4)
+    if np.median(np.linalg.det(turn)) < 0:  # a mirrored node turns the winding round (glTF 2.0, 3.7.4)
+        triangles = triangles[:, ::-1]
     material = None if primitive.material is None else file.item("materials", primitive.material)
     part = GltfPart(
         mesh=_name(mesh),

@@ -89,9 +89,10 @@ def _called(face: str | None) -> str:
 
 
 def _rows_between(take: Frames, named: str) -> list[int]:
-    """Rows of pictures from one number to another, of which some, and the ends too, may be left out."""
-    ends = named.split("-")
-    if take.numbers is None or len(ends) != 2 or not all(end.isdecimal() for end in ends):
+    """Rows of pictures that are called by numbers, from one to another; some, and the ends too, may be left out."""
+    ends, names = named.split("-"), _pictures(take) or take.labels
+    called = take.numbers is not None and names[:1] == (str(take.numbers[0]),)
+    if not called or len(ends) != 2 or not all(end.isdecimal() for end in ends):
         return []
     first, last = map(int, ends)
     return np.flatnonzero((first <= take.numbers) & (take.numbers <= last)).tolist()

@@ -18,8 +18,8 @@ TEXTS_PER_S = 20
 """Texts of one connection, but for its calls."""
 
 SIGNALS_A_PERSON = 24
-"""Texts by which one calls or answers one of the others, for whom a connection may say them all at once: one
-description, and some ten candidates of a computer with two networks. Twenty people at once were a burst of 233."""
+"""Texts by which one calls or answers one of the others, for whom a connection may say them all at once. Calling six
+people is a burst of 70, of a description and candidates, so this is twice as many: computers have several networks."""
 
 BURST_S = 10
 """A connection may use this much of its rate at once: after a break, or to call everybody."""

@@ -2,6 +2,7 @@
 
 import csv
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -101,6 +102,8 @@ def test_a_range_of_pictures_may_begin_and_end_with_one_that_was_left_out(named:
         numbers=np.array([0, 5, 15, 45]),
     )
     assert named_rows(frames, named) == rows
+    by_name = replace(frames, labels=("a.png", "b.png", "c.png", "d.png"))
+    assert named_rows(by_name, named) == [], "pictures that are called otherwise are not named by their place"
 
 
 @pytest.mark.parametrize(("named", "rows"), [("take-1", [0]), ("take-1-take-2", [0, 1]), ("4-5", [])])

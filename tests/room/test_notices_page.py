@@ -220,3 +220,42 @@ def test_a_microphone_that_is_unplugged_is_told_to_all():
                 )
 
     asyncio.run(run())
+
+
+def test_a_camera_that_is_pulled_out_is_told_and_hides_no_word_of_the_microphone():
+    gone = "void meeting.%s.getTracks()[0].dispatchEvent(new Event('ended'))"
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Ada")
+                await tab.ask("meeting.watch()")
+                await tab.ask(gone % "presence.camera.stream")
+                await tab.until(f"{STATE}.startsWith('Your camera is gone')")
+                await tab.ask(gone % "microphone.stream")
+                await tab.until(f"{STATE}.startsWith('Your microphone is gone')")
+
+    asyncio.run(run())
+
+
+def test_a_microphone_that_cannot_begin_is_let_go_of():
+    broken = """void ((media, ask) => {
+      media.getUserMedia = async (wish) => (globalThis.given = await ask(wish));
+      AudioWorklet.prototype.addModule = () => Promise.reject(new Error('no such module'));
+      const { voice } = document.querySelector('#join').elements;
+      if (voice.checked) voice.click();
+      voice.click();
+    })(navigator.mediaDevices, navigator.mediaDevices.getUserMedia.bind(navigator.mediaDevices))"""
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+                await tab.ask(broken)
+                await tab.until("document.querySelector('#word').textContent.includes('no such module')")
+                assert await tab.ask(STOPPED)
+                assert not await tab.ask("document.querySelector('#join').elements.voice.checked")
+
+    asyncio.run(run())

@@ -103,10 +103,21 @@ def of_pictures(frames: Frames, pictures: Sequence[Hashable], faces: Sequence[st
     if len(set(pictures)) == len(pictures):
         return frames
     rank = {picture: number for number, picture in enumerate(dict.fromkeys(pictures))}
-    if faces is None:
-        seen: Counter[Hashable] = Counter()
-        faces = [str(seen.update([picture]) or seen[picture]) for picture in pictures]
-    return replace(frames, numbers=np.array([rank[picture] for picture in pictures]), faces=tuple(faces))
+    return replace(
+        frames,
+        numbers=np.array([rank[picture] for picture in pictures]),
+        faces=tuple(faces or places_of(pictures, first=1)),
+    )
+
+
+def places_of(pictures: Sequence[Hashable], *, first: int = 0) -> list[str]:
+    """Which face of its picture each is, by their order, counted from ``first``."""
+    seen: Counter[Hashable] = Counter()
+    places = []
+    for picture in pictures:
+        places.append(str(first + seen[picture]))
+        seen[picture] += 1
+    return places
 
 
 def split_irises(points: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:

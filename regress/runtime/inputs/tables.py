@@ -4,7 +4,6 @@ OpenFace puts a blank before each column's name, all x before all y, ``success``
 py-feat leaves cells empty there. Columns ``x_68``, ``y_68``, ``x_69``, ``y_69`` are irises, if it has all four.
 """
 
-from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,7 +12,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from facegen.formats.csv_rows import CsvRows, number_in, numbers_in
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames, split_irises, stacked
+from regress.runtime.inputs.frames import Frames, places_of, split_irises, stacked
 
 _POINTS = tuple(f"{axis}_{index}" for index in range(LANDMARK_COUNT) for axis in "xy")
 _BY_AXIS = tuple(sorted(_POINTS, key=lambda name: name[0]))
@@ -99,7 +98,7 @@ def _frames(table: CsvRows) -> Frames:
         numbers = None
     several = len(set(labels)) < len(labels)
     if several and not named:
-        face_ids = _places(labels)
+        face_ids = places_of(labels)
     if several:
         labels = [f"{frame}/{face}" for frame, face in zip(labels, face_ids, strict=True)]
     return Frames(
@@ -111,16 +110,6 @@ def _frames(table: CsvRows) -> Frames:
         numbers=numbers,
         faces=tuple(face_ids) if several and numbers is not None else None,
     )
-
-
-def _places(frames: list[str]) -> list[str]:
-    """Which face of its picture each row is, by the order of rows of one name."""
-    seen: Counter[str] = Counter()
-    places = []
-    for frame in frames:
-        places.append(str(seen[frame]))
-        seen[frame] += 1
-    return places
 
 
 def _counted(frames: list[str]) -> np.ndarray | None:

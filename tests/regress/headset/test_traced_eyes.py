@@ -14,7 +14,7 @@ from regress.cli.headset_input import read_footage
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.eye_reader import HALF_SHUT, IRIS_MM, EyeReader
 from regress.runtime.headset.person import OwnEye, Person
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.headset.traced_eyes import corrected, eye_features, fused, traced_eyes
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
@@ -183,14 +183,17 @@ def test_of_many_headsets_the_direct_gaze_stands_alone_where_no_target_decides()
     np.testing.assert_allclose(eyes["left_eye"].gaze_deg, np.degrees(direct.gaze[:, 0]), atol=1e-3)
 
 
-def test_of_two_cameras_on_one_eye_the_surer_one_says_the_gaze_and_corrects_it_once():
+def left_eye_seen() -> tuple[HeadsetPredictor, dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """A network, a picture of a left eye, and the points that it traces there."""
     predictor = load_headset_predictor("headset-tracking3")
     take = read_footage(predictor, None, {"left_eye": TAKE / "left_eye"}, from_start=False, fps=None)
     seen = {"left_eye": take.pictures["left_eye"][0]}
-    points = {
-        name: traced[0]
-        for name, traced in predictor.graph.trace({n: p[None] for n, p in seen.items()}).items()
-    }
+    traced = predictor.graph.trace({name: picture[None] for name, picture in seen.items()})
+    return predictor, seen, {name: points[0] for name, points in traced.items()}
+
+
+def test_of_two_cameras_on_one_eye_the_surer_one_says_the_gaze_and_corrects_it_once():
+    predictor, seen, points = left_eye_seen()
     shift = ((1.0, 0.0, -8.0), (0.0, 1.0, 0.0))
     sure, unsure = (
         OwnEye(direct=shift, error_deg=1.0),
@@ -223,13 +226,7 @@ def test_of_two_cameras_on_one_eye_the_surer_one_says_the_gaze_and_corrects_it_o
 @pytest.mark.parametrize("error_deg", [0.5, 3.0])
 def test_an_eye_that_is_seen_leads_one_that_no_camera_sees(error_deg: float):
     """Whatever the network guesses of the other: that one looks as high, and meets it in front."""
-    predictor = load_headset_predictor("headset-tracking3")
-    take = read_footage(predictor, None, {"left_eye": TAKE / "left_eye"}, from_start=False, fps=None)
-    seen = {"left_eye": take.pictures["left_eye"][0]}
-    points = {
-        name: traced[0]
-        for name, traced in predictor.graph.trace({n: p[None] for n, p in seen.items()}).items()
-    }
+    predictor, seen, points = left_eye_seen()
     person = Person(eyes={"left_eye": OwnEye(error_deg=error_deg)})
     read = []
     for guess_deg in (-20.0, 0.0, 20.0):
