@@ -1,6 +1,6 @@
 """Compares datasets with other heads and winks, and recipes of other noise and size: one line a trial, as Markdown.
 
-    python -m benchmarks.experiments.bench_sweep WORK [--faces 6000] [--only "NAME;NAME"] [--real RECORDINGS]
+    python benchmarks/experiments/bench_sweep.py WORK [--faces 6000] [--only "NAME;NAME"] [--real RECORDINGS]
 
 Datasets are `datasets/default.toml` with other heads or winks; `facegen generate` makes the missing ones in WORK. All
 trials are judged on one of them, "heads 6/6, 5 %", on its test people: exact points, beside a neutral frame that has as
@@ -24,6 +24,13 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")  # the fit has threads of its own
 
 import numpy as np
 
+sys.path.insert(
+    0, str(Path(__file__).parents[1])
+)  # the modules beside it find each other by their names alone
+
+from replay import mean_mae, play, replay
+
+from facegen.rigs import load_rig
 from regress.learning.probes.faces import ProbeFaces, read_faces
 from regress.learning.probes.methods import networks_of, ridges_of
 from regress.learning.probes.observability import NOISE_PERCENT, observability
@@ -140,14 +147,9 @@ def judged(model: Model, dataset_folder: Path, faces: ProbeFaces, neutral: Probe
 
 def replayed(model: Model, real: Path) -> list[str]:
     """Cells of the recorded expressions: error of either take, and r of mouthClose in the range of motion."""
-    from benchmarks.real_recordings import mean_mae, replay
-    from facegen.rigs import load_rig
-
-    rows = {
-        row["take"]: row["model"]
-        for row in replay(model, {}, real, load_rig("ict"), people=4, step=4)
-        if row["noise_px"] == TAKE_NOISE_PX and not row["bias"]
-    }
+    played = play(real, load_rig("ict"), people=4, step=4)
+    judged = replay(model, {}, played, noises=(TAKE_NOISE_PX,), biased=(False,))
+    rows = {row["take"]: row["model"] for row in judged}
     errors = " ".join(f"{mean_mae(row):.3f}" for row in rows.values())
     return [errors, f"{rows['range of motion']['mouthClose']['r']:.2f}"]
 

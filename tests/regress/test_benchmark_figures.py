@@ -1,0 +1,73 @@
+"""Benchmarks: all of them start, and their figures are of what they say."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+FOLDER = ROOT / "benchmarks"
+FILES = sorted([*FOLDER.glob("*.py"), *FOLDER.glob("experiments/*.py")])
+
+STARTS = """
+import importlib, sys
+for name in sys.argv[1:]:
+    try:
+        module = importlib.import_module(name)
+    except ModuleNotFoundError as missing:
+        if missing.name.split(".")[0] in ("torch", "aiortc", "psutil", "playwright"):
+            continue  # of an extra that need not be here
+        raise
+    if hasattr(module, "main") and "ArgumentParser" in open(module.__file__, encoding="utf-8").read():
+        sys.argv = [name, "--help"]
+        try:
+            module.main()
+        except SystemExit as left:
+            assert not left.code, (name, left.code)
+        else:
+            raise AssertionError(f"{name} --help does not end")
+"""
+
+
+@pytest.mark.parametrize("as_module", [False, True], ids=["as a script", "with -m"])
+def test_all_start_as_their_first_lines_say(as_module: bool):
+    names = [path for path in FILES if _started_as_module(path) == as_module]
+    assert len(names) > 5
+    folders = {path.parent for path in names}
+    for folder in sorted(folders):
+        here = [path.stem for path in names if path.parent == folder]
+        if as_module:
+            here = [".".join((*folder.relative_to(ROOT).parts, stem)) for stem in here]
+        paths = [ROOT] if as_module else [folder, ROOT]  # the latter is where the packages are installed from
+        code = f"import sys; sys.path[:1] = {[str(path) for path in paths]!r}\n{STARTS}"
+        done = subprocess.run(
+            [sys.executable, "-c", code, *here], cwd=folder.parent, capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stderr[-2000:]
+
+
+def _started_as_module(path: Path) -> bool:
+    return (
+        f"python -m benchmarks.{'experiments.' if path.parent != FOLDER else ''}{path.stem}"
+        in path.read_text(encoding="utf-8")
+    )
+
+
+@pytest.fixture(scope="module")
+def benchmark() -> Iterator:
+    """A benchmark by its name; what it brings into the list of modules goes with it."""
+    before, path = set(sys.modules), list(sys.path)
+    sys.path.insert(0, str(FOLDER))
+
+    def load(name: str) -> ModuleType:
+        return import_module(name)
+
+    yield load
+    sys.path[:] = path
+    for name in set(sys.modules) - before:
+        if str(getattr(sys.modules[name], "__file__", "")).startswith(str(FOLDER)):
+            del sys.modules[name]
