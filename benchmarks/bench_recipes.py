@@ -92,12 +92,14 @@ def figures(
     model: Model, trained: KeypointDataset, exact: KeypointDataset, recipe: Recipe, *, calibrated: bool
 ) -> dict[str, dict[str, float]]:
     """Mean R2 at each level of noise, of networks and of ridge, and how many shapes lie below ridge."""
+    features = model.calibrated.features if calibrated else model.features
     ridge = fit_baseline(
         trained,
-        model.features,
+        features,
         mirror=recipe.mirror,
         noise=recipe.calibrated_noise if calibrated else recipe.noise,
         calibrated=calibrated,
+        seed=model.record.seed,
     )
     faces = faces_of(exact, "test", calibrated=calibrated)
     levels = {f"{percent:g} %": noisy(faces, percent) for percent in NOISE_PERCENT}
@@ -105,7 +107,7 @@ def figures(
     rows = {}
     for level, shown in levels.items():
         networks = score_faces(model, shown)
-        predicted = ridge.predict(shown.features(model.features))
+        predicted = ridge.predict(shown.features(features))
         linear = dict(zip(OUTPUTS, score(predicted, shown.weights[:, OUTPUT_COLUMNS]), strict=True))
         known = [name for name in OUTPUTS if networks[name].r2 is not None]
         rows[level] = {

@@ -9,6 +9,10 @@ from types import ModuleType
 
 import pytest
 
+from regress.learning.training.dataset import KeypointDataset
+from regress.learning.training.recipes import RECIPES
+from regress.runtime.model import Model
+
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "benchmarks"
 FILES = sorted([*FOLDER.glob("*.py"), *FOLDER.glob("experiments/*.py")])
@@ -71,3 +75,20 @@ def benchmark() -> Iterator:
     for name in set(sys.modules) - before:
         if str(getattr(sys.modules[name], "__file__", "")).startswith(str(FOLDER)):
             del sys.modules[name]
+
+
+def test_ridge_sees_what_the_networks_beside_it_see(
+    benchmark, dataset: KeypointDataset, stable_model: Model, monkeypatch: pytest.MonkeyPatch
+):
+    recipes, asked = benchmark("bench_recipes"), []
+    assert stable_model.calibrated.features != stable_model.features
+
+    def fit(dataset, features, **options):
+        asked.append((features, options["seed"]))
+        return fitted(dataset, features, **options)
+
+    fitted = recipes.fit_baseline
+    monkeypatch.setattr(recipes, "fit_baseline", fit)
+    recipes.figures(stable_model, dataset, dataset, RECIPES["default"], calibrated=True)
+    assert asked[0][0] is stable_model.calibrated.features
+    assert asked[0][1] == stable_model.record.seed
