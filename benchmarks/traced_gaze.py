@@ -3,7 +3,8 @@
     python benchmarks/traced_gaze.py headset-tracking3 --data datasets/out/headset-clips-arrays
 
 Each person's clip counts by itself. Targets are frames of it, evenly spread over the order of their yaw, with their
-true gaze; errors are of all its frames with an eye less than half shut. The last row is what `predict --eyes` gives.
+true gaze. Errors are angles between directions, of all its frames with an eye less than half shut which are a target of
+no column: those were fitted. The last row is what `predict --eyes` gives.
 Prints Markdown, which stands in docs/measurements/headset-networks.md.
 """
 
@@ -13,12 +14,29 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
+from regress.learning.headset.accuracy import gaze_error_deg
 from regress.learning.headset.arrays import read_arrays
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.predictor import load_headset_predictor
 from regress.runtime.headset.traced_eyes import corrected, eye_features, fused
 
 TARGETS = (0, 1, 5, 9)
+FEWEST_JUDGED = 9
+"""Frames of an eye that are no targets."""
+
+
+def targets_of(open_rows: np.ndarray, yaw: np.ndarray) -> tuple[dict[int, np.ndarray], np.ndarray]:
+    """By their count the rows of targets, spread over the order of yaw (k,) of ``open_rows`` (k,); all other rows."""
+    order = open_rows[np.argsort(yaw)]
+    seen = {
+        count: order[np.linspace(0, len(order) - 1, count + 2).round().astype(int)[1:-1]] for count in TARGETS
+    }
+    return seen, np.setdiff1d(open_rows, np.concatenate(list(seen.values())))
+
+
+def off_deg(said_deg: np.ndarray, true_deg: np.ndarray) -> float:
+    """Mean angle between directions of one eye (n, 2), yaw and pitch in degrees."""
+    return float(gaze_error_deg(np.radians(said_deg)[:, None], np.radians(true_deg)[:, None]).mean())
 
 
 def main() -> None:
@@ -44,21 +62,17 @@ def main() -> None:
             }
             true = np.degrees(arrays.gaze[rows, 2 * side : 2 * side + 2]).astype(np.float64)
             open_ = arrays.weights[rows, BLENDSHAPE_INDEX[blink]] < 0.5
-            if open_.sum() < max(TARGETS):
+            targets, judged = targets_of(np.flatnonzero(open_), true[open_, 0])
+            if len(judged) < FEWEST_JUDGED:
                 continue
-            order = np.flatnonzero(open_)[np.argsort(true[open_, 0])]
-            for what, gaze in says.items():
-                for count in TARGETS:
-                    seen = order[np.linspace(0, len(order) - 1, count + 2).round().astype(int)[1:-1]]
-                    better = corrected(gaze, gaze[seen], true[seen]) if count else gaze
-                    off = np.linalg.norm(better - true, axis=1)[open_]
-                    errors.setdefault((what, count), []).append(float(off.mean()))
-            for count in TARGETS:
-                seen = order[np.linspace(0, len(order) - 1, count + 2).round().astype(int)[1:-1]]
-                off = np.linalg.norm(fused(list(says.values()), seen.tolist(), true[seen]) - true, axis=1)[
-                    open_
-                ]
-                errors.setdefault(("both, fused", count), []).append(float(off.mean()))
+            for count, seen in targets.items():
+                answers = {
+                    what: corrected(gaze, gaze[seen], true[seen]) if count else gaze
+                    for what, gaze in says.items()
+                }
+                answers["both, fused"] = fused(list(says.values()), seen.tolist(), true[seen])
+                for what, gaze in answers.items():
+                    errors.setdefault((what, count), []).append(off_deg(gaze[judged], true[judged]))
     print("| gaze from | " + " | ".join(f"{count} targets" for count in TARGETS) + " |")
     print("|---|" + "---|" * len(TARGETS))
     for what in ("traced points", "direct answer", "both, fused"):

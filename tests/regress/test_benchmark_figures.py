@@ -7,6 +7,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
+import numpy as np
 import pytest
 
 from regress.learning.training.dataset import KeypointDataset
@@ -75,6 +76,21 @@ def benchmark() -> Iterator:
     for name in set(sys.modules) - before:
         if str(getattr(sys.modules[name], "__file__", "")).startswith(str(FOLDER)):
             del sys.modules[name]
+
+
+def test_targets_are_not_judged(benchmark):
+    traced = benchmark("traced_gaze")
+    rows = np.arange(60)
+    targets, judged = traced.targets_of(rows, np.random.default_rng(2).permutation(60))
+    assert [len(seen) for seen in targets.values()] == [0, 1, 5, 9]
+    assert not np.isin(judged, np.concatenate(list(targets.values()))).any()
+    assert len(judged) >= 60 - 15
+
+
+def test_gaze_errors_are_angles(benchmark):
+    # a yaw of 20 degrees is less than that where eyes look up
+    off = benchmark("traced_gaze").off_deg(np.array([[20.0, 60.0]]), np.array([[0.0, 60.0]]))
+    assert off == pytest.approx(np.degrees(2 * np.arcsin(np.sin(np.radians(10)) * 0.5)))
 
 
 def test_ridge_sees_what_the_networks_beside_it_see(
