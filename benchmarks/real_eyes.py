@@ -8,10 +8,11 @@ Each network sees the films as `regress headset predict` would show them: at the
 finds from the frames alone, with levels of their own; and as they come, squeezed into the network's square, for a row
 of what is lost without. A network's right eye is its left one in a mirror, so each film goes in as either.
 
-The pupil's errors are median distances, as traced and after an affine fit to the marks (six numbers for 28 frames), r
-the correlation of x and of y with them. A frame without a pupil is told from the others by eyeBlink and by the traced
-lids' distance; AUC 1 is without an error. Film b's eye is shut there. Film a's looks far up, with its white in sight,
-and eyeBlink has no reason to rise. Prints Markdown, which stands in docs/your-camera.md.
+The pupil's errors are median distances to the marks: as traced, after an affine fit (six numbers for 28 frames), and
+after a fit to all frames but the judged one. r is the correlation of x and of y with the marks, as traced and fitted.
+A frame without a pupil is told from the others by eyeBlink and by the traced lids' distance; AUC 1 is without an error.
+Film b's eye is shut there. Film a's looks far up, with its white in sight, and eyeBlink has no reason to rise. Prints
+Markdown, which stands in docs/your-camera.md.
 """
 
 import argparse
@@ -71,7 +72,7 @@ def main() -> None:
     arguments = parser.parse_args()
     films = {name: read_film(arguments.real / "eyes" / name) for name in FILMS}
     print(
-        "| film | what | view | pupil r (x, y) | error % of width: as traced, fitted | "
+        "| film | what | view | pupil r (x, y): as traced; fitted | error % of width: as traced, fitted, left out | "
         "shut told by eyeBlink, lids (AUC) | eyeBlink shut, open |"
     )
     print("|---|---|---|---|---|---|---|")
@@ -179,10 +180,16 @@ def row(
     marked = np.isfinite(film.pupils).all(axis=1)
     if marked.any():
         found = marked & np.isfinite(pupils).all(axis=1)
-        r, error = pupil_figures(pupils[found], film.pupils[found], film.pictures.shape[2])
+        width = film.pictures.shape[2]
+        raw_r = axis_r(pupils[found], film.pupils[found])
+        r, error = pupil_figures(pupils[found], film.pupils[found], width)
         lost = f" ({(marked & ~found).sum()} lost)" if (marked & ~found).any() else ""
-        raw = error_percent(pupils[found], film.pupils[found], film.pictures.shape[2])
-        cells += [f"{r[0]:.3f}, {r[1]:.3f}", f"{raw:.2f}, {error:.2f}{lost}"]
+        raw = error_percent(pupils[found], film.pupils[found], width)
+        left_out = error_percent(fitted_without(pupils[found], film.pupils[found]), film.pupils[found], width)
+        cells += [
+            f"{raw_r[0]:.3f}, {raw_r[1]:.3f}; {r[0]:.3f}, {r[1]:.3f}",
+            f"{raw:.2f}, {error:.2f}, {left_out:.2f}{lost}",
+        ]
     else:
         cells += ["", ""]
     if blinks is None or apart is None:
@@ -197,15 +204,28 @@ def row(
     return f"| {' | '.join(cells)} |"
 
 
-def pupil_figures(found: np.ndarray, true: np.ndarray, width: int) -> tuple[np.ndarray, float]:
-    """Correlation of x and y (2,), and the median error in percent of the width, after an affine fit."""
+def pupil_figures(found: np.ndarray, true: np.ndarray, width: float) -> tuple[np.ndarray, float]:
+    """Correlation of x and y (2,), and the median error in percent of the width, after an affine fit to them."""
     design = np.column_stack([found, np.ones(len(found))])
     fitted = design @ np.linalg.lstsq(design, true, rcond=None)[0]
-    r = np.array([np.corrcoef(fitted[:, axis], true[:, axis])[0, 1] for axis in (0, 1)])
-    return r, error_percent(fitted, true, width)
+    return axis_r(fitted, true), error_percent(fitted, true, width)
 
 
-def error_percent(found: np.ndarray, true: np.ndarray, width: int) -> float:
+def fitted_without(found: np.ndarray, true: np.ndarray) -> np.ndarray:
+    """Points (n, 2), each by the affine fit to all the others."""
+    design = np.column_stack([found, np.ones(len(found))])
+    rows = np.arange(len(found))
+    return np.array(
+        [design[row] @ np.linalg.lstsq(design[rows != row], true[rows != row], rcond=None)[0] for row in rows]
+    )
+
+
+def axis_r(found: np.ndarray, true: np.ndarray) -> np.ndarray:
+    """Correlation of x and of y (2,)."""
+    return np.array([np.corrcoef(found[:, axis], true[:, axis])[0, 1] for axis in (0, 1)])
+
+
+def error_percent(found: np.ndarray, true: np.ndarray, width: float) -> float:
     """Median error in percent of the width."""
     return 100 * float(np.median(np.linalg.norm(found - true, axis=1))) / width
 

@@ -93,6 +93,19 @@ def test_gaze_errors_are_angles(benchmark):
     assert off == pytest.approx(np.degrees(2 * np.arcsin(np.sin(np.radians(10)) * 0.5)))
 
 
+def test_a_fit_is_judged_on_frames_that_it_has_not_seen(benchmark):
+    eyes = benchmark("real_eyes")
+    rng = np.random.default_rng(1)
+    true = rng.normal(0, 10, (12, 2))
+    found = true @ [[1.0, 0.3], [0.1, 0.9]] + 5 + rng.normal(0, 2, true.shape)
+    fitted_r, fitted = eyes.pupil_figures(found, true, 100)
+    left_out = eyes.error_percent(eyes.fitted_without(found, true), true, 100)
+    assert left_out > fitted
+    assert (eyes.axis_r(found, true) < fitted_r + 1e-12).all()
+    exact = true @ [[1.0, 0.3], [0.1, 0.9]] + 5
+    assert eyes.fitted_without(exact, true) == pytest.approx(true)
+
+
 def test_ridge_sees_what_the_networks_beside_it_see(
     benchmark, dataset: KeypointDataset, stable_model: Model, monkeypatch: pytest.MonkeyPatch
 ):
