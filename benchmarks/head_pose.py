@@ -4,16 +4,17 @@
 
 Truth is ``camera_from_head`` of the dataset's test split. *Way*: the mean face alone, as cv2.solvePnP lays it on the
 points; the mean face with its modes, as ``regress predict --head`` does; with each person's own shape from one neutral
-frame. *relative* is the error of the turn since that frame. *Points*: exact, or as a detector gives them (a bias that
-stays, drawn by ``regress.learning.training.noise``, and 1 % of the outer-eye distance of jitter). *Camera*: known, 30 %
-off in its focal length, or nothing known. docs/head-pose.md has a run's table.
+frame. *relative* is the error of the turn since that frame, of every way: each says a pose of the neutral frame too, by
+the same camera. *Points*: exact, or as a detector gives them (a bias that stays, drawn by
+``regress.learning.training.noise``, and 1 % of the outer-eye distance of jitter). *Camera*: known, 30 % off in its
+focal length, or nothing known. docs/head-pose.md has a run's table.
 
 ``--make-modes`` writes regress/data/head_modes.json from the dataset's training split instead.
 """
 
 import argparse
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -66,11 +67,32 @@ def main() -> None:
     ]
     for points, (seen, calm) in (("exact", (faces, neutral)), ("detector-like", detected)):
         for camera in ("known", "30 % off", "unknown"):
-            if camera != "unknown":
-                _row(points, camera, "mean face, solvePnP", solved(seen, camera), faces)
-            _row(points, camera, "mean face and modes", fitted(seen, camera), faces)
-            poses, start = fitted_own(seen, calm, camera)
-            _row(points, camera, "own neutral", poses, faces, start, neutral)
+            for way, said in ways(seen, calm, camera).items():
+                print(row(points, camera, way, said, faces, neutral), flush=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Said:
+    """Poses (n, 4, 4) of frames alone; and of frames and neutral frames as takes, which begin with the neutral one."""
+
+    alone: np.ndarray
+    moved: np.ndarray
+    start: np.ndarray
+
+
+def ways(seen: ProbeFaces, calm: ProbeFaces, camera: str) -> dict[str, Said]:
+    """What each way says."""
+    found = {}
+    if camera != "unknown":
+        solvers = solved(seen, camera), solved(calm, camera)
+        found["mean face, solvePnP"] = Said(alone=solvers[0], moved=solvers[0], start=solvers[1])
+    alone, start = fitted(seen, camera), fitted(calm, camera)
+    # an unknown camera is guessed from a take's first face
+    moved = fitted(seen, camera, calm) if camera == "unknown" else alone
+    found["mean face and modes"] = Said(alone=alone, moved=moved, start=start)
+    own, own_start = fitted_own(seen, calm, camera)
+    found["own neutral"] = Said(alone=own, moved=own, start=own_start)
+    return found
 
 
 def solved(faces: ProbeFaces, camera: str) -> np.ndarray:
@@ -90,11 +112,11 @@ def solved(faces: ProbeFaces, camera: str) -> np.ndarray:
     return poses
 
 
-def fitted(faces: ProbeFaces, camera: str) -> np.ndarray:
-    """Poses (n, 4, 4) with the shape that comes with the package."""
-    shape = load_head_shape()
+def fitted(faces: ProbeFaces, camera: str, first: ProbeFaces | None = None) -> np.ndarray:
+    """Poses (n, 4, 4) with the shape that comes with the package, by the camera of the ``first`` faces of takes."""
+    shape, first = load_head_shape(), faces if first is None else first
     return np.array(
-        [_fitted(points, _camera(faces, row, camera), shape) for row, points in enumerate(faces.points_px)]
+        [_fitted(points, _camera(first, row, camera), shape) for row, points in enumerate(faces.points_px)]
     )
 
 
@@ -122,32 +144,31 @@ def _fitted(face: np.ndarray, camera: FaceCamera, shape: HeadShape) -> np.ndarra
     return pose
 
 
-def _row(
+def row(
     points: str,
     camera: str,
     way: str,
-    poses: np.ndarray,
+    said: Said,
     faces: ProbeFaces,
-    start: np.ndarray | None = None,
-    neutral: ProbeFaces | None = None,
-) -> None:
-    truth = faces.camera_from_head
+    neutral: ProbeFaces,
+) -> str:
+    """A line of the table."""
+    poses, truth = said.alone, faces.camera_from_head
     error = _apart_deg(poses, truth)
     parts = np.degrees(np.abs(angles_of(poses[:, :3, :3]) - angles_of(truth[:, :3, :3])))
     place = 1e3 * np.linalg.norm(poses[:, :3, 3] - truth[:, :3, 3], axis=1)
-    relative = ""
-    if start is not None:
-        turned = [
-            here[:, :3, :3] @ np.swapaxes(there[:, :3, :3], 1, 2)
-            for here, there in ((poses, start), (truth, neutral.camera_from_head))
-        ]
-        relative = f"{np.median(_apart_deg(*turned)):.2f}"
+    turned = [
+        here[:, :3, :3] @ np.swapaxes(there[:, :3, :3], 1, 2)
+        for here, there in ((said.moved, said.start), (truth, neutral.camera_from_head))
+    ]
     cells = [np.median(error), np.percentile(error, 95), *np.median(parts, axis=0)]
-    print(
-        f"| {points} | {camera} | {way} |",
-        *(f"{cell:.2f} |" for cell in cells),
-        f"{np.median(place):.0f} |" if camera != "unknown" else "|",
-        f"{relative} |",
+    return " ".join(
+        [
+            f"| {points} | {camera} | {way} |",
+            *(f"{cell:.2f} |" for cell in cells),
+            f"{np.median(place):.0f} |" if camera != "unknown" else "|",
+            f"{np.median(_apart_deg(*turned)):.2f} |",
+        ]
     )
 
 

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -104,6 +104,14 @@ def test_a_fit_is_judged_on_frames_that_it_has_not_seen(benchmark):
     assert (eyes.axis_r(found, true) < fitted_r + 1e-12).all()
     exact = true @ [[1.0, 0.3], [0.1, 0.9]] + 5
     assert eyes.fitted_without(exact, true) == pytest.approx(true)
+
+
+def test_every_way_says_the_turn_since_the_neutral_frame(benchmark):
+    head = benchmark("head_pose")
+    eye = np.tile(np.eye(4), (3, 1, 1))
+    faces = SimpleNamespace(camera_from_head=eye)
+    said = head.Said(alone=eye, moved=eye, start=eye)
+    assert head.row("exact", "known", "mean face", said, faces, faces).split("|")[-2].strip() == "0.00"
 
 
 def test_ridge_sees_what_the_networks_beside_it_see(
