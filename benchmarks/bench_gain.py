@@ -1,4 +1,4 @@
-"""Says how far a gain of each shape could bring networks on heads that they never saw: no further than this.
+"""Says how far gains of single shapes, found in several ways, bring networks on heads that they never saw.
 
     python benchmarks/bench_gain.py datasets/out/default --real RECORDINGS --rig ict --seeds 3
 
@@ -6,8 +6,10 @@ Networks that compare with a neutral face learn from each dataset (`calibrated_a
 an iPhone's weights are played by people of the rig, with a detector's bias and 1 px of jitter (`replay.py`). Rows are
 ways to finish the networks' answers, shape by shape: as they are; stretched as the recipe stretches them; with the gain
 and the threshold of the least absolute error on validation people; the mean of all seeds' networks, stretched; and with
-the gain and the threshold of the least absolute error *on the takes themselves*, which nobody knows beforehand. Prints
-Markdown, which stands in docs/measurements/real-recordings.md.
+the gain and the threshold of the least absolute error *on the takes themselves*, which nobody knows beforehand. That
+row is no bound: each shape's error is the least over the frames of both takes together, then both sides get their mean,
+and takes and shapes are weighed otherwise where they are judged. Prints Markdown, which stands in
+docs/measurements/real-recordings.md.
 """
 
 import argparse
