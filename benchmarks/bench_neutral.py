@@ -154,6 +154,16 @@ def blinking(model: Model, path: Path) -> dict:
     return {"sure": estimate.sure, "reason": estimate.reason, **r}
 
 
+def tell_pieces(rows: list[dict]) -> str:
+    """Cells of the pieces of one length: how many are sure, and how far off; a dash where none is sure."""
+    sure, off = np.array([row["sure"] for row in rows]), np.array([row["off"] for row in rows])
+    spread, wrong = "-", "-"
+    if sure.any():
+        spread = ", ".join(f"{value:.2f}" for value in np.percentile(off[sure], [50, 90]))
+        wrong = f"{(off > FAR)[sure].mean():.2f}"
+    return f"{sure.mean():.2f} of {len(sure)} | {spread} | {(off > FAR).mean():.2f}, {wrong}"
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("model", type=Path)
@@ -171,9 +181,8 @@ def main() -> None:
             for length in WINDOWS:
                 found = pieces(model, true, points, rows, length)
                 figures["pieces"].setdefault(f"{kind}, {length}", []).extend(found)
-    print(
-        "| take | sure | MAE and r: no expression | estimate | truly calmest tenth | none |\n|---|---|---|---|---|---|"
-    )
+    print("| take | sure | MAE and median r: no expression | estimate | truly calmest tenth | none |")
+    print("|---|---|---|---|---|---|")
     for name, rows in figures["cost"].items():
         means = [
             np.mean([row[what] for row in rows], axis=0)
@@ -187,11 +196,7 @@ def main() -> None:
     )
     for name, rows in figures["pieces"].items():
         if rows:
-            sure = np.array([row["sure"] for row in rows])
-            off = np.array([row["off"] for row in rows])
-            spread = np.percentile(off[sure], [50, 90]).round(2) if sure.any() else ()
-            wrong = f"{(off > FAR).mean():.2f}, {(off > FAR)[sure].mean() if sure.any() else 0:.2f}"
-            print(f"| {name} | {sure.mean():.2f} of {len(sure)} | {', '.join(map(str, spread))} | {wrong} |")
+            print(f"| {name} | {tell_pieces(rows)} |")
     landmarks = arguments.real / "landmarks"
     for name in CLIPS:
         figures["files"][name] = clip(model, landmarks / f"{name}.csv")

@@ -106,6 +106,15 @@ def test_a_fit_is_judged_on_frames_that_it_has_not_seen(benchmark):
     assert eyes.fitted_without(exact, true) == pytest.approx(true)
 
 
+def test_pieces_of_which_none_is_sure_have_no_share(benchmark):
+    tell = benchmark("bench_neutral").tell_pieces
+    assert tell([{"sure": False, "off": 0.3}] * 2) == "0.00 of 2 | - | 1.00, -"
+    assert (
+        tell([{"sure": True, "off": 0.3}, {"sure": False, "off": 0.1}])
+        == "0.50 of 2 | 0.30, 0.30 | 0.50, 1.00"
+    )
+
+
 def test_every_way_says_the_turn_since_the_neutral_frame(benchmark):
     head = benchmark("head_pose")
     eye = np.tile(np.eye(4), (3, 1, 1))
