@@ -4,13 +4,15 @@
     python benchmarks/score.py landmarks-2 --data datasets/out/default --predictions mine.npy --title mine
     python benchmarks/score.py headset-4 --data datasets/out/headset-arrays --model models/mine
 
-A set is a file of ``benchmarks/sets``: spec, hashes of the data, split, and rows. Data with another hash are refused.
-``--check`` compares the set's own rows with what is measured, and ends with 1 where one differs in the third decimal.
+A set is a file of ``benchmarks/sets``: spec, hashes of the data, split, and rows. Data with another hash are refused,
+and so are arrays of a headset that hold other frames of the same data. ``--check`` compares the set's own rows with
+what is measured, and ends with 1 where a figure differs by more than 0.0015. Some figures have no interval.
 Predictions are a NumPy file (n, 52) in `BLENDSHAPES` order, a row for each of the split's faces with an expression, in
 the dataset's order. docs/benchmarks.md has the rows.
 """
 
 import argparse
+import hashlib
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,7 +23,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.documents import load_toml
 from regress.errors import InputError
-from regress.learning.headset.arrays import read_arrays
+from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.evaluation import Condition, estimate
 from regress.learning.probes.methods import networks_of, ridges_of
 from regress.learning.training import read_dataset
@@ -78,7 +80,10 @@ def interval(per_person: np.ndarray, weight: np.ndarray) -> tuple[float, float, 
 
 
 def r2_interval(predicted: np.ndarray, true: np.ndarray, person: np.ndarray) -> tuple[float, float, float]:
-    """Mean R2 of the columns (n, s) that move, and its 95 % interval over people."""
+    """Mean R2 of the columns (n, s) that move, and its 95 % interval over people.
+
+    Every draw of people is held against the variance of all: one whose members move little is no worse for it.
+    """
     moves = true.var(axis=0) > 0
     predicted, true = predicted[:, moves], true[:, moves]
     _, member = np.unique(person, return_inverse=True)
@@ -90,12 +95,10 @@ def r2_interval(predicted: np.ndarray, true: np.ndarray, person: np.ndarray) -> 
         return total
 
     frames = np.bincount(member).astype(float)
-    error, first, second = summed((predicted - true) ** 2), summed(true), summed(true**2)
+    error, variance = summed((predicted - true) ** 2), true.var(axis=0)
 
     def r2(counts: np.ndarray) -> np.ndarray:
-        n = (counts @ frames)[:, None]
-        variance = counts @ second / n - (counts @ first / n) ** 2
-        return (1.0 - counts @ error / n / np.maximum(variance, 1e-12)).mean(axis=1)
+        return (1.0 - counts @ error / (counts @ frames)[:, None] / variance).mean(axis=1)
 
     low, high = np.percentile(r2(_draws(groups)), (2.5, 97.5))
     return float(r2(np.ones((1, groups)))[0]), float(low), float(high)
@@ -126,14 +129,17 @@ def score_weights(
 
 
 def landmark_rows(dataset: KeypointDataset, model: Model, name: str, split: str) -> Iterator[Row]:
-    """Rows of a model, of ridge regression and of the mean, on exact points and as a detector puts them."""
+    """Rows of a model, of ridge regression and of the mean, on nearly exact points and as a detector puts them.
+
+    Nearly exact are the dataset's own detected points, which its spec jitters by 0.1 % of the face's width.
+    """
     neutral = dataset.neutral_rows()
     rows = np.flatnonzero((dataset.split == split) & ~dataset.neutral & (neutral >= 0))
     points, still = dataset.points[rows], dataset.points[neutral[rows]]
     true, person = dataset.weights[rows], dataset.person[rows]
     frame, beside = draw_displacements(DETECTOR, np.random.default_rng(_NOISE_SEED), len(rows))
     seen = {
-        "exact points": (points, still),
+        "nearly exact points": (points, still),
         "detected points": (displace(points, frame), displace(still, beside)),
     }
     methods = [(name, method) for method in networks_of(model)]
@@ -155,7 +161,7 @@ def landmark_rows(dataset: KeypointDataset, model: Model, name: str, split: str)
 def headset_rows(folder: Path, model: Path, name: str, split: str) -> Iterator[Row]:
     """Rows of a headset network, of the training mean and of the resting face: millimetres on the face."""
     arrays, predictor = read_arrays(folder), load_headset_predictor(model)
-    rows = np.flatnonzero((arrays.split == split) & ~arrays.neutral)
+    rows = scored_rows(arrays, split)
     true, person = arrays.weights[rows], arrays.person[rows]
 
     def row(method: str, given: str, predicted: np.ndarray) -> Row:
@@ -177,6 +183,28 @@ def headset_rows(folder: Path, model: Path, name: str, split: str) -> Iterator[R
     yield row("resting face", "nothing", np.zeros_like(true))
 
 
+def scored_rows(arrays: HeadsetArrays, split: str) -> np.ndarray:
+    """Numbers of a split's rows with an expression."""
+    return np.flatnonzero((arrays.split == split) & ~arrays.neutral)
+
+
+def scored(arrays: HeadsetArrays, split: str) -> dict[str, int | str]:
+    """What is scored: its rows, its people, and the SHA-256 of its samples' numbers, people and true weights.
+
+    The dataset's hash is that of all samples which a spec gives, and says nothing of those that were packed.
+    """
+    rows = scored_rows(arrays, split)
+    rows = rows[np.argsort(arrays.sample[rows], kind="stable")]
+    digest = hashlib.sha256()
+    for values, kind in ((arrays.sample, "<i8"), (arrays.person, "<i8"), (arrays.weights, "<f4")):
+        digest.update(np.ascontiguousarray(values[rows], dtype=kind).tobytes())
+    return {
+        "rows": len(rows),
+        "people": len(np.unique(arrays.person[rows])),
+        "scored_sha256": digest.hexdigest(),
+    }
+
+
 def measured(name: str, data: Path, model: Path | None, predictions: Path | None, title: str) -> list[Row]:
     """Rows of a set by its name.
 
@@ -188,8 +216,10 @@ def measured(name: str, data: Path, model: Path | None, predictions: Path | None
     benchmark = load_set(name)
     known, called = ready_made_models().get(benchmark["model"]), title if model else benchmark["model"]
     if benchmark["kind"] == "headset":
-        found = read_arrays(data).description.get("dataset_hash", "")
+        arrays = read_arrays(data)
+        found = arrays.description.get("dataset_hash", "")
         _check_hash(name, "dataset hash", found, benchmark["dataset_hash"])
+        check_scored(name, scored(arrays, benchmark["split"]), benchmark)
         return list(headset_rows(data, model or known, called, benchmark["split"]))
     dataset = read_dataset(data)
     _check_hash(name, "keypoints' SHA-256", dataset.sha256, benchmark["keypoints_sha256"])
@@ -227,6 +257,15 @@ def _check_hash(name: str, what: str, found: str, expected: str) -> None:
         )
 
 
+def check_scored(name: str, found: dict[str, int | str], benchmark: dict) -> None:
+    """Refuse other frames than a set's own, where it says which they are."""
+    for what in (key for key in found if key in benchmark and benchmark[key] != found[key]):
+        raise InputError(
+            f"the data's {what} of the split {benchmark['split']} is {found[what]}, and {name} has {benchmark[what]}; "
+            "pack all samples of the set's spec"
+        )
+
+
 def differing(rows: list[Row], recorded: list[dict]) -> list[str]:
     """Sentences about recorded rows that are missing or differ."""
     said = {(row.method, row.given): row.figures for row in rows}
@@ -237,7 +276,7 @@ def differing(rows: list[Row], recorded: list[dict]) -> list[str]:
             faults.append(f"{one['method']}, {one['given']}: not measured")
             continue
         for figure in (key for key in one if key not in ("method", "given")):
-            if not np.allclose(found[figure], one[figure], atol=TOLERANCE, rtol=0):
+            if not np.allclose(found[figure][: len(one[figure])], one[figure], atol=TOLERANCE, rtol=0):
                 values = ", ".join(f"{value:.3f}" for value in found[figure])
                 faults.append(
                     f"{one['method']}, {one['given']}: {figure} is {values}, recorded {one[figure]}"
