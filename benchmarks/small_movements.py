@@ -21,7 +21,7 @@ CAMERA_DISTANCE_M = 0.8
 
 YAW_DEG = 20.0
 SLIGHT = (0.0, 0.05, 0.1, 0.15, 0.2)
-"""True weights of slight movements."""
+"""True weights of slight movements; rest is among them, so that a slope says what a movement adds to it."""
 _REPEATS = 10
 _STILL_FRAMES = 60
 _NEUTRAL_FRAMES = 10
@@ -126,13 +126,13 @@ def _slope(calibrated: Model, seen: Seen, name: str) -> tuple[float, float]:
 def _least_tremble(rig: Rig, shapes: list[str]) -> np.ndarray:
     """Standard deviation (n,), a px, of the best unbiased answer for each shape where all others are known to rest.
 
-    One over the length of the movement, a unit of weight, over all 136 coordinates (Gauss and Markov); the neutral face
-    is the mean of ten frames, and trembles too.
+    One over the length of the movement, a unit of weight, over all 136 coordinates (Gauss and Markov). The neutral face
+    is off too, by a constant, which trembles no answer.
     """
     moved = np.stack([np.zeros(len(BLENDSHAPES)), *(SLIGHT[-1] * _one(name) for name in shapes)])
     points = project(rig, np.zeros(rig.components), moved)
     movement = (points[1:] - points[0]) / SLIGHT[-1]
-    return np.sqrt(1 + 1 / _NEUTRAL_FRAMES) / np.linalg.norm(movement, axis=(1, 2))
+    return 1 / np.linalg.norm(movement, axis=(1, 2))
 
 
 def tell_movements(figures: dict) -> None:

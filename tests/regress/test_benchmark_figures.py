@@ -10,6 +10,8 @@ from types import ModuleType, SimpleNamespace
 import numpy as np
 import pytest
 
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.rigs import Rig
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.recipes import RECIPES
 from regress.runtime.model import Model
@@ -104,6 +106,19 @@ def test_a_fit_is_judged_on_frames_that_it_has_not_seen(benchmark):
     assert (eyes.axis_r(found, true) < fitted_r + 1e-12).all()
     exact = true @ [[1.0, 0.3], [0.1, 0.9]] + 5
     assert eyes.fitted_without(exact, true) == pytest.approx(true)
+
+
+def test_a_neutral_face_that_is_off_trembles_no_answer(benchmark, anny: Rig):
+    small = benchmark("small_movements")
+    rng = np.random.default_rng(0)
+    moved = np.zeros((2, len(BLENDSHAPES)))
+    moved[1, BLENDSHAPE_INDEX["jawOpen"]] = small.SLIGHT[-1]
+    rest, opened = small.project(anny, np.zeros(anny.components), moved)
+    movement = ((opened - rest) / small.SLIGHT[-1]).ravel()
+    neutral = rest.ravel() + rng.standard_normal((10, 136)).mean(axis=0)
+    frames = rest.ravel() + rng.standard_normal((20_000, 136))
+    said = (frames - neutral) @ movement / (movement @ movement)
+    assert small._least_tremble(anny, ["jawOpen"]) == pytest.approx(said.std(), rel=0.02)
 
 
 def test_pieces_of_which_none_is_sure_have_no_share(benchmark):
