@@ -9,7 +9,9 @@ frames after a mean of three, of the shapes that move (standard deviation of Med
 Gaze is from the irises, as eyeLook weights.
 
 With --truth both are held against what the face in the film really does: 52 weights and the angles of eyes and head in
-each picture. The sample's face is our avatar, of whose relatives the networks have learned: it favours them.
+each picture. The sample's face is our avatar, of whose relatives the networks have learned: it favours them. Shapes
+take turns in it and rest most of the time, so that always answering zero errs by little; it stands beside both, and so
+do errors of the frames in which a shape is at work.
 """
 
 import argparse
@@ -18,7 +20,8 @@ import platform
 import sys
 import time
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
@@ -37,6 +40,9 @@ from track.sources import Pace, open_source
 
 MOVES = 0.04
 """Standard deviation of MediaPipe's weight from which a shape counts in a film."""
+
+ACTIVE = 0.1
+"""True weight above which a shape is at work."""
 
 CALM = 5
 """Frames of the neutral face."""
@@ -170,22 +176,48 @@ def tell_times(stopwatch: Stopwatch) -> None:
         print(f"| {step} | {np.median(taken_ms):.2f} | {np.percentile(taken_ms, 95):.2f} |")
 
 
-def beside_truth(
-    watched: Watched, model: Model, truth: dict[str, np.ndarray]
-) -> dict[str, tuple[float, float, float, float]]:
-    """By shape that moves: r of ours and of MediaPipe's weights with what is true, and mean absolute errors of both."""
+@dataclass(frozen=True, kw_only=True)
+class Agreement:
+    """How two opinions agree with what one shape truly does: ours, then MediaPipe's.
+
+    Attributes
+    ----------
+    r
+        Of both.
+    mae, active
+        Mean absolute errors of both, and of always answering zero: of all frames, and of those in which the true weight
+        is above `ACTIVE` (NaN where it never is).
+    """
+
+    r: tuple[float, float]
+    mae: tuple[float, float, float]
+    active: tuple[float, float, float]
+
+
+def agreement(ours: np.ndarray, theirs: np.ndarray, true: np.ndarray) -> Agreement:
+    """Of one shape's weights (n,)."""
+    errors = np.abs(np.stack([ours, theirs, np.zeros_like(true)]) - true)
+    works = true > ACTIVE
+    active = errors[:, works].mean(axis=1) if works.any() else np.full(3, np.nan)
+    return Agreement(
+        r=(_r(ours, true), _r(theirs, true)),
+        mae=tuple(errors.mean(axis=1).tolist()),
+        active=tuple(active.tolist()),
+    )
+
+
+def beside_truth(watched: Watched, model: Model, truth: dict[str, np.ndarray]) -> dict[str, Agreement]:
+    """By shape that moves."""
     if len(watched.samples) != len(truth["frame"]):
         sys.exit(f"a face is seen in {len(watched.samples)} frames, and the truth has {len(truth['frame'])}")
     true = np.array([truth[name] for name in BLENDSHAPES]).T
     rest = np.flatnonzero(true.sum(axis=1) == 0)[WARMING:]
     ours = model.calibrate(watched.points[rest]).predict(watched.points)
     ours[:, LOOKS] = watched.gaze_weights(rest)
-    both, found = (ours, watched.theirs), {}
-    for column in np.flatnonzero(true.std(axis=0) > MOVES):
-        r = [_r(each[:, column], true[:, column]) for each in both]
-        mae = [float(np.abs(each[:, column] - true[:, column]).mean()) for each in both]
-        found[BLENDSHAPES[column]] = (*r, *mae)
-    return found
+    return {
+        BLENDSHAPES[column]: agreement(ours[:, column], watched.theirs[:, column], true[:, column])
+        for column in np.flatnonzero(true.std(axis=0) > MOVES)
+    }
 
 
 def read_truth(path: Path) -> dict[str, np.ndarray]:
@@ -202,18 +234,29 @@ def tell_truth(watched: Watched, model: Model, truth: dict[str, np.ndarray]) -> 
     truth
         As :func:`read_truth` gives it.
     """
-    print("\n| shape | r, ours | r, MediaPipe | MAE, ours | MAE, MediaPipe |\n|---|---|---|---|---|")
-    figures = []
-    for name, row in beside_truth(watched, model, truth).items():
-        figures.append(row)
-        print(f"| {name} | {row[0]:.2f} | {row[1]:.2f} | {row[2]:.3f} | {row[3]:.3f} |")
-    r_ours, r_theirs, mae_ours, mae_theirs = np.median(figures, axis=0)
-    print(f"| median of {len(figures)} | {r_ours:.2f} | {r_theirs:.2f} | {mae_ours:.3f} | {mae_theirs:.3f} |")
+    print("\n".join(truth_table(beside_truth(watched, model, truth))))
     heads = np.degrees([sample.head[3:] for sample in watched.samples])
     print("\n| head | r | degrees for each true one | off at rest, degrees |\n|---|---|---|---|")
     for angle, found in zip(("yaw", "pitch", "roll"), heads.T, strict=True):
         slope, offset = np.polyfit(truth[f"head_{angle}_deg"], found, 1)
         print(f"| {angle} | {_r(found, truth[f'head_{angle}_deg']):.3f} | {slope:.2f} | {offset:.1f} |")
+
+
+def truth_table(beside: dict[str, Agreement]) -> Iterable[str]:
+    """Lines of Markdown: each shape, then means and medians over shapes."""
+    yield f"\n| shape | r: ours, MediaPipe | MAE: ours, MediaPipe, zero | where the true weight is above {ACTIVE:g} |"
+    yield "|---|---|---|---|"
+    for name, one in beside.items():
+        yield _truth_row(name, [*one.r, *one.mae, *one.active])
+    figures = [[*one.r, *one.mae, *one.active] for one in beside.values()]
+    for what, over in (("mean", np.nanmean), ("median", np.nanmedian)):
+        yield _truth_row(f"{what} of {len(figures)}", over(figures, axis=0))
+
+
+def _truth_row(what: str, figures: Iterable[float]) -> str:
+    r_ours, r_theirs, *errors = figures
+    mae, active = (" / ".join(f"{one:.3f}" for one in three) for three in (errors[:3], errors[3:]))
+    return f"| {what} | {r_ours:.2f} / {r_theirs:.2f} | {mae} | {active} |"
 
 
 def _r(one: np.ndarray, other: np.ndarray) -> float:

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -78,6 +79,20 @@ def benchmark() -> Iterator:
     for name in set(sys.modules) - before:
         if str(getattr(sys.modules[name], "__file__", "")).startswith(str(FOLDER)):
             del sys.modules[name]
+
+
+def test_zero_stands_beside_errors_on_a_film(benchmark):
+    detector = benchmark("track_detector")
+    true = np.concatenate([np.zeros(90), np.full(10, 0.8)])
+    ours, theirs = np.where(true > 0, 0.6, 0.1), np.zeros(100)
+    found = detector.agreement(ours, theirs, true)
+    assert found.r == pytest.approx((1.0, 0.0))
+    assert found.mae == pytest.approx((0.11, 0.08, 0.08))  # who sees nothing seems to err less
+    assert found.active == pytest.approx((0.2, 0.8, 0.8))
+    lines = list(detector.truth_table({"jawOpen": found, "jawLeft": replace(found, active=(np.nan,) * 3)}))
+    assert "MAE: ours, MediaPipe, zero" in lines[0]
+    assert lines[-2] == "| mean of 2 | 1.00 / 0.00 | 0.110 / 0.080 / 0.080 | 0.200 / 0.800 / 0.800 |"
+    assert lines[-1].startswith("| median of 2 |")
 
 
 def test_targets_are_not_judged(benchmark):
