@@ -28,6 +28,7 @@ MOVES_SD = 0.05
 NOISE_PX = (0.0, 0.5, 1.0, 2.0)
 NEUTRAL_FRAMES = 10
 SEED = 7
+"""Of the people on whom settings were chosen; any other gives other people."""
 
 Figures = dict[str, dict[str, float]]
 """By shape: r, mean absolute error, and how far it moves as a share of how far the true one does."""
@@ -47,12 +48,15 @@ class Played:
         Of each person the points of rest and take, (NEUTRAL_FRAMES + n, 68, 2), pixels.
     biases : (people, 68, 2) float64
         Each one's detector.
+    seed
+        Of people, detectors and noise.
     """
 
     take: str
     weights: np.ndarray
     exact: list[np.ndarray]
     biases: np.ndarray
+    seed: int = SEED
 
     @property
     def moving(self) -> list[str]:
@@ -61,16 +65,16 @@ class Played:
 
     def seen(self, noise_px: float, *, biased: bool) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Neutral frames and frames of each person, as a detector gives them."""
-        noise = np.random.default_rng([SEED, int(10 * noise_px)])
+        noise = np.random.default_rng([self.seed, int(10 * noise_px)])
         for points, bias in zip(self.exact, self.biases, strict=True):
             where = displace(points, np.broadcast_to(bias, points.shape)) if biased else points
             where = where + noise_px * noise.standard_normal(points.shape)
             yield where[:NEUTRAL_FRAMES], where[NEUTRAL_FRAMES:]
 
 
-def play(real: Path, rig: Rig, people: int, step: int) -> list[Played]:
+def play(real: Path, rig: Rig, people: int, step: int, seed: int = SEED) -> list[Played]:
     """Every ``step``-th frame of the takes, played by people of a rig."""
-    rng = np.random.default_rng(SEED)
+    rng = np.random.default_rng(seed)
     identities = rng.standard_normal((people, rig.components))
     biases = draw_bias(rng, people)
     rest = np.zeros((NEUTRAL_FRAMES, len(BLENDSHAPES)))
@@ -78,7 +82,7 @@ def play(real: Path, rig: Rig, people: int, step: int) -> list[Played]:
     for take, path in TAKES.items():
         weights = np.clip(read_live_link(real / path).weights[::step], 0, 1)
         exact = [project(rig, identity, np.concatenate([rest, weights])) for identity in identities]
-        played.append(Played(take=take, weights=weights, exact=exact, biases=biases))
+        played.append(Played(take=take, weights=weights, exact=exact, biases=biases, seed=seed))
     return played
 
 
@@ -92,7 +96,8 @@ def replay(
 ) -> list[dict]:
     """A row for every take, bias and noise; ``all`` holds mean absolute errors over all shapes, moving or not.
 
-    ``model`` knows the neutral frames, as the ridges do; ``alone`` is the same model without them.
+    ``by person`` has mean absolute error and median r of the model for each person. ``model`` knows the neutral frames,
+    as the ridges do; ``alone`` is the same model without them.
     """
     rows = []
     for take in played:
@@ -117,6 +122,13 @@ def replay(
                             name: float(np.abs(each - true)[..., OUTPUT_COLUMNS].mean())
                             for name, each in stacked.items()
                         },
+                        "by person": [
+                            (mean_mae(one), median_r(one))
+                            for one in (
+                                judge(said[None], take.weights[None], take.moving)
+                                for said in stacked["model"]
+                            )
+                        ],
                         **{name: judge(each, true, take.moving) for name, each in stacked.items()},
                     }
                 )

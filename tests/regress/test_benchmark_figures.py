@@ -14,8 +14,11 @@ import pytest
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.rigs import Rig
 from regress.learning.training.dataset import KeypointDataset
+from regress.learning.training.gain import SEEN
+from regress.learning.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of
 from regress.learning.training.recipes import RECIPES
 from regress.runtime.model import Model
+from regress.targets import OUTPUTS
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "benchmarks"
@@ -93,6 +96,42 @@ def test_zero_stands_beside_errors_on_a_film(benchmark):
     assert "MAE: ours, MediaPipe, zero" in lines[0]
     assert lines[-2] == "| mean of 2 | 1.00 / 0.00 | 0.110 / 0.080 / 0.080 | 0.200 / 0.800 / 0.800 |"
     assert lines[-1].startswith("| median of 2 |")
+
+
+def test_ridge_is_finished_as_networks_are(benchmark, dataset: KeypointDataset, stable_model: Model):
+    recordings, features = benchmark("real_recordings"), stable_model.calibrated.features
+    ridge = recordings.ridges_beside(stable_model, dataset)["ridge_same_rows"]
+    plain = recordings.fit_baseline(
+        dataset, features, mirror=True, calibrated=True, noise=RECIPES["default"].calibrated_noise
+    )
+    assert ridge.predict(np.zeros((1, features.count))) == pytest.approx(0)
+    people = as_detected(faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(27))
+    true = people.weights[:, OUTPUT_COLUMNS]
+    free = [OUTPUTS.index(name) for name in OUTPUTS if not name.startswith("eyeLook")]
+    gaps = [
+        np.abs(one.predict(people.features(features)).std(axis=0) - true.std(axis=0))[free].mean()
+        for one in (plain, ridge)
+    ]
+    assert gaps[1] < gaps[0]
+
+
+def test_other_seeds_play_other_people(benchmark, anny: Rig, monkeypatch: pytest.MonkeyPatch):
+    replay = benchmark("replay")
+    weights = np.random.default_rng(0).uniform(0, 0.4, (6, len(BLENDSHAPES)))
+    monkeypatch.setattr(replay, "read_live_link", lambda path: SimpleNamespace(weights=weights))
+    first, again, other = (replay.play(Path(), anny, 2, 1, seed)[0] for seed in (7, 7, 8))
+    assert np.array_equal(first.exact[0], again.exact[0])
+    assert not np.allclose(first.exact[0], other.exact[0])
+    seen = [next(iter(take.seen(1.0, biased=True)))[1] - take.exact[0][10:] for take in (first, other)]
+    assert not np.allclose(*seen)
+
+
+def test_a_share_of_people_is_told(benchmark, capsys: pytest.CaptureFixture[str]):
+    row = {"take": "speech", "noise_px": 1.0, "bias": True, "by person": [(0.07, 0.8), (0.09, 0.9)]}
+    benchmark("real_recordings").tell_people([row, row | {"bias": False}])
+    told = capsys.readouterr().out
+    assert "| speech | 2 | 0.080 (0.070 to 0.090) | 0.850 (0.800 to 0.900) |" in told
+    assert told.count("speech") == 1
 
 
 def test_targets_are_not_judged(benchmark):
