@@ -17,8 +17,8 @@ class Person(Text):
 
     ``number`` stands before each state of a tick; ``id`` is the same person's whenever they come back. ``recorded`` are
     those whose states go to the room's file, ``replayed`` those who come out of one; at most one ``shares``. ``own``
-    is the SHA-256 of an avatar that they brought, which the room's key fetches (`room.server.dressing`); ``avatar``
-    stands in for it until it is there.
+    is the SHA-256 of an avatar that they brought, which the room's key fetches (`room.server.avatar_requests`);
+    ``avatar`` stands in for it until it is there.
     """
 
     number: Number

@@ -19,10 +19,10 @@ from room.protocol.texts import (
     Voice,
 )
 from room.server.calls import Calls
-from room.server.cloakroom import Cloakroom
 from room.server.consents import Consents
 from room.server.neighbours import Neighbours
 from room.server.replay import Replay
+from room.server.room_avatars import RoomAvatars
 from room.state import Meeting, Seat
 
 
@@ -33,7 +33,7 @@ class Acts:
     ----------
     meeting
         Who is in the room.
-    cloakroom, consents, calls
+    avatars, consents, calls
         Its own avatars, its recording, and its voices and screens.
     replay
         What the room plays; None where people meet.
@@ -49,7 +49,7 @@ class Acts:
         self,
         meeting: Meeting,
         *,
-        cloakroom: Cloakroom,
+        avatars: RoomAvatars,
         consents: Consents,
         calls: Calls,
         replay: Replay | None,
@@ -57,7 +57,7 @@ class Acts:
         tell: Callable[[Answer], None],
         free: Callable[[Seat, str], None],
     ) -> None:
-        self._meeting, self._cloakroom, self._consents, self._calls = meeting, cloakroom, consents, calls
+        self._meeting, self._avatars, self._consents, self._calls = meeting, avatars, consents, calls
         self._replay, self._neighbours = replay, neighbours
         self._tell, self._free = tell, free
 
@@ -85,7 +85,7 @@ class Acts:
             case Play():
                 self._play(said)
             case Undress():
-                self._cloakroom.undress(seat)
+                self._avatars.take_off(seat)
                 self._tell(Changed(person=seat.person))
             case Share():
                 for changed in self._meeting.share(seat, on=said.on):
@@ -113,7 +113,7 @@ class Acts:
         if seat is None:
             self._tell(Door(locked=self._meeting.locked))
         elif act.action == "undress":
-            self._cloakroom.undress(seat)
+            self._avatars.take_off(seat)
             self._tell(Changed(person=seat.person))
         elif act.action == "remove":
             self._free(seat, "a moderator has removed you from this room")

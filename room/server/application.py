@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 from aiohttp import web
 
-from room.avatars import Wardrobe
+from room.avatars import AvatarStore
 from room.places import PLAIN, Place
 from room.protocol.answers import About
 from room.protocol.texts import MOST_TEXT_BYTES
 from room.recording import Recorder, Survey
-from room.server.dressing import Dressing
+from room.server.avatar_requests import AvatarRequests
 from room.server.files import Files, answer, hold
 from room.server.halls import Halls
 from room.server.headers import protect
@@ -77,19 +77,19 @@ class Rooms:
         engines: Sequence[Janus] = (),
     ) -> None:
         self._telegraph, self._engines, self._replayed = telegraph, engines, replayed
-        self._files, self._wardrobe, self.metrics = Files(STATIC), Wardrobe(), Metrics()
+        self._files, self._avatar_store, self.metrics = Files(STATIC), AvatarStore(), Metrics()
         self._halls = Halls(
             keys.secret,
             limits=limits,
             relays=relays,
-            wardrobe=self._wardrobe,
+            store=self._avatar_store,
             recorder=recorder,
             replayed=replayed,
             telegraph=telegraph,
             engines=engines,
         )
         self._visits = Visits(keys, self._halls, origins, self.metrics)
-        self._dressing = Dressing(keys, self._wardrobe, self._halls.get, origins)
+        self._avatar_requests = AvatarRequests(keys, self._avatar_store, self._halls.get, origins)
         self._places = {room: hold(place.content, ".glb") for room, place in (places or {}).items()}
         self.stopped = asyncio.Event()
 
@@ -108,8 +108,8 @@ class Rooms:
         application.router.add_get("/room/{name}/about.json", self._about)
         application.router.add_get("/room/{name}/place.glb", self._place)
         application.router.add_get("/room/{name}/socket", self._visits.answer)
-        application.router.add_post("/room/{name}/avatar", self._dressing.take)
-        application.router.add_get("/room/{name}/avatar/{digest}", self._dressing.give)
+        application.router.add_post("/room/{name}/avatar", self._avatar_requests.take)
+        application.router.add_get("/room/{name}/avatar/{digest}", self._avatar_requests.give)
         application.router.add_get("/static/{path:.+}", self._file)
         application.on_response_prepare.append(protect)
         application.on_shutdown.append(self._close)
@@ -134,7 +134,7 @@ class Rooms:
         self.metrics.connections = self._visits.count
         self.metrics.engines = sum(engine.up for engine in self._engines)
         self.metrics.redis = int(self._telegraph is not None and self._telegraph.connected)
-        self.metrics.avatar_bytes = self._wardrobe.kept_bytes
+        self.metrics.avatar_bytes = self._avatar_store.kept_bytes
         return web.Response(text=self.metrics.text())
 
     async def _page(self, request: web.Request) -> web.Response:

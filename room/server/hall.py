@@ -4,20 +4,20 @@ import time
 from typing import TYPE_CHECKING
 
 from facegen.conventions import BLENDSHAPES
-from room.avatars import Wardrobe
+from room.avatars import AvatarStore
 from room.protocol.accounts import Part
 from room.protocol.answers import Answer, Changed, Left, Signal, Welcome
 from room.protocol.texts import Join, Said
 from room.recording import Recorder
 from room.server.acts import Acts
+from room.server.avatar_transfer import AvatarTransfer
 from room.server.calls import Calls
-from room.server.carrier import Carrier
-from room.server.cloakroom import Cloakroom
 from room.server.connection import Connection
 from room.server.connections import Connections
 from room.server.consents import Consents
 from room.server.neighbours import Neighbours
 from room.server.replay import Replay
+from room.server.room_avatars import RoomAvatars
 from room.server.switchboard import Switchboard
 from room.server.turn import Relays
 from room.server.turnstile import Turnstile
@@ -42,7 +42,7 @@ class Hall:
         Places.
     relays
         What browsers are told for their voices.
-    wardrobe
+    store
         Keeps the avatars that people bring.
     recorder
         Takes the states of those who agreed; None where nobody is recorded.
@@ -50,14 +50,14 @@ class Hall:
         Brings people of a recording in; None for a room of the living alone.
     telegraph
         Reaches the other processes that carry this room; None where there is one alone.
-    carrier
+    transfer
         Brings own avatars from those processes, and to them; None where there is one alone.
     switchboard
         Has an engine pass voices on; None where they go from page to page.
 
     Attributes
     ----------
-    cloakroom
+    avatars
         Has their own avatars.
     """
 
@@ -67,11 +67,11 @@ class Hall:
         *,
         most_people: int,
         relays: Relays,
-        wardrobe: Wardrobe,
+        store: AvatarStore,
         recorder: Recorder | None = None,
         replay: Replay | None = None,
         telegraph: "Telegraph | None" = None,
-        carrier: Carrier | None = None,
+        transfer: AvatarTransfer | None = None,
         switchboard: Switchboard | None = None,
     ) -> None:
         self.name = name
@@ -80,7 +80,7 @@ class Hall:
         self.meeting = Meeting(
             most_people=most_people, process=process, first_number=int(process[:4] or "0", 16)
         )
-        self.cloakroom = Cloakroom(name, self.meeting, wardrobe, carrier)
+        self.avatars = RoomAvatars(name, self.meeting, store, transfer)
         self._connections = Connections()
         self._consents = Consents(self.meeting, recorder)
         self._calls = Calls(self.meeting, self._connections, switchboard, away=self._call_away)
@@ -91,12 +91,12 @@ class Hall:
             tell=self._connections.tell,
             call=self._connections.call,
             oust=self._oust,
-            undress=self._undressed,
-            send=self.cloakroom.send,
+            take_off=self._take_off,
+            send=self.avatars.send,
         )
         self._acts = Acts(
             self.meeting,
-            cloakroom=self.cloakroom,
+            avatars=self.avatars,
             consents=self._consents,
             calls=self._calls,
             replay=replay,
@@ -135,7 +135,7 @@ class Hall:
         seat = self.meeting.enter(join, moderator=moderator)
         self._connections.enter(seat.id, join.role, connection)
         page = join.role == "page"
-        if page and not self.cloakroom.has(seat):
+        if page and not self.avatars.has(seat):
             seat.own = ""  # it stayed with the process that they came by before; their page brings it again
         if page:  # a program that moves a face has no say in this
             self._consents.enter(seat, recorded=join.recorded)
@@ -201,7 +201,7 @@ class Hall:
         """
         self._acts.do(seat, said)
 
-    def dress(self, seat: Seat, content: bytes) -> str:
+    def put_on(self, seat: Seat, content: bytes) -> str:
         """Let somebody wear an avatar that was checked, and tell all; gives its digest.
 
         Raises
@@ -210,15 +210,15 @@ class Hall:
             If the server has no room for it; they wear the stand-in then.
         """
         try:
-            self.cloakroom.dress(seat, content)
+            self.avatars.put_on(seat, content)
         finally:
             self._tell(Changed(person=seat.person))
         return seat.own
 
-    def _undressed(self, id: str) -> None:
+    def _take_off(self, id: str) -> None:
         seat = self.meeting.seat(id)
         if seat:
-            self.cloakroom.undress(seat)
+            self.avatars.take_off(seat)
             self._tell(Changed(person=seat.person))
 
     def tick(self, *, now: float) -> None:
@@ -229,7 +229,7 @@ class Hall:
         if self._neighbours:
             self._neighbours.tick(now=now)
             self._connections.follow({seat.id for seat in self.meeting.seats})
-            self.cloakroom.settle()
+            self.avatars.settle()
         if self._replay:
             for answer in self._replay.step(self.meeting, now=now):
                 self._tell(answer)
@@ -245,7 +245,7 @@ class Hall:
         if self._replay:
             self._replay.close()
         if self._neighbours:
-            self.cloakroom.close()
+            self.avatars.close()
             self._neighbours.close()
 
     def _tell(self, answer: Answer, *, but: Seat | None = None) -> None:
@@ -260,7 +260,7 @@ class Hall:
 
     def _oust(self, ousted: Ousted) -> None:
         self._turnstile.forget(ousted.id)
-        self.cloakroom.drop(ousted.id)
+        self.avatars.drop(ousted.id)
         self._calls.end(ousted.id)
         self._connections.oust(ousted.id, ousted.text, again=ousted.again)
 
@@ -268,8 +268,8 @@ class Hall:
         self.meeting.leave(seat)
         self._turnstile.forget(seat.id)
         self._calls.end(seat.id)
-        self.cloakroom.uploads.pop(seat.id, None)
-        self.cloakroom.undress(seat)
+        self.avatars.uploads.pop(seat.id, None)
+        self.avatars.take_off(seat)
         self._consents.follow()
         self._connections.part(seat.id, word)
         self._tell(Left(number=seat.number))

@@ -5,10 +5,10 @@ import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from room.avatars import Wardrobe
+from room.avatars import AvatarStore
 from room.errors import NotAllowed
 from room.recording import Recorder, Survey
-from room.server.carrier import Carrier
+from room.server.avatar_transfer import AvatarTransfer
 from room.server.hall import HERTZ, Hall
 from room.server.janus import Janus
 from room.server.limits import Limits
@@ -33,7 +33,7 @@ class Halls:
         What is allowed.
     relays
         What browsers are told for their voices.
-    wardrobe
+    store
         Keeps the avatars that people bring.
     recorder
         Records its one room; None where nothing is recorded.
@@ -51,16 +51,16 @@ class Halls:
         *,
         limits: Limits,
         relays: Relays,
-        wardrobe: Wardrobe,
+        store: AvatarStore,
         recorder: Recorder | None,
         replayed: Survey | None,
         telegraph: "Telegraph | None",
         engines: Sequence[Janus],
     ) -> None:
-        self._secret, self._limits, self._relays, self._wardrobe = secret, limits, relays, wardrobe
+        self._secret, self._limits, self._relays, self._store = secret, limits, relays, store
         self._recorder, self._replayed = recorder, replayed
         self._telegraph, self._engines = telegraph, engines
-        self._carrier = Carrier(telegraph, wardrobe) if telegraph else None
+        self._transfer = AvatarTransfer(telegraph, store) if telegraph else None
         self._halls: dict[str, Hall] = {}
         self._opening: dict[str, asyncio.Task[None]] = {}
 
@@ -120,11 +120,11 @@ class Halls:
             name,
             most_people=self._limits.people,
             relays=self._relays,
-            wardrobe=self._wardrobe,
+            store=self._store,
             recorder=self.recorder_of(name),
             replay=Replay(self._replayed) if self._replayed else None,
             telegraph=self._telegraph,
-            carrier=self._carrier,
+            transfer=self._transfer,
             switchboard=switchboard,
         )
         try:

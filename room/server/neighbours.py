@@ -53,7 +53,7 @@ class Neighbours:
         Called with a signal for one of them, by id.
     oust
         Called with those of them who have to go.
-    undress
+    take_off
         Called with the id of somebody of this process whose own avatar a moderator of another one has taken off.
     send
         Called with a piece of an avatar that another process wants.
@@ -68,12 +68,12 @@ class Neighbours:
         tell: Callable[[Answer], None],
         call: Callable[[str, Signal], None],
         oust: Callable[[Ousted], None],
-        undress: Callable[[str], None],
+        take_off: Callable[[str], None],
         send: Callable[[Wanted], None],
     ) -> None:
         self._meeting, self._telegraph, self._room = meeting, telegraph, room
         self._tell, self._call, self._oust = tell, call, oust
-        self._undress, self._send = undress, send
+        self._take_off, self._send = take_off, send
         self._heard_at: dict[str, float] = {}
         self._came: dict[Part, list[tuple[int, bytes]]] = {"page": [], "face": []}
         self._changed, self._said_at = True, float("-inf")
@@ -173,7 +173,7 @@ class Neighbours:
         for ousted in merged.ousted:
             self._oust(ousted)
         for id in merged.undressed:
-            self._undress(id)
+            self._take_off(id)
         for answer in merged.told:
             self._tell(answer)
         if said.asks or not known:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from room.avatars import Wardrobe, check_avatar
+from room.avatars import AvatarStore, check_avatar
 from room.avatars.check import (
     MOST_AVATAR_BYTES,
     MOST_DOCUMENT_BYTES,
@@ -182,20 +182,20 @@ def test_any_byte_may_be_another(place, byte):
         check_avatar(bytes(content))
 
 
-def test_a_wardrobe_keeps_each_avatar_once_and_no_more_than_it_may():
-    wardrobe = Wardrobe(most_bytes=10)
-    digest = wardrobe.put(b"abcdef", ("lab", "ada"))
-    assert wardrobe.put(b"abcdef", ("lab", "ben")) == digest == hashlib.sha256(b"abcdef").hexdigest()
-    assert wardrobe.kept_bytes == 6
+def test_the_store_keeps_each_avatar_once_and_no_more_than_it_may():
+    store = AvatarStore(most_bytes=10)
+    digest = store.put(b"abcdef", ("lab", "ada"))
+    assert store.put(b"abcdef", ("lab", "ben")) == digest == hashlib.sha256(b"abcdef").hexdigest()
+    assert store.kept_bytes == 6
     with pytest.raises(NotAllowed):
-        wardrobe.put(b"ghijkl", ("lab", "cy"))
-    assert wardrobe.get(digest, "lab") == b"abcdef"
-    assert wardrobe.get(digest, "hall") is None, "another room's"
-    wardrobe.drop(("lab", "ada"))
-    assert wardrobe.get(digest, "lab") == b"abcdef"
-    wardrobe.drop(("lab", "ben"))
-    assert wardrobe.kept_bytes == 0
-    assert wardrobe.put(b"ghijkl", ("lab", "cy")) != digest
+        store.put(b"ghijkl", ("lab", "cy"))
+    assert store.get(digest, "lab") == b"abcdef"
+    assert store.get(digest, "hall") is None, "another room's"
+    store.drop(("lab", "ada"))
+    assert store.get(digest, "lab") == b"abcdef"
+    store.drop(("lab", "ben"))
+    assert store.kept_bytes == 0
+    assert store.put(b"ghijkl", ("lab", "cy")) != digest
 
 
 def _bearer(place: Place, guest: Guest | None = None, key: str = "") -> dict[str, str]:

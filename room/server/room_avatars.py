@@ -1,13 +1,13 @@
 """Keeps the own avatars of one room: who wears which, and which of them other processes of the room are sent."""
 
-from room.avatars import Wardrobe
+from room.avatars import AvatarStore
 from room.protocol.accounts import Wanted
-from room.server.carrier import Carrier
+from room.server.avatar_transfer import AvatarTransfer
 from room.server.limits import Bucket
 from room.state import Meeting, Seat
 
 
-class Cloakroom:
+class RoomAvatars:
     """Own avatars of the people of one room.
 
     Parameters
@@ -16,9 +16,9 @@ class Cloakroom:
         Its name.
     meeting
         Who is in it.
-    wardrobe
+    store
         Keeps the files, of all rooms.
-    carrier
+    transfer
         Brings them from other processes, and to them; None where there is one process alone.
 
     Attributes
@@ -27,11 +27,13 @@ class Cloakroom:
         How often each person has brought one, by id.
     """
 
-    def __init__(self, room: str, meeting: Meeting, wardrobe: Wardrobe, carrier: Carrier | None) -> None:
-        self._room, self._meeting, self._wardrobe, self._carrier = room, meeting, wardrobe, carrier
+    def __init__(
+        self, room: str, meeting: Meeting, store: AvatarStore, transfer: AvatarTransfer | None
+    ) -> None:
+        self._room, self._meeting, self._store, self._transfer = room, meeting, store, transfer
         self.uploads: dict[str, Bucket] = {}
 
-    def dress(self, seat: Seat, content: bytes) -> None:
+    def put_on(self, seat: Seat, content: bytes) -> None:
         """Let somebody wear an avatar that was checked.
 
         Raises
@@ -39,26 +41,26 @@ class Cloakroom:
         NotAllowed
             If the server has no room for it; they wear the stand-in then.
         """
-        self.undress(seat)
-        seat.own = self._wardrobe.put(content, (self._room, seat.id))
+        self.take_off(seat)
+        seat.own = self._store.put(content, (self._room, seat.id))
 
-    def undress(self, seat: Seat) -> None:
+    def take_off(self, seat: Seat) -> None:
         """Let somebody wear the stand-in."""
         seat.own = ""
         self.drop(seat.id)
 
     def drop(self, id: str) -> None:
         """Let go of what somebody wore here who is at another process now."""
-        self._wardrobe.drop((self._room, id))
+        self._store.drop((self._room, id))
 
     def has(self, seat: Seat) -> bool:
         """Whether what somebody wears is at this process."""
-        return self._wardrobe.get(seat.own, self._room) is not None
+        return self._store.get(seat.own, self._room) is not None
 
-    async def carried(self, digest: str) -> bytes | None:
+    async def transferred(self, digest: str) -> bytes | None:
         """An own avatar that another process of this room took; it was not checked here."""
         worn = any(seat.own == digest and self._is_away(seat) for seat in self._meeting.seats)
-        return await self._carrier.fetch(self._room, digest) if self._carrier and worn else None
+        return await self._transfer.fetch(self._room, digest) if self._transfer and worn else None
 
     def keep(self, digest: str, content: bytes) -> None:
         """Keep an avatar of another process that was checked, for as long as its people wear it.
@@ -70,21 +72,21 @@ class Cloakroom:
         """
         for seat in self._meeting.seats:
             if seat.own == digest and self._is_away(seat):
-                self._wardrobe.put(content, (self._room, seat.id))
+                self._store.put(content, (self._room, seat.id))
 
     def send(self, wanted: Wanted) -> None:
         """Send another process a piece of an avatar that somebody of this one wears."""
         mine = any(seat.own == wanted.digest and not self._is_away(seat) for seat in self._meeting.seats)
-        if self._carrier and mine:
-            self._carrier.send(self._room, wanted)
+        if self._transfer and mine:
+            self._transfer.send(self._room, wanted)
 
     def settle(self) -> None:
         """Let go of what nobody in the room wears any more."""
-        self._wardrobe.settle(self._room, {seat.id: seat.own for seat in self._meeting.seats})
+        self._store.settle(self._room, {seat.id: seat.own for seat in self._meeting.seats})
 
     def close(self) -> None:
         """Let go of all of it."""
-        self._wardrobe.settle(self._room, {})
+        self._store.settle(self._room, {})
 
     def _is_away(self, seat: Seat) -> bool:
         return seat.home != self._meeting.process

@@ -1,18 +1,18 @@
-"""Carries own avatars to a server from the one that took them: on asking, once, in pieces, from memory to memory."""
+"""Fetches own avatars from the server that took them: on asking, once, in pieces, from memory to memory."""
 
 import asyncio
 from typing import TYPE_CHECKING
 
-from room.avatars import Wardrobe
+from room.avatars import AvatarStore
 from room.avatars.pieces import Piece, pack_piece, read_piece
-from room.avatars.wardrobe import digest_of
+from room.avatars.store import digest_of
 from room.errors import FormatError
 from room.protocol.accounts import Wanted
 
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.telegraph import Telegraph
 
-MOST_CARRIED = 4
+MOST_TRANSFERS = 4
 """Avatars that come from other servers at one time: each is held whole until it is checked."""
 
 PIECE_S = 2.0
@@ -20,22 +20,22 @@ TRIES = 3
 """Time for one piece, and how often it is asked for; then nobody has the avatar."""
 
 
-class Carrier:
+class AvatarTransfer:
     """Asks the other processes for avatars, and takes in what they send.
 
     Parameters
     ----------
     telegraph
         Reaches them.
-    wardrobe
+    store
         What this process has taken itself.
     """
 
-    def __init__(self, telegraph: "Telegraph", wardrobe: Wardrobe) -> None:
-        self._telegraph, self._wardrobe = telegraph, wardrobe
-        self._carrying: dict[str, asyncio.Task[bytes | None]] = {}
+    def __init__(self, telegraph: "Telegraph", store: AvatarStore) -> None:
+        self._telegraph, self._store = telegraph, store
+        self._transferring: dict[str, asyncio.Task[bytes | None]] = {}
         self._awaited: dict[tuple[str, int], asyncio.Future[Piece]] = {}
-        self._few = asyncio.Semaphore(MOST_CARRIED)
+        self._few = asyncio.Semaphore(MOST_TRANSFERS)
         telegraph.listen(self._hear)
 
     async def fetch(self, room: str, digest: str) -> bytes | None:
@@ -43,18 +43,18 @@ class Carrier:
 
         Whoever asks while it is on its way waits for the same.
         """
-        if digest not in self._carrying:
-            task = self._carrying[digest] = asyncio.create_task(self._carry(room, digest))
-            task.add_done_callback(lambda _: self._carrying.pop(digest))
-        return await asyncio.shield(self._carrying[digest])
+        if digest not in self._transferring:
+            task = self._transferring[digest] = asyncio.create_task(self._transfer(room, digest))
+            task.add_done_callback(lambda _: self._transferring.pop(digest))
+        return await asyncio.shield(self._transferring[digest])
 
     def send(self, room: str, wanted: Wanted) -> None:
         """Send the piece that another process wants, to it alone."""
-        avatar = self._wardrobe.get(wanted.digest, room)
+        avatar = self._store.get(wanted.digest, room)
         if avatar is not None and wanted.at < len(avatar):
             self._telegraph.say(f"/{wanted.process}", pack_piece(wanted.digest, avatar, wanted.at))
 
-    async def _carry(self, room: str, digest: str) -> bytes | None:
+    async def _transfer(self, room: str, digest: str) -> bytes | None:
         avatar, total = bytearray(), 1
         async with self._few:
             while len(avatar) < total:

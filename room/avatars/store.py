@@ -23,7 +23,7 @@ class _Kept:
     wearers: set[Wearer] = field(default_factory=set)
 
 
-class Wardrobe:
+class AvatarStore:
     """Avatars that were checked, each once however many wear it.
 
     Parameters

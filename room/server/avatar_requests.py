@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from aiohttp import web
 
-from room.avatars import Wardrobe, check_avatar
+from room.avatars import AvatarStore, check_avatar
 from room.avatars.check import MOST_AVATAR_BYTES
 from room.errors import FormatError, NotAllowed
 from room.server.hall import Hall
@@ -26,14 +26,14 @@ _BEARER = re.compile(r"Bearer ([A-Za-z0-9_-]{22})(?:\.([A-Za-z0-9_-]{22,64}))?")
 DIGEST = re.compile(r"[0-9a-f]{64}")
 
 
-class Dressing:
+class AvatarRequests:
     """The two handlers.
 
     Parameters
     ----------
     keys
         Of all rooms.
-    wardrobe
+    store
         Where avatars are kept.
     hall_of
         The room of a name, while somebody is in it.
@@ -42,9 +42,9 @@ class Dressing:
     """
 
     def __init__(
-        self, keys: Keys, wardrobe: Wardrobe, hall_of: Callable[[str], Hall | None], origins: frozenset[str]
+        self, keys: Keys, store: AvatarStore, hall_of: Callable[[str], Hall | None], origins: frozenset[str]
     ) -> None:
-        self._keys, self._wardrobe, self._hall_of, self._origins = keys, wardrobe, hall_of, origins
+        self._keys, self._store, self._hall_of, self._origins = keys, store, hall_of, origins
         self._uploading: set[tuple[str, str]] = set()
         self._checking = asyncio.Lock()
 
@@ -54,7 +54,7 @@ class Dressing:
             raise web.HTTPForbidden(text="another site's page may not come in\n")
         hall, seat = self._who(request)
         _refuse_undressed(hall, seat)
-        if not hall.cloakroom.uploads.setdefault(seat.id, Bucket(UPLOADS_PER_S, burst=UPLOADS_BURST)).take(
+        if not hall.avatars.uploads.setdefault(seat.id, Bucket(UPLOADS_PER_S, burst=UPLOADS_BURST)).take(
             now=asyncio.get_running_loop().time()
         ):
             raise web.HTTPTooManyRequests(text="too many avatars at once; wait half a minute\n")
@@ -73,7 +73,7 @@ class Dressing:
             if hall.meeting.seat(seat.id) is not seat:
                 raise web.HTTPForbidden(text="you have left the room\n")
             _refuse_undressed(hall, seat)  # meanwhile
-            return web.json_response({"own": hall.dress(seat, content)})
+            return web.json_response({"own": hall.put_on(seat, content)})
         except asyncio.TimeoutError:
             raise web.HTTPRequestTimeout(
                 text=f"the avatar did not arrive in {UPLOAD_S:g} seconds\n"
@@ -93,25 +93,25 @@ class Dressing:
         self._secret_of(request)
         content = None
         if DIGEST.fullmatch(digest):
-            content = self._wardrobe.get(digest, name) or await self._carried(digest, self._hall_of(name))
+            content = self._store.get(digest, name) or await self._transferred(digest, self._hall_of(name))
         if content is None:
             raise web.HTTPNotFound(text="nobody wears this avatar any more\n")
         headers = {"Cache-Control": "no-store"}  # it is somebody's; the page holds it while they are there
         return web.Response(body=content, content_type="model/gltf-binary", headers=headers)
 
-    async def _carried(self, digest: str, hall: Hall | None) -> bytes | None:
+    async def _transferred(self, digest: str, hall: Hall | None) -> bytes | None:
         """From another server of the room, checked as if it had been brought here; None where that cannot be."""
-        content = await hall.cloakroom.carried(digest) if hall else None
+        content = await hall.avatars.transferred(digest) if hall else None
         if hall is None or content is None:
             return None
         try:
             async with self._checking:
-                if self._wardrobe.get(digest, hall.name) is None:  # who waited for the same may have kept it
+                if self._store.get(digest, hall.name) is None:  # who waited for the same may have kept it
                     await asyncio.to_thread(check_avatar, content)
-                    hall.cloakroom.keep(digest, content)
+                    hall.avatars.keep(digest, content)
         except (FormatError, NotAllowed):
             return None
-        return self._wardrobe.get(digest, hall.name)
+        return self._store.get(digest, hall.name)
 
     def _who(self, request: web.Request) -> tuple[Hall, Seat]:
         secret = self._secret_of(request)
