@@ -14,7 +14,7 @@ from room.cli.places import read_places
 if TYPE_CHECKING:
     from room.server import Keys
     from room.server.janus import Janus
-    from room.server.telegraph import Telegraph
+    from room.server.redis_channels import RedisChannels
 
 
 def serve(
@@ -86,7 +86,7 @@ def serve(
     engines = _engines(janus, janus_secret)
     known = keys is not None and keys.exists()
     held = read_keys(keys) if keys and known else new_keys()
-    telegraph = _telegraph(redis, held, shared=keys is not None, recorded=record is not None)
+    channels = _channels(redis, held, shared=keys is not None, recorded=record is not None)
     _check_record(record, names)
     origins = [parse_origin(text) for text in origin or ()]
     relays = Relays(stun=tuple(stun or ()), turn=tuple(turn or ()), secret=secret)
@@ -97,7 +97,7 @@ def serve(
         relays=relays,
         origins=frozenset(origins),
         places=places,
-        telegraph=telegraph,
+        channels=channels,
         engines=engines,
     )
     address = Address(host=host, port=port, certificate=cert, private_key=key)
@@ -136,7 +136,7 @@ def _check_record(record: Path | None, names: list[str]) -> None:
         raise taken(record)
 
 
-def _telegraph(url: str | None, keys: "Keys", *, shared: bool, recorded: bool) -> "Telegraph | None":
+def _channels(url: str | None, keys: "Keys", *, shared: bool, recorded: bool) -> "RedisChannels | None":
     from room.errors import InputError
 
     if url is None:
@@ -147,9 +147,9 @@ def _telegraph(url: str | None, keys: "Keys", *, shared: bool, recorded: bool) -
         raise InputError(
             "--redis and --record: a recording asks the people of one server; leave one of them out"
         )
-    from room.server.telegraph import Telegraph
+    from room.server.redis_channels import RedisChannels
 
-    return Telegraph(url, secret=keys.secret, said=lambda text: say(f"room: {text}"))
+    return RedisChannels(url, secret=keys.secret, said=lambda text: say(f"room: {text}"))
 
 
 def _engines(urls: list[str] | None, file: Path | None) -> "list[Janus]":

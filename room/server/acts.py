@@ -20,7 +20,7 @@ from room.protocol.texts import (
 )
 from room.server.calls import Calls
 from room.server.consents import Consents
-from room.server.neighbours import Neighbours
+from room.server.peer_processes import PeerProcesses
 from room.server.replay import Replay
 from room.server.room_avatars import RoomAvatars
 from room.state import Meeting, Seat
@@ -37,9 +37,9 @@ class Acts:
         Its own avatars, its recording, and its voices and screens.
     replay
         What the room plays; None where people meet.
-    neighbours
+    peers
         The other processes of the room; None where there are none.
-    tell
+    broadcast
         Called with what all have to hear.
     free
         Called with somebody who goes for good, and the word that closes their page.
@@ -53,13 +53,13 @@ class Acts:
         consents: Consents,
         calls: Calls,
         replay: Replay | None,
-        neighbours: Neighbours | None,
-        tell: Callable[[Answer], None],
+        peers: PeerProcesses | None,
+        broadcast: Callable[[Answer], None],
         free: Callable[[Seat, str], None],
     ) -> None:
         self._meeting, self._avatars, self._consents, self._calls = meeting, avatars, consents, calls
-        self._replay, self._neighbours = replay, neighbours
-        self._tell, self._free = tell, free
+        self._replay, self._peers = replay, peers
+        self._broadcast, self._free = broadcast, free
 
     def do(self, seat: Seat, said: Said) -> None:
         """Do what a person says.
@@ -74,22 +74,22 @@ class Acts:
                 self._write(seat, said.text)
             case Voice():
                 seat.voice = said.open
-                self._tell(Changed(person=seat.person))
+                self._broadcast(Changed(person=seat.person))
             case Description() | Candidate():
                 self._calls.pass_on(seat, said)
             case Moderate():
                 self._moderate(seat, said)
             case Consent():
                 self._consents.change(seat, recorded=said.recorded)
-                self._tell(Changed(person=seat.person))
+                self._broadcast(Changed(person=seat.person))
             case Play():
                 self._play(said)
             case Undress():
                 self._avatars.take_off(seat)
-                self._tell(Changed(person=seat.person))
+                self._broadcast(Changed(person=seat.person))
             case Share():
                 for changed in self._meeting.share(seat, on=said.on):
-                    self._tell(Changed(person=changed.person))
+                    self._broadcast(Changed(person=changed.person))
             case Leave():
                 self._free(seat, "you have left")
 
@@ -97,25 +97,25 @@ class Acts:
         if self._replay is None:
             raise NotAllowed("people meet here; there is nothing to play")
         for answer in self._replay.play(said, self._meeting, now=time.monotonic()):
-            self._tell(answer)
+            self._broadcast(answer)
 
     def _write(self, seat: Seat, text: str) -> None:
         if seat.muted:
             raise NotAllowed("a moderator has muted you", again=True)
         if text:
             line = Line(number=seat.number, name=seat.name, text=text, time_s=time.time())
-            self._tell(line)
-            if self._neighbours:
-                self._neighbours.spoken(line)
+            self._broadcast(line)
+            if self._peers:
+                self._peers.spoken(line)
 
     def _moderate(self, by: Seat, act: Moderate) -> None:
         seat = self._meeting.moderate(by, act)
         if seat is None:
-            self._tell(Door(locked=self._meeting.locked))
+            self._broadcast(Door(locked=self._meeting.locked))
         elif act.action == "undress":
             self._avatars.take_off(seat)
-            self._tell(Changed(person=seat.person))
+            self._broadcast(Changed(person=seat.person))
         elif act.action == "remove":
             self._free(seat, "a moderator has removed you from this room")
         else:
-            self._tell(Changed(person=seat.person))
+            self._broadcast(Changed(person=seat.person))

@@ -27,7 +27,7 @@ from room.server.turn import Relays
 from room.server.visits import ROOM_NAME, Visits
 
 if TYPE_CHECKING:  # needs an extra of its own
-    from room.server.telegraph import Telegraph
+    from room.server.redis_channels import RedisChannels
 
 STATIC = Path(__file__).with_name("static")
 """What ``make web`` builds: the page, its script and the parts that it loads."""
@@ -48,8 +48,8 @@ class Rooms:
         Of proxies in front of this server.
     recorder
         Records its one room; None where nothing is recorded.
-    telegraph
-        Reaches the other processes that carry the same rooms; None where this is the only one.
+    channels
+        Reach the other processes that carry the same rooms; None where this is the only one.
     engines
         Janus instances that share the rooms' voices; none where these go from page to page.
     places
@@ -73,10 +73,10 @@ class Rooms:
         recorder: Recorder | None = None,
         replayed: Survey | None = None,
         places: Mapping[str, Place] | None = None,
-        telegraph: "Telegraph | None" = None,
+        channels: "RedisChannels | None" = None,
         engines: Sequence[Janus] = (),
     ) -> None:
-        self._telegraph, self._engines, self._replayed = telegraph, engines, replayed
+        self._channels, self._engines, self._replayed = channels, engines, replayed
         self._files, self._avatar_store, self.metrics = Files(STATIC), AvatarStore(), Metrics()
         self._halls = Halls(
             keys.secret,
@@ -85,7 +85,7 @@ class Rooms:
             store=self._avatar_store,
             recorder=recorder,
             replayed=replayed,
-            telegraph=telegraph,
+            channels=channels,
             engines=engines,
         )
         self._visits = Visits(keys, self._halls, origins, self.metrics)
@@ -133,7 +133,7 @@ class Rooms:
         self._halls.count(self.metrics)
         self.metrics.connections = self._visits.count
         self.metrics.engines = sum(engine.up for engine in self._engines)
-        self.metrics.redis = int(self._telegraph is not None and self._telegraph.connected)
+        self.metrics.redis = int(self._channels is not None and self._channels.connected)
         self.metrics.avatar_bytes = self._avatar_store.kept_bytes
         return web.Response(text=self.metrics.text())
 
@@ -158,7 +158,7 @@ class Rooms:
 
     async def _reaching(self, application: web.Application) -> AsyncIterator[None]:
         async with AsyncExitStack() as stack:
-            for reached in (*self._engines, *([self._telegraph] if self._telegraph else ())):
+            for reached in (*self._engines, *([self._channels] if self._channels else ())):
                 await stack.enter_async_context(reached.running(failed=self.stopped.set))
             yield
 

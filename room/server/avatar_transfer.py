@@ -10,7 +10,7 @@ from room.errors import FormatError
 from room.protocol.accounts import Wanted
 
 if TYPE_CHECKING:  # needs an extra of its own
-    from room.server.telegraph import Telegraph
+    from room.server.redis_channels import RedisChannels
 
 MOST_TRANSFERS = 4
 """Avatars that come from other servers at one time: each is held whole until it is checked."""
@@ -25,18 +25,18 @@ class AvatarTransfer:
 
     Parameters
     ----------
-    telegraph
-        Reaches them.
+    channels
+        Reach them.
     store
         What this process has taken itself.
     """
 
-    def __init__(self, telegraph: "Telegraph", store: AvatarStore) -> None:
-        self._telegraph, self._store = telegraph, store
+    def __init__(self, channels: "RedisChannels", store: AvatarStore) -> None:
+        self._channels, self._store = channels, store
         self._transferring: dict[str, asyncio.Task[bytes | None]] = {}
         self._awaited: dict[tuple[str, int], asyncio.Future[Piece]] = {}
         self._few = asyncio.Semaphore(MOST_TRANSFERS)
-        telegraph.listen(self._hear)
+        channels.listen(self._hear)
 
     async def fetch(self, room: str, digest: str) -> bytes | None:
         """An avatar that somebody wears in a room by another process; None where none of them sends it.
@@ -52,7 +52,7 @@ class AvatarTransfer:
         """Send the piece that another process wants, to it alone."""
         avatar = self._store.get(wanted.digest, room)
         if avatar is not None and wanted.at < len(avatar):
-            self._telegraph.say(f"/{wanted.process}", pack_piece(wanted.digest, avatar, wanted.at))
+            self._channels.say(f"/{wanted.process}", pack_piece(wanted.digest, avatar, wanted.at))
 
     async def _transfer(self, room: str, digest: str) -> bytes | None:
         avatar, total = bytearray(), 1
@@ -65,10 +65,10 @@ class AvatarTransfer:
         return bytes(avatar) if digest_of(avatar) == digest else None
 
     async def _piece(self, room: str, digest: str, at: int) -> Piece | None:
-        wanted = Wanted(process=self._telegraph.process, digest=digest, at=at)
+        wanted = Wanted(process=self._channels.process, digest=digest, at=at)
         for _ in range(TRIES):
             came = self._awaited[digest, at] = asyncio.get_running_loop().create_future()
-            self._telegraph.say(room, wanted.model_dump_json().encode())
+            self._channels.say(room, wanted.model_dump_json().encode())
             try:
                 return await asyncio.wait_for(came, PIECE_S)
             except asyncio.TimeoutError:

@@ -61,7 +61,7 @@ class Calls:
             return  # they have just left: the caller hears of that by the roster
         if said.plane == "screen" and not (seat.shares or called.shares):
             return  # sharing has just ended
-        if not self._connections.call(called.id, signal) and called.home != self._meeting.process:
+        if not self._connections.send_to(called.id, signal) and called.home != self._meeting.process:
             self._away(called.id, signal)
 
     def tick(self) -> None:

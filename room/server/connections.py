@@ -33,13 +33,13 @@ class Connections:
         del connections[id]
         return True
 
-    def tell(self, answer: Answer, *, but: str = "") -> None:
+    def broadcast(self, answer: Answer, *, but: str = "") -> None:
         """Say something to all pages; ``but`` is the id of whoever knows it already."""
         for id, connection in self._open["page"].items():
             if id != but:
                 connection.say(answer)
 
-    def call(self, id: str, answer: Answer) -> bool:
+    def send_to(self, id: str, answer: Answer) -> bool:
         """Say something to one person's page; says whether it is here."""
         connection = self._open["page"].get(id)
         if connection:

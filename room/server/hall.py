@@ -15,7 +15,7 @@ from room.server.calls import Calls
 from room.server.connection import Connection
 from room.server.connections import Connections
 from room.server.consents import Consents
-from room.server.neighbours import Neighbours
+from room.server.peer_processes import PeerProcesses
 from room.server.replay import Replay
 from room.server.room_avatars import RoomAvatars
 from room.server.switchboard import Switchboard
@@ -25,7 +25,7 @@ from room.state import Meeting, Seat
 from room.state.accounts import Ousted
 
 if TYPE_CHECKING:  # needs an extra of its own
-    from room.server.telegraph import Telegraph
+    from room.server.redis_channels import RedisChannels
 
 HERTZ = 30
 """Ticks a second: as many as a camera has frames."""
@@ -48,8 +48,8 @@ class Hall:
         Takes the states of those who agreed; None where nobody is recorded.
     replay
         Brings people of a recording in; None for a room of the living alone.
-    telegraph
-        Reaches the other processes that carry this room; None where there is one alone.
+    channels
+        Reach the other processes that carry this room; None where there is one alone.
     transfer
         Brings own avatars from those processes, and to them; None where there is one alone.
     switchboard
@@ -70,29 +70,29 @@ class Hall:
         store: AvatarStore,
         recorder: Recorder | None = None,
         replay: Replay | None = None,
-        telegraph: "Telegraph | None" = None,
+        channels: "RedisChannels | None" = None,
         transfer: AvatarTransfer | None = None,
         switchboard: Switchboard | None = None,
     ) -> None:
         self.name = name
         self._replay = replay
-        process = telegraph.process if telegraph else ""
+        process = channels.process if channels else ""
         self.meeting = Meeting(
             most_people=most_people, process=process, first_number=int(process[:4] or "0", 16)
         )
         self.avatars = RoomAvatars(name, self.meeting, store, transfer)
         self._connections = Connections()
         self._consents = Consents(self.meeting, recorder)
-        self._calls = Calls(self.meeting, self._connections, switchboard, away=self._call_away)
-        self._neighbours = telegraph and Neighbours(
+        self._calls = Calls(self.meeting, self._connections, switchboard, away=self._send_away)
+        self._peers = channels and PeerProcesses(
             self.meeting,
-            telegraph,
+            channels,
             name,
-            tell=self._connections.tell,
-            call=self._connections.call,
+            broadcast=self._connections.broadcast,
+            send_to=self._connections.send_to,
             oust=self._oust,
             take_off=self._take_off,
-            send=self.avatars.send,
+            send_piece=self.avatars.send,
         )
         self._acts = Acts(
             self.meeting,
@@ -100,8 +100,8 @@ class Hall:
             consents=self._consents,
             calls=self._calls,
             replay=replay,
-            neighbours=self._neighbours,
-            tell=self._tell,
+            peers=self._peers,
+            broadcast=self._broadcast,
             free=self._free,
         )
         self._relays = relays
@@ -120,8 +120,8 @@ class Hall:
         NotAllowed
             If they cannot be reached.
         """
-        if self._neighbours:
-            await self._neighbours.open()
+        if self._peers:
+            await self._peers.open()
 
     def enter(self, join: Join, connection: Connection, *, moderator: bool) -> Seat:
         """Bring somebody in, and tell the others; an older connection of the same person is closed.
@@ -159,9 +159,9 @@ class Hall:
             connection.tick(self.meeting.whole(now=time.monotonic()))
             if self._replay:
                 connection.say(self._replay.playing(now=time.monotonic()))
-            self._tell(Changed(person=seat.person), but=seat)
-            if self._neighbours:
-                self._neighbours.entered()
+            self._broadcast(Changed(person=seat.person), but=seat)
+            if self._peers:
+                self._peers.entered()
             self._calls.begin(seat, connection.say)
         return seat
 
@@ -176,7 +176,7 @@ class Hall:
         else:
             seat.gone_at, seat.voice = time.monotonic(), False
         if self.meeting.seat(seat.id) is seat:
-            self._tell(Changed(person=seat.person))
+            self._broadcast(Changed(person=seat.person))
 
     def move(self, seat: Seat, message: bytes, role: Part) -> None:
         """Take a state.
@@ -187,9 +187,9 @@ class Hall:
             If the bytes are none.
         """
         if self.meeting.take(seat, message, program=role == "face", now=time.monotonic()):
-            self._tell(Changed(person=seat.person))
-        if self._neighbours:
-            self._neighbours.took(seat.number, message, role)
+            self._broadcast(Changed(person=seat.person))
+        if self._peers:
+            self._peers.took(seat.number, message, role)
 
     def hear(self, seat: Seat, said: Said) -> None:
         """Do what a person says.
@@ -212,51 +212,51 @@ class Hall:
         try:
             self.avatars.put_on(seat, content)
         finally:
-            self._tell(Changed(person=seat.person))
+            self._broadcast(Changed(person=seat.person))
         return seat.own
 
     def _take_off(self, id: str) -> None:
         seat = self.meeting.seat(id)
         if seat:
             self.avatars.take_off(seat)
-            self._tell(Changed(person=seat.person))
+            self._broadcast(Changed(person=seat.person))
 
     def tick(self, *, now: float) -> None:
         """Send what moved, and free places that nobody came back to."""
         for seat in self.meeting.expire(now=now):
             self._free(seat)
         self._calls.tick()
-        if self._neighbours:
-            self._neighbours.tick(now=now)
+        if self._peers:
+            self._peers.tick(now=now)
             self._connections.follow({seat.id for seat in self.meeting.seats})
             self.avatars.settle()
         if self._replay:
             for answer in self._replay.step(self.meeting, now=now):
-                self._tell(answer)
+                self._broadcast(answer)
         content = self.meeting.tick(now=now)
         if content:
             self._connections.tick(content)
         for answer in self._consents.tick(content):
-            self._tell(answer)
+            self._broadcast(answer)
 
     def close(self) -> None:
         """Let go of what is replayed, of the other processes and of the engine."""
         self._calls.close()
         if self._replay:
             self._replay.close()
-        if self._neighbours:
+        if self._peers:
             self.avatars.close()
-            self._neighbours.close()
+            self._peers.close()
 
-    def _tell(self, answer: Answer, *, but: Seat | None = None) -> None:
+    def _broadcast(self, answer: Answer, *, but: Seat | None = None) -> None:
         """Tell all; what is true of people from now on goes to the other processes with the next account."""
-        self._connections.tell(answer, but=but.id if but else "")
-        if self._neighbours:
-            self._neighbours.changed()
+        self._connections.broadcast(answer, but=but.id if but else "")
+        if self._peers:
+            self._peers.changed()
 
-    def _call_away(self, id: str, signal: Signal) -> None:
-        if self._neighbours:
-            self._neighbours.called(id, signal)
+    def _send_away(self, id: str, signal: Signal) -> None:
+        if self._peers:
+            self._peers.called(id, signal)
 
     def _oust(self, ousted: Ousted) -> None:
         self._turnstile.forget(ousted.id)
@@ -272,4 +272,4 @@ class Hall:
         self.avatars.take_off(seat)
         self._consents.follow()
         self._connections.part(seat.id, word)
-        self._tell(Left(number=seat.number))
+        self._broadcast(Left(number=seat.number))

@@ -19,7 +19,7 @@ from room.server.turn import Relays
 from room.server.voice_room import instance_of, voice_room
 
 if TYPE_CHECKING:  # needs an extra of its own
-    from room.server.telegraph import Telegraph
+    from room.server.redis_channels import RedisChannels
 
 
 class Halls:
@@ -39,8 +39,8 @@ class Halls:
         Records its one room; None where nothing is recorded.
     replayed
         Recording that every room plays; None where people meet each other alone.
-    telegraph
-        Reaches the other processes that carry the same rooms; None where this is the only one.
+    channels
+        Reach the other processes that carry the same rooms; None where this is the only one.
     engines
         Janus instances that share the rooms' voices; none where these go from page to page.
     """
@@ -54,13 +54,13 @@ class Halls:
         store: AvatarStore,
         recorder: Recorder | None,
         replayed: Survey | None,
-        telegraph: "Telegraph | None",
+        channels: "RedisChannels | None",
         engines: Sequence[Janus],
     ) -> None:
         self._secret, self._limits, self._relays, self._store = secret, limits, relays, store
         self._recorder, self._replayed = recorder, replayed
-        self._telegraph, self._engines = telegraph, engines
-        self._transfer = AvatarTransfer(telegraph, store) if telegraph else None
+        self._channels, self._engines = channels, engines
+        self._transfer = AvatarTransfer(channels, store) if channels else None
         self._halls: dict[str, Hall] = {}
         self._opening: dict[str, asyncio.Task[None]] = {}
 
@@ -123,7 +123,7 @@ class Halls:
             store=self._store,
             recorder=self.recorder_of(name),
             replay=Replay(self._replayed) if self._replayed else None,
-            telegraph=self._telegraph,
+            channels=self._channels,
             transfer=self._transfer,
             switchboard=switchboard,
         )

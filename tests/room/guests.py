@@ -23,7 +23,7 @@ from room.state.numbers import COLOURS
 from tests.serving import serving
 
 if TYPE_CHECKING:  # needs an extra of its own
-    from room.server.telegraph import Telegraph
+    from room.server.redis_channels import RedisChannels
 
 SOON_S = 120.0
 """What is awaited comes in milliseconds; a slow machine with other work is given time."""
@@ -145,7 +145,7 @@ async def open_room(
     port: int = 0,
     recorder: Recorder | None = None,
     replayed: Path | None = None,
-    telegraph: "Telegraph | None" = None,
+    channels: "RedisChannels | None" = None,
     engines: Sequence[Janus] = (),
     places: dict[str, Scenery] | None = None,
 ) -> AsyncIterator[Place]:
@@ -158,7 +158,7 @@ async def open_room(
         origins=origins,
         recorder=recorder,
         replayed=check_recording(replayed) if replayed else None,
-        telegraph=telegraph,
+        channels=channels,
         engines=engines,
         places=places,
     )

@@ -13,8 +13,8 @@ from room.avatars.pieces import PIECE_BYTES
 from room.protocol.answers import Changed, Door, Left, Line, Notice, Signal
 from room.server import Keys, Limits, new_keys
 from room.server.connection import CLOSED_BY_RULE
-from room.server.neighbours import AGAIN_S
-from room.server.telegraph import Telegraph
+from room.server.peer_processes import AGAIN_S
+from room.server.redis_channels import RedisChannels
 from tests.room.avatars import avatar
 from tests.room.engines import free_port, needs_redis, redis
 from tests.room.guests import SOON_S, Guest, Place, open_room
@@ -33,12 +33,12 @@ def port():
 @asynccontextmanager
 async def server(port: int, keys: Keys, limits: Limits | None = None) -> AsyncIterator[Place]:
     """One of several servers, with a part in Redis."""
-    telegraph = Telegraph(f"redis://127.0.0.1:{port}/0", secret=keys.secret)
-    async with open_room(keys=keys, telegraph=telegraph, limits=limits) as place:
+    channels = RedisChannels(f"redis://127.0.0.1:{port}/0", secret=keys.secret)
+    async with open_room(keys=keys, channels=channels, limits=limits) as place:
         async with asyncio.timeout(SOON_S):
-            while not telegraph.connected:
+            while not channels.connected:
                 await asyncio.sleep(0.01)
-        place.telegraph = telegraph
+        place.channels = channels
         yield place
 
 
@@ -198,11 +198,11 @@ def test_who_comes_before_redis_has_answered_waits_for_it(port):
     """A server says its address and hears Redis a moment later; no page is sent away between the two."""
 
     async def run() -> None:
-        telegraph = Telegraph(f"redis://127.0.0.1:{port}/0", secret=new_keys().secret)
-        async with telegraph.running(failed=lambda: None):
-            assert not telegraph.connected
-            await telegraph.join("meeting", lambda _: None)
-            assert telegraph.connected
+        channels = RedisChannels(f"redis://127.0.0.1:{port}/0", secret=new_keys().secret)
+        async with channels.running(failed=lambda: None):
+            assert not channels.connected
+            await channels.join("meeting", lambda _: None)
+            assert channels.connected
 
     asyncio.run(run())
 
@@ -230,7 +230,7 @@ def test_servers_of_other_keys_have_other_rooms(port):
 
 
 def test_people_of_a_server_that_is_killed_are_away_and_come_back_by_another(port, monkeypatch):
-    monkeypatch.setattr("room.server.neighbours.SILENT_S", 2.5)
+    monkeypatch.setattr("room.server.peer_processes.SILENT_S", 2.5)
 
     async def run() -> None:
         keys = new_keys()
@@ -240,7 +240,7 @@ def test_people_of_a_server_that_is_killed_are_away_and_come_back_by_another(por
             ada, ben = await north.guest(), await south.guest(name="Ben")
             await ada.move(floor_m=(3.0, 4.0))
             await ben.until(lambda: ada.number in ben.states)
-            north.telegraph.say = lambda room, content: None  # as a process that is killed: no word any more
+            north.channels.say = lambda room, content: None  # as a process that is killed: no word any more
             await ben.told(Changed, lambda changed: not changed.person.present)
             again = await south.guest(secret=ada.secret)
             assert again.number == ada.number
@@ -291,7 +291,7 @@ def test_a_message_that_is_none_is_let_alone(port):
         keys = new_keys()
         async with server(port, keys) as north:
             ada = await north.guest()
-            telegraph = north.telegraph
+            channels = north.channels
             for content in (
                 b"",
                 b"{",
@@ -300,7 +300,7 @@ def test_a_message_that_is_none_is_let_alone(port):
                 b'{"kind":"account"}',
                 b"x" * 2_000_000,
             ):
-                await telegraph.ask("meeting", content)
+                await channels.ask("meeting", content)
             await ada.move(sequence=5)
             await ada.until(lambda: (ada.number, 5) in ada.sequences)
 
@@ -337,8 +337,8 @@ async def test_an_avatar_is_carried_once_to_who_looks_from_another_server(north,
     digest = await bring(north, ada, LARGE)
     await ben.told(Changed, wears("Ada", digest))
     asked: list[tuple[str, bytes]] = []
-    say = south.telegraph.say
-    south.telegraph.say = lambda room, content: (asked.append((room, content)), say(room, content))
+    say = south.channels.say
+    south.channels.say = lambda room, content: (asked.append((room, content)), say(room, content))
     both = await asyncio.gather(avatar_at(south, digest), avatar_at(south, digest))
     assert both == [(200, LARGE)] * 2
     assert await avatar_at(south, digest) == (200, LARGE)
@@ -391,10 +391,10 @@ async def test_what_is_no_avatar_is_carried_to_nobody(north, south):
     ada, ben = await north.guest(), await south.guest(name="Ben")
     digest = await bring(north, ada, avatar())
     await ben.told(Changed, wears("Ada", digest))
-    say = north.telegraph.say
+    say = north.channels.say
 
     def forge(room: str, content: bytes) -> None:
         say(room, content[:-1] + b"?" if room.startswith("/") and content[:1] == b"\3" else content)
 
-    north.telegraph.say = forge
+    north.channels.say = forge
     assert (await avatar_at(south, digest))[0] == 404

@@ -8,7 +8,7 @@ import pytest
 
 from room.server import new_keys
 from room.server.janus import Janus
-from room.server.telegraph import Telegraph
+from room.server.redis_channels import RedisChannels
 from tests.browser import chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.engines import API_SECRET, free_port, janus, needs_janus, needs_redis, redis
@@ -54,9 +54,9 @@ async def talk(folder: Path) -> dict[str, object]:
         first = stack.enter_context(janus(engine, folder))
         places = []
         for _ in range(2):
-            telegraph = Telegraph(f"redis://127.0.0.1:{wire}/0", secret=keys.secret)
+            channels = RedisChannels(f"redis://127.0.0.1:{wire}/0", secret=keys.secret)
             engines = [Janus(f"ws://127.0.0.1:{engine}", secret=API_SECRET)]
-            opened = open_room(keys=keys, telegraph=telegraph, engines=engines, places=BARE)
+            opened = open_room(keys=keys, channels=channels, engines=engines, places=BARE)
             places.append(await stack.enter_async_context(opened))
         sound = f"--use-file-for-fake-audio-capture={folder / 'speech.wav'}"
         browser = await stack.enter_async_context(chromium(*AWAKE, sound))

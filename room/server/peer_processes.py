@@ -1,4 +1,4 @@
-"""Shares one room with the other processes that carry it: says what happens here, and takes in what happens there."""
+"""Shares one room with the other processes that serve it: sends what happens here, and takes in what happens there."""
 
 import asyncio
 import time
@@ -22,7 +22,7 @@ from room.state import Meeting
 from room.state.accounts import SILENT_S, Ousted, account, merge, silent
 
 if TYPE_CHECKING:  # needs an extra of its own
-    from room.server.telegraph import Telegraph
+    from room.server.redis_channels import RedisChannels
 
 AGAIN_S = 2.0
 """An account is said again after this time though nothing changed, so that one that was lost is made good."""
@@ -36,44 +36,44 @@ are counted, so it passes only where one hangs: half a second was too short on a
 past a lock."""
 
 
-class Neighbours:
+class PeerProcesses:
     """The other processes of one room.
 
     Parameters
     ----------
     meeting
         The room.
-    telegraph
-        Reaches them.
+    channels
+        Reach them.
     room
         Its name.
-    tell
+    broadcast
         Called with what all people of this process have to hear.
-    call
+    send_to
         Called with a signal for one of them, by id.
     oust
         Called with those of them who have to go.
     take_off
         Called with the id of somebody of this process whose own avatar a moderator of another one has taken off.
-    send
+    send_piece
         Called with a piece of an avatar that another process wants.
     """
 
     def __init__(
         self,
         meeting: Meeting,
-        telegraph: "Telegraph",
+        channels: "RedisChannels",
         room: str,
         *,
-        tell: Callable[[Answer], None],
-        call: Callable[[str, Signal], None],
+        broadcast: Callable[[Answer], None],
+        send_to: Callable[[str, Signal], None],
         oust: Callable[[Ousted], None],
         take_off: Callable[[str], None],
-        send: Callable[[Wanted], None],
+        send_piece: Callable[[Wanted], None],
     ) -> None:
-        self._meeting, self._telegraph, self._room = meeting, telegraph, room
-        self._tell, self._call, self._oust = tell, call, oust
-        self._take_off, self._send = take_off, send
+        self._meeting, self._channels, self._room = meeting, channels, room
+        self._broadcast, self._send_to, self._oust = broadcast, send_to, oust
+        self._take_off, self._send_piece = take_off, send_piece
         self._heard_at: dict[str, float] = {}
         self._came: dict[Part, list[tuple[int, bytes]]] = {"page": [], "face": []}
         self._changed, self._said_at = True, float("-inf")
@@ -88,9 +88,9 @@ class Neighbours:
         NotAllowed
             If they cannot be reached: who came in alone might pass a lock.
         """
-        await self._telegraph.join(self._room, self.hear)
+        await self._channels.join(self._room, self.hear)
         self._connected = True
-        others = await self._telegraph.ask(self._room, _bytes(account(self._meeting, asks=True))) - 1
+        others = await self._channels.ask(self._room, _bytes(account(self._meeting, asks=True))) - 1
         until = time.monotonic() + ANSWERS_S
         while len(self._heard_at) < others and (left := until - time.monotonic()) > 0:
             self._answered.clear()
@@ -102,7 +102,7 @@ class Neighbours:
     def close(self) -> None:
         """Say that nobody is left here, and hear no more."""
         self._say(account(self._meeting))
-        self._telegraph.leave(self._room)
+        self._channels.leave(self._room)
 
     def changed(self) -> None:
         """Somebody of this process is otherwise than before."""
@@ -130,20 +130,20 @@ class Neighbours:
 
     def tick(self, *, now: float) -> None:
         """Say what has come since the last tick, and what has changed."""
-        back = self._telegraph.connected and not self._connected
-        self._connected = self._telegraph.connected
+        back = self._channels.connected and not self._connected
+        self._connected = self._channels.connected
         if back or now - self._said_at > (SOON_S if self._changed else AGAIN_S):
             self._changed, self._said_at = False, now
             self._say(account(self._meeting, asks=back))
         for part, states in self._came.items():
             if states:
-                self._telegraph.say(self._room, pack_moves(self._meeting.process, part, states))
+                self._channels.say(self._room, pack_moves(self._meeting.process, part, states))
                 states.clear()
         for process, at in list(self._heard_at.items()):
             if now - at > SILENT_S:
                 del self._heard_at[process]
                 for answer in silent(self._meeting, process, now=now):
-                    self._tell(answer)
+                    self._broadcast(answer)
 
     def hear(self, content: bytes) -> None:
         """Take in what another process says; what is none of ours is let alone."""
@@ -159,11 +159,11 @@ class Neighbours:
             case Moves():
                 self._move(word)
             case Spoken():
-                self._tell(word.line)
+                self._broadcast(word.line)
             case Called():
-                self._call(word.to, word.signal)
+                self._send_to(word.to, word.signal)
             case Wanted():
-                self._send(word)
+                self._send_piece(word)
 
     def _merge(self, said: Account) -> None:
         now = time.monotonic()
@@ -175,7 +175,7 @@ class Neighbours:
         for id in merged.undressed:
             self._take_off(id)
         for answer in merged.told:
-            self._tell(answer)
+            self._broadcast(answer)
         if said.asks or not known:
             self._said_at = now
             self._say(account(self._meeting))
@@ -186,7 +186,7 @@ class Neighbours:
                 if seat.home == self._meeting.process and (state := seat.page_state) is not None
             ]
             if states:
-                self._telegraph.say(self._room, pack_moves(self._meeting.process, "page", states))
+                self._channels.say(self._room, pack_moves(self._meeting.process, "page", states))
         self._answered.set()
 
     def _move(self, moves: Moves) -> None:
@@ -197,10 +197,10 @@ class Neighbours:
             # a page's states come from where the page is; a program may have come in anywhere
             if seat and (program or seat.home == moves.process):
                 if seat.take(message, program=program, now=now):
-                    self._tell(Changed(person=seat.person))
+                    self._broadcast(Changed(person=seat.person))
 
     def _say(self, word: Word) -> None:
-        self._telegraph.say(self._room, _bytes(word))
+        self._channels.say(self._room, _bytes(word))
 
 
 def _bytes(word: Word) -> bytes:

@@ -1,4 +1,4 @@
-"""Carries messages between the processes of one server over Redis, and comes back by itself when Redis was gone.
+"""Sends messages between the processes of one server over Redis, and reconnects by itself when Redis was gone.
 
 Redis keeps nothing of it: channels of publish and subscribe alone (https://redis.io/docs/latest/develop/interact/pubsub/).
 """
@@ -32,7 +32,7 @@ WAITS_S = (0.1, 0.2, 0.5, 1.0)
 Heard = Callable[[bytes], None]
 
 
-class Telegraph:
+class RedisChannels:
     """One process's connection to Redis.
 
     Parameters
@@ -70,7 +70,7 @@ class Telegraph:
         self._confirmed: dict[str, asyncio.Event] = {}
         self._waiting: deque[tuple[str, bytes]] = deque(maxlen=MOST_WAITING)
         self._wake = asyncio.Event()
-        self._ears: PubSub | None = None
+        self._subscription: PubSub | None = None
         self._told_gone = False
         self._tried = asyncio.Event()
 
@@ -97,9 +97,9 @@ class Telegraph:
         confirmed = self._confirmed[channel] = asyncio.Event()
         try:
             await asyncio.wait_for(self._tried.wait(), REACH_S)
-            if self._ears is None or not self.connected:
+            if self._subscription is None or not self.connected:
                 raise ConnectionError
-            await self._ears.subscribe(channel)
+            await self._subscription.subscribe(channel)
             await asyncio.wait_for(confirmed.wait(), REACH_S)
         except (RedisError, OSError, asyncio.TimeoutError):
             self.leave(room)
@@ -114,8 +114,8 @@ class Telegraph:
         channel = self._channel(room)
         self._heard.pop(channel, None)
         self._confirmed.pop(channel, None)
-        if self._ears is not None and self.connected:
-            self._parting = asyncio.ensure_future(self._part(self._ears, channel))
+        if self._subscription is not None and self.connected:
+            self._parting = asyncio.ensure_future(self._part(self._subscription, channel))
 
     def say(self, room: str, content: bytes) -> None:
         """Say something to every process of a room, this one among them, soon and without waiting."""
@@ -138,10 +138,10 @@ class Telegraph:
     def _channel(self, room: str) -> str:
         return f"room:1:{self._mark}:{room}"
 
-    async def _part(self, ears: PubSub, channel: str) -> None:
+    async def _part(self, subscription: PubSub, channel: str) -> None:
         with suppress(RedisError, OSError):
             if channel not in self._heard:
-                await ears.unsubscribe(channel)
+                await subscription.unsubscribe(channel)
 
     async def _speak(self) -> None:
         while True:
@@ -160,20 +160,20 @@ class Telegraph:
         tries = 0
         while True:
             try:
-                async with self._redis.pubsub() as ears:
-                    await ears.subscribe(self._beat, *self._heard)
+                async with self._redis.pubsub() as subscription:
+                    await subscription.subscribe(self._beat, *self._heard)
                     beating = asyncio.create_task(self._beats())
                     try:
-                        while message := await ears.get_message(timeout=REACH_S):
+                        while message := await subscription.get_message(timeout=REACH_S):
                             if not self.connected:
-                                self._ears, self.connected, tries = ears, True, 0
+                                self._subscription, self.connected, tries = subscription, True, 0
                                 self._tell_back()
                             self._hear(message)
                     finally:
                         beating.cancel()
             except (RedisError, OSError):
                 pass
-            self._ears, self.connected = None, False
+            self._subscription, self.connected = None, False
             self._tell_gone()
             await asyncio.sleep(WAITS_S[min(tries, len(WAITS_S) - 1)])
             tries += 1
