@@ -63,7 +63,7 @@ Secret = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22,64}$")]
 Key = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{22}$")]
 Number = Annotated[int, Field(ge=0, le=65535)]
 EngineLine = Literal["up", "down"]
-"""One's own voice to an engine in the middle (`room.server.voices`), and the others' voices from it."""
+"""One's own voice to an engine in the middle (`room.server.person_voice`), and the others' voices from it."""
 Avatar = Annotated[str, StringConstraints(pattern=r"^[a-z0-9_-]{1,32}$")]
 Visit = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{0,22}$")]
 """Made anew whenever a page is loaded: the same one after a break means that voices go on."""

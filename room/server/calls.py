@@ -5,7 +5,7 @@ from collections.abc import Callable
 from room.protocol.answers import Answer, Signal
 from room.protocol.texts import Candidate, Description
 from room.server.connections import Connections
-from room.server.switchboard import Switchboard
+from room.server.room_voices import RoomVoices
 from room.state import Meeting, Seat
 
 
@@ -18,8 +18,8 @@ class Calls:
         Who is in the room.
     connections
         Of those who are at this process.
-    switchboard
-        Has an engine pass voices on; None where they go from page to page.
+    voices
+        Passes voices on by an engine; None where they go from page to page.
     away
         Called with a signal for somebody at another process, by id.
     """
@@ -28,33 +28,33 @@ class Calls:
         self,
         meeting: Meeting,
         connections: Connections,
-        switchboard: Switchboard | None,
+        voices: RoomVoices | None,
         *,
         away: Callable[[str, Signal], None],
     ) -> None:
-        self._meeting, self._connections, self._switchboard = meeting, connections, switchboard
+        self._meeting, self._connections, self._voices = meeting, connections, voices
         self._away = away
 
     @property
     def by_engine(self) -> bool:
         """Whether an engine passes voices on."""
-        return self._switchboard is not None
+        return self._voices is not None
 
     def begin(self, seat: Seat, say: Callable[[Answer], None]) -> None:
         """Give lines to an engine to somebody whose page has come; ``say`` sends to it."""
-        if self._switchboard:
-            self._switchboard.begin(seat.id, say)
+        if self._voices:
+            self._voices.begin(seat.id, say)
 
     def end(self, id: str) -> None:
         """Take the lines of somebody whose page has gone."""
-        if self._switchboard:
-            self._switchboard.end(id)
+        if self._voices:
+            self._voices.end(id)
 
     def pass_on(self, seat: Seat, said: Description | Candidate) -> None:
         """Give what somebody's browser says to whom it is for."""
         if isinstance(said.to, str):
-            if self._switchboard:
-                self._switchboard.hear(seat.id, said)
+            if self._voices:
+                self._voices.hear(seat.id, said)
             return
         called, signal = self._meeting.numbered(said.to), Signal(sender=seat.number, signal=said)
         if called is None:
@@ -66,10 +66,10 @@ class Calls:
 
     def tick(self) -> None:
         """Do to voices what moderators did to people."""
-        if self._switchboard:
-            self._switchboard.follow(self._meeting)
+        if self._voices:
+            self._voices.follow(self._meeting)
 
     def close(self) -> None:
         """End with the room."""
-        if self._switchboard:
-            self._switchboard.close()
+        if self._voices:
+            self._voices.close()

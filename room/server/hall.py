@@ -18,7 +18,7 @@ from room.server.consents import Consents
 from room.server.peer_processes import PeerProcesses
 from room.server.replay import Replay
 from room.server.room_avatars import RoomAvatars
-from room.server.switchboard import Switchboard
+from room.server.room_voices import RoomVoices
 from room.server.turn import Relays
 from room.server.turnstile import Turnstile
 from room.state import Meeting, Seat
@@ -52,8 +52,8 @@ class Hall:
         Reach the other processes that carry this room; None where there is one alone.
     transfer
         Brings own avatars from those processes, and to them; None where there is one alone.
-    switchboard
-        Has an engine pass voices on; None where they go from page to page.
+    voices
+        Passes voices on by an engine; None where they go from page to page.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class Hall:
         replay: Replay | None = None,
         channels: "RedisChannels | None" = None,
         transfer: AvatarTransfer | None = None,
-        switchboard: Switchboard | None = None,
+        voices: RoomVoices | None = None,
     ) -> None:
         self.name = name
         self._replay = replay
@@ -83,7 +83,7 @@ class Hall:
         self.avatars = RoomAvatars(name, self.meeting, store, transfer)
         self._connections = Connections()
         self._consents = Consents(self.meeting, recorder)
-        self._calls = Calls(self.meeting, self._connections, switchboard, away=self._send_away)
+        self._calls = Calls(self.meeting, self._connections, voices, away=self._send_away)
         self._peers = channels and PeerProcesses(
             self.meeting,
             channels,

@@ -14,7 +14,7 @@ from room.server.janus import Janus
 from room.server.limits import Limits
 from room.server.metrics import Metrics
 from room.server.replay import Replay
-from room.server.switchboard import Switchboard
+from room.server.room_voices import RoomVoices
 from room.server.turn import Relays
 from room.server.voice_room import instance_of, voice_room
 
@@ -115,7 +115,7 @@ class Halls:
                     del self._halls[name]
 
     async def _open(self, name: str) -> None:
-        switchboard = self._switchboard(name)
+        voices = self._voices_of(name)
         hall = Hall(
             name,
             most_people=self._limits.people,
@@ -125,19 +125,19 @@ class Halls:
             replay=Replay(self._replayed) if self._replayed else None,
             channels=self._channels,
             transfer=self._transfer,
-            switchboard=switchboard,
+            voices=voices,
         )
         try:
             await hall.open()
         except NotAllowed:
-            if switchboard:
-                switchboard.close()  # Janus would else tell it of every end and beginning, for ever
+            if voices:
+                voices.close()  # Janus would else tell it of every end and beginning, for ever
             raise
         self._halls[name] = hall
 
-    def _switchboard(self, name: str) -> Switchboard | None:
+    def _voices_of(self, name: str) -> RoomVoices | None:
         if not self._engines:
             return None
         # a person who comes back may stand in Janus's list a second time for a moment
         room = voice_room(self._secret, name, places=2 * self._limits.people)
-        return Switchboard(instance_of(name, self._engines), room)
+        return RoomVoices(instance_of(name, self._engines), room)

@@ -86,7 +86,7 @@ def test_each_page_has_a_line_to_janus_and_none_to_another_page(port):
 
 
 def test_who_says_nonsense_to_a_line_gets_a_new_one_and_disturbs_nobody(port, monkeypatch):
-    monkeypatch.setattr("room.server.voices.AGAIN_S", 0.1)
+    monkeypatch.setattr("room.server.person_voice.AGAIN_S", 0.1)
 
     async def run() -> None:
         async with voiced(port) as place:

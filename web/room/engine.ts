@@ -1,7 +1,7 @@
 /**
  * Voices by an engine in the middle: one connection up with the own voice, one down with all the others', each by itself.
  *
- * The room speaks with the engine (room/server/voices.py); this page knows its two lines alone.
+ * The room speaks with the engine (room/server/person_voice.py); this page knows its two lines alone.
  */
 
 import { saidOf, type Lines, type Send } from "./lines.js";

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from room.protocol.answers import Answer, Engine
 from room.protocol.texts import Candidate, Description
 from room.server.janus import Janus
+from room.server.person_voice import PersonVoice
 from room.server.voice_room import VoiceRoom, clear
-from room.server.voices import Voices
 from room.state import Meeting
 
 
-class Switchboard:
+class RoomVoices:
     """The voices of one room, of those whose pages are at this process.
 
     Parameters
@@ -25,7 +25,7 @@ class Switchboard:
     def __init__(self, janus: Janus, room: VoiceRoom) -> None:
         self._janus, self._room = janus, room
         self._pages: dict[str, Callable[[Answer], None]] = {}
-        self._voices: dict[str, Voices] = {}
+        self._voices: dict[str, PersonVoice] = {}
         janus.watchers.add(self._turn)
 
     def begin(self, id: str, say: Callable[[Answer], None]) -> None:
@@ -33,26 +33,26 @@ class Switchboard:
         self.end(id)
         self._pages[id] = say
         if self._janus.up:
-            self._voices[id] = Voices(self._janus, self._room, id, say=say)
+            self._voices[id] = PersonVoice(self._janus, self._room, id, say=say)
         else:
             say(Engine(state="away"))
 
     def end(self, id: str) -> None:
         """Take the lines of somebody whose page has gone."""
         self._pages.pop(id, None)
-        if voices := self._voices.pop(id, None):
-            voices.close()
+        if voice := self._voices.pop(id, None):
+            voice.close()
 
     def hear(self, id: str, said: Description | Candidate) -> None:
         """Take what a page says to one of its lines."""
-        if voices := self._voices.get(id):
-            voices.hear(said)
+        if voice := self._voices.get(id):
+            voice.hear(said)
 
     def follow(self, meeting: Meeting) -> None:
         """Do to voices what moderators did to people."""
-        for id, voices in self._voices.items():
+        for id, voice in self._voices.items():
             if seat := meeting.seat(id):
-                voices.mute(seat.muted)
+                voice.mute(seat.muted)
 
     def close(self) -> None:
         """End with the room."""

@@ -26,7 +26,7 @@ AGAIN_S = 2.0
 """After Janus refused something, until it is tried anew."""
 
 
-class Voices:
+class PersonVoice:
     """One person's lines.
 
     Parameters
@@ -79,7 +79,7 @@ class Voices:
                 for handle in (self._up, self._down):
                     self._janus.detach(handle)
                 if not self._janus.up:
-                    return  # the hall begins anew when Janus is back
+                    return  # the room begins it anew when Janus is back
             self._say(Engine(state="away"))
             await asyncio.sleep(AGAIN_S)
 
