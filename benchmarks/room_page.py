@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 from room.places import read_place  # noqa: E402
-from room.server.hall import HERTZ  # noqa: E402
+from room.server.live_room import HERTZ  # noqa: E402
 from tests.browser import Tab, chromium  # noqa: E402
 from tests.room.guests import Guest, open_room  # noqa: E402
 from tests.room.page import come_in  # noqa: E402

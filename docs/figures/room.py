@@ -27,7 +27,7 @@ from blender_assets.rooms.pictures import scan  # noqa: E402
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES  # noqa: E402
 from room.places import read_place  # noqa: E402
 from room.recording import Recorder  # noqa: E402
-from room.server.hall import HERTZ  # noqa: E402
+from room.server.live_room import HERTZ  # noqa: E402
 from tests.browser import chromium  # noqa: E402
 from tests.room.guests import Guest, Place, open_room  # noqa: E402
 

@@ -15,7 +15,7 @@ def _names(
     rooms: list,
 ) -> list[str]:  # Python 3.10 takes list[str] for a class, and typer asks whose child it is
     """The names, before anything else is looked at: a refused command writes no file of keys."""
-    from room.server.visits import ROOM_NAME
+    from room.server.room_sockets import ROOM_NAME
 
     for room in rooms:
         if not ROOM_NAME.fullmatch(room):

@@ -28,7 +28,7 @@ def read_places(wishes: Sequence[str]) -> "dict[str, Place]":
     """
     from room.errors import InputError
     from room.places import read_place
-    from room.server.visits import ROOM_NAME
+    from room.server.room_sockets import ROOM_NAME
 
     places: dict[str, Place] = {}
     for wish in wishes:

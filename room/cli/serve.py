@@ -76,8 +76,8 @@ def serve(
     from room.recording import Recorder
     from room.server import Address, Limits, Relays, Rooms, keep_keys, new_keys, read_keys
     from room.server import serve as run
-    from room.server.hall import HERTZ
     from room.server.headers import parse_origin
+    from room.server.live_room import HERTZ
 
     places = read_places(place or ())
     if bool(turn) != bool(turn_secret):

@@ -139,7 +139,7 @@ class Candidate(Text):
 
 
 class Moderate(Text):
-    """What a moderator does; ``number`` is whom, but for the door."""
+    """What a moderator does; ``number`` is to whom, and means nothing for ``lock`` and ``unlock``."""
 
     kind: Literal["moderate"] = "moderate"
     action: Literal["mute", "unmute", "undress", "unshare", "remove", "lock", "unlock"]

@@ -16,15 +16,15 @@ from room.protocol.texts import MOST_TEXT_BYTES
 from room.recording import Recorder, Survey
 from room.server.avatar_requests import AvatarRequests
 from room.server.files import Files, answer, hold
-from room.server.halls import Halls
 from room.server.headers import protect
 from room.server.janus import Janus
 from room.server.keys import Keys
-from room.server.lasting import lasting
 from room.server.limits import Limits
+from room.server.live_rooms import LiveRooms
 from room.server.metrics import Metrics
+from room.server.room_sockets import ROOM_NAME, RoomSockets
+from room.server.supervised import supervised
 from room.server.turn import Relays
-from room.server.visits import ROOM_NAME, Visits
 
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.redis_channels import RedisChannels
@@ -78,7 +78,7 @@ class Rooms:
     ) -> None:
         self._channels, self._engines, self._replayed = channels, engines, replayed
         self._files, self._avatar_store, self.metrics = Files(STATIC), AvatarStore(), Metrics()
-        self._halls = Halls(
+        self._live_rooms = LiveRooms(
             keys.secret,
             limits=limits,
             relays=relays,
@@ -88,14 +88,14 @@ class Rooms:
             channels=channels,
             engines=engines,
         )
-        self._visits = Visits(keys, self._halls, origins, self.metrics)
-        self._avatar_requests = AvatarRequests(keys, self._avatar_store, self._halls.get, origins)
+        self._sockets = RoomSockets(keys, self._live_rooms, origins, self.metrics)
+        self._avatar_requests = AvatarRequests(keys, self._avatar_store, self._live_rooms.get, origins)
         self._places = {room: hold(place.content, ".glb") for room, place in (places or {}).items()}
         self.stopped = asyncio.Event()
 
     def record(self, recorder: Recorder) -> None:
         """Record its one room from now on, before anybody is in: for who makes the file once the server listens."""
-        self._halls.record(recorder)
+        self._live_rooms.record(recorder)
 
     def application(self) -> web.Application:
         """Everything that is answered, and the ticks behind it."""
@@ -107,7 +107,7 @@ class Rooms:
         application.router.add_get("/room/{name}", self._page)
         application.router.add_get("/room/{name}/about.json", self._about)
         application.router.add_get("/room/{name}/place.glb", self._place)
-        application.router.add_get("/room/{name}/socket", self._visits.answer)
+        application.router.add_get("/room/{name}/socket", self._sockets.answer)
         application.router.add_post("/room/{name}/avatar", self._avatar_requests.take)
         application.router.add_get("/room/{name}/avatar/{digest}", self._avatar_requests.give)
         application.router.add_get("/static/{path:.+}", self._file)
@@ -130,8 +130,8 @@ class Rooms:
         return web.Response(text="well\n")
 
     async def _count(self, request: web.Request) -> web.Response:
-        self._halls.count(self.metrics)
-        self.metrics.connections = self._visits.count
+        self._live_rooms.count(self.metrics)
+        self.metrics.connections = self._sockets.count
         self.metrics.engines = sum(engine.up for engine in self._engines)
         self.metrics.redis = int(self._channels is not None and self._channels.connected)
         self.metrics.avatar_bytes = self._avatar_store.kept_bytes
@@ -150,7 +150,7 @@ class Rooms:
     async def _about(self, request: web.Request) -> web.Response:
         """What the page asks its person about before it comes in; needs no key, and says nothing of people."""
         about = About(
-            recording=self._halls.recorder_of(request.match_info["name"]) is not None,
+            recording=self._live_rooms.recorder_of(request.match_info["name"]) is not None,
             replay=self._replayed is not None,
             engine=bool(self._engines),
         )
@@ -163,8 +163,8 @@ class Rooms:
             yield
 
     async def _ticking(self, application: web.Application) -> AsyncIterator[None]:
-        async with lasting(partial(self._halls.tick, self.metrics), failed=self.stopped.set):
+        async with supervised(partial(self._live_rooms.tick, self.metrics), failed=self.stopped.set):
             yield
 
     async def _close(self, application: web.Application) -> None:
-        await self._visits.close()
+        await self._sockets.close()

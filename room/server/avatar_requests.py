@@ -13,10 +13,10 @@ from aiohttp import web
 from room.avatars import AvatarStore, check_avatar
 from room.avatars.check import MOST_AVATAR_BYTES
 from room.errors import FormatError, NotAllowed
-from room.server.hall import Hall
 from room.server.headers import same_origin
 from room.server.keys import Keys
 from room.server.limits import MOST_UPLOADS, UPLOADS_BURST, UPLOADS_PER_S, Bucket
+from room.server.live_room import LiveRoom
 from room.state import Seat, identity
 
 UPLOAD_S = 120.0
@@ -35,16 +35,20 @@ class AvatarRequests:
         Of all rooms.
     store
         Where avatars are kept.
-    hall_of
+    room_of
         The room of a name, while somebody is in it.
     origins
         Of proxies in front of this server.
     """
 
     def __init__(
-        self, keys: Keys, store: AvatarStore, hall_of: Callable[[str], Hall | None], origins: frozenset[str]
+        self,
+        keys: Keys,
+        store: AvatarStore,
+        room_of: Callable[[str], LiveRoom | None],
+        origins: frozenset[str],
     ) -> None:
-        self._keys, self._store, self._hall_of, self._origins = keys, store, hall_of, origins
+        self._keys, self._store, self._room_of, self._origins = keys, store, room_of, origins
         self._uploading: set[tuple[str, str]] = set()
         self._checking = asyncio.Lock()
 
@@ -52,13 +56,13 @@ class AvatarRequests:
         """An upload."""
         if not same_origin(request, self._origins):
             raise web.HTTPForbidden(text="another site's page may not come in\n")
-        hall, seat = self._who(request)
-        _refuse_undressed(hall, seat)
-        if not hall.avatars.uploads.setdefault(seat.id, Bucket(UPLOADS_PER_S, burst=UPLOADS_BURST)).take(
+        room, seat = self._who(request)
+        _refuse_undressed(room, seat)
+        if not room.avatars.uploads.setdefault(seat.id, Bucket(UPLOADS_PER_S, burst=UPLOADS_BURST)).take(
             now=asyncio.get_running_loop().time()
         ):
             raise web.HTTPTooManyRequests(text="too many avatars at once; wait half a minute\n")
-        wearer = (hall.name, seat.id)
+        wearer = (room.name, seat.id)
         if wearer in self._uploading:  # who sends four slowly would keep all others from theirs
             raise web.HTTPTooManyRequests(
                 text="another avatar of yours is on its way; wait until it is there\n"
@@ -70,10 +74,10 @@ class AvatarRequests:
             content = await asyncio.wait_for(_body(request), UPLOAD_S)
             async with self._checking:  # one after the other, beside the loop: who meets notices nothing
                 await asyncio.to_thread(check_avatar, content)
-            if hall.meeting.seat(seat.id) is not seat:
+            if room.meeting.seat(seat.id) is not seat:
                 raise web.HTTPForbidden(text="you have left the room\n")
-            _refuse_undressed(hall, seat)  # meanwhile
-            return web.json_response({"own": hall.put_on(seat, content)})
+            _refuse_undressed(room, seat)  # meanwhile
+            return web.json_response({"own": room.put_on(seat, content)})
         except asyncio.TimeoutError:
             raise web.HTTPRequestTimeout(
                 text=f"the avatar did not arrive in {UPLOAD_S:g} seconds\n"
@@ -93,33 +97,33 @@ class AvatarRequests:
         self._secret_of(request)
         content = None
         if DIGEST.fullmatch(digest):
-            content = self._store.get(digest, name) or await self._transferred(digest, self._hall_of(name))
+            content = self._store.get(digest, name) or await self._transferred(digest, self._room_of(name))
         if content is None:
             raise web.HTTPNotFound(text="nobody wears this avatar any more\n")
         headers = {"Cache-Control": "no-store"}  # it is somebody's; the page holds it while they are there
         return web.Response(body=content, content_type="model/gltf-binary", headers=headers)
 
-    async def _transferred(self, digest: str, hall: Hall | None) -> bytes | None:
+    async def _transferred(self, digest: str, room: LiveRoom | None) -> bytes | None:
         """From another server of the room, checked as if it had been brought here; None where that cannot be."""
-        content = await hall.avatars.transferred(digest) if hall else None
-        if hall is None or content is None:
+        content = await room.avatars.transferred(digest) if room else None
+        if room is None or content is None:
             return None
         try:
             async with self._checking:
-                if self._store.get(digest, hall.name) is None:  # who waited for the same may have kept it
+                if self._store.get(digest, room.name) is None:  # who waited for the same may have kept it
                     await asyncio.to_thread(check_avatar, content)
-                    hall.avatars.keep(digest, content)
+                    room.avatars.keep(digest, content)
         except (FormatError, NotAllowed):
             return None
-        return self._store.get(digest, hall.name)
+        return self._store.get(digest, room.name)
 
-    def _who(self, request: web.Request) -> tuple[Hall, Seat]:
+    def _who(self, request: web.Request) -> tuple[LiveRoom, Seat]:
         secret = self._secret_of(request)
-        hall = self._hall_of(request.match_info["name"])
-        seat = hall.meeting.seat(identity(secret)) if hall and secret else None
-        if hall is None or seat is None or seat.home != hall.meeting.process:
+        room = self._room_of(request.match_info["name"])
+        seat = room.meeting.seat(identity(secret)) if room and secret else None
+        if room is None or seat is None or seat.home != room.meeting.process:
             raise web.HTTPForbidden(text="only who is in the room brings an avatar; come in first\n")
-        return hall, seat
+        return room, seat
 
     def _secret_of(self, request: web.Request) -> str | None:
         found = _BEARER.fullmatch(request.headers.get("Authorization", ""))
@@ -130,8 +134,8 @@ class AvatarRequests:
         return found[2]
 
 
-def _refuse_undressed(hall: Hall, seat: Seat) -> None:
-    if hall.meeting.rulings.is_undressed(seat.id):
+def _refuse_undressed(room: LiveRoom, seat: Seat) -> None:
+    if room.meeting.rulings.is_undressed(seat.id):
         raise web.HTTPForbidden(text="a moderator has taken your own avatar off; choose one of the room's\n")
 
 

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from room.errors import InputError
 from room.server.janus_words import Jsep, Word
-from room.server.lasting import lasting
+from room.server.supervised import supervised
 
 MOST_WORD_BYTES = 1024**2
 """Of one message of Janus: the lines of a hundred voices with all their addresses have 0.1 MB."""
@@ -73,7 +73,7 @@ class Janus:
     @asynccontextmanager
     async def running(self, *, failed: Callable[[], None]) -> AsyncIterator[None]:
         """Stay connected until the context ends; ``failed`` is called if that ends by a fault of this program."""
-        async with lasting(self._stay, failed=failed):
+        async with supervised(self._stay, failed=failed):
             yield
 
     async def attach(self, heard: Heard) -> int:

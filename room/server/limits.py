@@ -8,7 +8,7 @@ MOST_PEOPLE = 64
 MOST_ROOMS = 100
 """Rooms with people in them at one time, unless ``--rooms`` says otherwise."""
 
-MOST_STRANGERS = 256
+MOST_PENDING = 256
 """Connections that have not said yet who they are; each ends after five seconds, the oldest gives way to a new one."""
 
 STATES_PER_S = 60

@@ -18,7 +18,7 @@ from redis.backoff import NoBackoff
 from redis.exceptions import RedisError
 
 from room.errors import InputError, NotAllowed
-from room.server.lasting import lasting
+from room.server.supervised import supervised
 
 MOST_WAITING = 1000
 """Messages that wait to be published, of all rooms together; older ones are dropped, as newer ones say more."""
@@ -78,7 +78,7 @@ class RedisChannels:
     async def running(self, *, failed: Callable[[], None]) -> AsyncIterator[None]:
         """Hear and speak until the context ends; ``failed`` is called if that ends by a fault of this program."""
         try:
-            async with lasting(self._listen, self._speak, failed=failed):
+            async with supervised(self._listen, self._speak, failed=failed):
                 yield
         finally:
             with suppress(RedisError, OSError):

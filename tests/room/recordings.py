@@ -10,7 +10,7 @@ from facegen.conventions import BLENDSHAPES
 from room.protocol import Message, decode, encode
 from room.recording import Recorder, read_recording
 from room.recording.lines import Came, Heading, Tick
-from room.server.hall import HERTZ
+from room.server.live_room import HERTZ
 from tests.room.guests import Guest, open_room
 
 

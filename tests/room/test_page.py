@@ -235,7 +235,7 @@ async def killed() -> dict[str, object]:
 
 def test_of_a_killed_browser_the_others_see_that_its_person_is_away(monkeypatch):
     # the end of its connection tells, and not that it gives no answer
-    monkeypatch.setattr("room.server.visits.HEARTBEAT_S", 3600.0)
+    monkeypatch.setattr("room.server.room_sockets.HEARTBEAT_S", 3600.0)
     found = asyncio.run(killed())
     print(f"a state of Ben's page was held up for {found['held up']:.2f} s at most")
     assert found["held up"] < 3, "what his page says comes on"

@@ -15,7 +15,7 @@ from room.protocol import MESSAGE_BYTES, Flag, Message, check, decode, encode
 from room.protocol.message import FLOOR_STEPS, GAZE_STEPS, MOST_MESSAGE_BYTES, TURN_STEPS, WEIGHT_STEPS
 from room.protocol.steps import METRE_STEPS, UNIT_STEPS
 from room.protocol.tick import pack, unpack
-from room.server.hall import HERTZ
+from room.server.live_room import HERTZ
 
 FILE = Path(room.protocol.vectors.__file__).with_name("vectors.json")
 VECTORS = json.loads(FILE.read_text(encoding="utf-8"))

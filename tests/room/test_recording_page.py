@@ -7,7 +7,7 @@ import pytest
 
 from room.recording import Recorder, read_recording
 from room.recording.lines import Came, Gone
-from room.server.hall import HERTZ
+from room.server.live_room import HERTZ
 from tests.browser import chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.guests import SOON_S, Place, open_room

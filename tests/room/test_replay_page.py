@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 
 from room.protocol import Message
-from room.server.hall import HERTZ
+from room.server.live_room import HERTZ
 from tests.browser import Tab, chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.guests import open_room

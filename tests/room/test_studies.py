@@ -16,7 +16,7 @@ from room.protocol import Flag, Message, encode
 from room.protocol.answers import Person
 from room.protocol.tick import pack
 from room.recording.table import write_table
-from room.server.hall import HERTZ
+from room.server.live_room import HERTZ
 from tests.room.recordings import make_recorder
 
 ROOT = Path(__file__).resolve().parents[2]

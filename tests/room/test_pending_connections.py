@@ -1,4 +1,4 @@
-"""Nobody holds the door: who says nothing gives way to who comes."""
+"""Connections that say nothing give way to those who come."""
 
 import asyncio
 
@@ -7,7 +7,7 @@ from aiohttp import WSMsgType
 from hypothesis import given
 from hypothesis import strategies as st
 
-from room.server.door import Door
+from room.server.pending_connections import PendingConnections
 from tests.hanging_up import hang_up
 from tests.room.guests import SOON_S, open_room
 
@@ -16,10 +16,10 @@ HOSTS = ["192.0.2.1", "192.0.2.2", "2001:db8::1", "2001:db8::2", "2001:db8:0:1::
 
 @given(st.lists(st.sampled_from(HOSTS), max_size=60))
 def test_never_more_than_so_many_and_a_crowd_cuts_its_own_oldest(hosts):
-    door, standing = Door(most=8), []
+    pending, standing = PendingConnections(most=8), []
     for index, host in enumerate(hosts):
         before = list(standing)
-        door.knock(host, lambda index=index: standing.remove(index))
+        pending.add(host, lambda index=index: standing.remove(index))
         cut = [each for each in before if each not in standing]
         standing.append(index)
         assert len(standing) <= 8
@@ -36,23 +36,23 @@ def _network(host: str | None) -> str:
     return "2001:db8::" if host in ("2001:db8::1", "2001:db8::2") else str(host)
 
 
-def test_a_host_that_fills_the_door_keeps_out_nobody_of_another():
-    door, cut = Door(most=8), []
+def test_a_host_that_fills_all_places_keeps_out_nobody_of_another():
+    pending, cut = PendingConnections(most=8), []
     for index in range(8):
-        door.knock("192.0.2.1", lambda index=index: cut.append(index))
-    door.knock("192.0.2.2", lambda: cut.append("ada"))
+        pending.add("192.0.2.1", lambda index=index: cut.append(index))
+    pending.add("192.0.2.2", lambda: cut.append("ada"))
     for index in range(8, 100):
-        door.knock("192.0.2.1", lambda index=index: cut.append(index))
+        pending.add("192.0.2.1", lambda index=index: cut.append(index))
     assert cut == list(range(93))
 
 
 @pytest.mark.parametrize("address", ["2001:db8::1%eth0", "::ffff:192.0.2.1", "", None, "unix"])
 def test_every_address_is_taken(address):
-    Door().knock(address, lambda: None)
+    PendingConnections().add(address, lambda: None)
 
 
 def test_somebody_comes_in_past_many_who_say_nothing(monkeypatch):
-    monkeypatch.setattr("room.server.visits.Door", lambda: Door(most=8))
+    monkeypatch.setattr("room.server.room_sockets.PendingConnections", lambda: PendingConnections(most=8))
 
     async def run() -> None:
         async with open_room() as place:

@@ -1,25 +1,25 @@
-"""Runs works that last as long as a server, and has the server end where one of them fails."""
+"""Runs jobs that go on as long as a server, and has the server end where one of them fails."""
 
 import asyncio
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import asynccontextmanager
 
 AGAIN_S = 1.0
-"""Between cancellations of a work that goes on: before Python 3.12 `asyncio.wait_for` swallows one that comes in the
+"""Between cancellations of a job that goes on: before Python 3.12 `asyncio.wait_for` swallows one that comes in the
 moment of its answer (https://github.com/python/cpython/issues/86296), and a server would wait without end."""
 
 
 @asynccontextmanager
-async def lasting(
-    *works: Callable[[], Coroutine[None, None, None]], failed: Callable[[], None]
+async def supervised(
+    *jobs: Callable[[], Coroutine[None, None, None]], failed: Callable[[], None]
 ) -> AsyncIterator[None]:
-    """Run works until the context ends.
+    """Run jobs until the context ends.
 
     A task whose error nobody awaits is silent: a server without ticks would go on to say that it is well.
 
     Parameters
     ----------
-    works
+    jobs
         That do not end by themselves.
     failed
         Called once one of them has raised; its error is raised when the context ends.
@@ -29,7 +29,7 @@ async def lasting(
         if not task.cancelled() and task.exception():
             failed()
 
-    tasks = [asyncio.create_task(work()) for work in works]
+    tasks = [asyncio.create_task(job()) for job in jobs]
     for task in tasks:
         task.add_done_callback(ended)
     try:

@@ -1,4 +1,4 @@
-"""Answers the WebSocket of each room: takes the word of who comes, and then what they say until they go."""
+"""Answers the WebSocket of each room: reads who joins, and then what they send until they go."""
 
 import asyncio
 import re
@@ -12,9 +12,6 @@ from room.protocol.accounts import Part
 from room.protocol.answers import Notice
 from room.protocol.texts import MOST_TEXT_BYTES, Candidate, Chat, Description, read_join, read_said
 from room.server.connection import PARTING_S, Connection
-from room.server.door import Door
-from room.server.hall import Hall
-from room.server.halls import Halls
 from room.server.headers import same_origin
 from room.server.keys import Keys
 from room.server.limits import (
@@ -25,25 +22,28 @@ from room.server.limits import (
     TEXTS_PER_S,
     Bucket,
 )
+from room.server.live_room import LiveRoom
+from room.server.live_rooms import LiveRooms
 from room.server.metrics import Metrics
+from room.server.pending_connections import PendingConnections
 from room.state import Seat
 
 ROOM_NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,39}")
 JOIN_S = 5.0
-"""Time for the first text, after which a stranger's connection ends."""
+"""Time for the first text, after which a connection that has said nothing ends."""
 
 HEARTBEAT_S = 8.0
 """A connection that answers no ping for half as long again has broken: its person is shown as away."""
 
 
-class Visits:
+class RoomSockets:
     """The connections of all rooms of a process.
 
     Parameters
     ----------
     keys
         Of all rooms.
-    halls
+    rooms
         Has the rooms.
     origins
         Of proxies in front of this server.
@@ -51,10 +51,10 @@ class Visits:
         Counts what comes and goes.
     """
 
-    def __init__(self, keys: Keys, halls: Halls, origins: frozenset[str], metrics: Metrics) -> None:
-        self._keys, self._halls, self._origins, self._metrics = keys, halls, origins, metrics
+    def __init__(self, keys: Keys, rooms: LiveRooms, origins: frozenset[str], metrics: Metrics) -> None:
+        self._keys, self._rooms, self._origins, self._metrics = keys, rooms, origins, metrics
         self._sockets: set[web.WebSocketResponse] = set()
-        self._door = Door()
+        self._pending = PendingConnections()
 
     @property
     def count(self) -> int:
@@ -111,13 +111,13 @@ class Visits:
         NotAllowed
             If a rule ends the connection.
         """
-        stranger = self._door.knock(request.remote, connection.cut)
+        pending = self._pending.add(request.remote, connection.cut)
         try:
             first = await socket.receive(timeout=JOIN_S)
         except asyncio.TimeoutError:
             raise NotAllowed(f"nothing was said for {JOIN_S:g} seconds", again=True) from None
         finally:
-            self._door.pass_by(stranger)
+            self._pending.remove(pending)
         if first.type in (WSMsgType.CLOSE, WSMsgType.CLOSING, WSMsgType.CLOSED, WSMsgType.ERROR):
             return
         if first.type is not WSMsgType.TEXT:
@@ -126,21 +126,21 @@ class Visits:
         role = self._keys.role(name, join.key)
         if role is None:
             raise NotAllowed("this link is not, or no longer, one of this room; ask for a new one")
-        hall = await self._halls.open(name)
-        seat = hall.enter(join, connection, moderator=role == "moderator")
+        room = await self._rooms.open(name)
+        seat = room.enter(join, connection, moderator=role == "moderator")
         try:
-            await self._listen(hall, seat, join.role, socket, connection)
+            await self._listen(room, seat, join.role, socket, connection)
         finally:
-            hall.go(seat, connection, join.role)
+            room.go(seat, connection, join.role)
 
     async def _listen(
-        self, hall: Hall, seat: Seat, part: Part, socket: web.WebSocketResponse, connection: Connection
+        self, room: LiveRoom, seat: Seat, part: Part, socket: web.WebSocketResponse, connection: Connection
     ) -> None:
         states = Bucket(STATES_PER_S, burst=STATES_PER_S * BURST_S)
         texts = Bucket(TEXTS_PER_S, burst=TEXTS_PER_S * BURST_S)
         chats = Bucket(CHATS_PER_S, burst=CHATS_PER_S * BURST_S)
         signals = Bucket(
-            TEXTS_PER_S, burst=TEXTS_PER_S * BURST_S + SIGNALS_A_PERSON * hall.meeting.most_people
+            TEXTS_PER_S, burst=TEXTS_PER_S * BURST_S + SIGNALS_A_PERSON * room.meeting.most_people
         )
         message: WSMessage
         async for message in socket:
@@ -149,11 +149,11 @@ class Visits:
             calls = isinstance(said, Description | Candidate)
             if not (signals if calls else texts if said else states).take(now=now):
                 raise NotAllowed("too many messages; the page was closed", again=False)
-            if hall.meeting.seat(seat.id) is not seat:
+            if room.meeting.seat(seat.id) is not seat:
                 continue  # removed: the word is on its way
             if message.type is WSMsgType.BINARY:
                 self._metrics.states += 1
-                hall.move(seat, message.data, part)
+                room.move(seat, message.data, part)
             elif said:
                 self._metrics.texts += 1
                 if part == "face":
@@ -162,7 +162,7 @@ class Visits:
                     connection.say(Notice(text="that was too fast; the line was not sent", about=said.kind))
                     continue
                 try:
-                    hall.hear(seat, said)
+                    room.hear(seat, said)
                 except NotAllowed as error:
                     connection.say(Notice(text=str(error), about=said.kind))
 

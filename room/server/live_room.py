@@ -1,4 +1,4 @@
-"""Joins a room's state with those who are in it: who comes, moves and goes, and who hears of it."""
+"""Joins one room's state with its connections: who comes, moves and goes, and who hears of it."""
 
 import time
 from typing import TYPE_CHECKING
@@ -9,18 +9,18 @@ from room.protocol.accounts import Part
 from room.protocol.answers import Answer, Changed, Left, Signal, Welcome
 from room.protocol.texts import Join, Said
 from room.recording import Recorder
-from room.server.acts import Acts
 from room.server.avatar_transfer import AvatarTransfer
 from room.server.calls import Calls
+from room.server.commands import RoomCommands
 from room.server.connection import Connection
 from room.server.connections import Connections
 from room.server.consents import Consents
+from room.server.join_limit import JoinLimit
 from room.server.peer_processes import PeerProcesses
 from room.server.replay import Replay
 from room.server.room_avatars import RoomAvatars
 from room.server.room_voices import RoomVoices
 from room.server.turn import Relays
-from room.server.turnstile import Turnstile
 from room.state import Meeting, Seat
 from room.state.accounts import Ousted
 
@@ -31,7 +31,7 @@ HERTZ = 30
 """Ticks a second: as many as a camera has frames."""
 
 
-class Hall:
+class LiveRoom:
     """One room with its connections.
 
     Parameters
@@ -94,7 +94,7 @@ class Hall:
             take_off=self._take_off,
             send_piece=self.avatars.send,
         )
-        self._acts = Acts(
+        self._commands = RoomCommands(
             self.meeting,
             avatars=self.avatars,
             consents=self._consents,
@@ -105,7 +105,7 @@ class Hall:
             free=self._free,
         )
         self._relays = relays
-        self._turnstile = Turnstile(most_people)
+        self._join_limit = JoinLimit(most_people)
 
     @property
     def empty(self) -> bool:
@@ -131,7 +131,7 @@ class Hall:
         NotAllowed
             As `room.state.Meeting.enter`, or if people come in so often that others hear of nothing else.
         """
-        self._turnstile.count(join, self.meeting, moderator=moderator)
+        self._join_limit.count(join, self.meeting, moderator=moderator)
         seat = self.meeting.enter(join, moderator=moderator)
         self._connections.enter(seat.id, join.role, connection)
         page = join.role == "page"
@@ -199,7 +199,7 @@ class Hall:
         NotAllowed
             If the rules forbid it.
         """
-        self._acts.do(seat, said)
+        self._commands.do(seat, said)
 
     def put_on(self, seat: Seat, content: bytes) -> str:
         """Let somebody wear an avatar that was checked, and tell all; gives its digest.
@@ -259,14 +259,14 @@ class Hall:
             self._peers.called(id, signal)
 
     def _oust(self, ousted: Ousted) -> None:
-        self._turnstile.forget(ousted.id)
+        self._join_limit.forget(ousted.id)
         self.avatars.drop(ousted.id)
         self._calls.end(ousted.id)
         self._connections.oust(ousted.id, ousted.text, again=ousted.again)
 
     def _free(self, seat: Seat, word: str = "you have left") -> None:
         self.meeting.leave(seat)
-        self._turnstile.forget(seat.id)
+        self._join_limit.forget(seat.id)
         self._calls.end(seat.id)
         self.avatars.uploads.pop(seat.id, None)
         self.avatars.take_off(seat)

@@ -1,4 +1,4 @@
-"""Counts who comes into a room, so that nobody comes in so often that the others hear of nothing else."""
+"""Limits how often people come into a room, so that the others do not hear of nothing else."""
 
 import time
 
@@ -8,8 +8,8 @@ from room.server.limits import BURST_S, NEWCOMERS_PER_S, RETURNS_PER_S, Bucket
 from room.state import Meeting, identity
 
 
-class Turnstile:
-    """The way into one room.
+class JoinLimit:
+    """How often people come into one room.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A server whose works fail: it ends, and says why, in place of going on without them."""
+"""A server whose jobs fail: it ends, and says why, in place of going on without them."""
 
 import asyncio
 from contextlib import suppress
@@ -8,24 +8,24 @@ import pytest
 
 from room.errors import NotAllowed
 from room.server import Limits, Relays, Rooms, new_keys
-from room.server.hall import Hall
 from room.server.janus import Janus
-from room.server.lasting import lasting
+from room.server.live_room import LiveRoom
 from room.server.serve import Address, serve
+from room.server.supervised import supervised
 from tests.room.guests import Place
 
 
-def test_works_end_with_the_context():
+def test_jobs_end_with_the_context():
     async def run() -> list[str]:
         heard: list[str] = []
 
-        async def work() -> None:
+        async def job() -> None:
             try:
                 await asyncio.Event().wait()
             finally:
                 heard.append("ended")
 
-        async with lasting(work, work, failed=partial(heard.append, "failed")):
+        async with supervised(job, job, failed=partial(heard.append, "failed")):
             await asyncio.sleep(0)
         return heard
 
@@ -33,10 +33,10 @@ def test_works_end_with_the_context():
 
 
 def test_a_tick_that_fails_ends_the_server(monkeypatch: pytest.MonkeyPatch):
-    def tick(hall: Hall, *, now: float) -> None:
+    def tick(room: LiveRoom, *, now: float) -> None:
         raise ZeroDivisionError("a fault of ours")
 
-    monkeypatch.setattr(Hall, "tick", tick)
+    monkeypatch.setattr(LiveRoom, "tick", tick)
     keys = new_keys()
     coming: list[asyncio.Task[None]] = []
     late: list[str] = []
@@ -63,33 +63,33 @@ def test_a_tick_that_fails_ends_the_server(monkeypatch: pytest.MonkeyPatch):
 
 
 def test_a_room_that_cannot_be_opened_leaves_nothing_at_its_engine(monkeypatch: pytest.MonkeyPatch):
-    async def open_(hall: Hall) -> None:
+    async def open_(room: LiveRoom) -> None:
         raise NotAllowed("this room cannot be reached", again=True)
 
-    monkeypatch.setattr(Hall, "open", open_)
+    monkeypatch.setattr(LiveRoom, "open", open_)
 
     async def run() -> int:
         engine = Janus("ws://127.0.0.1:9")
         rooms = Rooms(new_keys(), limits=Limits(), relays=Relays(), engines=[engine])
         for _ in range(3):
             with pytest.raises(NotAllowed):
-                await rooms._halls.open("meeting")
+                await rooms._live_rooms.open("meeting")
         return len(engine.watchers)
 
     assert asyncio.run(run()) == 0
 
 
-def test_a_work_that_swallows_a_cancellation_is_ended_by_the_next():
+def test_a_job_that_swallows_a_cancellation_is_ended_by_the_next():
     ends = []
 
-    async def work() -> None:
+    async def job() -> None:
         for end in ("swallowed", "heard"):
             with suppress(asyncio.CancelledError):
                 await asyncio.sleep(60)
             ends.append(end)
 
     async def run() -> None:
-        async with asyncio.timeout(50), lasting(work, failed=lambda: ends.append("failed")):
+        async with asyncio.timeout(50), supervised(job, failed=lambda: ends.append("failed")):
             await asyncio.sleep(0)
 
     asyncio.run(run())

@@ -1,4 +1,4 @@
-"""Opens the rooms of one process for the first who comes, lets them tick, and closes them behind the last."""
+"""Opens the rooms of one process for the first who comes, ticks them, and closes them after the last."""
 
 import asyncio
 import time
@@ -9,9 +9,9 @@ from room.avatars import AvatarStore
 from room.errors import NotAllowed
 from room.recording import Recorder, Survey
 from room.server.avatar_transfer import AvatarTransfer
-from room.server.hall import HERTZ, Hall
 from room.server.janus import Janus
 from room.server.limits import Limits
+from room.server.live_room import HERTZ, LiveRoom
 from room.server.metrics import Metrics
 from room.server.replay import Replay
 from room.server.room_voices import RoomVoices
@@ -22,7 +22,7 @@ if TYPE_CHECKING:  # needs an extra of its own
     from room.server.redis_channels import RedisChannels
 
 
-class Halls:
+class LiveRooms:
     """The rooms in which somebody is.
 
     Parameters
@@ -61,17 +61,17 @@ class Halls:
         self._recorder, self._replayed = recorder, replayed
         self._channels, self._engines = channels, engines
         self._transfer = AvatarTransfer(channels, store) if channels else None
-        self._halls: dict[str, Hall] = {}
+        self._rooms: dict[str, LiveRoom] = {}
         self._opening: dict[str, asyncio.Task[None]] = {}
 
-    def get(self, name: str) -> Hall | None:
+    def get(self, name: str) -> LiveRoom | None:
         """The room of a name, while somebody is in it."""
-        return self._halls.get(name)
+        return self._rooms.get(name)
 
     def count(self, metrics: Metrics) -> None:
         """Say how many rooms and people there are."""
-        metrics.rooms = len(self._halls)
-        metrics.people = sum(len(hall.meeting.people) for hall in self._halls.values())
+        metrics.rooms = len(self._rooms)
+        metrics.people = sum(len(room.meeting.people) for room in self._rooms.values())
 
     def record(self, recorder: Recorder) -> None:
         """Record its one room, in which nobody is yet."""
@@ -82,7 +82,7 @@ class Halls:
         recorder = self._recorder
         return recorder if recorder and recorder.room == name and recorder.open else None
 
-    async def open(self, name: str) -> Hall:
+    async def open(self, name: str) -> LiveRoom:
         """The room of a name, opened for the first who comes; others who come meanwhile wait for the same.
 
         Raises
@@ -90,14 +90,14 @@ class Halls:
         NotAllowed
             If there are too many rooms, or other processes that may have this one cannot be reached.
         """
-        while (hall := self._halls.get(name)) is None:  # a tick may close it before the first is in
+        while (room := self._rooms.get(name)) is None:  # a tick may close it before the first is in
             if name not in self._opening:
-                if len(self._halls) + len(self._opening) >= self._limits.rooms:
+                if len(self._rooms) + len(self._opening) >= self._limits.rooms:
                     raise NotAllowed(f"all {self._limits.rooms} rooms of this server are in use", again=True)
                 opening = self._opening[name] = asyncio.create_task(self._open(name))
                 opening.add_done_callback(lambda _: self._opening.pop(name))
             await asyncio.shield(self._opening[name])
-        return hall
+        return room
 
     async def tick(self, metrics: Metrics) -> None:
         """Let all rooms tick, until this is cancelled; ``metrics`` counts the time by which they are late."""
@@ -108,15 +108,15 @@ class Halls:
             now = time.monotonic()
             metrics.late_s += now - due
             due = max(due, now - 1 / HERTZ)  # what was missed by more than a tick is not made up for
-            for name, hall in list(self._halls.items()):
-                hall.tick(now=now)
-                if hall.empty:
-                    hall.close()
-                    del self._halls[name]
+            for name, room in list(self._rooms.items()):
+                room.tick(now=now)
+                if room.empty:
+                    room.close()
+                    del self._rooms[name]
 
     async def _open(self, name: str) -> None:
         voices = self._voices_of(name)
-        hall = Hall(
+        room = LiveRoom(
             name,
             most_people=self._limits.people,
             relays=self._relays,
@@ -128,12 +128,12 @@ class Halls:
             voices=voices,
         )
         try:
-            await hall.open()
+            await room.open()
         except NotAllowed:
             if voices:
                 voices.close()  # Janus would else tell it of every end and beginning, for ever
             raise
-        self._halls[name] = hall
+        self._rooms[name] = room
 
     def _voices_of(self, name: str) -> RoomVoices | None:
         if not self._engines:

@@ -1,4 +1,4 @@
-"""Does what the people of one room say: chat, microphones, consent, screens, replays, and what moderators do."""
+"""Carries out what the people of one room ask by text: chat, microphones, consent, screens, replays, moderation."""
 
 import time
 from collections.abc import Callable
@@ -26,7 +26,7 @@ from room.server.room_avatars import RoomAvatars
 from room.state import Meeting, Seat
 
 
-class Acts:
+class RoomCommands:
     """What a person in the room may do by a text.
 
     Parameters
