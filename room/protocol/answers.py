@@ -5,10 +5,8 @@ What people say themselves stands in `room.protocol.texts`.
 
 from typing import Annotated, Literal
 
-from pydantic import Field, StringConstraints, TypeAdapter, ValidationError
+from pydantic import StringConstraints
 
-from facegen.refusals import refusal
-from room.errors import FormatError
 from room.protocol.texts import Candidate, Description, EngineLine, Number, Text
 
 
@@ -152,18 +150,3 @@ class Refused(Text):
 
 
 Answer = Welcome | Changed | Left | Line | Door | Playing | Signal | Engine | Heard | Notice | Refused
-_ANSWER = TypeAdapter(Annotated[Answer, Field(discriminator="kind")])
-
-
-def read_answer(content: str) -> Answer:
-    """Read what the room says; for programs and tests.
-
-    Raises
-    ------
-    FormatError
-        If it is no JSON, or none of `Answer`.
-    """
-    try:
-        return _ANSWER.validate_json(content)
-    except ValidationError as error:
-        raise FormatError(f"the room says what is not known here: {refusal(error, Text)}") from None

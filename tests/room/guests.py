@@ -6,13 +6,14 @@ from collections.abc import AsyncIterator, Callable, Coroutine, Sequence
 from contextlib import asynccontextmanager, suppress
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType
+from pydantic import Field, TypeAdapter
 
 from room.places import Place as Scenery
 from room.protocol import Message, decode, encode
-from room.protocol.answers import Answer, Left, Refused, Welcome, read_answer
+from room.protocol.answers import Answer, Left, Refused, Welcome
 from room.protocol.texts import Join
 from room.protocol.tick import unpack
 from room.recording import Recorder, check_recording
@@ -24,6 +25,9 @@ from tests.serving import serving
 
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.redis_channels import RedisChannels
+
+ANSWER = TypeAdapter(Annotated[Answer, Field(discriminator="kind")])
+"""Reads what the room says."""
 
 SOON_S = 120.0
 """What is awaited comes in milliseconds; a slow machine with other work is given time."""
@@ -44,7 +48,7 @@ class Guest:
     async def _read(self) -> None:
         async for message in self.socket:
             if message.type is WSMsgType.TEXT:
-                self.answers.append(read_answer(message.data))
+                self.answers.append(ANSWER.validate_json(message.data))
                 if isinstance(self.answers[-1], Left):
                     self.states.pop(self.answers[-1].number, None)
             elif message.type is WSMsgType.BINARY:
