@@ -1,6 +1,7 @@
 /** The avatar that a person brings, and those of the others: sent and fetched with the room's key, checked before it is worn. */
 
 import { AvatarError, loadAvatar } from "../avatar/index.js";
+import { byId } from "../elements.js";
 import { dressed, type Dressed } from "./avatars.js";
 
 /** Metres from the lowest to the highest point: a child of three, and somebody very tall in a hat. */
@@ -19,8 +20,8 @@ const BUSY = [429, 503];
 const TOLD_MS = 15_000;
 
 export class Brought {
-  private readonly button = document.querySelector<HTMLButtonElement>("#bring")!;
-  private readonly told = document.querySelector<HTMLElement>("#told")!;
+  private readonly button = byId<HTMLButtonElement>("bring");
+  private readonly told = byId("told");
   private forgets = 0;
   private worn = "";
   private file: { name: string; content: ArrayBuffer } | undefined;
@@ -35,7 +36,7 @@ export class Brought {
     private readonly secret: string,
     undress: () => void,
   ) {
-    const input = document.querySelector<HTMLInputElement>("#brought")!;
+    const input = byId<HTMLInputElement>("brought");
     this.button.addEventListener("click", () => {
       if (!this.worn) return input.click();
       this.file = undefined;

@@ -1,11 +1,10 @@
 /** The row of buttons under the picture: what each does is the meeting's, what it says is here. */
 
+import { byId } from "../elements.js";
 import { openByKeys } from "./lists.js";
 import type { Microphone } from "./microphone.js";
 import { ANIMATIONS } from "./protocol.js";
 import type { Person, Said, Welcome } from "./texts.js";
-
-const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
 
 /** What buttons and keys ask for. */
 export interface Wishes {
@@ -21,8 +20,8 @@ export interface Wishes {
 }
 
 export class Controls {
-  private readonly mute = find<HTMLButtonElement>("mute");
-  private readonly select = find<HTMLSelectElement>("gesture");
+  private readonly mute = byId<HTMLButtonElement>("mute");
+  private readonly select = byId<HTMLSelectElement>("gesture");
 
   /** `faceLink` is what a program needs to move one's face. */
   constructor(
@@ -40,8 +39,8 @@ export class Controls {
       this.microphone!.isOpen = !this.microphone!.isOpen;
       sayMute();
     });
-    find("neutral").addEventListener("click", () => wishes.neutral());
-    find("seat").addEventListener("click", () => wishes.sit());
+    byId("neutral").addEventListener("click", () => wishes.neutral());
+    byId("seat").addEventListener("click", () => wishes.sit());
     this.select.replaceChildren(
       ...ANIMATIONS.map((name, number) => new Option(number ? `${number} ${name}` : "Gesture …", String(number))),
     );
@@ -57,16 +56,16 @@ export class Controls {
         wishes.gesture(number, true);
       }
     });
-    find("program").addEventListener("click", () => {
+    byId("program").addEventListener("click", () => {
       const command = `track --to "room:${faceLink}"`; // cmd.exe knows no other quotes
       const copied = navigator.clipboard?.writeText(command).then(() => "Copied. ", () => "") ?? Promise.resolve("");
       void copied.then((word) =>
         prompt(`${word}Run this on the machine with the camera or headset; whoever has this link moves your face:`, command),
       );
     });
-    find("lock").addEventListener("click", () => wishes.lock());
-    find("consent").addEventListener("click", () => wishes.consent());
-    find("leave").addEventListener("click", () => wishes.leave());
+    byId("lock").addEventListener("click", () => wishes.lock());
+    byId("consent").addEventListener("click", () => wishes.consent());
+    byId("leave").addEventListener("click", () => wishes.leave());
   }
 
   gesture(number: number): void {
@@ -74,23 +73,23 @@ export class Controls {
   }
 
   seat(seated: boolean): void {
-    find("seat").textContent = seated ? "Stand up" : "Sit";
+    byId("seat").textContent = seated ? "Stand up" : "Sit";
   }
 
   /** Show what the room allows, and what is known of who shares and who is recorded. */
   show(welcome: Welcome, people: readonly Person[], locked: boolean): void {
     const own = people.find(({ number }) => number === welcome.number);
     const sharer = people.find(({ shares }) => shares);
-    const shared = find("shared");
+    const shared = byId("shared");
     shared.hidden = !sharer;
     shared.textContent = sharer ? (sharer.id === welcome.id ? "You share the screen" : `${sharer.name} shares the screen`) : "";
-    const lock = find<HTMLButtonElement>("lock");
+    const lock = byId<HTMLButtonElement>("lock");
     lock.hidden = !welcome.moderator;
     lock.textContent = locked ? "Unlock the room" : "Lock the room";
-    const consent = find<HTMLButtonElement>("consent");
+    const consent = byId<HTMLButtonElement>("consent");
     consent.hidden = !welcome.recording;
     consent.textContent = own?.recorded ? "Record me no longer" : "Agree to be recorded";
-    const mark = find("mark");
+    const mark = byId("mark");
     mark.hidden = !welcome.replay && !own?.recorded;
     mark.textContent = welcome.replay ? "Replay" : "You are recorded";
   }

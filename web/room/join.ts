@@ -1,5 +1,6 @@
 /** The page before the room: name, avatar, microphone with its level, camera; and the link that it all comes from. */
 
+import { byId } from "../elements.js";
 import { Microphone } from "./microphone.js";
 import type { About } from "./texts.js";
 
@@ -55,19 +56,19 @@ export async function about({ room }: Link): Promise<About> {
 
 /** Ask until the person presses "Come in". */
 export async function ask(avatars: string[], { recording, replay, engine }: About): Promise<Choice> {
-  const form = document.querySelector<HTMLFormElement>("#join")!;
+  const form = byId<HTMLFormElement>("join");
   const field = <T extends HTMLElement>(name: string): T => form.elements.namedItem(name) as T;
   const [name, avatar, voice] = [field<HTMLInputElement>("name"), field<HTMLSelectElement>("avatar"), field<HTMLInputElement>("voice")];
   const [devices, camera] = [field<HTMLSelectElement>("microphone"), field<HTMLInputElement>("camera")];
   const headphones = field<HTMLInputElement>("headphones");
   const consent = field<RadioNodeList & HTMLElement>("consent");
-  document.querySelector<HTMLElement>("#recording")!.hidden = !recording;
-  document.querySelector<HTMLElement>("#straight")!.hidden = engine;
-  document.querySelector<HTMLElement>("#passed")!.hidden = !engine;
-  document.querySelector<HTMLElement>("#replayed")!.hidden = !replay;
+  byId("recording").hidden = !recording;
+  byId("straight").hidden = engine;
+  byId("passed").hidden = !engine;
+  byId("replayed").hidden = !replay;
   for (const choice of document.querySelectorAll<HTMLInputElement>("#recording input")) choice.required = recording;
-  const word = document.querySelector<HTMLElement>("#word")!;
-  const level = document.querySelector<HTMLMeterElement>("#level")!;
+  const word = byId("word");
+  const level = byId<HTMLMeterElement>("level");
   avatar.replaceChildren(...avatars.map((each) => new Option(each)));
   name.value ||= localStorage.getItem("name") ?? ""; // a quick hand has typed already
   let microphone: Microphone | undefined;

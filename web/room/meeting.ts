@@ -1,5 +1,6 @@
 /** A meeting: ties the line, the people, their voices and the picture together. */
 
+import { byId } from "../elements.js";
 import { Board } from "./board.js";
 import { Brought } from "./brought.js";
 import { Controls } from "./controls.js";
@@ -22,8 +23,6 @@ import { Voice } from "./voice.js";
 
 const HERTZ = 30;
 
-const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
-
 export class Meeting {
   readonly voice: Voice;
   own: Welcome | undefined;
@@ -38,7 +37,7 @@ export class Meeting {
   private readonly replaying = new Replaying((said) => this.line.say(said));
   private readonly sidebar: Sidebar;
   private readonly line: Line;
-  private readonly status = new Status(find("state"), () => [
+  private readonly status = new Status(byId("state"), () => [
     this.lineWord,
     this.microphone?.word ?? "",
     this.voice.word,
@@ -57,8 +56,8 @@ export class Meeting {
     echoes: boolean,
     private readonly meetingPlace: Place,
   ) {
-    this.stage = new Stage(find("view"), find("mirror"), meetingPlace);
-    this.presence = new Presence(find("view"), find("headset"), this.stage.view, meetingPlace, microphone, (text) => this.tell(text));
+    this.stage = new Stage(byId("view"), byId("mirror"), meetingPlace);
+    this.presence = new Presence(byId("view"), byId("headset"), this.stage.view, meetingPlace, microphone, (text) => this.tell(text));
     this.board = new Board(meetingPlace.screens);
     this.sharing = new Sharing(
       (signal) => this.line.say(signal),
@@ -100,7 +99,7 @@ export class Meeting {
       consent: () => this.consent(),
       leave: () => this.leave(),
     });
-    find("meeting").hidden = false;
+    byId("meeting").hidden = false;
     this.stage.begin(() => {
       this.stage.draw(this.people, this.presence);
       this.replaying.show();
@@ -116,7 +115,7 @@ export class Meeting {
 
   async watch(): Promise<void> {
     try {
-      find("neutral").hidden = !(await this.presence.watch());
+      byId("neutral").hidden = !(await this.presence.watch());
     } catch (error) {
       this.cameraWord = `No camera: ${sentence(error, "load the page again")}`;
     }
@@ -274,7 +273,7 @@ export class Meeting {
     this.people.clear();
     this.stage.pointers.clear();
     this.stage.end();
-    find("people").replaceChildren();
+    byId("people").replaceChildren();
     // nothing to do here any more; what was said can still be read
     for (const part of document.querySelectorAll<HTMLElement>("nav, #mark, #shared, #replay, #chat")) part.hidden = true;
     this.brought.end();

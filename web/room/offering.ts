@@ -1,10 +1,9 @@
 /** The list and buttons by which somebody shares: a window, a picture, or a PDF page by page. */
 
+import { byId } from "../elements.js";
 import { openByKeys } from "./lists.js";
 import type { Paper } from "./paper.js";
 import type { Sharing } from "./sharing.js";
-
-const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
 
 /** The reader of PDFs is 1.5 MB: it comes when somebody chooses one. */
 const READER = "/static/paper.js";
@@ -30,12 +29,12 @@ export class Offering {
     private readonly meeting: Meeting,
     screens: boolean,
   ) {
-    const share = find<HTMLSelectElement>("share");
+    const share = byId<HTMLSelectElement>("share");
     // telephones have no windows to give
     if (!("getDisplayMedia" in (navigator.mediaDevices ?? {}))) share.querySelector("[value=window]")!.remove();
     share.hidden = !screens;
     openByKeys(share);
-    const [picture, paper] = [find<HTMLInputElement>("file"), find<HTMLInputElement>("paper")];
+    const [picture, paper] = [byId<HTMLInputElement>("file"), byId<HTMLInputElement>("paper")];
     share.addEventListener("change", () => {
       const wish = share.value;
       share.value = "";
@@ -47,8 +46,8 @@ export class Offering {
     });
     this.chosen(picture, (file) => this.begin(() => this.sharing.picture(file)));
     this.chosen(paper, (file) => this.begin(() => this.open(file), true));
-    find("before").addEventListener("click", () => void this.turn(this.page - 1));
-    find("next").addEventListener("click", () => void this.turn(this.page + 1));
+    byId("before").addEventListener("click", () => void this.turn(this.page - 1));
+    byId("next").addEventListener("click", () => void this.turn(this.page + 1));
     addEventListener("keydown", ({ key, target }) => {
       if (!this.paper || (target instanceof HTMLElement && target.closest("input, textarea, select"))) return;
       if (key === "PageUp") void this.turn(this.page - 1);
@@ -136,14 +135,14 @@ export class Offering {
     this.paper?.close();
     this.paper = paper;
     this.page = this.shown = 1;
-    find("pages").hidden = !paper;
+    byId("pages").hidden = !paper;
     this.count();
   }
 
   private count(): void {
     if (!this.paper) return;
-    find("page").textContent = `${this.page} of ${this.paper.pages}`;
-    find<HTMLButtonElement>("before").disabled = this.page === 1;
-    find<HTMLButtonElement>("next").disabled = this.page === this.paper.pages;
+    byId("page").textContent = `${this.page} of ${this.paper.pages}`;
+    byId<HTMLButtonElement>("before").disabled = this.page === 1;
+    byId<HTMLButtonElement>("next").disabled = this.page === this.paper.pages;
   }
 }

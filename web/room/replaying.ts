@@ -1,5 +1,6 @@
 /** The bar of a replay: where it is, halt and go on, a jump, a pace; by mouse and by keys. All who look see the same. */
 
+import { byId } from "../elements.js";
 import type { Said } from "./texts.js";
 
 export type Playing = { kind: "playing"; time_s: number; length_s: number; paused: boolean; speed: number };
@@ -11,17 +12,15 @@ const JUMP_S = 5;
 /** While the slider is dragged, so often a second; the server takes five. */
 const DRAG_MS = 250;
 
-const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
-
 export class Replaying {
   private playing: Playing | undefined;
   private heardAt = 0;
   private draggedAt = -Infinity;
   private dragging = false;
-  private readonly bar = find("replay");
-  private readonly halt = find<HTMLButtonElement>("halt");
-  private readonly slider = find<HTMLInputElement>("moment");
-  private readonly pace = find<HTMLSelectElement>("pace");
+  private readonly bar = byId("replay");
+  private readonly halt = byId<HTMLButtonElement>("halt");
+  private readonly slider = byId<HTMLInputElement>("moment");
+  private readonly pace = byId<HTMLSelectElement>("pace");
 
   constructor(private readonly say: (said: Extract<Said, { kind: "play" }>) => void) {
     this.pace.replaceChildren(...SPEEDS.map((speed) => new Option(`${speed} ×`, String(speed))));
@@ -68,7 +67,7 @@ export class Replaying {
     if (!this.playing) return;
     if (!this.dragging) this.slider.value = String(this.time);
     const text = `${clock(this.dragging ? this.slider.valueAsNumber : this.time)} / ${clock(this.playing.length_s)}`;
-    const shown = find("clock");
+    const shown = byId("clock");
     if (shown.textContent !== text) {
       shown.textContent = text;
       this.slider.setAttribute("aria-valuetext", text);

@@ -1,5 +1,6 @@
 /** The page of a room: asks who comes, and opens the meeting. */
 
+import { byId } from "../elements.js";
 import { Wardrobe } from "./avatars.js";
 import { about, ask, randomText, readLink, secretOf } from "./join.js";
 import { Meeting } from "./meeting.js";
@@ -12,11 +13,9 @@ function drawsPictures(): boolean {
   return context !== null;
 }
 
-const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
-
 function refuse(text: string): void {
-  find("word").textContent = text;
-  find("join").querySelector("button")!.disabled = true;
+  byId("word").textContent = text;
+  byId("join").querySelector("button")!.disabled = true;
 }
 
 async function main(): Promise<void> {

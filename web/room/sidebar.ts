@@ -1,5 +1,6 @@
 /** The list of people and the chat. Whatever people typed becomes text, never markup. */
 
+import { byId } from "../elements.js";
 import { Row } from "./row.js";
 import type { Act, Person } from "./texts.js";
 import type { Voice } from "./voice.js";
@@ -9,12 +10,10 @@ const KEPT_LINES = 200;
 /** Farther than this from the end somebody reads what was said before. */
 const READS_PX = 40;
 
-const find = <T extends HTMLElement>(id: string): T => document.querySelector<T>(`#${id}`)!;
-
 export class Sidebar {
-  private readonly people = find<HTMLUListElement>("people");
-  private readonly lines = find<HTMLOListElement>("lines");
-  private readonly input = find<HTMLFormElement>("chat").elements.namedItem("text") as HTMLInputElement;
+  private readonly people = byId<HTMLUListElement>("people");
+  private readonly lines = byId<HTMLOListElement>("lines");
+  private readonly input = byId<HTMLFormElement>("chat").elements.namedItem("text") as HTMLInputElement;
   private readonly rows = new Map<number, Row>();
   private said = "";
 
@@ -23,7 +22,7 @@ export class Sidebar {
     private readonly moderate: (action: Act, number: number) => void,
     say: (text: string) => boolean,
   ) {
-    find<HTMLFormElement>("chat").addEventListener("submit", (event) => {
+    byId<HTMLFormElement>("chat").addEventListener("submit", (event) => {
       event.preventDefault();
       const text = this.input.value.trim();
       if (text && !say(text)) return; // it stays until it can be sent

@@ -1,5 +1,6 @@
 /** Shows what calibration asks for: the face to make, how long, and how it went. */
 
+import { byId } from "../elements.js";
 import { words, type Settings, type Step } from "./messages.js";
 
 /** A result stays as long where no other step comes; frames go on telling the last one. */
@@ -13,10 +14,6 @@ const STATES: Readonly<Record<Step["state"], string>> = {
   failed: "Not calibrated",
   cancelled: "Cancelled",
 };
-
-function byId<T extends HTMLElement>(id: string): T {
-  return document.getElementById(id) as T;
-}
 
 function runs(phase: string): boolean {
   return phase.endsWith("countdown") || phase.endsWith("recording");

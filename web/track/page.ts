@@ -1,9 +1,11 @@
 /** The page of track: an avatar, the cameras' pictures, weights and controls, of one session on this machine. */
 
 import { SHAPES, type Face } from "../avatar/index.js";
+import { byId } from "../elements.js";
 import { CalibrationView } from "./calibration.js";
 import { Cameras } from "./camera.js";
 import { Connection, type State } from "./connection.js";
+import { Held } from "./held.js";
 import type { Frame, Hello } from "./messages.js";
 import { Recorder } from "./recorder.js";
 import { Stage } from "./stage.js";
@@ -13,10 +15,6 @@ import { Weights } from "./weights.js";
 const SAID_MS = 9000;
 /** The measures are read, not watched. */
 const MEASURES_MS = 500;
-
-function byId<T extends HTMLElement>(id: string): T {
-  return document.getElementById(id) as T;
-}
 
 let saying = 0;
 function say(sentence: string): void {
@@ -30,7 +28,7 @@ function say(sentence: string): void {
 /** A button that is on or off; `set` shows what the session says. */
 class Switch {
   private readonly button: HTMLButtonElement;
-  private heldUntil = 0;
+  private readonly held = new Held();
 
   constructor(
     id: string,
@@ -38,7 +36,7 @@ class Switch {
   ) {
     this.button = byId<HTMLButtonElement>(id);
     this.button.addEventListener("click", () => {
-      this.heldUntil = performance.now() + 1000; // until the session has heard of it
+      this.held.hold();
       this.button.ariaPressed = `${!this.on}`;
       this.changed(this.on);
     });
@@ -49,7 +47,7 @@ class Switch {
   }
 
   set(on: boolean): void {
-    if (performance.now() > this.heldUntil && on !== this.on) this.button.ariaPressed = `${on}`;
+    if (!this.held.on && on !== this.on) this.button.ariaPressed = `${on}`;
   }
 }
 

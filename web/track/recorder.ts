@@ -1,11 +1,9 @@
 /** The buttons that record a take and play it back. */
 
 import type { Face } from "../avatar/index.js";
+import { byId } from "../elements.js";
+import { Held } from "./held.js";
 import { clock, MOST_SECONDS, Take } from "./take.js";
-
-function byId<T extends HTMLElement>(id: string): T {
-  return document.getElementById(id) as T;
-}
 
 export class Recorder {
   private readonly take = new Take();
@@ -14,6 +12,7 @@ export class Recorder {
   private readonly moment = byId("moment");
   private readonly slider = this.moment.querySelector("input")!;
   private readonly output = this.moment.querySelector("output")!;
+  private readonly held = new Held();
   private recording = false;
   private dragged = false;
   /** When the take's start would have been played; undefined while it is not. */
@@ -41,14 +40,12 @@ export class Recorder {
 
   /** What the session says it does: another tab may have asked. */
   follow(recording: boolean | undefined): void {
-    if (recording !== undefined && recording !== this.recording && performance.now() > this.heldUntil) this.set(recording);
+    if (recording !== undefined && recording !== this.recording && !this.held.on) this.set(recording);
   }
-
-  private heldUntil = 0;
 
   private set(recording: boolean): void {
     this.recording = recording;
-    this.heldUntil = performance.now() + 1000; // until the session has heard of it
+    this.held.hold();
     if (recording) {
       this.playing(false);
       this.take.begin(performance.now());

@@ -1,13 +1,10 @@
 /** The avatar on its stage, and the ways to bring another one. */
 
 import { AvatarError, fetchAvatar, loadAvatar, Portrait, type Avatar, type Face } from "../avatar/index.js";
+import { byId } from "../elements.js";
 
 /** Springs of hair and clothes come to rest in about that time, behind the last change. */
 const SETTLE_MS = 1500;
-
-function byId<T extends HTMLElement>(id: string): T {
-  return document.getElementById(id) as T;
-}
 
 export class Stage {
   avatar: Avatar | undefined;

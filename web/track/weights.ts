@@ -1,6 +1,7 @@
 /** Bars of the weights, by region of the face, with a gain for each shape. */
 
 import { SHAPE_INDEX, SHAPES } from "../avatar/index.js";
+import { Held } from "./held.js";
 
 /** By region: rows, by what an ARKit name says behind the region's word; a star stands for Left and Right. */
 const REGIONS: Readonly<Record<string, readonly string[]>> = {
@@ -48,7 +49,7 @@ class Bar {
   private readonly number = make("span", "number", "–");
   private readonly slider = make("input", "gain");
   private readonly factor = make("span", "number factor", "×1");
-  private heldUntil = 0;
+  private readonly held = new Held(HELD_MS);
 
   constructor(
     shape: string,
@@ -77,7 +78,7 @@ class Bar {
   }
 
   showGain(gain: number): void {
-    if (performance.now() < this.heldUntil || this.slider.valueAsNumber === gain) return;
+    if (this.held.on || this.slider.valueAsNumber === gain) return;
     this.slider.value = `${gain}`;
     this.write(gain);
   }
@@ -89,7 +90,7 @@ class Bar {
   }
 
   private ask(): void {
-    this.heldUntil = performance.now() + HELD_MS;
+    this.held.hold();
     this.write(this.slider.valueAsNumber);
     this.setGain(this.cell.dataset["shape"]!, this.slider.valueAsNumber);
   }
