@@ -218,7 +218,7 @@ def answers(
     ends = OwnEnds.of(person, reader.sides)
     for row in range(len(weights)):
         frame, points = ({name: one[row] for name, one in table.items()} for table in (seen, traced))
-        eyes, _ = reader.read(frame, points, estimates.gaze[row].ravel())
+        eyes, _ = reader.read(0.0, frame, points, estimates.gaze[row].ravel())
         weights[row] = ends.apply(weights[row], eyes)
     return weights
 
@@ -235,6 +235,7 @@ def gaze(
     return np.array(
         [
             reader.read(
+                0.0,
                 {name: one[row] for name, one in seen.items()},
                 {name: one[row] for name, one in traced.items()},
                 estimates.gaze[row].ravel(),

@@ -215,7 +215,7 @@ def measure(arguments: argparse.Namespace) -> dict[str, object]:
     sink = open_sink(parse_target(f"vmc:127.0.0.1:{receiver.port}"), print)
     if arguments.headset:
         fps = arguments.fps or 120.0
-        pipeline = HeadsetPipeline("headset-tracking3", fps=fps, filter_name="groups")
+        pipeline = HeadsetPipeline("headset-tracking3", filter_name="groups")
         pictures = {name: headset_pictures(name) for name in pipeline.cameras}
     else:
         fps = arguments.fps or 30.0

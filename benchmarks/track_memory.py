@@ -118,7 +118,7 @@ def measure(headset: bool, minutes: float) -> dict[str, object]:
     """Run an hour in so many minutes."""
     hurry = HOUR_S / (60 * minutes)
     if headset:
-        pipeline = HeadsetPipeline("headset-tracking3", fps=FPS * hurry, filter_name="groups")
+        pipeline = HeadsetPipeline("headset-tracking3", filter_name="groups")
     else:
         pipeline = LandmarkPipeline(
             "landmarks-default", detector=Given(), detector_name="points", filter_name="groups"

@@ -73,7 +73,8 @@ def _cached_skin(rig: Rig, look: Look) -> np.ndarray:
     style = STYLES.get(look.hair, _BALD)
     rng = np.random.Generator(np.random.PCG64([look.seed, 0]))
     lips = np.zeros(len(rig.vertices))
-    lips[np.unique(rig.faces[rig.part == Part.LIPS])] = 1.0
+    of_lips = rig.faces[rig.part == Part.LIPS]
+    lips[of_lips[of_lips >= 0]] = 1.0
     colour = skin_tones(
         rig.vertices, lips, np.ones(len(lips)), look.colours, style, rig=rig, neutral=rig.vertices, rng=rng
     )

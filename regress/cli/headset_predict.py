@@ -173,12 +173,12 @@ def predict(
     from regress.errors import InputError
     from regress.runtime.headset.film import check_film_name, write_film
     from regress.runtime.headset.levels import levelled, tables_of
-    from regress.runtime.headset.networks import ASSUMED_FPS
     from regress.runtime.headset.placement_file import read_placement
     from regress.runtime.headset.points import points_csv
     from regress.runtime.headset.predict import predict_footage
     from regress.runtime.headset.predictor import load_headset_predictor
     from regress.runtime.headset.traced_eyes import eyes_csv, traced_eyes
+    from regress.runtime.stages.frame_clock import USUAL_FPS
     from regress.runtime.writers.csv_table import confidence_csv, weights_csv
 
     cameras = bool(camera or left_eye or right_eye or mouth)
@@ -275,6 +275,6 @@ def predict(
         write_whole(trust, confidence_csv(prediction))
     write_prediction(prediction, table_format, out=out, gltf=gltf)
     if video is not None:
-        rate = fps or footage.fps or ASSUMED_FPS
+        rate = fps or footage.fps or USUAL_FPS
         write_film(video, footage, weights_csv(prediction), rig=rig, fps=rate)
         say(f"film in {video}")

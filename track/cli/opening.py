@@ -107,9 +107,7 @@ def open_pipeline(wishes: Wishes, texts: dict[str, str], say: Callable[[str], No
             raise InputError(
                 f"--neutral {wishes.neutral} is of points; a headset's neutral face comes from `track calibrate`"
             )
-        pipeline = HeadsetPipeline(
-            wishes.model or HEADSET, fps=wishes.fps, filter_name=wishes.filter_name, opened=texts
-        )
+        pipeline = HeadsetPipeline(wishes.model or HEADSET, filter_name=wishes.filter_name, opened=texts)
         strangers = [name for name in texts if name not in pipeline.cameras]
         if strangers or not texts:
             found = f"there is no camera {strangers[0]!r}" if strangers else "no camera is given"

@@ -94,6 +94,6 @@ LoopOption = Annotated[
 FpsOption = Annotated[
     float,
     typer.Option(
-        "--fps", min=1.0, max=1000.0, help="Frames a second of folders, of lines without times, of headsets."
+        "--fps", min=1.0, max=1000.0, help="Frames a second of folders, and of lines without times."
     ),
 ]

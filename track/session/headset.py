@@ -11,6 +11,7 @@ from facegen.conventions import BLENDSHAPES
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.levels import Levels
+from regress.runtime.headset.looks import evenly
 from regress.runtime.headset.networks import HeadsetNetworks
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, kept_openness, unpacked_picture
 from regress.runtime.headset.placement import CameraPlacement
@@ -31,6 +32,9 @@ LEAST_MOVEMENT = 0.15
 """Of a weight, as the network reads it without a neutral face: what calm frames of a take differ by
 (regress.runtime.headset.neutral)."""
 
+RESTING_FRAMES = 16
+"""Of a resting face that are compared with its neutral pictures, at once: each costs a millisecond or two."""
+
 
 class HeadsetPipeline(Pipeline):
     """Grey pictures at the network's size, cameras in their places, network, filter.
@@ -39,8 +43,6 @@ class HeadsetPipeline(Pipeline):
     ----------
     folder
         Of the model, or a ready-made model's name.
-    fps
-        Frames a second of the cameras.
     filter_name
         As `filter_of` takes it.
     opened
@@ -52,12 +54,11 @@ class HeadsetPipeline(Pipeline):
     measures_eyes = True
 
     def __init__(
-        self, folder: str | Path, *, fps: float, filter_name: str, opened: Collection[str] | None = None
+        self, folder: str | Path, *, filter_name: str, opened: Collection[str] | None = None
     ) -> None:
         self._predictor = load_headset_predictor(folder)
         self._opened = [name for name in self.cameras if opened is None or name in opened]
         self.mark = ModelMark(kind="headset", sha256=self._predictor.model.network_sha256)
-        self._fps = fps
         self._reader = EyeReader(self._predictor)
         self.stages = {"grey": _Grey()}
         self.use_placement({})
@@ -94,8 +95,9 @@ class HeadsetPipeline(Pipeline):
 
     def rests_of(self, samples: Sequence[Sample]) -> dict[str, float]:
         """Medians of the weights, compared with the neutral pictures in use; gaze is centred by itself."""
-        weights = [self._networks.step(replace(sample, weights=None)).weights for sample in samples[::4]]
-        middle = np.median(weights, axis=0)
+        chosen = [samples[row] for row in evenly(len(samples), RESTING_FRAMES)]
+        pictures = {name: np.array([sample.pictures[name] for sample in chosen]) for name in self._opened}
+        middle = np.median(self._networks.compared(pictures), axis=0)
         return {
             name: float(min(value, HIGHEST_REST))
             for name, value in zip(BLENDSHAPES, middle, strict=True)
@@ -172,7 +174,7 @@ class HeadsetPipeline(Pipeline):
         levels = Levels(self._predictor.model.looks, placement)
         # a profile is its person's: another seat's neutral picture is worth more than none
         self._networks = HeadsetNetworks(
-            self._predictor, fps=self._fps, levels=levels, keep_neutral=True, reader=self._reader
+            self._predictor, levels=levels, keep_neutral=True, reader=self._reader
         )
         self.stages["soundness"] = _Soundness(self._predictor.sizes, placement)
         if "networks" in self.stages:

@@ -25,18 +25,21 @@ _UNSEEN_DEG = 100.0
 HIDDEN_DEG = 20.0
 """Error of the gaze of an eye that is shut."""
 
-_MEMORY = 300
-"""Frames whose median is the iris's diameter: a half-hidden iris is traced too small."""
+_KEEP_EVERY_S, _MEMORY = 1 / 30, 300
+"""Diameters are kept no oftener, and so many; their median is the iris's. It spans ten seconds or more, in which eyes
+are open for most: a half-hidden iris is traced too small."""
 
 _SETTLED = 30
-"""Frames of which a median changes little by one more."""
+"""Diameters of which a median changes little by one more."""
 
 _USUAL_OPENNESS = 0.85
 """Lids of the mean of training's frames, over those of the resting eye: some of these frames are shut. Neutral frames
 of 60 other people read 1.00 in the median."""
 
-_PUPIL_EVERY = 4
-"""Frames: a pupil takes half a second to change, and measuring one 0.3 ms."""
+_PUPIL_EVERY_S = 0.13
+"""A pupil takes half a second to change, and measuring one 0.3 ms."""
+
+_ROUNDING_S = 1e-6
 
 
 class EyeReader:
@@ -45,7 +48,7 @@ class EyeReader:
     Parameters
     ----------
     predictor
-        The model; `cameras` are those of its cameras that trace an eye.
+        The model; those of its cameras that trace an eye are read.
     person
         Whose own ends and gaze count; without, openness is against training's people, and gaze is the network's.
 
@@ -69,10 +72,9 @@ class EyeReader:
             name: int(any(point.startswith("right_pupil") for point in predictor.model.points[name]))
             for name in self._eyes
         }
-        self._medians = dict.fromkeys(self._eyes, float("nan"))
-        self._pupils = dict.fromkeys(self._eyes, float("nan"))
-        self._frame = 0
-        self._diameters = {name: deque(maxlen=_MEMORY) for name in self._eyes}
+        self._irises = {name: _IrisDiameter() for name in self._eyes}
+        # the eyes' turns do not fall on one frame
+        self._pupils = {name: _Pupil(first_s=side * _PUPIL_EVERY_S / 2) for name, side in self.sides.items()}
         self._usual = {
             name: OwnEye(
                 shut_mm=0.0,
@@ -86,13 +88,26 @@ class EyeReader:
         """Count with what is known of a person from now on."""
         self._own = {} if person is None else dict(person.eyes)
 
+    def hold_diameters(self, points: Mapping[str, np.ndarray]) -> None:
+        """Take the irises for as large as in frames of open eyes (n, P, 2) by camera, whatever comes later."""
+        for name in self._eyes.keys() & points.keys():
+            self._irises[name].held = float(
+                np.median([diameter_of(frame.astype(np.float64), self._eyes[name]) for frame in points[name]])
+            )
+
     def read(
-        self, pictures: Mapping[str, np.ndarray], points: Mapping[str, np.ndarray], gaze_rad: np.ndarray
+        self,
+        seconds: float,
+        pictures: Mapping[str, np.ndarray],
+        points: Mapping[str, np.ndarray],
+        gaze_rad: np.ndarray,
     ) -> tuple[EyeMeasures, np.ndarray]:
         """What is measured of the eyes, and their gaze (4,) in radians, as samples have it.
 
         Parameters
         ----------
+        seconds
+            Since the frame before.
         pictures : mapping of (h, w) uint8
             By camera, as the network sees them.
         points : mapping of (P, 2)
@@ -101,28 +116,26 @@ class EyeReader:
             Its direct answer.
         """
         openness_mm, openness, pupil = np.full((3, 2), np.nan)
-        self._frame += 1
         direct = np.degrees(gaze_rad).reshape(2, 2)
         gaze_deg, variance = direct.copy(), np.full(2, _UNSEEN_DEG**2)
         for name, eye in self._eyes.items():
             if name not in points or name not in pictures:
+                self._pupils[name].forget()
                 continue
             side, seen = self.sides[name], points[name].astype(np.float64)
-            diameter = self._diameter(name, seen)
+            diameter = self._irises[name].step(seconds, diameter_of(seen, eye))
             own = self._own.get(name, OwnEye())
             apart_mm = IRIS_MM * _apart(seen, eye) / diameter
             known = own if own.rest_mm is not None and own.shut_mm is not None else self._usual[name]
-            open_to, pupil_to = known.openness(apart_mm), self._pupil(name, pictures[name], seen)
+            open_to = known.openness(apart_mm)
+            if self._pupils[name].due(seconds):
+                self._pupils[name].share = pupil_share(pictures[name], seen, eye)
             hidden = np.clip(1 - open_to / HALF_SHUT, 0, 1) if np.isfinite(open_to) else 0.0
             error = own.error_deg**2 + (HIDDEN_DEG * hidden) ** 2
             if not error < variance[side]:
                 continue  # another camera of this eye is surer
-            openness_mm[side], openness[side], pupil[side], variance[side] = (
-                apart_mm,
-                open_to,
-                pupil_to,
-                error,
-            )
+            openness_mm[side], openness[side], variance[side] = apart_mm, open_to, error
+            pupil[side] = self._pupils[name].share
             gaze_deg[side] = self._own_gaze(name, own, seen, diameter, direct[side])
         met = meeting(gaze_deg[None], variance)[0]
         measured = EyeMeasures(openness_mm=openness_mm, openness=openness, pupil=pupil)
@@ -136,24 +149,9 @@ class EyeReader:
         if self._maps[camera] is None:
             return np.full(2, np.nan)
         eye = self._eyes[camera]
-        diameter = float(np.median(self._diameters[camera])) if diameter is None else diameter
+        diameter = self._irises[camera].median if diameter is None else diameter
         corners = points[[eye.upper[0], eye.upper[-1]]].mean(axis=0)
         return self._maps[camera] @ np.append((points[eye.pupil] - corners) / diameter, 1.0)
-
-    def _diameter(self, camera: str, points: np.ndarray) -> float:
-        """Median of the iris's diameter, which changes with the seat alone: counted anew now and then."""
-        seen = self._diameters[camera]
-        seen.append(diameter_of(points, self._eyes[camera]))
-        if len(seen) < _SETTLED or self._frame % _SETTLED == 0:
-            self._medians[camera] = float(np.median(seen))
-        return self._medians[camera]
-
-    def _pupil(self, camera: str, picture: np.ndarray, points: np.ndarray) -> float:
-        """The pupil of now, or of just now: the eyes' turns do not fall on one frame."""
-        due = (self._frame + 2 * self.sides[camera]) % _PUPIL_EVERY == 0
-        if due or self._frame == 1:
-            self._pupils[camera] = pupil_share(picture, points, self._eyes[camera])
-        return self._pupils[camera]
 
     def _own_gaze(
         self, camera: str, own: OwnEye, points: np.ndarray, diameter: float, direct_deg: np.ndarray
@@ -171,6 +169,55 @@ class EyeReader:
                 answers.append(np.array(affine) @ np.append(answer, 1.0))
                 shares.append(share)
         return np.average(answers, axis=0, weights=shares) if sum(shares) > 0 else direct_deg
+
+
+class _IrisDiameter:
+    """Median of an iris's diameter in pixels, which changes with the seat alone: counted anew now and then."""
+
+    def __init__(self) -> None:
+        self.held: float | None = None
+        self.median = float("nan")
+        self._kept: deque[float] = deque(maxlen=_MEMORY)
+        self._count, self._since_s = 0, float("inf")
+
+    def step(self, seconds: float, diameter: float) -> float:
+        """The median, with a frame's diameter where one is due."""
+        self._since_s += seconds
+        if self.held is not None:
+            self.median = self.held
+        elif self._since_s > _KEEP_EVERY_S - _ROUNDING_S:
+            self._kept.append(diameter)
+            self._count, self._since_s = self._count + 1, 0.0
+            if self._count < _SETTLED or self._count % _SETTLED == 0:
+                self.median = float(np.median(self._kept))
+        return self.median
+
+
+class _Pupil:
+    """The share of a pupil of now, or of just now.
+
+    Parameters
+    ----------
+    first_s
+        How much of the time to the second measurement is over at the first one.
+    """
+
+    def __init__(self, *, first_s: float) -> None:
+        self._first_s = first_s
+        self.forget()
+
+    def forget(self) -> None:
+        """Measure the next frame's: the eye was not seen."""
+        self.share, self._age_s = float("nan"), float("inf")
+
+    def due(self, seconds: float) -> bool:
+        """Whether the pupil of a frame is to be measured."""
+        first = self._age_s == float("inf")
+        self._age_s += seconds
+        if not first and self._age_s < _PUPIL_EVERY_S - _ROUNDING_S:
+            return False
+        self._age_s = self._first_s if first else 0.0
+        return True
 
 
 def diameter_of(points: np.ndarray, eye: EyePoints) -> float:

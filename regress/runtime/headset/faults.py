@@ -27,10 +27,11 @@ STILL = 0.1
 Sensor noise alone makes more than 1; a film's encoder leaves less than this between repeats of one picture.
 """
 
-FROZEN_FRAMES = 8
-"""Repeats of a picture beyond which its camera is frozen if others go on: a quarter of a second at 30 a second.
+FROZEN_S = 0.27
+"""Seconds for which a picture may stay the same while other cameras go on; a camera whose picture stays is frozen.
 
-What is read from a file is judged as it would be live, so the repeats before count as pictures.
+Of a camera with four pictures a second each one stands for as long beside those of quicker cameras. What is read from
+a file is judged as it would be live, so the repeats before count as pictures.
 """
 
 _TOLD_RUNS = 8
@@ -67,20 +68,22 @@ def picture_fault(picture: np.ndarray) -> Fault | None:
 class FrozenWatch:
     """Watches cameras side by side for one that repeats a picture while another moves, as frames come.
 
-    A camera is frozen from the repeat after `FROZEN_FRAMES` on, if another camera has changed since the repeats began.
-    A recording of one camera has no others, and is never called frozen.
+    A camera is frozen once its picture has stayed longer than `FROZEN_S`, if another one has changed since then. A
+    recording of one camera has no others, and is never called frozen.
     """
 
     def __init__(self) -> None:
         self._first: dict[str, np.ndarray] = {}
-        self._repeats: dict[str, int] = {}
+        self._still_s: dict[str, float] = {}
         self._moved: set[str] = set()
 
-    def step(self, pictures: Mapping[str, np.ndarray]) -> set[str]:
+    def step(self, seconds: float, pictures: Mapping[str, np.ndarray]) -> set[str]:
         """Names of the cameras whose picture is frozen in the next frame.
 
         Parameters
         ----------
+        seconds
+            Since the frame before.
         pictures
             (h, w) uint8 by camera; a camera without a picture starts afresh.
         """
@@ -89,13 +92,13 @@ class FrozenWatch:
         for name, picture in pictures.items():
             # compared with the first of a run, so that slow drift is no repeat
             if name in self._first and _same(self._first[name], picture):
-                self._repeats[name] += 1
+                self._still_s[name] += seconds
             else:
-                self._first[name], self._repeats[name] = picture, 0
+                self._first[name], self._still_s[name] = picture, 0.0
                 self._moved.discard(name)
                 changed.add(name)
         self._moved |= {name for name in pictures if name not in changed and changed}
-        return {name for name in pictures if self._repeats[name] > FROZEN_FRAMES and name in self._moved}
+        return {name for name in pictures if self._still_s[name] > FROZEN_S and name in self._moved}
 
 
 def fault_sentences(camera: str, numbers: Sequence[int], faults: Sequence[Fault | None]) -> list[str]:

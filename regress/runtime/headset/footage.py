@@ -10,6 +10,7 @@ from regress.runtime.headset.faults import Fault, FrozenWatch, fault_sentences
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.recordings import Recording
 from regress.runtime.sample import Sample
+from regress.runtime.stages.frame_clock import USUAL_FPS, FrameClock
 
 _LONGEST_GRID = 4
 """Frames of an even count for each that is there; numbers farther apart, or not even, are clock times."""
@@ -157,7 +158,8 @@ def line_up(
                 scaled_from[name][rows[name]] = recording.scaled_from[:count]
         faults[name] = found
     if not still:
-        _mark_frozen({name: pictures[name] for name in recordings}, faults)
+        step_s = FrameClock(fps or _film_rate(recordings) or USUAL_FPS).step(None)
+        _mark_frozen({name: pictures[name] for name in recordings}, faults, step_s)
     for name in sizes:
         if name in recordings:
             notes += fault_sentences(name, numbers, faults[name])
@@ -185,12 +187,12 @@ def line_up(
     )
 
 
-def _mark_frozen(pictures: Mapping[str, np.ndarray], faults: Mapping[str, np.ndarray]) -> None:
+def _mark_frozen(pictures: Mapping[str, np.ndarray], faults: Mapping[str, np.ndarray], step_s: float) -> None:
     """Find frozen pictures, as a live headset's are found, and blank them."""
     watch = FrozenWatch()
     for row in range(len(next(iter(pictures.values())))):
         sound = {name: stack[row] for name, stack in pictures.items() if faults[name][row] is None}
-        for name in watch.step(sound):
+        for name in watch.step(step_s, sound):
             faults[name][row] = Fault.FROZEN
     for name, stack in pictures.items():
         stack[faults[name] == Fault.FROZEN] = 0
@@ -274,6 +276,9 @@ def _from_start(recordings: Mapping[str, Recording]) -> tuple[np.ndarray, list[s
 
 def _times(recordings: Mapping[str, Recording], count: int, fps: float | None) -> np.ndarray | None:
     """Seconds of rows, which are even in time: lacking numbers have rows too."""
-    rates = [recording.fps for recording in recordings.values() if recording.fps is not None]
-    fps = fps or (rates[0] if rates else None)
+    fps = fps or _film_rate(recordings)
     return None if fps is None else np.arange(count) / fps
+
+
+def _film_rate(recordings: Mapping[str, Recording]) -> float | None:
+    return next((recording.fps for recording in recordings.values() if recording.fps is not None), None)

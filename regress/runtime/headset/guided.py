@@ -116,6 +116,8 @@ def person_of(
     if REST not in takes:
         raise InputError(f"--{REST} is needed: other faces are told by how they differ from it")
     reader = EyeReader(predictor)
+    # of shut eyes no iris is seen
+    reader.hold_diameters(predictor.see(takes[REST].pictures)[1])
     row = neutral_row(predictor, takes[REST].pictures)
     neutral = None
     if predictor.model.calibration != "none":
@@ -166,7 +168,7 @@ def _read(
     for row in range(count):
         points = {name: pixels[row] for name, pixels in traced.items()}
         frame = {name: frames[row] for name, frames in take.pictures.items()}
-        openness.append(reader.read(frame, points, estimates.gaze[row].ravel())[0].openness_mm)
+        openness.append(reader.read(0.0, frame, points, estimates.gaze[row].ravel())[0].openness_mm)
         for name, gaze in found.items():
             gaze[row] = reader.traced_gaze(name, points[name].astype(np.float64))
     direct = np.degrees(estimates.gaze.astype(np.float64))

@@ -1,5 +1,6 @@
 """Brings a camera's grey levels to those of a model's training, over a take or as frames come."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -9,11 +10,9 @@ import numpy as np
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.looks import BRIGHT, DARK, CameraLooks, levels_of
 from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.sample import Sample
-from regress.runtime.stages.stage import Stage
 
-_MEMORY = 300
-"""Frames by which live levels forget: ten seconds, in which eyes close several times."""
+_MEMORY_S = 10.0
+"""In which live levels forget: eyes close several times meanwhile."""
 
 _GREYS = np.arange(256)
 
@@ -79,7 +78,7 @@ def levelled(footage: Footage, tables: Mapping[str, np.ndarray]) -> Footage:
     return replace(footage, pictures=pictures)
 
 
-class Levels(Stage):
+class Levels:
     """Levels pictures as they come, by the levels of the last ten seconds or so.
 
     Parameters
@@ -104,12 +103,12 @@ class Levels(Stage):
         }
         self._tables |= self._fixed
 
-    def step(self, sample: Sample) -> Sample:
-        """The sample with levelled pictures."""
-        for name, picture in (sample.pictures or {}).items():
+    def step(self, seconds: float, pictures: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """The next frame's pictures (h, w) uint8 by camera, levelled; ``seconds`` since the frame before."""
+        for name, picture in pictures.items():
             if name in self._looks and name not in self._fixed:
-                self._see(name, picture)
-        return replace(sample, pictures=self.levelled(sample.pictures or {}))
+                self._see(name, picture, seconds)
+        return self.levelled(pictures)
 
     def levelled(self, pictures: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Pictures (h, w) uint8 by camera with the levels of the moment: a neutral picture's are the frames'."""
@@ -118,11 +117,12 @@ class Levels(Stage):
             for name, picture in pictures.items()
         }
 
-    def _see(self, name: str, picture: np.ndarray) -> None:
-        """Count a picture's levels; the table stays as long as their ends do."""
+    def _see(self, name: str, picture: np.ndarray, seconds: float) -> None:
+        """Count a picture's levels for as long as it lasts; the table stays as long as their ends do."""
         seen = cv2.calcHist([picture], [0], None, [256], [0, 256]).ravel() / picture.size
         before = self._counts.get(name)
-        self._counts[name] = counts = seen if before is None else seen + before * (1 - 1 / _MEMORY)
+        kept = 0.0 if before is None else before * math.exp(-seconds / _MEMORY_S)
+        self._counts[name] = counts = kept + seconds * seen
         shares = np.cumsum(counts)
         low, high = np.searchsorted(shares, shares[-1] * _ENDS)
         ends = float(low), float(high)

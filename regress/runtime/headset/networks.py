@@ -17,11 +17,10 @@ from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.seats import SeatWatch
 from regress.runtime.headset.temporal import TAPS
 from regress.runtime.sample import NO_EYES, Sample
+from regress.runtime.stages.frame_clock import USUAL_FPS, FrameClock
 from regress.runtime.stages.gaze import LOOKS, look_weights
+from regress.runtime.stages.smoothing import Pauses
 from regress.runtime.stages.stage import Stage
-
-ASSUMED_FPS = 30.0
-"""Frames a second where nobody says: only the patience with a changed seat depends on it."""
 
 
 class HeadsetNetworks(Stage):
@@ -32,7 +31,7 @@ class HeadsetNetworks(Stage):
     predictor
         The model.
     fps
-        Frames a second of the cameras.
+        Frames a second of samples without times.
     keep_neutral
         Stay calibrated after a change of seat: another seat's neutral picture of the same person is worth more than
         none, another person's is not.
@@ -48,14 +47,14 @@ class HeadsetNetworks(Stage):
         self,
         predictor: HeadsetPredictor,
         *,
-        fps: float = ASSUMED_FPS,
+        fps: float = USUAL_FPS,
         keep_neutral: bool = False,
         levels: Levels | None = None,
         reader: EyeReader | None = None,
         person: Person | None = None,
     ) -> None:
-        self._predictor, self._fps, self._keep = predictor, fps, keep_neutral
-        self.levels = levels
+        self._predictor, self._clock, self._keep = predictor, FrameClock(fps), keep_neutral
+        self._levels = levels
         self._reader = reader
         self._points: Mapping[str, np.ndarray] = {}
         self._ends = None if person is None or reader is None else OwnEnds.of(person, reader.sides)
@@ -75,7 +74,7 @@ class HeadsetNetworks(Stage):
     def use_neutral(self, pictures: Mapping[str, np.ndarray] | None) -> None:
         """Compare frames with neutral pictures (h, w) uint8 of the network's sizes from now on; None: with none."""
         self._neutral = pictures
-        self._seat = None if pictures is None else SeatWatch(fps=self._fps)
+        self._seat = None if pictures is None else SeatWatch()
         self._doubted_from = None
 
     def step(self, sample: Sample) -> Sample:
@@ -91,8 +90,11 @@ class HeadsetNetworks(Stage):
             trust = None if self._confidence is None else np.zeros(len(BLENDSHAPES))
             eyes = None if self._reader is None else NO_EYES
             return replace(sample, weights=nothing, gaze=np.full(4, np.nan), eyes=eyes, confidence=trust)
-        seen = sample if self.levels is None else self.levels.step(sample)
-        estimates, calibrated = self._estimate(seen)
+        seconds = self._clock.step(sample.time_s)
+        seen = sample
+        if self._levels is not None:
+            seen = replace(sample, pictures=self._levels.step(seconds, sample.pictures))
+        estimates, calibrated = self._estimate(seen, seconds)
         trust = None
         if self._confidence is not None:
             present = np.array([name in sample.pictures for name in self._predictor.sizes])
@@ -103,27 +105,38 @@ class HeadsetNetworks(Stage):
             gaze=estimates.gaze[0].astype(np.float64).reshape(4),
             confidence=trust,
         )
-        return answer if self._reader is None else self._with_eyes(answer, seen.pictures)
+        return answer if self._reader is None else self._with_eyes(answer, seen.pictures, seconds)
 
-    def _with_eyes(self, sample: Sample, pictures: Mapping[str, np.ndarray]) -> Sample:
+    def compared(self, pictures: Mapping[str, np.ndarray]) -> np.ndarray:
+        """Weights (n, 52) of frames of before, (n, h, w) uint8 by camera, compared with the neutral pictures in use.
+
+        Nothing is learnt of them: neither levels nor seat.
+        """
+        seen, neutral = pictures, self._neutral
+        if self._levels is not None:
+            seen, neutral = self._levels.levelled(pictures), self._levels.levelled(neutral or {}) or None
+        weights = self._predictor.predict(seen, neutral=neutral).weights
+        return np.clip(weights.astype(np.float64), 0, 1)
+
+    def _with_eyes(self, sample: Sample, pictures: Mapping[str, np.ndarray], seconds: float) -> Sample:
         """The sample with its eyes measured, a gaze that meets in front, and the person's own ends."""
-        eyes, gaze = self._reader.read(pictures, self.traced, sample.gaze)
+        eyes, gaze = self._reader.read(seconds, pictures, self.traced, sample.gaze)
         weights = sample.weights if self._ends is None else self._ends.apply(sample.weights, eyes)
         weights = weights.copy()
         weights[LOOKS] = look_weights(gaze)
         return replace(sample, weights=weights, gaze=gaze, eyes=eyes)
 
-    def _estimate(self, sample: Sample) -> tuple[Estimates, bool]:
+    def _estimate(self, sample: Sample, seconds: float) -> tuple[Estimates, bool]:
         """What the network says, and whether it compared the frame with neutral pictures."""
         pictures = {name: picture[None] for name, picture in sample.pictures.items()}
         if self._seat is None:
             return self._see(pictures), False
         if self._seat.changed and not self._keep:
             return self._see(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
-        neutral = self._neutral if self.levels is None else self.levels.levelled(self._neutral)
+        neutral = self._neutral if self._levels is None else self._levels.levelled(self._neutral)
         estimates = self._see(pictures, neutral=neutral)
         if not self._seat.changed:
-            compared = self._seat.step(float(estimates.same_seat[0]))
+            compared = self._seat.step(seconds, float(estimates.same_seat[0]))
             self._doubted_from = None if compared else self._doubted_from or sample.label
             if self._seat.changed:
                 self.reseated.append(self._doubted_from)
@@ -161,9 +174,12 @@ class TemporalConvolution(Stage):
             )
         self._taps = np.array(temporal.taps)
         self._recent: deque[np.ndarray] = deque(maxlen=TAPS)
+        self._pauses = Pauses()
 
     def step(self, sample: Sample) -> Sample:
-        """The sample with convolved weights and gaze; one without pictures ends what is remembered."""
+        """The sample with convolved weights and gaze; a pause or a sample without pictures ends what is remembered."""
+        if self._pauses.before(sample.time_s):
+            self._recent.clear()
         if np.isnan(sample.weights).any():
             self._recent.clear()
             return sample

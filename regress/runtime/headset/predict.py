@@ -7,7 +7,7 @@ import numpy as np
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.levels import Levels
-from regress.runtime.headset.networks import ASSUMED_FPS, HeadsetNetworks, TemporalConvolution
+from regress.runtime.headset.networks import HeadsetNetworks, TemporalConvolution
 from regress.runtime.headset.neutral import Neutral
 from regress.runtime.headset.person import Person
 from regress.runtime.headset.placement import CameraPlacement
@@ -15,6 +15,7 @@ from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.soundness import PictureSoundness
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
+from regress.runtime.stages.frame_clock import USUAL_FPS
 from regress.runtime.stages.output import Output
 from regress.runtime.stages.stage import Chain, Stage
 
@@ -29,7 +30,7 @@ class HeadsetStream(Stage):
     output
         What happens after the network; nothing by default. Smoothing of landmarks has no meaning here.
     fps
-        Frames a second of the cameras.
+        Frames a second of samples without times.
     keep_neutral
         Stay calibrated after a change of seat (``HeadsetNetworks``).
     temporal
@@ -53,25 +54,23 @@ class HeadsetStream(Stage):
         predictor: HeadsetPredictor,
         output: Output | None = None,
         *,
-        fps: float = ASSUMED_FPS,
+        fps: float = USUAL_FPS,
         keep_neutral: bool = False,
         temporal: bool = False,
         placement: Mapping[str, CameraPlacement] | None = None,
         person: Person | None = None,
         say: Callable[[str], None] = lambda message: None,
     ) -> None:
-        self.soundness = PictureSoundness(predictor.sizes, placement)
-        levels = Levels(predictor.model.looks, placement)
+        self.soundness = PictureSoundness(predictor.sizes, placement, fps=fps)
         self.networks = HeadsetNetworks(
             predictor,
             fps=fps,
             keep_neutral=keep_neutral,
-            levels=levels,
+            levels=Levels(predictor.model.looks, placement),
             reader=None if person is None else EyeReader(predictor, person),
             person=person,
         )
-        taps = [TemporalConvolution(predictor)] if temporal else []
-        self.after = Chain([*taps, *(output or Output()).stages(say)])
+        self.after = _after_networks(predictor, output or Output(), say, temporal=temporal)
 
     def use_neutral(self, pictures: Mapping[str, np.ndarray] | None) -> None:
         """Compare frames with these neutral pictures from now on; None: with none.
@@ -137,24 +136,29 @@ def predict_footage(
         Where the model has no taps and they are asked for; where One-Euro smoothing is, and times are not known.
     """
     output = output or Output()
-    stream = HeadsetStream(
+    networks = HeadsetNetworks(
         predictor,
-        output,
-        fps=footage.fps or ASSUMED_FPS,
         keep_neutral=keep_neutral,
-        temporal=temporal,
+        reader=None if person is None else EyeReader(predictor, person),
         person=person,
-        say=say,
     )
-    stream.networks.levels = None
+    after = _after_networks(predictor, output, say, temporal=temporal)
     starts = {neutral.row: neutral.pictures for neutral in neutrals[1:]}
     if neutrals:
         starts[0] = neutrals[0].pictures
     samples = []
     for row, sample in enumerate(footage.samples()):
         if row in starts:
-            stream.networks.use_neutral(starts[row])
-        samples += stream.after.feed(stream.networks.step(sample))
-    samples += stream.finish()
+            networks.use_neutral(starts[row])
+        samples += after.feed(networks.step(sample))
+    samples += after.finish()
     prediction = Prediction(samples=samples, names=output.names, source=footage.source)
-    return prediction, tuple(stream.networks.reseated)
+    return prediction, tuple(networks.reseated)
+
+
+def _after_networks(
+    predictor: HeadsetPredictor, output: Output, say: Callable[[str], None], *, temporal: bool
+) -> Chain:
+    """What happens to weights and gaze."""
+    taps = [TemporalConvolution(predictor)] if temporal else []
+    return Chain([*taps, *output.stages(say)])

@@ -1,11 +1,14 @@
 """Whether the headset still sits as it did when the neutral pictures were taken."""
 
 from collections import deque
+from itertools import islice
 
 import numpy as np
 
 PATIENCE_S = 0.5
 """Seconds of the running mean, and how long it must say that the seat has changed: a blink is shorter."""
+
+_ROUNDING_S = 1e-6
 
 
 class SeatWatch:
@@ -16,29 +19,35 @@ class SeatWatch:
     headset that comes back to its old seat exactly does not happen. A mean of fewer frames, as a take begins, casts
     doubt but counts for nothing more: a blink would be most of it.
 
-    Parameters
+    Attributes
     ----------
-    fps
-        Frames a second.
+    changed
+        Whether the seat has changed.
     """
 
-    def __init__(self, *, fps: float) -> None:
-        self.patience_frames = max(1, round(PATIENCE_S * fps))
-        self._recent: deque[float] = deque(maxlen=self.patience_frames)
-        self._doubtful_frames = 0
+    def __init__(self) -> None:
+        self._recent: deque[tuple[float, float]] = deque()
+        self._doubtful_s = 0.0
         self.changed = False
 
-    def step(self, same_seat: float) -> bool:
+    def step(self, seconds: float, same_seat: float) -> bool:
         """Whether the next frame may be compared.
 
         Parameters
         ----------
+        seconds
+            Since the frame before.
         same_seat
             The network's probability; frames without pictures have none, and are left out.
         """
-        self._recent.append(same_seat)
-        doubtful = bool(np.mean(self._recent) < 0.5)
-        whole = len(self._recent) == self.patience_frames
-        self._doubtful_frames = self._doubtful_frames + 1 if doubtful and whole else 0
-        self.changed = self.changed or self._doubtful_frames >= self.patience_frames
+        self._recent.append((seconds, same_seat))
+        while self._covered(1):
+            self._recent.popleft()
+        doubtful = bool(np.mean([value for _, value in self._recent]) < 0.5)
+        self._doubtful_s = self._doubtful_s + seconds if doubtful and self._covered(0) else 0.0
+        self.changed = self.changed or self._doubtful_s > PATIENCE_S - _ROUNDING_S
         return not (doubtful or self.changed)
+
+    def _covered(self, first: int) -> bool:
+        """Whether the frames from the ``first`` remembered one on last `PATIENCE_S`."""
+        return sum(seconds for seconds, _ in islice(self._recent, first, None)) > PATIENCE_S - _ROUNDING_S

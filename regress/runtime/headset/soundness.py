@@ -10,6 +10,7 @@ from regress.runtime.headset.faults import Fault, FrozenWatch
 from regress.runtime.headset.pictures import FittedPicture, fit_picture
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.sample import Sample
+from regress.runtime.stages.frame_clock import USUAL_FPS, FrameClock
 from regress.runtime.stages.stage import Stage
 
 
@@ -22,15 +23,19 @@ class PictureSoundness(Stage):
         Width and height of each camera's pictures, as the network takes them.
     placement
         What of a camera's pictures the network is to see; all, of cameras that are left out.
+    fps
+        Frames a second of samples without times.
     """
 
     def __init__(
         self,
         sizes: Mapping[str, tuple[int, int]],
         placement: Mapping[str, CameraPlacement] | None = None,
+        *,
+        fps: float = USUAL_FPS,
     ) -> None:
         self._sizes, self._placement = sizes, placement or {}
-        self._watch = FrozenWatch()
+        self._watch, self._clock = FrozenWatch(), FrameClock(fps)
 
     def step(self, sample: Sample) -> Sample:
         """The sample with sound pictures alone; ``faults`` says what the other cameras have.
@@ -50,7 +55,7 @@ class PictureSoundness(Stage):
                 pictures[name] = fitted.picture
             else:
                 faults[name] = fitted.fault
-        for name in self._watch.step(pictures):
+        for name in self._watch.step(self._clock.step(sample.time_s), pictures):
             faults[name] = Fault.FROZEN
             del pictures[name]
         return replace(sample, pictures=pictures, faults=faults)

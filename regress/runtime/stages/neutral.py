@@ -5,6 +5,7 @@ import numpy as np
 from regress.errors import InputError
 from regress.runtime.calm import CalmFrames
 from regress.runtime.model import Model
+from regress.runtime.stages.frame_clock import USUAL_FPS
 from regress.targets import VISIBLE_SHAPES
 
 FEWEST_FRAMES = 20
@@ -21,9 +22,6 @@ _AGREEMENT = 0.1
 
 _APART_S = (0.1, 0.2)
 """Seconds, a tenth and a fifth of a second, over which a face that rests stays as it is; two, as syllables repeat."""
-
-USUAL_FPS = 30.0
-"""Frames a second of a recording without times."""
 
 _STILL_NOISES, _STILL, _RESTLESS = 3.5, 0.06, 0.15
 """A face moves where a visible shape changes by more than so many standard deviations of its noise and by more than

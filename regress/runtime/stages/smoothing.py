@@ -115,7 +115,7 @@ class LandmarkSmoothing(Stage):
         return replace(sample, points=self._filter.step(sample.time_s, laid).reshape(LANDMARK_COUNT, 2))
 
 
-class _Pauses:
+class Pauses:
     """Tells a pause from frames that always come so seldom."""
 
     def __init__(self) -> None:
@@ -147,7 +147,7 @@ class MovingAverage(Stage):
 
     def __init__(self, frames: int) -> None:
         self._recent: deque[np.ndarray] = deque(maxlen=frames)
-        self._pauses = _Pauses()
+        self._pauses = Pauses()
 
     def step(self, sample: Sample) -> Sample:
         """The sample with the mean weights and gaze."""
@@ -173,7 +173,7 @@ class MeanSmoothing(DelayingStage):
         self._behind, self._ahead = behind, ahead
         self._recent: deque[tuple[Sample, np.ndarray]] = deque()
         self._given = 0
-        self._pauses = _Pauses()
+        self._pauses = Pauses()
 
     def feed(self, sample: Sample) -> list[Sample]:
         """The sample of ``ahead`` frames ago, with mean weights and gaze."""

@@ -13,7 +13,6 @@ from regress.runtime.headset.levels import Levels, level_table, levelled, tables
 from regress.runtime.headset.looks import CameraLooks, flicker_of, levels_of, looks_of, rim_of, sharpness_of
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predictor import load_headset_predictor
-from regress.runtime.sample import Sample
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording
 
 LOOKS = CameraLooks(
@@ -80,9 +79,7 @@ def test_a_placements_levels_go_first():
     assert (table[60], table[100]) == (14, 143)
     live = Levels({"left_eye": LOOKS}, named)
     picture = footage.pictures["left_eye"][0]
-    np.testing.assert_array_equal(
-        live.step(Sample(pictures={"left_eye": picture})).pictures["left_eye"], table[picture]
-    )
+    np.testing.assert_array_equal(live.step(1 / 30, {"left_eye": picture})["left_eye"], table[picture])
 
 
 def test_live_levels_become_those_of_the_take():
@@ -91,19 +88,25 @@ def test_live_levels_become_those_of_the_take():
     table = tables_of(footage, {"left_eye": LOOKS}, {})["left_eye"]
     live = Levels({"left_eye": LOOKS})
     for picture in stack:
-        seen = live.step(Sample(pictures={"left_eye": picture, "mouth": picture}))
-    np.testing.assert_array_equal(
-        seen.pictures["mouth"], stack[-1]
-    )  # of a camera that the model says nothing of
-    assert np.abs(seen.pictures["left_eye"].astype(int) - table[stack[-1]]).max() <= 4
+        seen = live.step(1 / 30, {"left_eye": picture, "mouth": picture})
+    np.testing.assert_array_equal(seen["mouth"], stack[-1])  # of a camera that the model says nothing of
+    assert np.abs(seen["left_eye"].astype(int) - table[stack[-1]]).max() <= 4
     # neutral pictures get the same levels as frames
-    np.testing.assert_array_equal(
-        live.levelled({"left_eye": stack[-1]})["left_eye"], seen.pictures["left_eye"]
-    )
-    # a lamp that goes out is followed within ten seconds or so
-    for picture in pictures(np.full(1200, 60.0), seed=1):
-        seen = live.step(Sample(pictures={"left_eye": picture}))
-    assert levels_of(seen.pictures["left_eye"])[1] > 100
+    np.testing.assert_array_equal(live.levelled({"left_eye": stack[-1]})["left_eye"], seen["left_eye"])
+
+
+@pytest.mark.parametrize("fps", [15, 30, 120, 200])
+def test_live_levels_follow_a_lamp_in_as_many_seconds_at_any_frame_rate(fps: int):
+    """Of a lamp that went out half is forgotten in seven seconds."""
+    bright, dark = pictures(np.array([200.0, 60.0]))
+    live = Levels({"left_eye": LOOKS})
+    for _ in range(60 * fps):
+        live.step(1 / fps, {"left_eye": bright})
+    shown = []
+    for _ in range(40 * fps):
+        shown.append(levels_of(live.step(1 / fps, {"left_eye": dark})["left_eye"])[1])
+    followed_s = np.flatnonzero(np.array(shown) > 100)[0] / fps
+    assert 20 < followed_s < 40
 
 
 def test_looks_say_what_was_done_to_pictures():

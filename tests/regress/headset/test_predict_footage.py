@@ -10,7 +10,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from regress.errors import InputError
-from regress.runtime.headset.faults import FROZEN_FRAMES, Fault, FrozenWatch, fault_sentences, picture_fault
+from regress.runtime.headset.faults import FROZEN_S, Fault, FrozenWatch, fault_sentences, picture_fault
 from regress.runtime.headset.footage import Footage, line_up
 from regress.runtime.headset.recordings import Recording, read_recording, read_rendered, recorded_size
 from tests.lying_film import lying_film
@@ -127,18 +127,25 @@ def test_takes_of_different_recordings_are_matched_from_the_start():
     )
 
 
-@example(start=5, length=FROZEN_FRAMES, seed=0)
-@example(start=5, length=FROZEN_FRAMES + 1, seed=0)
-@given(start=st.integers(1, 20), length=st.integers(1, 25), seed=st.integers(0, 99))
+@example(start=5, length=8, fps=30, seed=0)
+@example(start=5, length=9, fps=30, seed=0)
+@given(
+    start=st.integers(1, 20),
+    length=st.integers(1, 120),
+    fps=st.sampled_from([15, 30, 90, 120]),
+    seed=st.integers(0, 99),
+)
 @settings(max_examples=40, deadline=None)
-def test_a_camera_is_frozen_where_it_repeats_for_long_while_others_move(start: int, length: int, seed: int):
+def test_a_camera_is_frozen_where_it_repeats_for_long_while_others_move(
+    start: int, length: int, fps: int, seed: int
+):
     rng = np.random.default_rng(seed)
-    frozen, moving = (rng.integers(0, 255, (50, 6, 6), dtype=np.uint8) for _ in range(2))
+    frozen, moving = (rng.integers(0, 255, (150, 6, 6), dtype=np.uint8) for _ in range(2))
     frozen[start : start + length] = frozen[start - 1]
     watch = FrozenWatch()
-    steps = [watch.step({"eye": frozen[row], "mouth": moving[row]}) for row in range(50)]
-    assert [row for row in range(50) if "eye" in steps[row]] == list(
-        range(start + FROZEN_FRAMES, start + length)
+    steps = [watch.step(1 / fps, {"eye": frozen[row], "mouth": moving[row]}) for row in range(150)]
+    assert [row for row in range(150) if "eye" in steps[row]] == list(
+        range(start + int(FROZEN_S * fps), start + length)
     )
     assert not any("mouth" in step for step in steps)
 
@@ -147,8 +154,8 @@ def test_a_scene_in_which_nothing_moves_is_not_frozen_nor_is_a_camera_alone():
     still = np.repeat(pictures([100]), 40, axis=0)
     for cameras in (("a", "b"), ("a",)):
         watch = FrozenWatch()
-        assert not any(watch.step(dict.fromkeys(cameras, picture)) for picture in still)
-    assert any(watch.step({"a": still[0], "b": picture}) for picture in pictures([100] * 40))
+        assert not any(watch.step(1 / 30, dict.fromkeys(cameras, picture)) for picture in still)
+    assert any(watch.step(1 / 30, {"a": still[0], "b": picture}) for picture in pictures([100] * 40))
 
 
 def test_black_and_flat_pictures_are_told_from_dark_ones():
@@ -339,7 +346,7 @@ def test_what_is_at_fault_leaves_no_picture():
     stacks = {name: pictures([100] * 30, seed=seed) for seed, name in enumerate(("left_eye", "mouth"))}
     stacks["mouth"][5:25] = stacks["mouth"][4]
     footage = line_up({name: recording(name, stack) for name, stack in stacks.items()}, SIZES)
-    assert footage.faults["mouth"][5:25] == (None,) * FROZEN_FRAMES + (Fault.FROZEN,) * (20 - FROZEN_FRAMES)
+    assert footage.faults["mouth"][5:25] == (None,) * 8 + (Fault.FROZEN,) * 12
     for name, there in zip(footage.cameras, footage.present.T, strict=True):
         assert not footage.pictures[name][~there].any()
         assert (footage.pictures[name][there].max(axis=(1, 2)) > 0).all()

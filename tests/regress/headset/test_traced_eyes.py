@@ -1,7 +1,6 @@
 """Lids and gaze from traced points, on eyes whose truth is known, and as `predict --eyes` writes them."""
 
 import shutil
-from collections import deque
 from dataclasses import replace
 from pathlib import Path
 
@@ -206,15 +205,16 @@ def test_of_two_cameras_on_one_eye_the_surer_one_says_the_gaze_and_corrects_it_o
             reader._eyes["left_eye"],
             {"left_eye": first, "left_eye_nasal": second},
         )
-        for table in (reader._maps, reader.sides, reader._medians, reader._pupils, reader._usual):
+        for table in (reader._maps, reader.sides, reader._irises, reader._pupils, reader._usual):
             table["left_eye_nasal"] = table["left_eye"]
-        reader._diameters["left_eye_nasal"] = deque()
         both = {"left_eye": seen["left_eye"], "left_eye_nasal": seen["left_eye"]}
-        _, gaze = reader.read(both, dict.fromkeys(both, points["left_eye"]), np.radians([8.0, 0.0, 8.0, 0.0]))
+        _, gaze = reader.read(
+            1 / 30, both, dict.fromkeys(both, points["left_eye"]), np.radians([8.0, 0.0, 8.0, 0.0])
+        )
         return float(np.degrees(gaze[0]))
 
     alone = EyeReader(predictor, Person(eyes={"left_eye": sure}))
-    _, gaze = alone.read(seen, points, np.radians([8.0, 0.0, 8.0, 0.0]))
+    _, gaze = alone.read(1 / 30, seen, points, np.radians([8.0, 0.0, 8.0, 0.0]))
     assert (
         gaze_of(sure, unsure)
         == pytest.approx(gaze_of(unsure, sure))
@@ -231,8 +231,36 @@ def test_an_eye_that_is_seen_leads_one_that_no_camera_sees(error_deg: float):
     read = []
     for guess_deg in (-20.0, 0.0, 20.0):
         reader = EyeReader(predictor, person)
-        _, gaze = reader.read(seen, points, np.radians([5.0, 3.0, guess_deg, guess_deg]))
+        _, gaze = reader.read(1 / 30, seen, points, np.radians([5.0, 3.0, guess_deg, guess_deg]))
         read.append(np.degrees(gaze))
     yaw_and_pitch, other_pitch = np.array(read)[:, :2], np.array(read)[:, 3]
     np.testing.assert_allclose(yaw_and_pitch, np.tile(yaw_and_pitch[1], (3, 1)), atol=0.05)
     np.testing.assert_allclose(other_pitch, yaw_and_pitch[:, 1], atol=0.05)
+
+
+@pytest.mark.parametrize("fps", [30, 120, 200])
+def test_shut_eyes_leave_an_iris_as_large_as_it_was_for_as_many_seconds_at_any_frame_rate(fps: int):
+    """Of a shut eye a smaller iris is traced; after four seconds of each, the open ones still say its size."""
+    predictor, seen, points = left_eye_seen()
+    small = points["left_eye"].copy()
+    iris = EyePoints.of(predictor, "left_eye").iris
+    small[iris] = small[iris].mean(axis=0) + 0.5 * (small[iris] - small[iris].mean(axis=0))
+    reader = EyeReader(predictor, None)
+    gaze = np.zeros(4)
+    for _ in range(4 * fps):
+        usual, _ = reader.read(1 / fps, seen, points, gaze)
+    for _ in range(round(3.5 * fps)):
+        shut, _ = reader.read(1 / fps, seen, {"left_eye": small}, gaze)
+    assert shut.openness_mm[0] == pytest.approx(usual.openness_mm[0], rel=0.02)
+
+
+def test_an_eye_that_was_away_shows_no_pupil_of_before():
+    predictor, seen, points = left_eye_seen()
+    reader = EyeReader(predictor, None)
+    before, _ = reader.read(1 / 30, seen, points, np.zeros(4))
+    away, _ = reader.read(1 / 30, {}, {}, np.zeros(4))
+    assert np.isfinite(before.pupil[0])
+    assert np.isnan(away.pupil[0])
+    bright = {"left_eye": np.full_like(seen["left_eye"], 200)}
+    back, _ = reader.read(1 / 30, bright, points, np.zeros(4))
+    assert back.pupil[0] != before.pupil[0]

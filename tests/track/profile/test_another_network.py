@@ -23,7 +23,7 @@ READ = {"ranges": {"jawOpen": 0.6}, "eyes": {"left_eye": OwnEye(rest_mm=9.0, shu
 
 
 def pipeline_of(model: str) -> HeadsetPipeline:
-    return HeadsetPipeline(model, fps=30, filter_name="none")
+    return HeadsetPipeline(model, filter_name="none")
 
 
 def opened(tmp_path, pipeline: HeadsetPipeline, mark: ModelMark, *, given=None, **known):

@@ -177,11 +177,11 @@ def headset_frames() -> tuple[Sample, ...]:
 
 
 def headset_session(said: list[str] | None = None) -> Session:
-    pipeline = HeadsetPipeline("headset-tracking3", fps=FPS, filter_name="groups")
+    pipeline = HeadsetPipeline("headset-tracking3", filter_name="groups")
     kept = list(headset_frames()[:10])
     for name in ("grey", "soundness", "exchange", "networks"):
         kept = [pipeline.stages[name].step(sample) for sample in kept]
-    pipeline = HeadsetPipeline("headset-tracking3", fps=FPS, filter_name="groups")
+    pipeline = HeadsetPipeline("headset-tracking3", filter_name="groups")
     profile = loud(Profile(person="anna", camera="three", neutral=pipeline.neutral_of(kept)))
     return Session(
         pipeline=pipeline, sinks=[Kept()], profile=profile, say=(said if said is not None else []).append
