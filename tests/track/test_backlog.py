@@ -195,6 +195,27 @@ def test_cameras_that_lose_pictures_stay_matched_and_cost_the_others_none(step_s
 
 
 @settings(deadline=None)
+@given(st.floats(0.005, 0.012), st.integers(3, 8), st.floats(0.0, 1.0), little, st.floats(0.0, 0.25))
+def test_a_slow_camera_neither_costs_a_quick_one_pictures_nor_holds_them_up(
+    step_s, times, phase, jitter, share
+):
+    """Eyes of 80 to 200 pictures a second, beside a mouth that has a third to an eighth of them."""
+    mouth = [
+        Coming(each.came_s, "mouth", each.number, each.time_s)
+        for each in pictures(times * step_s, (phase,), jitter)
+    ]
+    coming = sorted(pictures(step_s, (0.0,), jitter) + mouth, key=lambda each: each.came_s)
+    eyes = [each for each in coming if each.name == "left"]
+    taken = Simulation(coming).run([share * step_s])
+    known = [each for each in taken if each.at_s > eyes[3 * times].came_s]  # both cameras' steps by then
+    seen = numbers_of(known, "left")
+    assert seen == list(range(seen[0], PICTURES))
+    came = {each.number: each.came_s for each in eyes}
+    late_s = [each.at_s - came[each.numbers["left"]] for each in known if "left" in each.numbers]
+    assert max(late_s) <= (0.75 + times * max(jitter) + share) * step_s + 1e-9
+
+
+@settings(deadline=None)
 @given(st.floats(0.008, 0.012), little, st.integers(5, 40), st.floats(0.0, 0.015))
 def test_one_camera_whose_thread_sleeps_costs_no_picture(step_s, jitter, at, pause_s):
     coming = pictures(step_s, (0.0, 0.0, 0.0), jitter)

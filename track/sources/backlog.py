@@ -31,6 +31,7 @@ class Backlog:
         self._waiting: deque[tuple[float, Picture]] = deque()
         self._steps_s: deque[float] = deque([] if step_s is None else [step_s], maxlen=_STEPS)
         self._last_s: float | None = None
+        self._last_came_s: float | None = None
 
     def __len__(self) -> int:
         return len(self._waiting)
@@ -55,11 +56,18 @@ class Backlog:
         """By how much a picture of another camera may differ that goes with one of this."""
         return _TOGETHER * self.step_s
 
+    @property
+    def due_s(self) -> float:
+        """When the next picture should come; at once, where its step is not known yet."""
+        if self._last_came_s is None or not self._steps_s:
+            return float("-inf")
+        return self._last_came_s + self.step_s
+
     def add(self, picture: Picture, came_s: float) -> None:
         """Put a picture at the end; those that came more than `LONGEST_S` before it go."""
         if self._last_s is not None:
             self._steps_s.append(picture.time_s - self._last_s)
-        self._last_s = picture.time_s
+        self._last_s, self._last_came_s = picture.time_s, came_s
         while self._waiting and self.came_s < came_s - LONGEST_S:
             self._waiting.popleft()
         self._waiting.append((came_s, picture))
@@ -76,7 +84,7 @@ class Backlog:
     def clear(self) -> None:
         """Let all go: the camera went away."""
         self._waiting.clear()
-        self._last_s = None
+        self._last_s = self._last_came_s = None
 
 
 def of_one_moment(backlogs: Mapping[str, Backlog]) -> list[str]:

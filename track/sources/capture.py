@@ -26,7 +26,8 @@ WAIT_S = 0.02
 together."""
 
 LATE_S = 0.1
-"""Older pictures do not go with the newest one: eyes and mouth would be of two faces."""
+"""Older pictures do not go with the newest one: eyes and mouth would be of two faces. Those of a slow camera do until
+its next one is due."""
 
 _LOOK_EVERY_S = 0.25
 """By which a wait sees that it was stopped; Windows gives a signal no other chance."""
@@ -164,15 +165,15 @@ class Capture:
     def _empty_after_s(self) -> float:
         """By the quickest camera that is well."""
         well = [each for each in self._cameras.values() if not each.ended and each.trouble() is None]
-        step_s = min((each.waiting.step_s for each in well), default=np.inf)
-        if not np.isfinite(step_s):
-            return EMPTY_AFTER_S
-        return float(np.clip(EMPTY_AFTER_STEPS * step_s, EMPTY_AFTER_S, EMPTY_WITHIN_S))
+        return _patience_s(min((each.waiting.step_s for each in well), default=np.inf), EMPTY_AFTER_S)
 
     def _awaited(self) -> bool:
-        """Whether a camera has no picture yet from which one is expected."""
+        """Whether a camera has no picture yet from which one is expected that goes with those that are there."""
+        cameras = self._cameras.values()
+        until_s = min(each.waiting.came_s + each.waiting.together_s for each in cameras if each.waiting)
         return any(
-            not (camera.waiting or camera.ended or camera.trouble()) for camera in self._cameras.values()
+            not (each.waiting or each.ended or each.trouble()) and each.waiting.due_s <= until_s
+            for each in cameras
         )
 
     def _wait_for_all_s(self) -> float | None:
@@ -207,7 +208,8 @@ class Capture:
         for name, camera in self._cameras.items():
             fault = taken[name].fault if name in taken else camera.trouble()
             latest = self._latest.get(name)
-            late = taken and latest and newest_s - latest.time_s > LATE_S
+            late_s = _patience_s(camera.waiting.step_s, LATE_S)
+            late = taken and latest and newest_s - latest.time_s > late_s
             if fault is None and late and not camera.ended:
                 fault = CameraFault.LATE
             if fault is not None:
@@ -223,6 +225,13 @@ class Capture:
             irises=None if points is None else points.irises,
             faults=faults,
         )
+
+
+def _patience_s(step_s: float, usual_s: float) -> float:
+    """How long a camera's next picture is waited for: longer than usual, where it gives few."""
+    if not np.isfinite(step_s):
+        return usual_s
+    return float(np.clip(EMPTY_AFTER_STEPS * step_s, usual_s, EMPTY_WITHIN_S))
 
 
 def _usable(fault: Enum | None) -> bool:
