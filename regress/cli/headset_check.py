@@ -43,11 +43,13 @@ def check(
 
     Example: regress headset check headset-tracking3 --left-eye take/left --right-eye take/right --out placement.toml
     """
+    import numpy as np
+
     from facegen.console import say
     from facegen.files import refuse_ending, write_whole
     from regress.cli.headset_input import camera_paths
     from regress.runtime.headset.faults import fault_sentences
-    from regress.runtime.headset.fitness import judge
+    from regress.runtime.headset.fitness import checked_rows, judge
     from regress.runtime.headset.fitness_sheet import fitness_sheet
     from regress.runtime.headset.placement_file import Placement, write_placement
     from regress.runtime.headset.predictor import load_headset_predictor
@@ -70,16 +72,16 @@ def check(
     footage = {}
     for name, path in paths.items():
         width, height = recorded_size(path)
-        recording = read_recording(path, name, width=width, height=height, bits=bits)
+        recording = read_recording(path, name, width=width, height=height, bits=bits, choose=checked_rows)
         for note in fault_sentences(name, recording.numbers, recording.faults):
             say(note)
-        sound = [fault is None for fault in recording.faults]
-        footage[name] = recording.pictures[sound]
+        sound = np.array([fault is None for fault in recording.faults])
+        footage[name] = recording.pictures if sound.all() else recording.pictures[sound]
     judged = judge(predictor, footage)
     for one in judged:
         lines = [finding.sentence for finding in one.findings]
         if not as_json:
-            for line in lines or [f"{one.camera}: its frames fit"]:
+            for line in lines or [_fits(one, predictor)]:
                 typer.echo(line)
     if as_json:
         typer.echo(
@@ -117,6 +119,13 @@ def check(
     if sheet is not None:
         write_whole(sheet, fitness_sheet(predictor, footage, judged))
         say(f"sheet in {sheet}")
+
+
+def _fits(one: "CameraFitness", predictor: "HeadsetPredictor") -> str:
+    """That nothing is wrong, as far as anybody looked."""
+    if one.found is None and one.camera not in predictor.typical:
+        return f"{one.camera}: its light fits; how it lies is not judged, so look at --sheet"
+    return f"{one.camera}: its frames fit"
 
 
 def _what_next(

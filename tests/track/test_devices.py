@@ -10,6 +10,8 @@ from typer.testing import CliRunner
 
 from tests.track.faces import film_of, seen
 from track.cli import app
+from track.errors import CameraError
+from track.sources import open_source
 from track.sources.devices import NO_PICTURE, look_at_webcams
 
 
@@ -81,3 +83,20 @@ def test_no_camera_is_said_in_one_sentence(
     assert done.exit_code == 0
     assert done.stdout == ""
     assert "no camera that its system tells of" in done.stderr
+
+
+def test_on_linux_a_camera_is_named_by_its_device_too(
+    webcams: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Two cameras of one make have one name; the socket's path tells them apart."""
+    by_path = {"/dev/v4l/by-path/usb-0:1:1.0-video-index0": "/dev/video0"}
+    monkeypatch.setattr("track.sources.webcams.os.path.realpath", lambda path: by_path.get(path, path))
+    for wanted in ("/dev/video0", *by_path):
+        camera = open_source(wanted)
+        try:
+            assert camera.title == wanted
+            assert camera.read().pixels.shape == (240, 320, 3)
+        finally:
+            camera.close()
+    with pytest.raises(CameraError, match="there is no camera .dev.video4 here"):
+        open_source("/dev/video4")

@@ -15,14 +15,16 @@ times."""
 
 
 def pictures_in(folder: Path) -> list[Path]:
-    """Files whose names end as pictures' do, in no order.
+    """Files whose names end as pictures' do, in no order; macOS writes ``._1.png`` beside 1.png on others' disks.
 
     Raises
     ------
     OSError
         Where the folder cannot be read.
     """
-    return [file for file in folder.iterdir() if file.suffix.lower() in PICTURES]
+    return [
+        file for file in folder.iterdir() if file.suffix.lower() in PICTURES and not file.name.startswith(".")
+    ]
 
 
 def last_number(file: Path) -> int:

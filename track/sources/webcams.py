@@ -1,5 +1,7 @@
 """Webcams: which this machine has, as Linux names them and elsewhere by their numbers; and the pictures of one."""
 
+import os
+import re
 import sys
 import time
 from dataclasses import dataclass
@@ -17,6 +19,8 @@ FOLDER = Path("/sys/class/video4linux")
 
 TRIED = 8
 """Numbers that are tried where the system gives no list."""
+
+_DEVICE = re.compile(r"/dev/video(\d+)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +66,8 @@ class WebcamSource(Source):
     Parameters
     ----------
     wanted
-        Its number, or a part of its name; one of several nodes of one name is the first that gives a picture.
+        Its number, a part of its name, or on Linux its device, as /dev/video2 or /dev/v4l/by-path/…, which tells two
+        cameras of one make apart. One of several nodes of one name is the first that gives a picture.
 
     Raises
     ------
@@ -74,6 +79,8 @@ class WebcamSource(Source):
         # a list is asked for only where it is needed: elsewhere than on Linux all cameras are opened for it
         if wanted.isdecimal():
             numbers, self.title = [int(wanted)], f"camera {int(wanted)}"
+        elif (number := _device_number(wanted)) is not None:
+            numbers, self.title = [number], wanted
         else:
             numbers, self.title = _numbers(wanted, list_webcams(folder))
         for number in numbers:
@@ -96,6 +103,12 @@ class WebcamSource(Source):
         self._capture.release()
 
 
+def _device_number(wanted: str) -> int | None:
+    """The number of a device's file on Linux, by whatever name; None of anything else."""
+    found = _DEVICE.fullmatch(os.path.realpath(wanted)) if wanted.startswith("/dev/") else None
+    return None if found is None else int(found[1])
+
+
 def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
     """Numbers to try for a part of a name, and a title."""
     fitting = [webcam for webcam in webcams if wanted.lower() in webcam.name.lower()]
@@ -111,8 +124,9 @@ def _why_not(wanted: str, folder: Path) -> str:
     if wanted.isdecimal() and not sys.platform.startswith("linux"):
         return f"camera {wanted} gives no picture, or there is none of this number; `track devices` lists those that do"
     webcams = list_webcams(folder)
-    known = any(wanted == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams)
-    if not known and (Path(wanted).suffix.lower() in FILMS or len(Path(wanted).parts) > 1):
+    number = wanted if (device := _device_number(wanted)) is None else str(device)
+    known = any(number == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams)
+    if not known and device is None and (Path(wanted).suffix.lower() in FILMS or len(Path(wanted).parts) > 1):
         return f"there is no file {wanted}; give a film or a folder of pictures that is there, or a webcam's number"
     if not webcams:
         return f"there is no camera {wanted} here, nor a file of this name; plug one in, or say --camera FILM"

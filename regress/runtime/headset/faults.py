@@ -1,6 +1,6 @@
 """What is wrong with a camera's pictures: none, unreadable, of another shape, black, of one grey, frozen."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from enum import Enum
 
 import cv2
@@ -77,7 +77,9 @@ class FrozenWatch:
         self._still_s: dict[str, float] = {}
         self._moved: set[str] = set()
 
-    def step(self, seconds: float, pictures: Mapping[str, np.ndarray]) -> set[str]:
+    def step(
+        self, seconds: float, pictures: Mapping[str, np.ndarray], *, held: Collection[str] = ()
+    ) -> set[str]:
         """Names of the cameras whose picture is frozen in the next frame.
 
         Parameters
@@ -86,13 +88,15 @@ class FrozenWatch:
             Since the frame before.
         pictures
             (h, w) uint8 by camera; a camera without a picture starts afresh.
+        held
+            Cameras that gave no picture for this frame: a slow one's is that of before.
         """
         self._first = {name: first for name, first in self._first.items() if name in pictures}
         changed = set()
         for name, picture in pictures.items():
             # compared with the first of a run, so that slow drift is no repeat
             if name in self._first and _same(self._first[name], picture):
-                self._still_s[name] += seconds
+                self._still_s[name] += 0.0 if name in held else seconds
             else:
                 self._first[name], self._still_s[name] = picture, 0.0
                 self._moved.discard(name)

@@ -32,6 +32,11 @@ _PLACES = (Misfit.MIRRORED, Misfit.UPSIDE_DOWN, Misfit.SIDEWAYS, Misfit.PLACED, 
 """What a placement makes good."""
 
 
+_FOLLOWED, _CHOSEN = 300, 300
+"""Frames from a take's first one on, by which flicker is seen, and others all over it: a minute of three cameras of
+1280 x 800 would take tens of gigabytes."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class CameraFitness:
     """How a camera's frames fit.
@@ -55,6 +60,11 @@ class CameraFitness:
     found: FoundPlacement | None
     placement: CameraPlacement
     findings: tuple[Finding, ...]
+
+
+def checked_rows(count: int) -> np.ndarray:
+    """Which of a take's frames are judged."""
+    return np.union1d(np.arange(min(count, _FOLLOWED)), evenly(count, _CHOSEN))
 
 
 def judge(predictor: HeadsetPredictor, footage: Mapping[str, np.ndarray]) -> list[CameraFitness]:

@@ -7,16 +7,11 @@ import numpy as np
 
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault, FrozenWatch, fault_sentences
+from regress.runtime.headset.matching import Matching, match
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.recordings import Recording
 from regress.runtime.sample import Sample
-from regress.runtime.stages.frame_clock import USUAL_FPS, FrameClock
-
-_LONGEST_GRID = 4
-"""Frames of an even count for each that is there; numbers farther apart, or not even, are clock times."""
-
-_SAME_RATE = 1.01
-"""Factor between frame rates that are taken for one: 29.97 and 30."""
+from regress.runtime.stages.frame_clock import FrameClock
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -107,8 +102,7 @@ def line_up(
 ) -> Footage:
     """Match the cameras' frames, find what is wrong in them, and leave out what is.
 
-    Cameras are matched by number, films from 0, and a number that is lacking is a missing picture. Where no camera has
-    numbers of its own, or with ``from_start``, they are matched from their first frames on to the end of the shortest.
+    ``match`` says which frames go together.
 
     Parameters
     ----------
@@ -131,35 +125,31 @@ def line_up(
     """
     if not recordings:
         raise InputError(f"no camera is given; the model has {', '.join(sizes)}")
-    if fps is None:
-        _check_rates(recordings)
-    notes = [note for recording in recordings.values() for note in _scaling_note(recording, sizes)]
-    by_number = any(recording.numbered for recording in recordings.values()) and not from_start
-    if by_number:
-        numbers = _numbers(recordings, still=still)
-        notes += _counting_note(recordings)
-    else:
-        numbers, told = _from_start(recordings)
-        notes += told
-    rows = {
-        name: (np.searchsorted(numbers, recording.numbers) if by_number else np.arange(len(numbers)))
-        for name, recording in recordings.items()
-    }
+    notes = [recording.note for recording in recordings.values() if recording.note]
+    notes += [note for recording in recordings.values() for note in _scaling_note(recording, sizes)]
+    matched = match(recordings, from_start=from_start, still=still, fps=fps)
+    notes += matched.notes
+    numbers, count = matched.numbers, len(matched.numbers)
     pictures, faults, scaled_from = {}, {}, {}
     for name, (width, height) in sizes.items():
-        pictures[name] = np.zeros((len(numbers), height, width), dtype=np.uint8)
-        found = np.full(len(numbers), Fault.MISSING, dtype=object)
-        if name in recordings:
-            recording, count = recordings[name], len(rows[name])
-            pictures[name][rows[name]] = recording.pictures[:count]
-            found[rows[name]] = recording.faults[:count]
-            if recording.scaled_from is not None:
-                scaled_from[name] = np.tile((width, height), (len(numbers), 1))
-                scaled_from[name][rows[name]] = recording.scaled_from[:count]
+        found = np.full(count, Fault.MISSING, dtype=object)
         faults[name] = found
+        if name not in recordings:
+            pictures[name] = np.zeros((count, height, width), dtype=np.uint8)
+            continue
+        recording, rows = recordings[name], matched.rows[name]
+        there = rows >= 0
+        if len(rows) == len(recording.pictures) and there.all() and (np.diff(rows) == 1).all():
+            pictures[name] = recording.pictures  # as they are: long takes fill the memory
+        else:
+            pictures[name] = np.where(there[:, None, None], recording.pictures[rows], np.uint8(0))
+        found[there] = np.array(recording.faults, dtype=object)[rows[there]]
+        if recording.scaled_from is not None:
+            scaled_from[name] = np.where(there[:, None], recording.scaled_from[rows], (width, height))
     if not still:
-        step_s = FrameClock(fps or _film_rate(recordings) or USUAL_FPS).step(None)
-        _mark_frozen({name: pictures[name] for name in recordings}, faults, step_s)
+        seen = {name: pictures[name] for name in recordings}
+        _mark_frozen(seen, faults, matched)
+        pictures |= seen
     for name in sizes:
         if name in recordings:
             notes += fault_sentences(name, numbers, faults[name])
@@ -175,7 +165,7 @@ def line_up(
         numbers=numbers,
         pictures=pictures,
         faults={name: tuple(found) for name, found in faults.items()},
-        time_s=_times(recordings, len(numbers), fps),
+        time_s=matched.time_s,
         source=source,
         notes=tuple(notes),
         scaled_from=scaled_from,
@@ -187,26 +177,21 @@ def line_up(
     )
 
 
-def _mark_frozen(pictures: Mapping[str, np.ndarray], faults: Mapping[str, np.ndarray], step_s: float) -> None:
+def _mark_frozen(
+    pictures: dict[str, np.ndarray], faults: Mapping[str, np.ndarray], matched: Matching
+) -> None:
     """Find frozen pictures, as a live headset's are found, and blank them."""
-    watch = FrozenWatch()
-    for row in range(len(next(iter(pictures.values())))):
+    watch, clock = FrozenWatch(), FrameClock()
+    held = {name: np.diff(matched.rows[name], prepend=-1) == 0 for name in pictures}
+    for row in range(len(matched.numbers)):
+        seconds = clock.step(None if matched.time_s is None else float(matched.time_s[row]))
         sound = {name: stack[row] for name, stack in pictures.items() if faults[name][row] is None}
-        for name in watch.step(step_s, sound):
+        for name in watch.step(seconds, sound, held={name for name in sound if held[name][row]}):
             faults[name][row] = Fault.FROZEN
     for name, stack in pictures.items():
-        stack[faults[name] == Fault.FROZEN] = 0
-
-
-def _check_rates(recordings: Mapping[str, Recording]) -> None:
-    """Refuse films whose frames are not of the same times: they are matched by their numbers."""
-    rates = {name: recording.fps for name, recording in recordings.items() if recording.fps is not None}
-    if rates and max(rates.values()) > _SAME_RATE * min(rates.values()):
-        told = ", ".join(f"{name} has {rate:.4g}" for name, rate in rates.items())
-        raise InputError(
-            f"the films have different frames a second ({told}); give films of one rate, or --fps to match them frame "
-            f"by frame"
-        )
+        frozen = faults[name] == Fault.FROZEN
+        if frozen.any():
+            pictures[name] = np.where(frozen[:, None, None], np.uint8(0), stack)
 
 
 def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) -> list[str]:
@@ -219,66 +204,3 @@ def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) ->
         )
     )
     return [f"{recording.camera}: pictures of {', '.join(found)} are scaled to {wanted}"]
-
-
-def _numbers(recordings: Mapping[str, Recording], *, still: bool) -> np.ndarray:
-    """Numbers of all frames, those among them that no camera has too."""
-    ranges = {name: (int(r.numbers[0]), int(r.numbers[-1])) for name, r in recordings.items()}
-    latest_start = max(start for start, _ in ranges.values())
-    earliest_stop = min(stop for _, stop in ranges.values())
-    if latest_start > earliest_stop:
-        found = ", ".join(f"{name} {start}-{stop}" for name, (start, stop) in ranges.items())
-        raise InputError(
-            f"the cameras' frame numbers have nothing in common ({found}); --from-start matches takes of different "
-            f"recordings"
-        )
-    known, shown = np.unique(
-        np.concatenate([recording.numbers for recording in recordings.values()]), return_counts=True
-    )
-    if not still and len(recordings) > 1 and shown.max() == 1:
-        raise InputError(
-            "no frame number of one camera is another's, as where files are called by times of clocks of their own; "
-            "--from-start matches first frames"
-        )
-    if still or len(known) < 3:
-        return known
-    gaps, counts = np.unique(np.diff(known), return_counts=True)
-    step = gaps[np.argmax(counts)]
-    frames = (known[-1] - known[0]) // step + 1
-    if ((known - known[0]) % step).any() or frames > _LONGEST_GRID * len(known):
-        return known
-    return np.arange(known[0], known[-1] + 1, step)
-
-
-def _counting_note(recordings: Mapping[str, Recording]) -> list[str]:
-    """Whether films and others that are counted from 0 stand beside numbers that begin elsewhere."""
-    counted = [name for name, recording in recordings.items() if not recording.numbered]
-    first = min(int(recording.numbers[0]) for recording in recordings.values() if recording.numbered)
-    if not counted or first == 0:
-        return []
-    return [
-        f"{', '.join(counted)}: counted from 0, while the other cameras' numbers begin at {first}; --from-start "
-        f"matches first frames"
-    ]
-
-
-def _from_start(recordings: Mapping[str, Recording]) -> tuple[np.ndarray, list[str]]:
-    lengths = {name: len(recording.numbers) for name, recording in recordings.items()}
-    shortest = min(lengths.values())
-    first = next(iter(recordings.values()))
-    if len(set(lengths.values())) == 1:
-        return first.numbers if first.numbered else np.arange(shortest), []
-    told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
-    return np.arange(shortest), [
-        f"the cameras have different numbers of frames ({told}); the first {shortest} count"
-    ]
-
-
-def _times(recordings: Mapping[str, Recording], count: int, fps: float | None) -> np.ndarray | None:
-    """Seconds of rows, which are even in time: lacking numbers have rows too."""
-    fps = fps or _film_rate(recordings)
-    return None if fps is None else np.arange(count) / fps
-
-
-def _film_rate(recordings: Mapping[str, Recording]) -> float | None:
-    return next((recording.fps for recording in recordings.values() if recording.fps is not None), None)

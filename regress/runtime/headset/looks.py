@@ -19,6 +19,10 @@ _RIM = 6
 MEASURED_FRAMES = 120
 """Frames, evenly chosen, of which a take is measured: twice as many change no figure in its second digit."""
 
+_OF_BANDS = 0.5
+"""How much the rows' own changes count: where eyes move they change by .027 and .034 in two films of steady light, and
+by .13 where bands of 12 % run over them."""
+
 _MOST_FOLLOWED = 300
 """Frames one after another in which light is looked at for flicker."""
 
@@ -128,7 +132,8 @@ def rim_of(pictures: np.ndarray) -> float:
 def flicker_of(pictures: np.ndarray) -> float:
     """By how much of itself a camera's light changes from frame to frame: the median over frames that follow.
 
-    Most of a face does not move from one frame to the next, so the median pixel's change is the light's.
+    Most of a face does not move from one frame to the next, so the median pixel's change is the light's. Bands of a
+    rolling shutter brighten some rows and darken others.
     """
     if len(pictures) < 3:
         return 0.0
@@ -136,9 +141,10 @@ def flicker_of(pictures: np.ndarray) -> float:
     for picture in pictures[:_MOST_FOLLOWED]:
         light = np.log(np.maximum(picture.astype(np.float32), 8))
         if before is not None:
-            changes.append(np.median(light - before))
+            rows = np.median(light - before, axis=1)
+            changes.append(max(abs(np.median(light - before)), _OF_BANDS * np.median(np.abs(rows))))
         before = light
-    return float(np.median(np.abs(changes)))
+    return float(np.median(changes))
 
 
 def evenly(count: int, most: int) -> np.ndarray:

@@ -22,6 +22,10 @@ MOST_PICTURE_BYTES = 256 * 1024**2
 """Of a picture's file: the most pixels that are read, with 16 bits and two channels, not compressed."""
 
 
+_GLINTS = 0.01
+"""Share of a picture's pixels from which levels that its bits do not hold are no glints."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FittedPicture:
     """A picture at the network's size.
@@ -101,12 +105,13 @@ def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
             f"{path} has 16 bits a pixel, and the brightest is {grey.max()}; --bits says how many of them the camera "
             f"uses (10 for levels to 1023)"
         )
-    if grey.max() >= 1 << bits:
+    # a glint or a broken pixel may have more
+    if np.count_nonzero(grey >= 1 << bits) >= _GLINTS * grey.size:
         raise InputError(
             f"{path} has the level {grey.max()}, and --bits {bits} holds levels to {(1 << bits) - 1}; give more, or 16 "
             f"where the camera's bits are the upper ones"
         )
-    return (grey >> (bits - 8)).astype(np.uint8)
+    return (np.minimum(grey, (1 << bits) - 1) >> (bits - 8)).astype(np.uint8)
 
 
 def has_shape_of(picture: tuple[int, int], view: tuple[float, float]) -> bool:

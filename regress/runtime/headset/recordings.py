@@ -1,23 +1,19 @@
 """One camera's pictures from a folder, a film or a dataset's renders, at the size that a network takes."""
 
-import os
-import re
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import Decimal
-from itertools import count
+from itertools import islice
 from pathlib import Path
 
-import cv2
 import numpy as np
 
 from facegen.documents import unreadable
-from facegen.formats.film import FILMS, check_film_path
-from facegen.formats.natural_order import natural_order
-from facegen.formats.picture_size import MOST_PIXELS
+from facegen.formats.film import FILMS
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault
+from regress.runtime.headset.film_frames import Film
+from regress.runtime.headset.frame_names import frame_names
 from regress.runtime.headset.pictures import (
     PICTURES,
     FittedPicture,
@@ -30,15 +26,14 @@ from regress.runtime.headset.placement import CameraPlacement
 MOST_FRAMES = 500_000
 """Of one camera's recording, which is held in memory: 92 minutes at 90 a second, 4.6 GB at 96 x 96."""
 
+_EXPECTED = 10_000
+"""Frames of a film for which memory is taken before they come: what films say of their length may be wrong."""
+
+_LOOKED_AT = 12
+"""Pictures of a folder, all over it, whose commonest size is the folder's."""
+
 _MOST_NUMBER = 2**62
-"""A frame's number is less: nanoseconds since 1970 are, and differences of numbers still fit 64 bits."""
-
-_NUMBER = re.compile(r"(.*?)(\d+)\D*", re.DOTALL)
-"""What stands before the last number of a file's name, and that number, before its ending."""
-
-_DECIMAL = re.compile(r"\d+\.\d+")
-_CLOCK = re.compile(r"\d{9,}\.\d+")
-"""Seconds since 1970 with a fraction."""
+"""A sample's number is less, as all frames' are."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -59,6 +54,10 @@ class Recording:
         Of each frame.
     fps
         Frames a second, where a film tells.
+    time_s : (n,) float64 or None
+        Seconds of the frames, rising, where a film or names tell them.
+    note
+        What a person should be told of the frames' order; empty where nothing.
     scaled_from : (n, 2) int64 or None
         Width and height of each picture before it was scaled; None where none was.
     placement
@@ -72,6 +71,8 @@ class Recording:
     pictures: np.ndarray
     faults: tuple[Fault | None, ...]
     fps: float | None = None
+    time_s: np.ndarray | None = None
+    note: str = ""
     scaled_from: np.ndarray | None = None
     placement: CameraPlacement | None = None
 
@@ -84,6 +85,7 @@ def read_recording(
     height: int,
     bits: int | None = None,
     placement: CameraPlacement | None = None,
+    choose: Callable[[int], np.ndarray] | None = None,
 ) -> Recording:
     """Read a folder of pictures or a film, in grey, scaled where only the size differs.
 
@@ -95,6 +97,8 @@ def read_recording(
         How many of their 16 bits the camera uses, of pictures that have so many.
     placement
         What of them the network is to see.
+    choose
+        Which rows of so many frames are read; all by default.
 
     Raises
     ------
@@ -105,41 +109,89 @@ def read_recording(
         kind = path.stat().st_mode
     except (FileNotFoundError, NotADirectoryError):
         raise InputError(
-            f"{path} does not exist; a folder of {camera}'s pictures or a film of them is needed"
+            f"{path} does not exist; a folder of {camera}'s pictures or a film of them is needed{_of_address(path)}"
         ) from None
     except OSError as error:
         raise unreadable(path, error) from None
     if stat.S_ISDIR(kind):
-        files = _pictures_in(path)
-        if not files:
-            raise InputError(f"{path} has no pictures of {camera}; {', '.join(PICTURES)} can be read")
-        _check_count(len(files), path)
-        numbers, files = _in_order(files)
-        fitted = [
-            read_picture(file, width=width, height=height, bits=bits, placement=placement) for file in files
-        ]
-        return _recording(camera, path, numbers, fitted, placement=placement)
+        return _read_folder(path, camera, (width, height), bits, placement, choose)
     if not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS:
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
-    check_film_path(path)
-    film = _opened(path)
-    try:
-        fps = film.get(cv2.CAP_PROP_FPS)
-        fitted = [
-            fit_picture(frame, width=width, height=height, placement=placement)
-            for frame in _film_frames(film, path)
-        ]
-    except cv2.error as error:
-        raise InputError(f"{path} cannot be read as a film ({error.err})") from error
-    finally:
-        film.release()
-    if not fitted:
+    return _read_film(path, camera, (width, height), placement, choose)
+
+
+def _read_folder(
+    path: Path,
+    camera: str,
+    size: tuple[int, int],
+    bits: int | None,
+    placement: CameraPlacement | None,
+    choose: Callable[[int], np.ndarray] | None,
+) -> Recording:
+    files = _pictures_in(path)
+    if not files:
+        raise InputError(f"{path} has no pictures of {camera}; {', '.join(PICTURES)} can be read")
+    names = frame_names(files)
+    rows = np.arange(len(files)) if choose is None else choose(len(files))
+    _check_count(len(rows), path)
+    width, height = size
+    stack = _Stack(len(rows), size)
+    for row in rows:
+        stack.add(read_picture(names.files[row], width=width, height=height, bits=bits, placement=placement))
+    note = f"names do not count frames ({names.odd.name} among them); counted from 0" if names.odd else ""
+    return stack.recording(
+        camera,
+        path,
+        rows if names.numbers is None else np.array(names.numbers, dtype=np.int64)[rows],
+        numbered=names.numbers is not None,
+        time_s=None if names.time_s is None else np.array(names.time_s)[rows],
+        note=f"{camera}: {note}" if note else "",
+        placement=placement,
+    )
+
+
+def _read_film(
+    path: Path,
+    camera: str,
+    size: tuple[int, int],
+    placement: CameraPlacement | None,
+    choose: Callable[[int], np.ndarray] | None,
+) -> Recording:
+    width, height = size
+    numbers, times = [], []
+    with Film(path) as film:
+        # of a film that does not say how long it is as much as of one that is just long enough
+        chosen = None if choose is None else set(choose(film.length or MOST_FRAMES).tolist())
+        stack = _Stack(min(film.length, _EXPECTED) if choose is None else len(chosen), size)
+        for frame in film.frames(chosen):
+            stack.add(fit_picture(frame.grey, width=width, height=height, placement=placement))
+            _check_count(len(stack.faults), path)
+            numbers.append(frame.number)
+            times.append(frame.time_s)
+        fps = film.fps
+    if not numbers:
         raise InputError(f"{path} cannot be read as a film: it has no frames, or a codec that OpenCV lacks")
-    return _recording(camera, path, [], fitted, fps=fps if 0 < fps < 1000 else None, placement=placement)
+    time_s = np.array(times)
+    rises = np.isfinite(time_s).all() and (np.diff(time_s) > 0).all() and len(time_s) > 1
+    return stack.recording(
+        camera,
+        path,
+        np.array(numbers),
+        numbered=False,
+        fps=fps,
+        time_s=time_s if rises else None if fps is None else np.array(numbers) / fps,
+        placement=placement,
+    )
+
+
+def _of_address(path: Path) -> str:
+    """What to do with a live camera's address."""
+    scheme = path.parts[0] if path.parts else ""
+    return "; recordings are read here, and `track` reads addresses" if scheme[1:].endswith(":") else ""
 
 
 def recorded_size(path: Path) -> tuple[int, int]:
-    """Width and height of a folder's first readable picture, or of a film.
+    """Width and height of most of a folder's pictures that can be read, or of a film.
 
     Raises
     ------
@@ -147,24 +199,28 @@ def recorded_size(path: Path) -> tuple[int, int]:
         Where there is none.
     """
     if path.is_dir():
-        for file in sorted(_pictures_in(path)):
-            grey = decoded(file)  # by its header a picture may lie on its side, which EXIF says
-            if not isinstance(grey, Fault):
-                return grey.shape[1], grey.shape[0]
-        raise InputError(f"{path} has no picture that can be read")
+        files = sorted(_pictures_in(path))
+        rows = np.linspace(0, len(files) - 1, min(len(files), _LOOKED_AT)).round().astype(int)
+        sizes = [size for row in rows if (size := _size_of(files[row]))]
+        sizes = sizes or [size for size in islice(filter(None, map(_size_of, files)), 1)]
+        if not sizes:
+            raise InputError(f"{path} has no picture that can be read")
+        return max(sizes, key=sizes.count)
     if not path.exists():
-        raise InputError(f"{path} does not exist; a folder of pictures or a film is needed")
-    check_film_path(path)
-    film = _opened(path)
-    try:
-        width, height = (
-            int(film.get(side)) for side in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT)
+        raise InputError(
+            f"{path} does not exist; a folder of pictures or a film is needed{_of_address(path)}"
         )
-    finally:
-        film.release()
+    with Film(path) as film:
+        width, height = film.size
     if width < 1 or height < 1:
         raise InputError(f"{path} cannot be read as a film")
     return width, height
+
+
+def _size_of(file: Path) -> tuple[int, int] | None:
+    """Width and height as it is seen: by its header a picture may lie on its side, which EXIF says."""
+    grey = decoded(file)
+    return None if isinstance(grey, Fault) else (grey.shape[1], grey.shape[0])
 
 
 def read_rendered(dataset: Path, camera: str, *, width: int, height: int) -> Recording:
@@ -183,26 +239,10 @@ def read_rendered(dataset: Path, camera: str, *, width: int, height: int) -> Rec
     if not files:
         raise InputError(f"{dataset} has no rendered pictures of {camera} (renders/000/000000/{camera}.png)")
     _check_count(len(files), dataset)
-    fitted = [read_picture(files[number], width=width, height=height) for number in sorted(files)]
-    return _recording(camera, dataset, sorted(files), fitted)
-
-
-def _in_order(files: list[Path]) -> tuple[list[int], list[Path]]:
-    """Files by their numbers, or by name and without numbers where that of a name says only a part of the order.
-
-    It does where other digits or words before it differ, and in times of the clock, as 1700000000.25.
-    """
-    files = sorted(files)
-    found = [_NUMBER.fullmatch(file.stem) for file in files]
-    clock = all(_CLOCK.fullmatch(file.stem) for file in files)
-    if not clock and all(found) and len({match[1] for match in found}) == 1:
-        numbers = [int(match[2]) for match in found]
-        if len(set(numbers)) == len(files) and max(numbers) < _MOST_NUMBER:
-            pairs = sorted(zip(numbers, files, strict=True))
-            return [number for number, _ in pairs], [file for _, file in pairs]
-    if all(_DECIMAL.fullmatch(file.stem) for file in files):
-        return [], sorted(files, key=lambda file: Decimal(file.stem))
-    return [], sorted(files, key=lambda file: natural_order(file.stem))
+    stack = _Stack(len(files), (width, height))
+    for number in sorted(files):
+        stack.add(read_picture(files[number], width=width, height=height))
+    return stack.recording(camera, dataset, np.array(sorted(files), dtype=np.int64), numbered=True)
 
 
 def _pictures_in(folder: Path) -> list[Path]:
@@ -222,47 +262,41 @@ def _check_count(frames: int, path: Path) -> None:
         raise InputError(f"{path} has more than {MOST_FRAMES:,} frames of a camera; give it in parts")
 
 
-def _opened(path: Path) -> cv2.VideoCapture:
-    """A film whose pictures are turned as it says: telephones write them as the sensor lies."""
-    film = cv2.VideoCapture(os.fspath(path))
-    film.set(cv2.CAP_PROP_ORIENTATION_AUTO, 1)
-    return film
+class _Stack:
+    """Pictures of one size, one after the other, in memory that is taken once.
 
+    Parameters
+    ----------
+    count
+        How many are expected; there may be fewer or more.
+    size
+        Width and height.
+    """
 
-def _film_frames(film: cv2.VideoCapture, path: Path) -> Iterator[np.ndarray]:
-    width, height = (film.get(side) for side in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT))
-    if width * height > MOST_PIXELS:
-        raise InputError(
-            f"{path} has frames of {width:g} x {height:g} pixels; at most {MOST_PIXELS:,} are read"
+    def __init__(self, count: int, size: tuple[int, int]) -> None:
+        width, height = size
+        self._size = size
+        self._pictures = np.empty((max(1, count), height, width), dtype=np.uint8)
+        self._scaled_from: list[tuple[int, int] | None] = []
+        self.faults: list[Fault | None] = []
+
+    def add(self, one: FittedPicture) -> None:
+        """Put a picture behind the others."""
+        if len(self.faults) == len(self._pictures):
+            self._pictures = np.concatenate([self._pictures, np.empty_like(self._pictures)])
+        self._pictures[len(self.faults)] = one.picture
+        self.faults.append(one.fault)
+        self._scaled_from.append(one.scaled_from)
+
+    def recording(self, camera: str, source: Path, numbers: np.ndarray, **known: object) -> Recording:
+        """All of them, with what else a `Recording` has."""
+        scaled = any(self._scaled_from)
+        return Recording(
+            camera=camera,
+            source=str(source),
+            numbers=numbers,
+            pictures=self._pictures[: len(self.faults)],
+            faults=tuple(self.faults),
+            scaled_from=np.array([one or self._size for one in self._scaled_from]) if scaled else None,
+            **known,
         )
-    for number in count(1):
-        there, frame = film.read()
-        if not there:
-            return
-        _check_count(number, path)
-        yield cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY) if frame.ndim == 3 else frame
-
-
-def _recording(
-    camera: str,
-    source: Path,
-    numbers: list[int],
-    fitted: list[FittedPicture],
-    *,
-    fps: float | None = None,
-    placement: CameraPlacement | None = None,
-) -> Recording:
-    """Fitted pictures as a recording; without numbers they are counted."""
-    height, width = fitted[0].picture.shape
-    scaled = any(one.scaled_from for one in fitted)
-    return Recording(
-        camera=camera,
-        source=str(source),
-        numbers=np.array(numbers or range(len(fitted)), dtype=np.int64),
-        numbered=bool(numbers),
-        pictures=np.array([one.picture for one in fitted]),
-        faults=tuple(one.fault for one in fitted),
-        fps=fps,
-        scaled_from=np.array([one.scaled_from or (width, height) for one in fitted]) if scaled else None,
-        placement=placement,
-    )

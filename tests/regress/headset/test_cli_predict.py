@@ -231,6 +231,14 @@ def test_pictures_of_more_bits_say_how_many(run, model: Path, tmp_path: Path, su
     code, nothing, said = run("headset", "predict", model, *twelve, "--bits", 10)
     assert (code, nothing) == (2, "")
     assert "--bits 10 holds levels to 1023" in said
+    for file in tmp_path.glob(
+        "twelve/*.png"
+    ):  # a glint that saturates what 16 bits hold is no reason to refuse
+        picture = cv2.imread(str(file), cv2.IMREAD_UNCHANGED)
+        picture[0, 0] = 65535
+        cv2.imwrite(str(file), picture)
+    code, _, said = run("headset", "predict", model, *twelve, *neutral, "--bits", 12)
+    assert (code, said) == (0, "")
     if suffix == "tiff":
         assert cv2.imwrite(str(tmp_path / "twelve" / "mouth" / "0.tiff"), np.zeros((12, 16), np.float32))
         code, nothing, said = run("headset", "predict", model, *twelve, "--bits", 12)

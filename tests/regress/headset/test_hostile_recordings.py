@@ -14,8 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.errors import InputError
+from regress.runtime.headset import film_frames, recordings
 from regress.runtime.headset import pictures as picture_files
-from regress.runtime.headset import recordings
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.footage import line_up
 from regress.runtime.headset.recordings import Recording, read_recording, read_rendered
@@ -117,7 +117,7 @@ def test_a_take_has_only_so_many_frames(tmp_path: Path, monkeypatch: pytest.Monk
     for path in (tmp_path / "take", tmp_path / "a.avi"):
         with pytest.raises(InputError, match="more than 3 frames"):
             _read(path)
-    monkeypatch.setattr(recordings, "MOST_PIXELS", 100)
+    monkeypatch.setattr(film_frames, "MOST_PIXELS", 100)
     with pytest.raises(InputError, match="at most 100 are read"):
         _read(tmp_path / "a.avi")
 

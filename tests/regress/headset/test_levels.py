@@ -122,6 +122,9 @@ def test_looks_say_what_was_done_to_pictures():
         np.uint8
     )
     assert plain.flicker < 0.02 < 0.1 < flicker_of(flickering)
+    waves = 1 + 0.12 * np.sin(np.arange(96) / 8 + 2 * np.arange(30)[:, None])
+    rolling = np.clip(take * waves[:, :, None], 0, 255).astype(np.uint8)
+    assert flicker_of(rolling) > 0.05
     rows, columns = np.mgrid[:96, :96]
     rim = (rows - 48) ** 2 + (columns - 48) ** 2 > 40**2
     dark = np.where(rim, 9, take).astype(np.uint8)

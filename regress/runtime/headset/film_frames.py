@@ -1,0 +1,103 @@
+"""Reads the frames of a film, one by one, with the times that it gives them."""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from facegen.formats.film import check_film_path
+from facegen.formats.picture_size import MOST_PIXELS
+from regress.errors import InputError
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FilmFrame:
+    """One frame.
+
+    Parameters
+    ----------
+    number
+        Counted from 0.
+    time_s
+        As the film tells it; containers without times tell 0 of all.
+    grey : (h, w) uint8
+        Its picture.
+    """
+
+    number: int
+    time_s: float
+    grey: np.ndarray
+
+
+class Film:
+    """A film whose pictures are turned as it says: telephones write them as the sensor lies.
+
+    Use as a context manager.
+
+    Parameters
+    ----------
+    path
+        Of any kind that OpenCV reads.
+
+    Attributes
+    ----------
+    fps
+        Frames a second; None where the film does not tell.
+    size
+        Width and height.
+    length
+        How many frames there are, as it says itself; 0 where it does not.
+    """
+
+    def __init__(self, path: Path) -> None:
+        check_film_path(path)
+        self._path, self._film = path, cv2.VideoCapture(os.fspath(path))
+        self._film.set(cv2.CAP_PROP_ORIENTATION_AUTO, 1)
+        fps, length = (self._film.get(each) for each in (cv2.CAP_PROP_FPS, cv2.CAP_PROP_FRAME_COUNT))
+        self.fps = fps if 0 < fps < 1000 else None
+        self.length = int(length) if 0 < length < 1e9 else 0
+        self.size = (
+            int(self._film.get(cv2.CAP_PROP_FRAME_WIDTH)),
+            int(self._film.get(cv2.CAP_PROP_FRAME_HEIGHT)),
+        )
+
+    def __enter__(self) -> "Film":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._film.release()
+
+    def frames(self, chosen: set[int] | None = None) -> Iterator[FilmFrame]:
+        """Frames in order: those of these numbers, or all.
+
+        Raises
+        ------
+        InputError
+            Where they are too large, or cannot be decoded.
+        """
+        width, height = self.size
+        if width * height > MOST_PIXELS:
+            raise InputError(
+                f"{self._path} has frames of {width} x {height} pixels; at most {MOST_PIXELS:,} are read"
+            )
+        last = None if chosen is None else max(chosen)
+        try:
+            for number in count():
+                if (last is not None and number > last) or not self._film.grab():
+                    return
+                if chosen is not None and number not in chosen:
+                    continue
+                there, frame = self._film.retrieve()
+                if not there:
+                    return
+                yield FilmFrame(
+                    number=number,
+                    time_s=self._film.get(cv2.CAP_PROP_POS_MSEC) / 1000,
+                    grey=cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY) if frame.ndim == 3 else frame,
+                )
+        except cv2.error as error:
+            raise InputError(f"{self._path} cannot be read as a film ({error.err})") from error

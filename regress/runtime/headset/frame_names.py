@@ -1,0 +1,105 @@
+"""Reads what the names of a camera's pictures say: their order, the frames' numbers, and times of a clock."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import Path
+
+from facegen.formats.natural_order import natural_order
+
+_MOST_NUMBER = 2**62
+"""A frame's number is less: nanoseconds since 1970 are, and differences of numbers still fit 64 bits."""
+
+_DIGITS = re.compile(r"(\d+)")
+_LAST_NUMBER = re.compile(r"(.*?)(\d+)\D*", re.DOTALL)
+"""What stands before the last number of a file's name, and that number, before its ending."""
+
+_DECIMAL = re.compile(r"(\D*)(\d+\.\d+)")
+_CLOCK = re.compile(r"\D*\d{9,}\.\d+")
+"""Seconds since 1970 with a fraction, behind what all names begin with."""
+
+_TICKS_A_SECOND = {13: 1e3, 16: 1e6, 19: 1e9}
+"""By how many digits a number of milliseconds, microseconds or nanoseconds since 1970 has, from 2001 to 2286."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrameNames:
+    """The pictures of a folder in the order of time.
+
+    Parameters
+    ----------
+    files
+        In order.
+    numbers
+        What the frames are called; None where names do not count them.
+    time_s
+        Seconds of a clock; None where names are not times.
+    odd
+        A file whose name is not like the others', where names do not count frames.
+    """
+
+    files: tuple[Path, ...]
+    numbers: tuple[int, ...] | None = None
+    time_s: tuple[float, ...] | None = None
+    odd: Path | None = None
+
+
+def frame_names(files: Sequence[Path]) -> FrameNames:
+    """The order of pictures, one or more, by what differs in their names: a number, or seconds with a fraction.
+
+    Where other digits or words differ as well, a number says only a part of the order, and none is taken.
+    """
+    files = sorted(files)
+    stems = [file.stem for file in files]
+    found = [_DECIMAL.fullmatch(stem) for stem in stems]
+    decimal = all(found) and len({match[1] for match in found}) == 1
+    if decimal and all(_CLOCK.fullmatch(stem) for stem in stems):
+        return _by_decimals(files, [Decimal(match[2]) for match in found])
+    numbers = _counted(stems)
+    if numbers is not None and len(set(numbers)) == len(files) and max(numbers) < _MOST_NUMBER:
+        pairs = sorted(zip(numbers, files, strict=True))
+        counted = tuple(number for number, _ in pairs)
+        digits = {len(str(number)) for number in counted}
+        ticks = _TICKS_A_SECOND.get(digits.pop()) if len(digits) == 1 else None
+        # differences are exact, where nanoseconds since 1970 are not
+        time_s = (
+            None if ticks is None else [counted[0] / ticks + (each - counted[0]) / ticks for each in counted]
+        )
+        return FrameNames(
+            files=tuple(file for _, file in pairs),
+            numbers=counted,
+            time_s=None if time_s is None else tuple(time_s),
+        )
+    if decimal:
+        return _by_decimals(files, [Decimal(match[2]) for match in found])
+    return FrameNames(files=tuple(sorted(files, key=lambda file: natural_order(file.stem))), odd=_odd(files))
+
+
+def _by_decimals(files: Sequence[Path], seconds: Sequence[Decimal]) -> FrameNames:
+    pairs = sorted(zip(seconds, files, strict=True))
+    known = len(set(seconds)) == len(files) and _CLOCK.fullmatch(files[0].stem)
+    return FrameNames(
+        files=tuple(file for _, file in pairs),
+        time_s=tuple(float(second) for second, _ in pairs) if known else None,
+    )
+
+
+def _counted(stems: Sequence[str]) -> list[int] | None:
+    """The number in each name that alone differs; the last one, where what stands before it is the same."""
+    found = [_LAST_NUMBER.fullmatch(stem) for stem in stems]
+    if all(found) and len({match[1] for match in found}) == 1:
+        return [int(match[2]) for match in found]
+    pieces = [_DIGITS.split(stem) for stem in stems]
+    if len({len(each) for each in pieces}) > 1:
+        return None
+    varying = [place for place, each in enumerate(zip(*pieces, strict=True)) if len(set(each)) > 1]
+    return [int(each[varying[0]]) for each in pieces] if len(varying) == 1 and varying[0] % 2 else None
+
+
+def _odd(files: Sequence[Path]) -> Path | None:
+    """A file without which names would count frames."""
+    texts = ["#".join(_DIGITS.split(file.stem)[::2]) for file in files]
+    usual = max(set(texts), key=texts.count)
+    strange = [file for file, text in zip(files, texts, strict=True) if text != usual]
+    return strange[0] if "#" in usual and 0 < len(strange) < 0.1 * len(files) else None

@@ -1,0 +1,146 @@
+"""Frames of cameras go together by their times or numbers: whatever rates, losses, clocks and beginnings they have."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from regress.errors import InputError
+from regress.runtime.headset.footage import line_up
+from regress.runtime.headset.matching import Matching, match
+from regress.runtime.headset.recordings import read_recording
+from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
+
+SIZES = {"left_eye": (WIDTH, HEIGHT), "mouth": (WIDTH, HEIGHT)}
+
+
+def timed(name: str, time_s: np.ndarray, **changes: object):
+    """A recording whose pictures do not matter."""
+    stack = np.full((len(time_s), 2, 2), 100, dtype=np.uint8)
+    return recording(name, stack, **{"numbered": False, "time_s": time_s, **changes})
+
+
+def seen_s(matched: Matching, name: str, time_s: np.ndarray) -> np.ndarray:
+    """When a camera's frames were taken; NaN where it has none."""
+    rows = matched.rows[name]
+    return np.where(rows >= 0, time_s[rows], np.nan)
+
+
+@settings(deadline=None)
+@given(
+    st.sampled_from([(30, 30), (60, 30), (120, 30), (90, 60), (200, 8)]),
+    st.floats(0, 1),
+    st.floats(0, 0.2),
+    st.lists(st.integers(20, 200), max_size=20, unique=True),
+    st.integers(0, 99),
+)
+def test_by_times_nearest_frames_go_together(rates, phase, jitter, lost, seed):
+    (eye_fps, mouth_fps), random = rates, np.random.default_rng(seed)
+    eye_s = (np.arange(400) + jitter * random.random(400)) / eye_fps
+    count = max(3, int(eye_s[-1] * mouth_fps))
+    mouth_s = (np.arange(count) + phase + jitter * random.random(count)) / mouth_fps
+    eye_s = np.delete(eye_s, lost)
+    matched = match({"left_eye": timed("left_eye", eye_s), "mouth": timed("mouth", mouth_s)})
+    moments_s, beside_s = (
+        seen_s(matched, name, times) for name, times in (("left_eye", eye_s), ("mouth", mouth_s))
+    )
+    quick, other = (moments_s, beside_s) if np.isfinite(moments_s).all() else (beside_s, moments_s)
+    assert np.isfinite(quick).all()
+    assert np.diff(matched.time_s) == pytest.approx(np.diff(quick))
+    others_s = mouth_s if quick is moments_s else eye_s
+    nearest = np.abs(others_s[:, None] - quick).min(axis=0)
+    known = np.isfinite(other)
+    assert np.abs(other - quick)[known] == pytest.approx(nearest[known])
+    step_s = np.median(np.diff(others_s))
+    assert known[nearest < 0.5 * step_s].all()
+    assert not known[nearest > 0.6 * max(step_s, np.median(np.diff(quick)))].any()
+
+
+@given(st.integers(1, 8), st.integers(0, 7))
+def test_a_slow_camera_whose_numbers_are_in_between_stands_until_its_next_one(times: int, first: int):
+    eye = recording("left_eye", np.full((100, 2, 2), 100, np.uint8))
+    numbers = np.arange(first, 100, times)
+    mouth = recording("mouth", np.full((len(numbers), 2, 2), 100, np.uint8), numbers=numbers)
+    rows = match({"left_eye": eye, "mouth": mouth}).rows["mouth"]
+    assert (rows[:first] == -1).all()
+    assert rows[first:].tolist() == [(row - first) // times for row in range(first, 100)]
+
+
+def test_what_a_slow_camera_lost_is_missing():
+    numbers = np.delete(np.arange(0, 100, 4), [5])
+    mouth = recording("mouth", np.full((len(numbers), 2, 2), 100, np.uint8), numbers=numbers)
+    rows = match({"left_eye": recording("left_eye", np.full((100, 2, 2), 9, np.uint8)), "mouth": mouth}).rows
+    assert np.flatnonzero(rows["mouth"] == -1).tolist() == [20, 21, 22, 23]
+
+
+def test_takes_that_begin_elsewhere_keep_their_gaps():
+    left = recording("left_eye", np.full((1000, 2, 2), 9, np.uint8))
+    numbers = np.delete(np.arange(5000, 6000), np.arange(100, 131))
+    mouth = recording("mouth", np.full((len(numbers), 2, 2), 9, np.uint8), numbers=numbers)
+    matched = match({"left_eye": left, "mouth": mouth}, from_start=True)
+    assert matched.numbers.tolist() == list(range(1000))
+    known = matched.rows["mouth"] >= 0
+    assert np.flatnonzero(~known).tolist() == list(range(100, 131))
+    assert (numbers[matched.rows["mouth"][known]] - 5000 == matched.numbers[known]).all()
+
+
+def test_clocks_that_share_numbers_by_chance_are_matched_by_their_times(tmp_path):
+    """Two cameras of 60 a second, called by milliseconds: six names in a hundred are in both folders."""
+    first_ms = 1_700_000_000_000
+    left_ms = first_ms + np.round(np.arange(60) * 1000 / 60).astype(int)
+    mouth_ms = first_ms + 5 + np.round(np.arange(60) * 1000 / 59.3).astype(int)
+    assert 0 < np.isin(left_ms, mouth_ms).sum() < 20
+    for name, times_ms in (("left", left_ms), ("mouth", mouth_ms)):
+        stack = pictures(np.linspace(80, 160, 60), seed=len(name))
+        for time_ms, picture in zip(times_ms, stack, strict=True):
+            write_pictures(tmp_path / name, picture[None], first=int(time_ms), name="{}.png")
+    takes = {
+        camera: read_recording(tmp_path / folder, camera, width=WIDTH, height=HEIGHT)
+        for camera, folder in (("left_eye", "left"), ("mouth", "mouth"))
+    }
+    footage = line_up(takes, SIZES)
+    assert footage.present.all()
+    assert len(footage.numbers) >= 59
+    assert footage.fps == pytest.approx(60, rel=0.03)
+    for one in (takes["left_eye"], takes["mouth"]):  # without what their names say of times there is no order
+        object.__setattr__(one, "time_s", None)
+    with pytest.raises(InputError, match="few frame numbers of one camera are another's"):
+        line_up(takes, SIZES)
+
+
+@pytest.mark.parametrize("digits", [13, 16, 19])
+def test_names_of_a_clock_give_times(tmp_path, digits: int):
+    ticks = 10 ** (digits - 10)
+    first = 1_700_000_000 * ticks
+    for number in range(5):
+        write_pictures(tmp_path, pictures([90])[:1], first=first + number * ticks // 50, name="left_{}.png")
+    found = read_recording(tmp_path, "left_eye", width=WIDTH, height=HEIGHT)
+    assert np.diff(found.time_s) == pytest.approx(0.02, abs=1e-6)
+    assert line_up({"left_eye": found}, SIZES).fps == pytest.approx(50, rel=1e-3)
+
+
+def test_cameras_whose_times_have_nothing_in_common_are_refused_or_begin_together():
+    takes = {
+        "left_eye": timed("left_eye", np.arange(10) / 30),
+        "mouth": timed("mouth", 9 + np.arange(10) / 30),
+    }
+    with pytest.raises(
+        InputError, match=r"times have nothing in common \(left_eye 0\.00-0\.30 s, mouth 9\.00-9\.30 s\)"
+    ):
+        match(takes)
+    assert match(takes, from_start=True).rows["mouth"].tolist() == list(range(10))
+
+
+def test_a_stray_picture_among_numbered_ones_is_told(tmp_path):
+    write_pictures(tmp_path, pictures([90] * 20))
+    write_pictures(tmp_path, pictures([90]), name="sheet.png")
+    footage = line_up({"left_eye": read_recording(tmp_path, "left_eye", width=WIDTH, height=HEIGHT)}, SIZES)
+    assert "left_eye: names do not count frames (sheet.png among them); counted from 0" in footage.notes
+
+
+def test_a_slow_cameras_picture_that_stands_is_not_frozen():
+    """A mouth of two pictures a second, beside eyes of 60."""
+    eye = recording("left_eye", pictures([100] * 240), numbered=False, time_s=np.arange(240) / 60)
+    mouth = recording("mouth", pictures([110] * 8, seed=1), numbered=False, time_s=np.arange(8) / 2)
+    footage = line_up({"left_eye": eye, "mouth": mouth}, SIZES)
+    assert footage.present.all()
