@@ -98,5 +98,5 @@ def test_on_linux_a_camera_is_named_by_its_device_too(
             assert camera.read().pixels.shape == (240, 320, 3)
         finally:
             camera.close()
-    with pytest.raises(CameraError, match="there is no camera .dev.video4 here"):
+    with pytest.raises(CameraError, match="there is no camera /dev/video4 here"):
         open_source("/dev/video4")

@@ -12,6 +12,7 @@ from track.cli.calibrate import calibrate
 from track.cli.compare import compare
 from track.cli.devices import devices
 from track.cli.profiles import profiles
+from track.cli.record import record
 from track.cli.run import run
 
 app = program(
@@ -23,6 +24,7 @@ app.command()(run)
 app.command()(calibrate)
 app.command()(compare)
 app.command()(devices)
+app.command()(record)
 app.add_typer(profiles, name="profiles")
 
 _ITS_OWN = ("--help", "-h", "--version")
@@ -31,7 +33,7 @@ _ITS_OWN = ("--help", "-h", "--version")
 
 def main() -> None:
     """Entry point of the console script: what begins with no command is for `run`."""
-    commands = {"run", "calibrate", "compare", "devices", "profiles"}
+    commands = {"run", "calibrate", "compare", "devices", "profiles", "record"}
     if len(sys.argv) < 2 or sys.argv[1] not in (*commands, *_ITS_OWN):
         sys.argv.insert(1, "run")
     run_program(app, extras=(LIVE, LEARN))

@@ -83,7 +83,12 @@ def is_headset(wishes: Wishes) -> bool:
 
     if wishes.model is not None:
         return is_headset_model(wishes.model)
-    return bool(wishes.cameras) and all(_NAMED.fullmatch(each) for each in wishes.cameras)
+    return are_named(wishes.cameras)
+
+
+def are_named(cameras: Sequence[str]) -> bool:
+    """Whether each camera has its name before it."""
+    return bool(cameras) and all(_NAMED.fullmatch(each) for each in cameras)
 
 
 def open_pipeline(wishes: Wishes, texts: dict[str, str], say: Callable[[str], None]) -> "Pipeline":

@@ -178,8 +178,8 @@ ENDING = tuple(
 
 
 @contextlib.contextmanager
-def ended_by_signals(session: "Session", capture: "Capture") -> Iterator[None]:
-    """Let the first `ENDING` signal end the session after its frame; the next one stops at once, as ever."""
+def ended_by_signals(*running: "Session | Capture") -> Iterator[None]:
+    """Let the first `ENDING` signal end what runs, after its frame; the next one stops at once, as ever."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -188,8 +188,8 @@ def ended_by_signals(session: "Session", capture: "Capture") -> Iterator[None]:
     before = {number: handler for number, handler in before.items() if handler is not signal.SIG_IGN}
 
     def end(_number: int, _frame: object) -> None:
-        session.stop()
-        capture.stop()
+        for each in running:
+            each.stop()
         for number, handler in before.items():
             signal.signal(number, handler)
 

@@ -1,0 +1,60 @@
+"""``track record``: pictures of cameras, side by side, for `regress headset check` and others."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from track.cli.options import CameraOption, FastOption, FpsOption
+
+
+def record(
+    folder: Annotated[Path, typer.Argument(help="To make; it gets a folder of pictures for each camera.")],
+    camera: CameraOption = None,
+    seconds: Annotated[
+        float, typer.Option("--seconds", min=0.1, max=86400.0, help="How long; Ctrl-C ends it sooner.")
+    ] = 60.0,
+    fast: FastOption = False,
+    fps: FpsOption = 30.0,
+) -> None:
+    """Keep what cameras show: PNG as they give it, one number a moment in all folders, and times.csv.
+
+    For a headset look around and blink meanwhile; `regress headset check` says whether a network can use it.
+
+    Example: track record take --camera left_eye=0 --camera right_eye=1 --camera mouth=2
+    """
+    import math
+
+    from facegen.console import counted, progress, say
+    from track.cli.opening import Wishes, are_named, camera_texts, open_cameras
+    from track.cli.running import ended_by_signals
+    from track.errors import CameraError, InputError
+    from track.footage import FootageWriter, check_folder
+    from track.session.fault_telling import FaultTelling
+    from track.session.pipeline import words
+
+    wishes = Wishes(cameras=camera or (), fast=fast, fps=fps)
+    texts = camera_texts(wishes.cameras, headset=are_named(wishes.cameras))
+    if "-" in texts.values():
+        raise InputError("--camera -: lines of points have no pictures to record")
+    check_folder(folder)
+    telling, first_s = FaultTelling(say), None
+    with open_cameras(wishes, texts) as capture, FootageWriter(folder, list(texts)) as writer:
+        with ended_by_signals(capture), progress(unit="s") as told:
+            for sample in capture:
+                telling.step(
+                    sample.time_s,
+                    {name: f"{name} has {words(fault)}" for name, fault in sample.faults.items()},
+                )
+                first_s = sample.time_s if first_s is None else first_s
+                if sample.time_s - first_s > seconds - 1e-6:
+                    break
+                writer.write(sample)
+                told("recorded", math.floor(sample.time_s - first_s), math.ceil(seconds))
+    if not any(writer.written.values()):
+        raise CameraError(f"no camera gave a picture, so {folder} is empty")
+    for name, count in writer.written.items():
+        say(f"{folder / name}: {counted(count, 'picture')}")
+    if are_named(wishes.cameras):
+        options = " ".join(f"--camera {name}={folder / name}" for name in texts)
+        say(f"whether a network can use them says: regress headset check {options}")

@@ -1,0 +1,152 @@
+"""Keeps what cameras show: a folder of pictures each, numbered by moments, and the moments' times."""
+
+from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+from threading import BoundedSemaphore
+
+import cv2
+import numpy as np
+
+from regress.runtime.sample import Sample
+from track.errors import InputError, OutputError
+
+TIMES = "times.csv"
+"""Number and seconds of each moment."""
+
+_WRITERS = 2
+_WAITING = 64
+"""Pictures that may wait to be packed: behind them the cameras' own lines lose the oldest."""
+
+_QUICKLY = (cv2.IMWRITE_PNG_COMPRESSION, 1)
+
+
+class FootageWriter:
+    """Writes the pictures of samples into a new folder, each camera's into its own.
+
+    A slow camera's picture is written once, with the number of its first moment. Use as a context manager.
+
+    Parameters
+    ----------
+    folder
+        To make.
+    cameras
+        Names of the cameras, each of which gets a folder.
+
+    Raises
+    ------
+    InputError
+        Where something of that name is there.
+    OutputError
+        Where it cannot be made.
+
+    Attributes
+    ----------
+    written : dict of int
+        How many pictures each camera has so far.
+    """
+
+    def __init__(self, folder: Path, cameras: Sequence[str]) -> None:
+        check_folder(folder)
+        self._folder = folder
+        try:
+            folder.mkdir()
+            for name in cameras:
+                (folder / name).mkdir()
+            self._times = (folder / TIMES).open("w", encoding="utf-8", newline="\n")
+        except OSError as error:
+            raise OutputError(f"{folder}: cannot be made ({error.strerror})") from None
+        self.written = dict.fromkeys(cameras, 0)
+        self._last: dict[str, np.ndarray] = {}
+        self._moments = 0
+        self._pool = ThreadPoolExecutor(_WRITERS)
+        self._room = BoundedSemaphore(_WAITING)
+        self._errors: list[BaseException] = []
+        self._times.write("frame,time_s\n")
+
+    def __enter__(self) -> "FootageWriter":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def write(self, sample: Sample) -> None:
+        """Keep what is new of a moment.
+
+        Raises
+        ------
+        OutputError
+            Where a picture before it could not be written.
+        """
+        new = {
+            name: picture
+            for name, picture in (sample.pictures or {}).items()
+            if picture is not self._last.get(name)
+        }
+        if not new:
+            return
+        for name, picture in new.items():
+            self._room.acquire()
+            path = self._folder / name / f"{self._moments:06d}.png"
+            self._pool.submit(_write_picture, path, picture).add_done_callback(self._done)
+            self.written[name] += 1
+        self._last |= new
+        self._write_time(f"{self._moments},{sample.time_s:.6f}\n")
+        self._moments += 1
+        self._raise_errors()
+
+    def close(self) -> None:
+        """Wait until all is written.
+
+        Raises
+        ------
+        OutputError
+            Where something could not be.
+        """
+        self._pool.shutdown()
+        try:
+            self._times.close()
+        except OSError as error:
+            self._errors.append(error)
+        self._raise_errors()
+
+    def _write_time(self, line: str) -> None:
+        try:
+            self._times.write(line)
+        except OSError as error:
+            self._errors.append(error)
+
+    def _done(self, written: "Future[None]") -> None:
+        self._room.release()
+        error = written.exception()
+        if error is not None:
+            self._errors.append(error)
+
+    def _raise_errors(self) -> None:
+        if self._errors:
+            error = self._errors[0]
+            raise OutputError(
+                f"{self._folder}: cannot be written ({getattr(error, 'strerror', None) or error})"
+            )
+
+
+def check_folder(folder: Path) -> None:
+    """See that a take can be written, before cameras are opened.
+
+    Raises
+    ------
+    InputError
+        Where something of that name is there.
+    OutputError
+        Where there is no folder to make it in.
+    """
+    if folder.exists() or folder.is_symlink():
+        raise InputError(f"{folder} is there already; name a new folder for the take")
+    if not folder.parent.is_dir():
+        raise OutputError(f"{folder}: cannot be made, as there is no folder {folder.parent}")
+
+
+def _write_picture(path: Path, picture: np.ndarray) -> None:
+    if picture.ndim == 3 and (picture[..., :1] == picture[..., 1:]).all():
+        picture = picture[..., 0]  # an infra-red camera that calls its grey levels colours
+    path.write_bytes(cv2.imencode(".png", picture, _QUICKLY)[1].tobytes())
