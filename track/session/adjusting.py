@@ -15,8 +15,8 @@ from track.session.person import Person, centre_of
 from track.session.pipeline import Pipeline
 from track.session.ranges import blinks_of, ends_of
 
-CENTRE_FRAMES = 15
-"""Frames of one look, half a second, whose median gaze is taken for straight ahead."""
+CENTRE_S = 0.5
+"""Seconds of one look, whose median gaze is taken for straight ahead: a blink is shorter."""
 
 BLINK_CHANGE = 0.02
 """Of a reading: blinks that differ by less from those of the profile's file are not worth writing it anew."""
@@ -79,6 +79,7 @@ class Adjusting:
         """Whether anything that calibration found was kept."""
         self._calibration: Calibration | None = None
         self._looks: list[tuple[np.ndarray, np.ndarray]] | None = None
+        self._looks_since_s = 0.0
         if profile.told_cameras and pipeline.listens:
             pipeline.use_cameras(profile.told_cameras)
         if profile.placement:
@@ -121,8 +122,10 @@ class Adjusting:
             self._calibrate(sample)
         if self._looks is not None:
             look = (_whole(sample.gaze, 4), _whole(None if sample.head is None else sample.head[3:], 3))
-            self._looks += [look] if any(np.isfinite(part).all() for part in look) else []
-            if len(self._looks) == CENTRE_FRAMES:
+            if any(np.isfinite(part).all() for part in look):
+                self._looks_since_s = sample.time_s if not self._looks else self._looks_since_s
+                self._looks.append(look)
+            if self._looks and sample.time_s >= self._looks_since_s + CENTRE_S:
                 self._centre(*(np.array(parts) for parts in zip(*self._looks, strict=True)))
         if self._keeps_blinks and self._blinks is not None:
             self._keep_blinks(self._blinks.ends)

@@ -87,15 +87,19 @@ class Measures:
         """Frames a second and latency in ms of the last frames, for who looks on: new ones each `SHOWN_EVERY_S`."""
         if now_s - self._shown_s >= SHOWN_EVERY_S:
             lately = deque(islice(reversed(self._latency_s), REMEMBERED))
-            self._shown, self._shown_s = (self.fps, quantiles_ms(lately)), now_s
+            self._shown, self._shown_s = (self._fps(now_s), quantiles_ms(lately)), now_s
         return self._shown
 
     @property
     def fps(self) -> float:
-        """Frames a second, lately."""
-        if len(self._times_s) < 2:
+        """Frames a second before the last frame."""
+        return self._fps(self._times_s[-1]) if self._times_s else 0.0
+
+    def _fps(self, now_s: float) -> float:
+        """Frames a second, lately; 0 where none came."""
+        lately = [each for each in self._times_s if each > now_s - LATELY_S]
+        if len(lately) < 2:
             return 0.0
-        lately = [each for each in self._times_s if each > self._times_s[-1] - LATELY_S]
         span = lately[-1] - lately[0]
         return (len(lately) - 1) / span if span > 0 else 0.0
 

@@ -174,4 +174,6 @@ class LevenbergMarquardtRegressor(RegressorMixin, BaseEstimator):
 
 def _spread(values: np.ndarray) -> np.ndarray:
     spread = values.std(axis=0)
-    return np.where(spread > 0, spread, 1.0)
+    # of equal values it is rounding, and what is divided by that is huge
+    rounding = len(values) * np.finfo(np.float64).eps * np.abs(values).max(axis=0, initial=0.0)
+    return np.where(spread > rounding, spread, 1.0)

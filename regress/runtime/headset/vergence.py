@@ -8,6 +8,12 @@ import numpy as np
 WIDEST_VERGENCE_DEG = 34.0
 """Between both lines of sight: eyes 62 mm apart that look at a spot 10 cm away."""
 
+READING_DEG = 12.0
+"""The same of a page 30 cm away: nearer looks are not believed of one eye alone, as of one that is shut."""
+
+_ALONE = 0.9
+"""Share of the error from which an eye says nothing of how near a look is."""
+
 
 def meeting(gaze_deg: np.ndarray, variance: np.ndarray) -> np.ndarray:
     """Gaze (n, 2, 2) whose lines of sight meet.
@@ -29,7 +35,8 @@ def meeting(gaze_deg: np.ndarray, variance: np.ndarray) -> np.ndarray:
     left, right = gaze[both, 0], gaze[both, 1]
     off_left, off_right = shares[both].T
     vergence = right[:, 0] - left[:, 0]
-    wrong = vergence - np.clip(vergence, 0, WIDEST_VERGENCE_DEG)
+    alone = np.clip((np.maximum(off_left, off_right) - 0.5) / (_ALONE - 0.5), 0, 1)
+    wrong = vergence - np.clip(vergence, 0, WIDEST_VERGENCE_DEG + alone * (READING_DEG - WIDEST_VERGENCE_DEG))
     yaw = [left[:, 0] + wrong * off_left, right[:, 0] - wrong * off_right]
     # who is off by more counts by less
     pitch = left[:, 1] * off_right + right[:, 1] * off_left

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.vergence import WIDEST_VERGENCE_DEG, meeting
+from regress.runtime.headset.vergence import READING_DEG, WIDEST_VERGENCE_DEG, meeting
 
 angles = st.floats(-60, 60)
 errors = st.floats(0.1, 30)
@@ -24,7 +24,7 @@ def test_lines_of_sight_meet_and_a_second_time_changes_nothing(
     moved = np.abs(met - gaze)[0].max(axis=1)
     # of the two, the surer eye gives way by less
     assert (moved[0] - moved[1]) * (off - other_off) >= -1e-9
-    if 0 <= other_yaw - yaw <= WIDEST_VERGENCE_DEG:
+    if 0 <= other_yaw - yaw <= READING_DEG:
         np.testing.assert_array_equal(met[0, :, 0], gaze[0, :, 0])
 
 
@@ -39,3 +39,11 @@ def test_an_eye_by_itself_stays_as_it_is():
     met = meeting(gaze, np.array([1.0, 1.0]))
     np.testing.assert_array_equal(met[0], gaze[0])
     np.testing.assert_allclose(met[1], [[0.0, 2.0], [0.0, 2.0]])
+
+
+def test_a_shut_eye_does_not_squint():
+    """What is guessed of it leads to no nearer look than to a page."""
+    for guess in (-30.0, 12.0, 30.0):
+        met = meeting(np.array([[[0.0, 0.0], [guess, 0.0]]]), np.array([1.0, 401.0]))
+        assert abs(met[0, 0, 0]) < 0.1
+        assert -1e-9 <= met[0, 1, 0] - met[0, 0, 0] <= READING_DEG + 1e-9

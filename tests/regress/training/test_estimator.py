@@ -78,3 +78,12 @@ def test_no_strength_at_all_bears_columns_that_say_nothing_new(copies: str):
     network = LevenbergMarquardtRegressor(hidden=8, alpha=(0.0, 1.0))
     network.fit(inputs[:300], targets[:300])
     assert np.corrcoef(network.predict(inputs[300:]).ravel(), targets[300:].ravel())[0, 1] > 0.9
+
+
+def test_a_column_of_equal_values_counts_for_nothing():
+    """Their spread is rounding, 1e-17 of .1 in a thousand rows: what is divided by it saturates every unit."""
+    rng = np.random.default_rng(0)
+    inputs = np.column_stack([rng.normal(size=300), np.full(300, 0.1)])
+    model = LevenbergMarquardtRegressor(hidden=3).fit(inputs, inputs[:, :1] ** 2)
+    moved = inputs + np.array([0.0, 0.1])
+    np.testing.assert_allclose(model.predict(moved), model.predict(inputs), atol=0.2)

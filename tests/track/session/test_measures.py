@@ -19,3 +19,4 @@ def test_figures_are_of_the_last_frames_and_reckoned_a_few_times_a_second(monkey
     assert max(asked) == REMEMBERED
     assert len(asked) <= 4 * REMEMBERED / 120 / SHOWN_EVERY_S + 1
     assert found.latency_ms()["p95"] == 100.0
+    assert found.shown(4 * REMEMBERED / 120 + 10)[0] == 0.0  # the cameras are away

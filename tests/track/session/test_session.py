@@ -162,6 +162,21 @@ def test_one_look_is_straight_ahead_from_then_on():
     np.testing.assert_allclose(answer.weights[LOOKS], look_weights(np.array([0.3, 0, 0.3, 0])), atol=1e-9)
 
 
+@pytest.mark.parametrize("fps", [10, 30, 120, 200])
+def test_a_blink_within_the_look_is_not_straight_ahead(fps: int):
+    """Through lids that are shut for .2 s the gaze reads down, at any frame rate."""
+    stored: list[Profile] = []
+    session = new_session(filter_name="none", keep=stored.append)
+    session.pipeline.stages = {"given": Given()}
+    looking = replace(frames(0, 1)[0], weights=np.zeros(52), gaze=np.zeros(4))
+    session.ask(Command(verb="recentre"))
+    for row in range(fps):
+        time_s = row / fps
+        gaze = np.array([0.0, -0.5, 0.0, -0.5]) if time_s < 0.2 else np.zeros(4)
+        session.answer(replace(looking, time_s=time_s, gaze=gaze))
+    np.testing.assert_allclose(stored[-1].gaze, 0, atol=1e-12)
+
+
 angles = st.tuples(*[st.floats(-0.7, 0.7)] * 3).map(np.array)
 
 
