@@ -7,6 +7,7 @@ from enum import Enum
 
 import numpy as np
 
+from regress.runtime.headset.halves import half_of
 from regress.runtime.sample import Sample
 from track.sources.backlog import LONGEST_S, of_one_moment
 from track.sources.camera import PAUSES_S, Camera, Opener
@@ -44,6 +45,9 @@ class Capture:
     ----------
     openers
         What opens each camera, by the camera's name.
+    halves
+        Cameras of the samples that are halves of these cameras' pictures, by name: of which camera, and which half. All
+        cameras as they are, without.
     pauses_s
         As `track.sources.camera.PAUSES_S`.
 
@@ -64,7 +68,13 @@ class Capture:
         How long all films last; None where one has no end, or does not say when.
     """
 
-    def __init__(self, openers: Mapping[str, Opener], *, pauses_s: tuple[float, ...] = PAUSES_S) -> None:
+    def __init__(
+        self,
+        openers: Mapping[str, Opener],
+        *,
+        halves: Mapping[str, tuple[str, str]] | None = None,
+        pauses_s: tuple[float, ...] = PAUSES_S,
+    ) -> None:
         self._news = threading.Condition()
         self._cameras: dict[str, Camera] = {}
         try:
@@ -73,7 +83,9 @@ class Capture:
         except BaseException:
             self.close()
             raise
-        self.titles = {name: camera.title for name, camera in self._cameras.items()}
+        self._halves = dict(halves or {name: (name, "") for name in openers})
+        self._seen: dict[str, tuple[np.ndarray, np.ndarray]] = {}
+        self.titles = {name: self._cameras[whole].title for name, (whole, _) in self._halves.items()}
         self.live = any(camera.live for camera in self._cameras.values())
         lengths_s = [camera.length_s for camera in self._cameras.values()]
         self.length_s = None if None in lengths_s else max(lengths_s, default=None)
@@ -205,9 +217,9 @@ class Capture:
         self._last_s = max(now_s, self._last_s + _LEAST_S)
         self._count += 1
         pictures, faults = {}, {}
-        for name, camera in self._cameras.items():
-            fault = taken[name].fault if name in taken else camera.trouble()
-            latest = self._latest.get(name)
+        for name, (whole, half) in self._halves.items():
+            camera, latest = self._cameras[whole], self._latest.get(whole)
+            fault = taken[whole].fault if whole in taken else camera.trouble()
             late_s = _patience_s(camera.waiting.step_s, LATE_S)
             late = taken and latest and newest_s - latest.time_s > late_s
             if fault is None and late and not camera.ended:
@@ -215,7 +227,7 @@ class Capture:
             if fault is not None:
                 faults[name] = fault
             if taken and latest and not late and latest.pixels is not None and _usable(fault):
-                pictures[name] = latest.pixels
+                pictures[name] = self._half(name, latest.pixels, half)
         points = next((each for each in taken.values() if each.points is not None), None)
         return Sample(
             label=str(self._count),
@@ -225,6 +237,12 @@ class Capture:
             irises=None if points is None else points.irises,
             faults=faults,
         )
+
+    def _half(self, name: str, pixels: np.ndarray, half: str) -> np.ndarray:
+        """A camera's part of a picture: the same array for the same picture."""
+        if name not in self._seen or self._seen[name][0] is not pixels:
+            self._seen[name] = pixels, half_of(pixels, half)
+        return self._seen[name][1]
 
 
 def _patience_s(step_s: float, usual_s: float) -> float:

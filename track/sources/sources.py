@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from regress.runtime.headset.halves import split_half
 from track.errors import CameraError
 from track.sources.addresses import AddressSource, is_address
 from track.sources.capture import Capture
@@ -106,14 +107,22 @@ def open_source(text: str, pace: Pace | None = None) -> Source:
 def open_capture(texts: Mapping[str, str], pace: Pace | None = None) -> Capture:
     """Open several cameras by their names, each from what a text names, and begin to read them.
 
+    ``0#left`` is the left half of camera 0's pictures.
+
     Raises
     ------
     CameraError
         Where one cannot be opened.
     """
-    folders = [Path(text) for text in texts.values() if _kind_of(text) is SOURCES["folder"]]
+    # two cameras may be halves of one source, which is opened once
+    halves = {
+        name: (text, "") if _there(text, Path.exists) else split_half(text) for name, text in texts.items()
+    }
+    folders = [Path(text) for text, _ in halves.values() if _kind_of(text) is SOURCES["folder"]]
     pace = replace(pace or Pace(), numbers=shared_numbers(folders))
-    return Capture({name: _opener(text, pace) for name, text in texts.items()})
+    if not any(half for _, half in halves.values()):
+        return Capture({name: _opener(text, pace) for name, text in texts.items()})
+    return Capture({text: _opener(text, pace) for text, _ in halves.values()}, halves=halves)
 
 
 def _kind_of(text: str) -> SourceKind:

@@ -28,6 +28,9 @@ _SAME_PICTURES = 0.97
 _COMPARED, _COMPARED_PX = 32, 160
 """Frames that are compared for it, and pixels of their longer side: all of a minute's take tens of gigabytes."""
 
+_BOTH = 1.8
+"""Width over height from which a picture may be two, side by side."""
+
 _PLACES = (Misfit.MIRRORED, Misfit.UPSIDE_DOWN, Misfit.SIDEWAYS, Misfit.PLACED, Misfit.LOST)
 """What a placement makes good."""
 
@@ -164,7 +167,7 @@ def _told_apart(judged: list[CameraFitness], footage: Mapping[str, np.ndarray]) 
         if same or both:
             misfit = Misfit.OTHER if same else Misfit.EXCHANGED
             text = (
-                f"{name} and {partner} show the same eye: one is of the other eye; check the paths and the cables"
+                _same_eye(name, partner, footage[name])
                 if same
                 else f"{name} and {partner} are exchanged, or both mirrored; exchange their paths, or take --placement "
                 "where the pictures are mirrored: of exchanged cables it would turn gaze to the wrong side"
@@ -175,6 +178,16 @@ def _told_apart(judged: list[CameraFitness], footage: Mapping[str, np.ndarray]) 
                     each, findings=(Finding(camera=each.camera, misfit=misfit, sentence=text), *kept)
                 )
     return list(by_name.values())
+
+
+def _same_eye(name: str, partner: str, pictures: np.ndarray) -> str:
+    height, width = pictures.shape[1:]
+    if width >= _BOTH * height:
+        return (
+            f"{name} and {partner} show the same wide picture: if it has both eyes side by side, put #left behind one "
+            "path and #right behind the other"
+        )
+    return f"{name} and {partner} show the same eye: one is of the other eye; check the paths and the cables"
 
 
 def _small(pictures: np.ndarray) -> np.ndarray:

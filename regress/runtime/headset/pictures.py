@@ -11,6 +11,7 @@ from facegen.formats import FormatError
 from facegen.formats.picture_size import MOST_PIXELS, picture_size
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault, picture_fault
+from regress.runtime.headset.halves import half_of
 from regress.runtime.headset.placement import CameraPlacement
 
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
@@ -52,11 +53,14 @@ def read_picture(
     height: int,
     bits: int | None = None,
     placement: CameraPlacement | None = None,
+    half: str = "",
 ) -> FittedPicture:
     """Read a picture in grey and bring it to a size; a file that is no picture is a fault of it.
 
     Parameters
     ----------
+    half
+        Which half of it counts, as ``half_of`` takes it.
     bits
         How many of its 16 bits the camera uses, where the picture has so many: files do not say.
     placement
@@ -73,7 +77,7 @@ def read_picture(
         return FittedPicture(picture=np.zeros((height, width), dtype=np.uint8), fault=grey, scaled_from=None)
     if grey.dtype != np.uint8:
         grey = _eight_bits(grey, path, bits)
-    return fit_picture(grey, width=width, height=height, placement=placement)
+    return fit_picture(half_of(grey, half), width=width, height=height, placement=placement)
 
 
 def decoded(path: Path) -> np.ndarray | Fault:

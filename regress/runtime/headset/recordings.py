@@ -1,5 +1,6 @@
 """One camera's pictures from a folder, a film or a dataset's renders, at the size that a network takes."""
 
+import os
 import stat
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from regress.errors import InputError
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.film_frames import Film
 from regress.runtime.headset.frame_names import frame_names
+from regress.runtime.headset.halves import half_of, half_size, split_half
 from regress.runtime.headset.pictures import (
     PICTURES,
     FittedPicture,
@@ -89,7 +91,8 @@ def read_recording(
 ) -> Recording:
     """Read a folder of pictures or a film, in grey, scaled where only the size differs.
 
-    All of it is held in memory: 28 kB a frame of three 96 x 96 views, 50 MB a minute.
+    ``take/both#left`` is the left half of each picture, where one camera shows both eyes. All of it is held in memory:
+    28 kB a frame of three 96 x 96 views, 50 MB a minute.
 
     Parameters
     ----------
@@ -105,6 +108,7 @@ def read_recording(
     InputError
         Where the path is missing, is no folder or film, holds no pictures or too many; see ``read_picture``.
     """
+    path, half = _without_half(path)
     try:
         kind = path.stat().st_mode
     except (FileNotFoundError, NotADirectoryError):
@@ -114,10 +118,10 @@ def read_recording(
     except OSError as error:
         raise unreadable(path, error) from None
     if stat.S_ISDIR(kind):
-        return _read_folder(path, camera, (width, height), bits, placement, choose)
+        return _read_folder(path, camera, (width, height), bits, placement, choose, half)
     if not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS:
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
-    return _read_film(path, camera, (width, height), placement, choose)
+    return _read_film(path, camera, (width, height), placement, choose, half)
 
 
 def _read_folder(
@@ -127,6 +131,7 @@ def _read_folder(
     bits: int | None,
     placement: CameraPlacement | None,
     choose: Callable[[int], np.ndarray] | None,
+    half: str,
 ) -> Recording:
     files = _pictures_in(path)
     if not files:
@@ -137,7 +142,8 @@ def _read_folder(
     width, height = size
     stack = _Stack(len(rows), size)
     for row in rows:
-        stack.add(read_picture(names.files[row], width=width, height=height, bits=bits, placement=placement))
+        file = names.files[row]
+        stack.add(read_picture(file, width=width, height=height, bits=bits, placement=placement, half=half))
     note = f"names do not count frames ({names.odd.name} among them); counted from 0" if names.odd else ""
     return stack.recording(
         camera,
@@ -156,6 +162,7 @@ def _read_film(
     size: tuple[int, int],
     placement: CameraPlacement | None,
     choose: Callable[[int], np.ndarray] | None,
+    half: str,
 ) -> Recording:
     width, height = size
     numbers, times = [], []
@@ -164,7 +171,7 @@ def _read_film(
         chosen = None if choose is None else set(choose(film.length or MOST_FRAMES).tolist())
         stack = _Stack(min(film.length, _EXPECTED) if choose is None else len(chosen), size)
         for frame in film.frames(chosen):
-            stack.add(fit_picture(frame.grey, width=width, height=height, placement=placement))
+            stack.add(fit_picture(half_of(frame.grey, half), width=width, height=height, placement=placement))
             _check_count(len(stack.faults), path)
             numbers.append(frame.number)
             times.append(frame.time_s)
@@ -191,13 +198,14 @@ def _of_address(path: Path) -> str:
 
 
 def recorded_size(path: Path) -> tuple[int, int]:
-    """Width and height of most of a folder's pictures that can be read, or of a film.
+    """Width and height of most of a folder's pictures that can be read, or of a film; of their halves.
 
     Raises
     ------
     InputError
         Where there is none.
     """
+    path, half = _without_half(path)
     if path.is_dir():
         files = sorted(_pictures_in(path))
         rows = np.linspace(0, len(files) - 1, min(len(files), _LOOKED_AT)).round().astype(int)
@@ -205,7 +213,7 @@ def recorded_size(path: Path) -> tuple[int, int]:
         sizes = sizes or [size for size in islice(filter(None, map(_size_of, files)), 1)]
         if not sizes:
             raise InputError(f"{path} has no picture that can be read")
-        return max(sizes, key=sizes.count)
+        return half_size(max(sizes, key=sizes.count), half)
     if not path.exists():
         raise InputError(
             f"{path} does not exist; a folder of pictures or a film is needed{_of_address(path)}"
@@ -214,7 +222,13 @@ def recorded_size(path: Path) -> tuple[int, int]:
         width, height = film.size
     if width < 1 or height < 1:
         raise InputError(f"{path} cannot be read as a film")
-    return width, height
+    return half_size((width, height), half)
+
+
+def _without_half(path: Path) -> tuple[Path, str]:
+    """A path, and the half of its pictures that stands behind it; a folder whose name ends so is whole."""
+    whole, half = split_half(os.fspath(path))
+    return (path, "") if path.exists() else (Path(whole), half)
 
 
 def _size_of(file: Path) -> tuple[int, int] | None:
