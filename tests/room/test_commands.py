@@ -275,3 +275,4 @@ async def _visit(link: str, certificate: Path) -> None:
         async with session.ws_connect(f"{address}/socket", ssl=trusted) as line:
             await line.send_json(join)
             assert (await line.receive_json())["kind"] == "welcome"
+    await asyncio.sleep(0.25)  # aiohttp does not wait until transports of TLS have ended

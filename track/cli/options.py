@@ -11,7 +11,7 @@ CameraOption = Annotated[
         "--camera",
         metavar="[NAME=]SOURCE",
         help="A webcam's number or name, a film, a folder of pictures, an address (http://, rtsp://), or - for lines "
-        "of 68 points. Of a headset one for each camera, with the camera's name: left_eye=0, or left_eye=0#left where one "
+        "of 68 points. Of a headset one for each camera, with the camera's name: left_eye=0, or 0#left where one "
         "camera shows both eyes. Camera 0 without.",
     ),
 ]
