@@ -66,11 +66,11 @@ class KnownDetector(DetectorNoise):
 
     detector: str
 
-    def staying(self, rng: np.random.Generator, count: int) -> np.ndarray:
+    def draw_bias_offsets(self, rng: np.random.Generator, count: int) -> np.ndarray:
         """What stays on each of ``count`` faces (count, 68, 2)."""
         return self.bias * draw_bias(rng, count, apart=detectors()[self.detector].staying)
 
-    def passing(self, rng: np.random.Generator, count: int) -> np.ndarray:
+    def draw_drift_offsets(self, rng: np.random.Generator, count: int) -> np.ndarray:
         """What one frame of each has besides jitter (count, 68, 2)."""
         return self.drift * draw_bias(rng, count, apart=detectors()[self.detector].passing)
 

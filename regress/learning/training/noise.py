@@ -65,11 +65,11 @@ class DetectorNoise:
     movement: float = 1.0
     copies: int = 1
 
-    def staying(self, rng: np.random.Generator, count: int) -> np.ndarray:
+    def draw_bias_offsets(self, rng: np.random.Generator, count: int) -> np.ndarray:
         """What stays on each of ``count`` faces (count, 68, 2), outer-eye distances."""
         return self.bias * draw_bias(rng, count)
 
-    def passing(self, rng: np.random.Generator, count: int) -> np.ndarray:
+    def draw_drift_offsets(self, rng: np.random.Generator, count: int) -> np.ndarray:
         """What one frame of each has besides jitter (count, 68, 2)."""
         return self.drift * draw_bias(rng, count)
 
@@ -113,7 +113,7 @@ def draw_displacements(
     """
     kind = rng.random((count, 1, 1))
     moved, biased = kind >= noise.clean, kind >= noise.clean + noise.unbiased
-    bias = biased * noise.staying(rng, count)
+    bias = biased * noise.draw_bias_offsets(rng, count)
     jitter = noise.jitter
     if noise.jitter_most is not None:
         jitter = np.exp(rng.uniform(np.log(noise.jitter), np.log(noise.jitter_most), (count, 1, 1)))
@@ -121,11 +121,11 @@ def draw_displacements(
     quiet = np.ones((LANDMARK_COUNT, 1))
     quiet[list(_EYES)] = noise.eyes
 
-    def passing() -> np.ndarray:
-        drift = biased * noise.passing(rng, count)
+    def draw_passing() -> np.ndarray:
+        drift = biased * noise.draw_drift_offsets(rng, count)
         return drift + moved * quiet * jitter * rng.standard_normal(bias.shape)
 
-    return bias + passing(), bias + passing()
+    return bias + draw_passing(), bias + draw_passing()
 
 
 def displace(points: np.ndarray, offsets: np.ndarray) -> np.ndarray:
