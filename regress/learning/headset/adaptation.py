@@ -180,18 +180,18 @@ def judge(heads: Heads, frames: KnownFrames) -> HeldOut:
     for pair in _pairs():
         design, _ = heads.design(pair, every)
         gram = design @ design.T
-        said, true, known = (
+        predicted, true, known = (
             np.concatenate([table[:, one] for one in pair])
             for table in (heads.weights, frames.weights, frames.known)
         )
         fold = np.tile(frames.fold, len(pair))
-        before += float(((said - true)[known] ** 2).sum())
+        before += float(((predicted - true)[known] ** 2).sum())
         for number in np.unique(fold[known]):
             held, fit = (np.flatnonzero(known & chosen) for chosen in (fold == number, fold != number))
             across, inner = gram[np.ix_(held, fit)], gram[np.ix_(fit, fit)]
             for column, pull in enumerate(PULLS):
-                moved = across @ np.linalg.solve(inner + pull * np.eye(len(fit)), (true - said)[fit])
-                after[column] += ((np.clip(said[held] + moved, 0, 1) - true[held]) ** 2).sum()
+                moved = across @ np.linalg.solve(inner + pull * np.eye(len(fit)), (true - predicted)[fit])
+                after[column] += ((np.clip(predicted[held] + moved, 0, 1) - true[held]) ** 2).sum()
     best, count = int(np.argmin(after)), max(int(frames.known.sum()), 1)
     return HeldOut(
         before=float(np.sqrt(before / count)), after=float(np.sqrt(after[best] / count)), pull=PULLS[best]
