@@ -69,7 +69,7 @@ class Section:
     components: PageTable
     people: PageTable
     histogram: Markup
-    honesty: str
+    variance_calibration: str
     rivals: tuple[tuple[str, tuple[tuple[str, PageTable], ...]], ...]
     worst: tuple[tuple[WorstFrame, tuple[tuple[str, Markup], ...], tuple[tuple[str, Markup], ...]], ...]
 
@@ -176,7 +176,7 @@ def _section(judged: Judged, name: str) -> Section:
         components=components_table(figures),
         people=people_table(figures),
         histogram=Markup(histogram(errors, "error in mm, no neutral picture")),
-        honesty=_deviation(figures),
+        variance_calibration=_deviation(figures),
         rivals=rivals,
         worst=tuple(
             (
