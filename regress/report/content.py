@@ -10,6 +10,13 @@ SEEN_R2, PARTLY_R2 = 0.7, 0.3
 """Where a reader may trust a shape, and where it is no better than a hint."""
 
 
+def grade(r2: float) -> str:
+    """``"seen"``, ``"partly"`` or ``"hidden"``, by an R2; ``"unmoved"`` without one: also a cell's class."""
+    if np.isnan(r2):
+        return "unmoved"
+    return "seen" if r2 >= SEEN_R2 else "partly" if r2 >= PARTLY_R2 else "hidden"
+
+
 @dataclass(frozen=True, kw_only=True)
 class Figures:
     """How well one method gives one shape, on the test split.
@@ -46,12 +53,8 @@ class ShapeScores:
 
     @property
     def grade(self) -> str:
-        """``"seen"``, ``"partly"`` or ``"hidden"``, by the network's R2; ``"unmoved"`` without one."""
-        if np.isnan(self.network.r2):
-            return "unmoved"
-        if self.network.r2 >= SEEN_R2:
-            return "seen"
-        return "partly" if self.network.r2 >= PARTLY_R2 else "hidden"
+        """The `grade` of the network's R2."""
+        return grade(self.network.r2)
 
 
 @dataclass(frozen=True, kw_only=True)

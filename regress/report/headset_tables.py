@@ -9,7 +9,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES
 from regress.learning.headset.comparison import Rivalry
 from regress.report.axes import figure
-from regress.report.content import PARTLY_R2, SEEN_R2
+from regress.report.content import grade
 from regress.report.people_curve import CurvePoint
 from regress.runtime.headset.figures import Evaluation, Summary
 from regress.runtime.headset.model import Temporal
@@ -178,8 +178,8 @@ def cell(value: float | None) -> Cell:
 
 def r2_cell(value: float | None) -> Cell:
     """The same, shaded by how well a shape is seen."""
-    grade = "" if value is None else "seen" if value >= SEEN_R2 else "partly" if value >= PARTLY_R2 else ""
-    return Cell(text=cell(value).text, shade=grade)
+    shade = "" if value is None else grade(value)
+    return Cell(text=cell(value).text, shade=shade if shade in ("seen", "partly") else "")
 
 
 def percent(share: float, *, signed: bool = False) -> str:

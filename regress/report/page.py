@@ -6,8 +6,8 @@ from markupsafe import Markup
 from regress.report.axes import figure
 from regress.report.bars import score_bars
 from regress.report.charts import error_range, learning_curves, regression_panel, small_curves
-from regress.report.content import PARTLY_R2, SEEN_R2, ReportContent, ShapeScores
-from regress.report.probed import Probed, grade
+from regress.report.content import PARTLY_R2, SEEN_R2, ReportContent, ShapeScores, grade
+from regress.report.probed import Probed
 from regress.report.template import rendered
 
 

@@ -15,7 +15,6 @@ from regress.learning.probes.people import PersonErrors
 from regress.learning.probes.poses import PITCH_DEG, WITHIN_DEG, YAW_DEG, PoseErrors
 from regress.learning.probes.stillness import JITTER_PERCENT, Stillness
 from regress.learning.probes.winks import SHUT, Winks
-from regress.report.content import PARTLY_R2, SEEN_R2
 from regress.report.head import head_image
 from regress.report.heatmap import leak_map, pose_map
 from regress.report.histogram import histogram
@@ -169,13 +168,6 @@ def _drawn(example: Example) -> DrawnExample:
         true=head_image(example.true, f"{person}: true weights"),
         readings=tuple(map(reading, example.readings)),
     )
-
-
-def grade(r2: float) -> str:
-    """``"seen"``, ``"partly"``, ``"hidden"`` or ``"unmoved"``: the class of a table's cell."""
-    if np.isnan(r2):
-        return "unmoved"
-    return "seen" if r2 >= SEEN_R2 else "partly" if r2 >= PARTLY_R2 else "hidden"
 
 
 def _title(calibrated: bool) -> str:
