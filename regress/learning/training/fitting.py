@@ -94,16 +94,16 @@ def fit_networks(prepared: Prepared, recipe: Recipe, *, seed: int, progress: Pro
         """What comes of one alpha on some rows."""
         alphas = np.full(len(NETWORKS), alpha)
         start = _start(searched, prepared.rotation, layout, recipe, alpha, seed)
-        stage = _Stage(progress, f"alpha {alpha:g}", brief.steps)
-        return _fit_groups(layout, few, (held,), start, alphas, brief, stage)
+        counter = _StepCounter(progress, f"alpha {alpha:g}", brief.steps)
+        return _fit_groups(layout, few, (held,), start, alphas, brief, counter)
 
     with threadpool_limits(limits=1, user_api="blas"):
         if recipe.strengths == "evidence":
             tried = ()
             start = _start(searched, prepared.rotation, layout, recipe, _FIRST_STRENGTH, seed)
-            stage = _Stage(progress, "evidence", EVIDENCE_ROUNDS * EVIDENCE_STEPS + brief.steps)
+            counter = _StepCounter(progress, "evidence", EVIDENCE_ROUNDS * EVIDENCE_STEPS + brief.steps)
             alphas = np.full(len(NETWORKS), _FIRST_STRENGTH)
-            fits = _fit_groups(layout, few, (held,), start, alphas, brief, stage, evidence=True)
+            fits = _fit_groups(layout, few, (held,), start, alphas, brief, counter, evidence=True)
             errors = np.empty((0, len(NETWORKS)))
             start = _gathered(result.parameters for result in fits)
             alphas = _gathered(result.alpha for result in fits)
@@ -115,8 +115,8 @@ def fit_networks(prepared: Prepared, recipe: Recipe, *, seed: int, progress: Pro
             start = np.stack([_gathered(result.parameters for result in trial) for trial in trials])
             start = start[best, np.arange(len(NETWORKS))]
             alphas = np.array(tried)[best]
-        stage = _Stage(progress, "all rows", settings.steps)
-        results = _fit_groups(layout, train.network_rows(), (held, watched), start, alphas, settings, stage)
+        counter = _StepCounter(progress, "all rows", settings.steps)
+        results = _fit_groups(layout, train.network_rows(), (held, watched), start, alphas, settings, counter)
     return Fit(
         layout=layout,
         parameters=_gathered(result.parameters for result in results),
@@ -162,7 +162,7 @@ def _fit_groups(
     start: np.ndarray,
     alphas: np.ndarray,
     settings: Settings,
-    stage: "_Stage",
+    counter: "_StepCounter",
     *,
     evidence: bool = False,
 ) -> tuple[Result, ...]:
@@ -177,14 +177,14 @@ def _fit_groups(
         )
         taken = 0
 
-        def step(number: int, going: int) -> None:
+        def count(number: int, going: int) -> None:
             nonlocal taken
             taken += 1  # of all rounds, where the evidence chooses
-            stage.step(number, going)
+            counter.count_step()
 
         solve = minimise_with_evidence if evidence else minimise
-        result = solve(problem, start[group], alphas[group], settings, on_step=step)
-        stage.finish(taken)
+        result = solve(problem, start[group], alphas[group], settings, on_step=count)
+        counter.finish(taken)
         return result
 
     # Matrix products release Python's lock, so threads suffice; OpenBLAS itself keeps to one thread each.
@@ -192,7 +192,7 @@ def _fit_groups(
         try:
             return tuple(threads.map(fit, _GROUPS))
         except BaseException:
-            stage.stop()  # Ctrl-C arrives in this thread alone: the others stop at their next step
+            counter.stop()  # Ctrl-C arrives in this thread alone: the others stop at their next step
             raise
 
 
@@ -201,7 +201,7 @@ def _gathered(values: Iterable[np.ndarray]) -> np.ndarray:
     return np.concatenate(list(values))[np.argsort(np.concatenate(_GROUPS))]
 
 
-class _Stage:
+class _StepCounter:
     """Counts the steps of all groups of one stage, and tells them to stop."""
 
     def __init__(self, progress: Progress | None, name: str, steps: int) -> None:
@@ -215,7 +215,14 @@ class _Stage:
         with self._lock:
             self._stopped = True
 
-    def step(self, number: int, going: int) -> None:
+    def count_step(self) -> None:
+        """Count a group's step.
+
+        Raises
+        ------
+        Interrupted
+            Where the groups were stopped.
+        """
         if self._stopped:
             raise Interrupted("training was stopped; no model was written")
         self._advance(1)
