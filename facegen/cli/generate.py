@@ -60,13 +60,13 @@ def generate(
     Example: facegen generate datasets/tiny.toml --out datasets/out/tiny
     """
     from facegen.spec import load_spec
-    from facegen.store import begin, check_place, resolve
+    from facegen.store import begin, check_folder_is_free, resolve
     from facegen.work import Limits, plan_work
     from facegen.work import generate as make
 
     dataset = resolve(load_spec(spec), out)
     if dry_run:
-        check_place(dataset)  # else `begin` does
+        check_folder_is_free(dataset)  # else `begin` does
     shards = "" if shards == "none" else shards
     work = plan_work(dataset, samples, shards=shards, retry_quarantined=retry_quarantined)
     if dry_run:

@@ -37,7 +37,7 @@ _FROM_SHARDS = ("sample", "person", "session", "clip", "frame", "time_s", "split
 
 def array_parts(dataset: Dataset, samples: Sequence[int], options: Options) -> list[PackFile]:
     """One file a camera, and three of what goes with them; the face is one rig's, so several are refused here."""
-    _ = dataset.rig
+    dataset.check_one_rig()
     pictures = [
         PackFile(name=f"{view}.npy", samples=samples, view=view) for view in chosen_views(dataset, options)
     ]
@@ -122,14 +122,14 @@ def _write_pictures(dataset: Dataset, part: PackFile, path: Path) -> None:
         header = {"descr": "|u1", "fortran_order": False, "shape": (len(part.samples), *shape)}
         np.lib.format.write_array_header_1_0(file, header)
         for sample in read_rendered(dataset, part.samples, [f"{part.view}.png"]):
-            path = f"{dataset.folder.render(sample.number) / part.view}.png"
+            source = f"{dataset.folder.render(sample.number) / part.view}.png"
             advice = "run facegen validate --repair, then facegen generate"
             try:
-                picture = parse_png(sample.pictures[f"{part.view}.png"], where=path)
+                picture = parse_png(sample.pictures[f"{part.view}.png"], where=source)
             except FormatError as error:
                 raise InvalidData(f"{error}; {advice}") from None
             if picture.shape != shape:
-                raise InvalidData(f"{path}: is no picture of {shape[1]} x {shape[0]} pixels; {advice}")
+                raise InvalidData(f"{source}: is no picture of {shape[1]} x {shape[0]} pixels; {advice}")
             file.write(picture.tobytes())
 
 

@@ -1,6 +1,6 @@
 """Datasets on disk."""
 
-from facegen.store.beginning import begin, check_place
+from facegen.store.beginning import begin, check_folder_is_free
 from facegen.store.blocks import draw_block, label_block
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
@@ -32,7 +32,7 @@ __all__ = [
     "DatasetFolder",
     "Merged",
     "begin",
-    "check_place",
+    "check_folder_is_free",
     "column_array",
     "commit_file",
     "commit_folder",

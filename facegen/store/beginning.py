@@ -31,8 +31,8 @@ def _is_first(name: str) -> bool:
     return name in _FIRST_THINGS or is_litter(name)
 
 
-def check_place(dataset: Dataset) -> bool:
-    """Whether a dataset's folder holds this very one already; writes nothing.
+def check_folder_is_free(dataset: Dataset) -> None:
+    """Refuse a folder that holds anything but this very dataset; writes nothing.
 
     Raises
     ------
@@ -52,10 +52,14 @@ def check_place(dataset: Dataset) -> bool:
                 f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
                 f"with its rig and headset {dataset.hash[:12]}); choose another folder, or delete this one"
             )
-        return True
-    if others:
+    elif others:
         raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
-    return False
+
+
+def holds_dataset(dataset: Dataset) -> bool:
+    """Whether a dataset's folder holds this very one already."""
+    folder = dataset.folder
+    return os.path.lexists(folder.dataset_json) and read_description(folder)["spec_hash"] == dataset.hash
 
 
 def begin(dataset: Dataset) -> None:
@@ -72,7 +76,8 @@ def begin(dataset: Dataset) -> None:
         If the folder cannot be written.
     """
     folder = dataset.folder
-    if check_place(dataset):
+    check_folder_is_free(dataset)
+    if holds_dataset(dataset):
         _renew(dataset)
         _write_cards(dataset)
         return

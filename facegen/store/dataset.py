@@ -62,13 +62,23 @@ class Dataset:
         InputError
             If there are several.
         """
+        self.check_one_rig()
+        return self.rigs[0]
+
+    def check_one_rig(self) -> None:
+        """Refuse people of several rigs.
+
+        Raises
+        ------
+        InputError
+            If there are several.
+        """
         if len(self.rigs) > 1:
             names = ", ".join(rig.name for rig in self.rigs)
             raise InputError(
                 f"{self.folder.path}: its people are of several rigs ({names}), and this takes a dataset of one; "
                 "make one of each"
             )
-        return self.rigs[0]
 
     def rig_of(self, sample: int) -> Rig:
         """The rig of a sample's person."""
