@@ -9,6 +9,7 @@ import numpy as np
 
 from facegen.avatars.pictures import jpeg
 from facegen.avatars.surface import Material, Surface, vertex_normals
+from facegen.geometry.grids import halves, ring_quads
 from facegen.rigs import Rig
 from facegen.rigs.eyes import IRIS_RADIUS_M
 
@@ -83,9 +84,7 @@ def _ball(radius: float) -> tuple[np.ndarray, np.ndarray]:
     j = np.arange(SEGMENTS)
     k = (j + 1) % SEGMENTS
     fan = np.stack([np.zeros(SEGMENTS, int), 1 + j, 1 + k], axis=-1)
-    i = np.arange(len(rings) - 1)[:, None] * SEGMENTS + 1
-    a, b, c, d = (x.reshape(-1) for x in (i + j, i + SEGMENTS + j, i + SEGMENTS + k, i + k))
-    return positions, np.concatenate([fan, np.stack([a, b, c], -1), np.stack([a, c, d], -1)])
+    return positions, np.concatenate([fan, 1 + halves(ring_quads(len(rings), SEGMENTS))])
 
 
 def paint_eye(

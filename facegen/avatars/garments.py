@@ -7,6 +7,7 @@ from scipy import ndimage, sparse
 from scipy.spatial import cKDTree
 
 from facegen.avatars.surface import Material, Surface, trimmed, vertex_normals
+from facegen.geometry.grids import facing_back, halves, ring_quads
 
 HIDDEN_M = 18e-3
 """Skin and inner garments this far inside a garment's ends are left out; nearer to them, one could look in."""
@@ -213,16 +214,13 @@ def _shoe(foot: np.ndarray, top: float) -> np.ndarray:
 
 
 def _shoe_triangles() -> np.ndarray:
-    i, j = np.meshgrid(np.arange(SHOE_STATIONS - 1), np.arange(SHOE_AROUND), indexing="ij")
-    k = (j + 1) % SHOE_AROUND
-    a, b = (i * SHOE_AROUND + j).ravel(), (i * SHOE_AROUND + k).ravel()
-    c, d = a + SHOE_AROUND, b + SHOE_AROUND
+    sides = halves(facing_back(ring_quads(SHOE_STATIONS, SHOE_AROUND)))
     one = np.arange(SHOE_AROUND)
     other = np.roll(one, -1)
     last, rings = (SHOE_STATIONS - 1) * SHOE_AROUND, SHOE_STATIONS * SHOE_AROUND
     heel = np.stack([np.full_like(one, rings), other, one], axis=-1)
     toe = np.stack([np.full_like(one, rings + 1), last + one, last + other], axis=-1)
-    return np.concatenate([np.stack([a, b, d], axis=-1), np.stack([a, d, c], axis=-1), heel, toe])
+    return np.concatenate([sides, heel, toe])
 
 
 def _evened(positions: np.ndarray, triangles: np.ndarray, times: int) -> np.ndarray:

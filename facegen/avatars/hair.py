@@ -8,6 +8,7 @@ from facegen.avatars.pictures import png
 from facegen.avatars.skull import SKULL_M, between, direction_of, distance_at, skull_distance
 from facegen.avatars.strands import LAYERS, strand_picture
 from facegen.avatars.surface import Material, Surface, vertex_normals
+from facegen.geometry.grids import facing_back, grid_quads, halves
 
 CROWN = np.array([0.0, np.cos(np.radians(35.0)), -np.sin(np.radians(35.0))])
 """Where hair begins to part, seen from the skull's middle."""
@@ -99,10 +100,7 @@ def _shell(
         axis=-1,
     )
     shade = (0.62 + 0.38 * (layer + 1) / LAYERS) * (0.8 + 0.25 * np.clip(v, 0.0, 1.0))
-    i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
-    a = (i * columns + j).ravel()
-    b, c, d = a + columns, a + columns + 1, a + 1
-    faces = np.concatenate([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)])
+    faces = halves(grid_quads(rows, columns))
     return points.reshape(-1, 3), uv.reshape(-1, 2), np.repeat(shade, columns), faces
 
 
@@ -129,9 +127,7 @@ def _ball(place: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray, np.
     )
     points = place + radius * direction_of(around, up) * [1.0, 0.85, 0.95]
     uv = np.stack([np.abs(around / np.pi), 0.02 + 0.18 * (up / np.pi + 0.5)], axis=-1)
-    i, j = np.meshgrid(np.arange(8), np.arange(16), indexing="ij")
-    a = (i * 17 + j).ravel()
-    faces = np.concatenate([np.stack([a, a + 1, a + 18], axis=-1), np.stack([a, a + 18, a + 17], axis=-1)])
+    faces = halves(facing_back(grid_quads(*up.shape)))
     return points.reshape(-1, 3), uv.reshape(-1, 2), faces
 
 

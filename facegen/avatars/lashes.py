@@ -6,6 +6,7 @@ import numpy as np
 from facegen.avatars.pictures import png
 from facegen.avatars.shapes import FaceShapes
 from facegen.avatars.surface import Material, Surface, vertex_normals
+from facegen.geometry.grids import grid_quads, halves
 from facegen.rigs.lash_strips import lash_strips
 from facegen.scene.lashes import BARE
 
@@ -26,10 +27,7 @@ def lash_surfaces(shapes: FaceShapes, *, rng: np.random.Generator) -> list[Surfa
         # the picture's upper half is for upper lashes; roots at its lower border
         half = 0.0 if strip.lid == "upper" else 0.5
         uv.append(np.stack([along, half + 0.5 * (1.0 - out)], axis=-1).reshape(-1, 2))
-        i, j = np.meshgrid(np.arange(grid.shape[0] - 1), np.arange(grid.shape[1] - 1), indexing="ij")
-        a = start + (i * grid.shape[1] + j).ravel()
-        b, c, d = a + grid.shape[1], a + grid.shape[1] + 1, a + 1
-        triangles += [np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)]
+        triangles.append(start + halves(grid_quads(*grid.shape)))
         numbers.append(grid.ravel())
         start += grid.size
     used, faces = np.concatenate(numbers), np.concatenate(triangles)

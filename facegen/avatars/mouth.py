@@ -8,6 +8,7 @@ from facegen.avatars.shapes import FaceShapes
 from facegen.avatars.skin import part_of_face
 from facegen.avatars.surface import Material, Surface, vertex_normals
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, Part
+from facegen.geometry.grids import facing_back, grid_quads, halves, ring_quads
 from facegen.mouth.crowns import AROUND, CAP, LEVELS
 from facegen.mouth.interior import has_own_teeth, mouth_meshes
 from facegen.mouth.tongue import AROUND as AROUND_TONGUE
@@ -197,12 +198,7 @@ def _thin_tongue(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 def _grid(rows: int, columns: int, *, closed: bool) -> np.ndarray:
     """Triangles of a grid of vertices, row by row; closed ones go round."""
-    i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns - (not closed)), indexing="ij")
-    k = (j + 1) % columns
-    a, b, c, d = (
-        x.ravel() for x in (i * columns + j, i * columns + k, (i + 1) * columns + k, (i + 1) * columns + j)
-    )
-    return np.concatenate([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)])
+    return halves(facing_back(ring_quads(rows, columns) if closed else grid_quads(rows, columns)))
 
 
 def _facing(mesh: Mesh, kept: np.ndarray, triangles: np.ndarray, piece: int) -> np.ndarray:

@@ -6,6 +6,7 @@ import numpy as np
 import scipy
 
 from facegen.conventions import LANDMARK_GROUPS, Part
+from facegen.geometry.grids import ring_quads
 from facegen.rigs import Rig
 
 DEEP_M = 30e-3
@@ -52,7 +53,4 @@ def cavity_surface(landmarks: np.ndarray, scale: float) -> tuple[np.ndarray, np.
         back = np.array([0.0, 0.0, -scale * (1e-3 + LENGTH_M * share)])
         rings.append(middle + back + size * ((1.0 - blend) * (ring - middle) + blend * wide))
     vertices = np.concatenate(rings)
-    i, j = np.meshgrid(np.arange(RINGS - 1), np.arange(AROUND), indexing="ij")
-    k = (j + 1) % AROUND
-    quads = np.stack([i * AROUND + j, (i + 1) * AROUND + j, (i + 1) * AROUND + k, i * AROUND + k], axis=-1)
-    return vertices, quads.reshape(-1, 4).astype(np.int32)
+    return vertices, ring_quads(RINGS, AROUND).astype(np.int32)

@@ -18,6 +18,8 @@ from functools import lru_cache
 import numpy as np
 import scipy
 
+from facegen.geometry.grids import ring_quads
+
 AROUND = 20
 LEVELS = np.array([-0.35, 0.0, 0.1, 0.25, 0.42, 0.6, 0.75, 0.86, 0.94, 0.98, 1.0])
 """Heights of a crown's rings, 0 at the neck, 1 at the tip; those below 0 stand in the gum."""
@@ -98,14 +100,12 @@ def crown(tooth: Tooth) -> tuple[np.ndarray, np.ndarray]:
     rings += [_ring(tooth, 1.0, size, x, d) for size in CAP]
     tip = _ring(tooth, 1.0, 0.0, np.zeros(1), np.zeros(1))
     vertices = np.concatenate([*rings, tip])
-    i, j = np.meshgrid(np.arange(len(rings) - 1), np.arange(AROUND), indexing="ij")
-    k = (j + 1) % AROUND
-    quads = np.stack([i * AROUND + j, (i + 1) * AROUND + j, (i + 1) * AROUND + k, i * AROUND + k], axis=-1)
+    quads = ring_quads(len(rings), AROUND)
     last, j = (len(rings) - 1) * AROUND, np.arange(AROUND)
     fan = np.stack(
         [last + j, np.full(AROUND, len(vertices) - 1), last + (j + 1) % AROUND, np.full(AROUND, -1)], axis=-1
     )
-    return 1e-3 * vertices, np.concatenate([quads.reshape(-1, 4), fan]).astype(np.int32)
+    return 1e-3 * vertices, np.concatenate([quads, fan]).astype(np.int32)
 
 
 def neck(tooth: Tooth) -> tuple[float, float]:

@@ -7,6 +7,7 @@ gap below their contacts. The surface is one grid; teeth stand through it.
 import numpy as np
 import scipy
 
+from facegen.geometry.grids import grid_quads
 from facegen.mouth.arch import Course
 
 PER_TOOTH = 6
@@ -68,10 +69,7 @@ def gum_surface(
     grid += _middle(grid[-1], vault_m, size, arch)
     vertices = np.stack(grid)  # (rows, columns, 3)
     count, columns = vertices.shape[:2]
-    i, j = np.meshgrid(np.arange(count - 1), np.arange(columns - 1), indexing="ij")
-    a = i * columns + j
-    quads = np.stack([a, a + columns, a + columns + 1, a + 1], axis=-1)
-    return vertices.reshape(-1, 3), quads.reshape(-1, 4).astype(np.int32)
+    return vertices.reshape(-1, 3), grid_quads(count, columns).astype(np.int32)
 
 
 def _edge(necks: np.ndarray, size: float, arch: str) -> tuple[np.ndarray, ...]:

@@ -3,6 +3,8 @@
 import numpy as np
 import scipy
 
+from facegen.geometry.grids import facing_back, ring_quads
+
 ALONG, AROUND = 40, 32
 REST = np.array(
     [[-28.0, -56.0], [-10.0, -50.0], [-3.0, -39.0], [-2.5, -28.0], [-4.0, -17.0], [-5.5, -9.5], [-6.0, -5.0]]
@@ -83,14 +85,12 @@ def tongue_surface(
         [sides, middle[:-1, :1] + rise * normal[:-1, :1], middle[:-1, 1:] + rise * normal[:-1, 1:]], axis=-1
     )
     vertices = np.concatenate([rings.reshape(-1, 3), [[0.0, *middle[-1]]]])
-    i, j = np.meshgrid(np.arange(ALONG - 2), np.arange(AROUND), indexing="ij")
-    k = (j + 1) % AROUND
-    quads = np.stack([i * AROUND + j, i * AROUND + k, (i + 1) * AROUND + k, (i + 1) * AROUND + j], axis=-1)
+    quads = facing_back(ring_quads(ALONG - 1, AROUND))
     last, j = (ALONG - 2) * AROUND, np.arange(AROUND)
     fan = np.stack(
         [last + j, last + (j + 1) % AROUND, np.full(AROUND, len(vertices) - 1), np.full(AROUND, -1)], axis=-1
     )
-    return 1e-3 * vertices, np.concatenate([quads.reshape(-1, 4), fan]).astype(np.int32)
+    return 1e-3 * vertices, np.concatenate([quads, fan]).astype(np.int32)
 
 
 def _dense(line: np.ndarray, until: float, share: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, Part
 from facegen.geometry import rotation_from_angles
+from facegen.geometry.grids import halves, ring_quads
 from facegen.preview.person import Person, brow_cover, draw_person
 from facegen.raster import Nearest, faces_of_triangles, nearest_along_z, triangles_of
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
@@ -51,12 +52,8 @@ def eyeball_mesh(
     p, a = (grid.ravel()[..., None] for grid in np.meshgrid(polar, around, indexing="ij"))
     direction = np.cos(p) * axis + np.sin(p) * (np.cos(a) * right + np.sin(a) * up)
     vertices = center + lid_support_radius(direction, radius, axis)[:, None] * direction
-    i, j = np.meshgrid(np.arange(rings), np.arange(segments), indexing="ij")
-    near, far = i * segments + j, (i + 1) * segments + j
-    near_next, far_next = i * segments + (j + 1) % segments, (i + 1) * segments + (j + 1) % segments
-    first, second = np.stack([near, far, far_next], -1), np.stack([near, far_next, near_next], -1)
-    triangles = np.concatenate([first.reshape(-1, 3), second.reshape(-1, 3)])
-    iris = np.sin(polar[i.ravel() + 1]) * radius < IRIS_RADIUS_M
+    triangles = halves(ring_quads(rings + 1, segments))
+    iris = np.sin(np.repeat(polar[1:], segments)) * radius < IRIS_RADIUS_M
     part = np.where(np.concatenate([iris, iris]), Part.IRIS, Part.SCLERA)
     return vertices, triangles, part
 

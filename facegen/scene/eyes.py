@@ -3,6 +3,7 @@
 import numpy as np
 
 from facegen.conventions import Part
+from facegen.geometry.grids import ring_quads
 from facegen.rigs.eyes import EyeGeometry
 from facegen.scene.scene import Mesh
 
@@ -21,12 +22,7 @@ def _revolve(profile: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     flat = profile[:, None, :1] * circle
     vertices = np.concatenate([flat, np.broadcast_to(profile[:, None, 1:], (rows, SEGMENTS, 1))], axis=-1)
-    i, j = np.meshgrid(np.arange(rows - 1), np.arange(SEGMENTS), indexing="ij")
-    k = (j + 1) % SEGMENTS
-    quads = np.stack(
-        [i * SEGMENTS + j, (i + 1) * SEGMENTS + j, (i + 1) * SEGMENTS + k, i * SEGMENTS + k], axis=-1
-    )
-    return vertices.reshape(-1, 3), quads.reshape(-1, 4).astype(np.int32)
+    return vertices.reshape(-1, 3), ring_quads(rows, SEGMENTS).astype(np.int32)
 
 
 def _polar_uv(radius: np.ndarray) -> np.ndarray:

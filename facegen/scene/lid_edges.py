@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from facegen.conventions import SIDES, Part
+from facegen.geometry.grids import facing_back, ring_quads
 from facegen.rigs import EyeGeometry, Rig, lid_margins, lid_support_radius
 from facegen.scene.scene import Mesh
 
@@ -69,11 +70,7 @@ def _edge(
     foot *= _surface(foot, eye) - into_m
     share = np.linspace(0.0, 1.0, rows)[:, None, None]
     points = eye.center + away + share * (foot - away)
-    count = len(loop)
-    i, j = np.meshgrid(np.arange(rows - 1), np.arange(count), indexing="ij")
-    k = (j + 1) % count
-    quads = np.stack([i * count + j, i * count + k, (i + 1) * count + k, (i + 1) * count + j], axis=-1)
-    faces = quads.reshape(-1, 4).astype(np.int32)
+    faces = facing_back(ring_quads(rows, len(loop))).astype(np.int32)
     if side == SIDES[0]:
         faces = faces[:, ::-1]
     return Mesh(

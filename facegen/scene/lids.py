@@ -5,6 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 from facegen.conventions import SIDES, Part
+from facegen.geometry.grids import ring_quads
 from facegen.rigs import Rig
 from facegen.scene.scene import Mesh
 
@@ -114,14 +115,9 @@ def _caruncle(upper: np.ndarray, lower: np.ndarray, eye_center: np.ndarray, side
         + (np.sin(polar) * np.sin(turn) * uneven * half)[..., None] * across
         + (np.cos(polar) * min(CARUNCLE_M[2], half))[..., None] * outwards
     )
-    i, j = np.meshgrid(np.arange(rings - 1), np.arange(segments), indexing="ij")
-    k = (j + 1) % segments
-    quads = np.stack(
-        [i * segments + j, (i + 1) * segments + j, (i + 1) * segments + k, i * segments + k], axis=-1
-    )
+    faces = ring_quads(rings, segments).astype(np.int32)
     if np.dot(np.cross(along, across), outwards) < 0.0:
-        quads = quads[..., ::-1]
-    faces = quads.reshape(-1, 4).astype(np.int32)
+        faces = faces[:, ::-1]
     return Mesh(
         name=f"{side}_caruncle",
         vertices=points.reshape(-1, 3),
