@@ -75,6 +75,13 @@ LANDMARK_GROUPS: dict[str, range] = {
 }
 """Landmark indices (0-67, iBUG order) of each part of the face."""
 
+RIGHT_JAW_END, CHIN, LEFT_JAW_END = 0, 8, 16
+NOSE_ROOT, NOSE_TIP = 27, 30
+RIGHT_NOSE_WING, NOSE_BASE, LEFT_NOSE_WING = 31, 33, 35
+RIGHT_MOUTH_CORNER, LEFT_MOUTH_CORNER = 48, 54
+UPPER_LIP_TOP, UPPER_LIP_SEAM, LOWER_LIP_SEAM, LOWER_LIP_BOTTOM = 51, 62, 66, 57
+"""Landmarks with names of their own; those of lips lie in the middle of the outer line and of the inner one."""
+
 MIRRORED_LANDMARKS: tuple[int, ...] = (
     *(16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0),
     *(26, 25, 24, 23, 22, 21, 20, 19, 18, 17),

@@ -11,7 +11,20 @@ from facegen.avatars.haircuts import STYLES, HairStyle, in_hair
 from facegen.avatars.pictures import noise
 from facegen.avatars.shapes import FaceShapes
 from facegen.avatars.skin import OUTSIDE, chart
-from facegen.conventions import LANDMARK_GROUPS, Part
+from facegen.conventions import (
+    CHIN,
+    LANDMARK_GROUPS,
+    LEFT_MOUTH_CORNER,
+    LEFT_NOSE_WING,
+    LOWER_LIP_BOTTOM,
+    LOWER_LIP_SEAM,
+    NOSE_BASE,
+    NOSE_TIP,
+    RIGHT_MOUTH_CORNER,
+    RIGHT_NOSE_WING,
+    UPPER_LIP_SEAM,
+    Part,
+)
 from facegen.raster import nearest_triangles, triangles_of
 from facegen.raster.z_buffer import barycentric
 from facegen.rigs import Rig
@@ -106,14 +119,19 @@ def skin_tones(
 
     eyes = {"left": marks[LANDMARK_GROUPS["left_eye"]], "right": marks[LANDMARK_GROUPS["right_eye"]]}
     red, yellow, cool = (np.zeros(len(point)) for _ in range(3))
-    for eye, corner, wing in ((eyes["left"], 54, 35), (eyes["right"], 48, 31)):
+    for eye, corner, wing in (
+        (eyes["left"], LEFT_MOUTH_CORNER, LEFT_NOSE_WING),
+        (eyes["right"], RIGHT_MOUTH_CORNER, RIGHT_NOSE_WING),
+    ):
         middle = eye.mean(axis=0)
-        cheek = 0.42 * marks[corner] + 0.58 * middle + (marks[corner] - marks[57]) * [0.35, 0, 0]
+        cheek = (
+            0.42 * marks[corner] + 0.58 * middle + (marks[corner] - marks[LOWER_LIP_BOTTOM]) * [0.35, 0, 0]
+        )
         red += 0.75 * near(cheek, 15e-3, (1.0, 1.15, 0.6))
         red += 0.35 * near(marks[wing], 7e-3)
         red += 0.28 * near(middle + np.array([0, 8e-3, 0]), 11e-3, (0.8, 1.4, 0.7))
         cool += 0.45 * near(middle - [0, 15e-3, 0], 8e-3, (0.6, 1.2, 0.6))
-    red += 0.6 * near(marks[30], 9e-3) + 0.2 * near(marks[8] + [0, 8e-3, 0], 12e-3)
+    red += 0.6 * near(marks[NOSE_TIP], 9e-3) + 0.2 * near(marks[CHIN] + [0, 8e-3, 0], 12e-3)
     red += (
         0.9
         * np.clip((np.abs(point[:, 0]) - 0.066) / 0.012, 0, 1)
@@ -156,7 +174,7 @@ def _paint_lips(
     look: Complexion,
     lines: np.ndarray,
 ) -> np.ndarray:
-    seam = 0.5 * (marks[62, 1] + marks[66, 1])
+    seam = 0.5 * (marks[UPPER_LIP_SEAM, 1] + marks[LOWER_LIP_SEAM, 1])
     upper = np.clip((point[:, 1] - seam) / 2e-3 + 0.5, 0.0, 1.0)
     red = np.array(look.lips) * (1.03 - 0.09 * upper + 0.05 * lines)[:, None]
     share = np.clip(1.25 * lips - 0.1, 0.0, 1.0)[:, None] * 0.88
@@ -165,8 +183,12 @@ def _paint_lips(
 
 def _beard(point: np.ndarray, marks: np.ndarray, pores: np.ndarray) -> np.ndarray:
     """Share (n,) of shaved beard: below the nose, on chin and jaw, with stubble."""
-    below = np.clip((marks[33, 1] - 2e-3 - point[:, 1]) / 10e-3, 0, 1)
-    cheek = np.interp(np.abs(point[:, 0]), [0.02, 0.045, 0.07], [marks[33, 1], marks[48, 1] + 4e-3, -0.03])
+    below = np.clip((marks[NOSE_BASE, 1] - 2e-3 - point[:, 1]) / 10e-3, 0, 1)
+    cheek = np.interp(
+        np.abs(point[:, 0]),
+        [0.02, 0.045, 0.07],
+        [marks[NOSE_BASE, 1], marks[RIGHT_MOUTH_CORNER, 1] + 4e-3, -0.03],
+    )
     inside = np.clip((cheek - point[:, 1]) / 9e-3, 0, 1) * np.clip((point[:, 1] + 0.135) / 0.02, 0, 1)
     return below * inside * np.clip((point[:, 2] + 0.09) / 0.03, 0, 1) * (0.8 + 0.35 * pores)
 

@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 import scipy
 
-from facegen.conventions import LANDMARK_GROUPS, Part
+from facegen.conventions import LANDMARK_GROUPS, LOWER_LIP_SEAM, UPPER_LIP_SEAM, Part
 from facegen.geometry.grids import ring_quads
 from facegen.rigs import Rig
 
@@ -22,8 +22,8 @@ CORNERS_M, CHIN_M = 14e-3, 22e-3
 def has_own_cavity(rig: Rig) -> bool:
     """Whether faces of the rig's own close the mouth."""
     inside = np.setdiff1d(rig.faces[rig.part == Part.MOUTH_CAVITY], [-1])
-    lips = np.einsum("ln,lnc->lc", rig.landmark_weights, rig.vertices[rig.landmark_vertices])[62]
-    return bool(len(inside)) and bool(rig.vertices[inside, 2].min() < lips[2] - DEEP_M)
+    lip = np.einsum("ln,lnc->lc", rig.landmark_weights, rig.vertices[rig.landmark_vertices])[UPPER_LIP_SEAM]
+    return bool(len(inside)) and bool(rig.vertices[inside, 2].min() < lip[2] - DEEP_M)
 
 
 def cavity_surface(landmarks: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarray]:
@@ -42,7 +42,7 @@ def cavity_surface(landmarks: np.ndarray, scale: float) -> tuple[np.ndarray, np.
     turn = np.pi - np.arange(AROUND) * (2.0 * np.pi / AROUND)
     up = np.sin(turn)
     # measured from each lip: the mouth's middle falls when it opens, the palate does not
-    lip = np.where(up > 0.0, landmarks[62, 1], landmarks[66, 1]) - middle[1]
+    lip = np.where(up > 0.0, landmarks[UPPER_LIP_SEAM, 1], landmarks[LOWER_LIP_SEAM, 1]) - middle[1]
     height = scale * np.where(up > 0.0, UP_M, DOWN_M) * up + lip * np.abs(up)
     behind = -scale * (CORNERS_M * np.cos(turn) ** 2 + CHIN_M * np.clip(-up, 0.0, None) ** 2)
     wide = np.stack([scale * HALF_WIDTH_M * np.cos(turn), height, behind], axis=-1)

@@ -5,7 +5,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, Part
+from facegen.conventions import BLENDSHAPE_INDEX, LOWER_LIP_SEAM, UPPER_LIP_SEAM, Part
 from facegen.geometry import apply_transform
 from facegen.mouth.arch import course, crowns, half_length, necks, seats
 from facegen.mouth.cavity import cavity_surface, has_own_cavity
@@ -96,7 +96,7 @@ def _rest(rig: Rig, traits: MouthTraits, identity_bytes: bytes) -> _Rest:
     eyes = eye_centers(rig, identity[None])[0]
     scale = float(np.linalg.norm(eyes[0] - eyes[1])) / EYES_M
     size = scale * traits.size
-    seam = (points[62] + points[66]) / 2
+    seam = (points[UPPER_LIP_SEAM] + points[LOWER_LIP_SEAM]) / 2
     frame = np.eye(4)
     cosine, sine = np.cos(CANT_RAD), np.sin(CANT_RAD)
     frame[:3, :3] = np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])

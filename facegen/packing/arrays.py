@@ -13,7 +13,16 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from facegen.conventions import BLENDSHAPES, CAMERA_TERMS, LANDMARK_GROUPS, SIDES, VIEW_POINTS, Part
+from facegen.conventions import (
+    BLENDSHAPES,
+    CAMERA_TERMS,
+    CHIN,
+    LANDMARK_GROUPS,
+    NOSE_BASE,
+    SIDES,
+    VIEW_POINTS,
+    Part,
+)
 from facegen.errors import FormatError, InvalidData
 from facegen.geometry import Camera, angles_from_direction, camera_terms, invert_transform
 from facegen.packing.plan import Options, PackFile, PackFormat
@@ -28,7 +37,6 @@ ROW_GROUP = 1000
 """Rows of labels that are held in memory at a time, about 6 MB."""
 
 SKIN = (Part.SKIN, Part.LIPS, Part.BROWS)
-NOSE_BASE, CHIN = 33, 8
 BELOW_CHIN_M = 0.01
 """How far below the chin the face ends; the throat moves with the jaw, but nobody sees it."""
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, Part
+from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, NOSE_ROOT, Part
 from facegen.geometry import apply_transform, project
 from facegen.headsets import Headset, head_from_headset
 from facegen.preview.portraits import drawn_mesh
@@ -57,7 +57,7 @@ def put_on(headset: Headset, rig: Rig) -> Wearer:
     """The rig's mean person with that headset."""
     gaze = np.tile((0.0, 0.0, 1.0), (1, 2, 1))
     face = evaluate(rig, np.zeros((1, rig.components)), np.zeros((1, len(BLENDSHAPES))), gaze)
-    fit = head_from_headset(headset, face.landmarks[0, 27], np.zeros(6))
+    fit = head_from_headset(headset, face.landmarks[0, NOSE_ROOT], np.zeros(6))
     head = drawn_mesh(rig, face, 0, gaze[0])
     return Wearer(
         headset=headset,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from facegen.conventions import Part
+from facegen.conventions import CHIN, LEFT_MOUTH_CORNER, NOSE_BASE, RIGHT_MOUTH_CORNER, Part
 from facegen.rigs.neutral import eye_centers, neutral_landmarks
 from facegen.rigs.rig import Rig
 
@@ -28,9 +28,9 @@ def measures_mm(rig: Rig, identity: np.ndarray) -> dict[str, np.ndarray]:
     x, y, z = rig.vertices[skin].T
     found = {
         "interpupillary distance": eyes[:, 0, 0] - eyes[:, 1, 0],
-        "mouth width": np.linalg.norm(points[:, 48] - points[:, 54], axis=1),
+        "mouth width": np.linalg.norm(points[:, RIGHT_MOUTH_CORNER] - points[:, LEFT_MOUTH_CORNER], axis=1),
     }
-    nose_m = 1e-3 * points[:, 33, 1].mean() if len(points) else 0.0
+    nose_m = 1e-3 * points[:, NOSE_BASE, 1].mean() if len(points) else 0.0
     cheek = skin[(y < 0) & (y > nose_m) & (z > ARCH_M[0]) & (z < ARCH_M[1])]
     if len(cheek):
         found["face width"] = np.ptp(_skin_mm(rig, identity, cheek)[..., 0], axis=1)
@@ -38,8 +38,8 @@ def measures_mm(rig: Rig, identity: np.ndarray) -> dict[str, np.ndarray]:
     if len(profile):
         root = _skin_mm(rig, identity, profile)
         sellion = root[np.arange(len(root)), np.argmin(root[..., 2], axis=1)]
-        found["face height"] = np.linalg.norm(sellion - points[:, 8], axis=1)
-        found["nose length"] = np.linalg.norm(sellion - points[:, 33], axis=1)
+        found["face height"] = np.linalg.norm(sellion - points[:, CHIN], axis=1)
+        found["nose length"] = np.linalg.norm(sellion - points[:, NOSE_BASE], axis=1)
     return {name: found[name] for name in MEASURES if name in found}
 
 

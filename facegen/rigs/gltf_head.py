@@ -7,7 +7,17 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, LANDMARK_GROUPS, Part
+from facegen.conventions import (
+    BLENDSHAPES,
+    CHIN,
+    LANDMARK_COUNT,
+    LANDMARK_GROUPS,
+    LEFT_JAW_END,
+    NOSE_ROOT,
+    NOSE_TIP,
+    RIGHT_JAW_END,
+    Part,
+)
 from facegen.errors import InputError
 from facegen.formats.gltf import read_gltf
 from facegen.rigs.gltf_mesh import HeadMesh, contents, eyeballs, join_parts
@@ -133,13 +143,13 @@ def _check_face(points: np.ndarray) -> None:
     for later, earlier in enumerate(first[index.ravel()]):
         if earlier != later:
             raise InputError(f"landmarks.{earlier} and landmarks.{later} are the same vertex; all 68 differ")
-    if points[30, 2] < max(points[0, 2], points[16, 2]):
+    if points[NOSE_TIP, 2] < max(points[RIGHT_JAW_END, 2], points[LEFT_JAW_END, 2]):
         raise InputError(
             "the tip of the nose (landmark 30) lies behind the jaw's ends; glTF heads look along +z"
         )
-    if points[8, 1] > points[27, 1]:
+    if points[CHIN, 1] > points[NOSE_ROOT, 1]:
         raise InputError("the chin (landmark 8) lies above the nose's root (27); y is up")
-    if points[0, 0] > points[16, 0]:
+    if points[RIGHT_JAW_END, 0] > points[LEFT_JAW_END, 0]:
         raise InputError(
             "landmark 0 is the subject's right end of the jaw, at x < 0; it lies left of landmark 16"
         )

@@ -6,7 +6,17 @@ from functools import lru_cache
 import numpy as np
 import scipy
 
-from facegen.conventions import MIRRORED_LANDMARKS, Part
+from facegen.conventions import (
+    CHIN,
+    LEFT_JAW_END,
+    LEFT_MOUTH_CORNER,
+    LEFT_NOSE_WING,
+    LOWER_LIP_BOTTOM,
+    MIRRORED_LANDMARKS,
+    NOSE_BASE,
+    UPPER_LIP_TOP,
+    Part,
+)
 from facegen.rigs import Rig
 
 DENSER = 2.0
@@ -22,6 +32,13 @@ NEAR_M = 0.14
 """Of the middle of the jaw: what may bear a beard, and the cheeks and the neck about it."""
 LINING_M = 7e-3
 """What lies this much further in than its neighbours is the lining of a mouth or a nose."""
+
+LEFT_UPPER_LIP = list(range(UPPER_LIP_TOP, LEFT_MOUTH_CORNER + 1))
+LEFT_LOWER_LIP = list(range(LOWER_LIP_BOTTOM, LEFT_MOUTH_CORNER - 1, -1))
+"""From the middle of the outer line to the corner."""
+LEFT_JAW_ANGLE = 12
+LEFT_JAW = slice(LEFT_JAW_ANGLE, CHIN - 1, -1)
+"""From its angle to the chin."""
 
 BEARD_REGIONS = {
     "stubble": ("moustache", "chin", "beside", "cheeks"),
@@ -78,7 +95,13 @@ def _outer_triangles(rig: Rig, landmarks: np.ndarray) -> tuple[np.ndarray, np.nd
     whole = quads[:, 3] >= 0
     triangles = np.concatenate([quads[:, :3], quads[whole][:, [0, 2, 3]]])
     part = np.concatenate([part, part[whole]])
-    inmost = np.array([0.0, landmarks[54, 1], 0.5 * (landmarks[54, 2] + landmarks[16, 2])])
+    inmost = np.array(
+        [
+            0.0,
+            landmarks[LEFT_MOUTH_CORNER, 1],
+            0.5 * (landmarks[LEFT_MOUTH_CORNER, 2] + landmarks[LEFT_JAW_END, 2]),
+        ]
+    )
     away = rig.vertices[triangles].mean(axis=1) - inmost
     reach = np.linalg.norm(away, axis=-1)
     near = reach < NEAR_M
@@ -96,8 +119,8 @@ def margins(landmarks: np.ndarray, points: np.ndarray) -> tuple[dict[str, np.nda
     2 cm under the jaw.
     """
     aside, y, z = np.abs(points[:, 0]), points[:, 1], points[:, 2]
-    corner, wing, ear, chin = (landmarks[i] for i in (54, 35, 16, 8))
-    upper, lower = landmarks[[51, 52, 53, 54]], landmarks[[57, 56, 55, 54]]
+    corner, wing, ear, chin = (landmarks[i] for i in (LEFT_MOUTH_CORNER, LEFT_NOSE_WING, LEFT_JAW_END, CHIN))
+    upper, lower = landmarks[LEFT_UPPER_LIP], landmarks[LEFT_LOWER_LIP]
     lip_top = np.interp(aside, upper[:, 0], upper[:, 1])
     lip_bottom = np.interp(aside, lower[:, 0], lower[:, 1])
     front = z - (corner[2] - 14e-3)
@@ -105,12 +128,12 @@ def margins(landmarks: np.ndarray, points: np.ndarray) -> tuple[dict[str, np.nda
     bare_lips = np.maximum.reduce([y - lip_top, lip_bottom - y, beside_lips]) - OFF_LIPS_M
 
     fold_x = [0.0, wing[0], corner[0] + 9e-3]
-    fold = np.interp(aside, fold_x, [landmarks[33, 1] - 4e-3, wing[1] - 4e-3, corner[1] + 4e-3])
+    fold = np.interp(aside, fold_x, [landmarks[NOSE_BASE, 1] - 4e-3, wing[1] - 4e-3, corner[1] + 4e-3])
     below_nose = np.where(aside < wing[0] + 3e-3, fold + 2e-3 - y, np.inf)
     moustache = np.minimum.reduce([fold - y, y - lip_top, corner[0] + 6e-3 - aside, front])
     # the soul patch reaches the lip, beside it skin is bare
     bare = np.interp(aside, [4e-3, 9e-3], [0.0, 7e-3])
-    jaw = landmarks[12:7:-1]  # from its angle to the chin
+    jaw = landmarks[LEFT_JAW]
     jaw_z = np.maximum.accumulate(jaw[:, 2])
     line = np.interp(z, jaw_z, jaw[:, 1])
     neck = y - (line - np.interp(z, jaw_z, [4e-3, 12e-3, 18e-3, 22e-3, 22e-3]))
@@ -124,7 +147,7 @@ def margins(landmarks: np.ndarray, points: np.ndarray) -> tuple[dict[str, np.nda
     share = np.clip((corner[2] - 6e-3 - z) / (corner[2] - 6e-3 - (ear[2] + 14e-3)), 0.0, 1.0)
     cheek_line = corner[1] - 2e-3 + (ear[1] - corner[1]) * share**2.2
     # before the ear, and below it as far back as the jaw
-    behind = z - (ear[2] + np.where(y > landmarks[13, 1], 5e-3, -4e-3))
+    behind = z - (ear[2] + np.where(y > landmarks[LEFT_JAW_ANGLE + 1, 1], 5e-3, -4e-3))
     cheeks = np.minimum.reduce([cheek_line - y, neck, behind, aside - 0.75 * corner[0]])
     under = np.minimum.reduce([chin[1] + 4e-3 - y, neck, behind])
     regions = {
@@ -139,7 +162,7 @@ def margins(landmarks: np.ndarray, points: np.ndarray) -> tuple[dict[str, np.nda
 
 def combed(landmarks: np.ndarray, root: np.ndarray) -> np.ndarray:
     """Directions (n, 3) in which hair lies: down and a little forward, a moustache to its side."""
-    corner = landmarks[54]
+    corner = landmarks[LEFT_MOUTH_CORNER]
     above_mouth = np.clip((root[:, 1] - corner[1]) / 6e-3, 0.0, 1.0) * (np.abs(root[:, 0]) < corner[0] + 8e-3)
     aside = 0.9 * above_mouth * np.clip(root[:, 0] / (0.4 * corner[0]), -1.0, 1.0)
     return np.stack([aside, -np.ones(len(root)), np.full(len(root), 0.35)], axis=-1)

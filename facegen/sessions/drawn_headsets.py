@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 from pydantic import ValidationError
 
-from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS
+from facegen.conventions import BLENDSHAPES, LANDMARK_GROUPS, NOSE_ROOT
 from facegen.errors import InputError
 from facegen.geometry import apply_transform, project
 from facegen.headsets import Headset, head_from_headset
@@ -24,8 +24,6 @@ CLEAR_M = 4e-3
 BESIDE_M = 8e-3
 """Skin counts as before or behind a place if it is no farther to the side; vertices of the coarse mesh are as dense."""
 HIDDEN_M = 1e-3
-NOSE_BRIDGE = 27
-
 SEEN = {
     "left_eye": (tuple(LANDMARK_GROUPS["left_eye"]), 6),
     "right_eye": (tuple(LANDMARK_GROUPS["right_eye"]), 6),
@@ -63,7 +61,7 @@ def drawn_headset(spec: Spec, rig: Rig, base: Headset, person: int) -> Headset:
 def sees_enough(headset: Headset, rig: Rig) -> bool:
     """Whether cameras and LEDs stand in front of the mean face, and every camera sees its part of it (`SEEN`)."""
     vertices, triangles, landmarks = _mean_head(rig)
-    fit = head_from_headset(headset, landmarks[NOSE_BRIDGE], np.zeros(6))
+    fit = head_from_headset(headset, landmarks[NOSE_ROOT], np.zeros(6))
     places_mm = [thing.position_mm for thing in (*headset.cameras, *headset.leds)]
     places = apply_transform(fit, np.multiply(places_mm, 1e-3))
     if not _are_clear(vertices, places):

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from facegen.conventions import NOSE_ROOT
 from facegen.headsets import Headset, head_from_headset
 from facegen.mouth import has_own_teeth, mouth_meshes
 from facegen.rigs import EvaluatedFaces, EyeGeometry, Rig, evaluate, eye_geometry, neutral_landmarks
@@ -14,9 +15,6 @@ from facegen.scene.bright_pupils import bright_pupil
 from facegen.scene.glasses import LensMirror
 from facegen.sessions.session import Session, draw_session
 from facegen.spec import Spec
-
-NOSE_BRIDGE = 27
-"""Index of the landmark on which a headset rests."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -95,7 +93,7 @@ def build_sample_scene(
         for side in (0, 1)
     )
     donning, slip = _realised_fit(spec, session.unit, row)
-    nose_bridge = neutral_landmarks(rig, row.identity)[0, NOSE_BRIDGE]
+    nose_bridge = neutral_landmarks(rig, row.identity)[0, NOSE_ROOT]
     fit = head_from_headset(session.unit, nose_bridge, donning + slip)
     worn = put_on(session.accessories, rig, vertices, (left, right))
     mouth = ()
