@@ -15,13 +15,13 @@ from pathlib import Path
 import numpy as np
 from replay import SEED, TAKES, play
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES
 from facegen.formats import read_live_link
 from facegen.rigs import load_rig
 from regress import load_model
 from regress.runtime.ready_made import model_folder
 from regress.runtime.sample import Sample
-from regress.runtime.stages.own_blinks import BLINKS, FEWEST, SIDE_S, BlinkWatch, OwnBlinks
+from regress.runtime.stages.own_blinks import FEWEST, SIDE_S, BlinkWatch, OwnBlinks
 
 FPS = 30
 STEPS = {"range of motion": 2, "speech": 1}
@@ -50,8 +50,8 @@ def answered(read: np.ndarray) -> np.ndarray:
     stage, answers = OwnBlinks(), []
     for row, blinks in enumerate(read):
         weights = np.zeros(len(BLENDSHAPES))
-        weights[BLINKS] = blinks
-        answers.append(stage.step(Sample(time_s=row / FPS, weights=weights)).weights[BLINKS])
+        weights[BLINK_INDICES] = blinks
+        answers.append(stage.step(Sample(time_s=row / FPS, weights=weights)).weights[BLINK_INDICES])
     return np.array(answers)
 
 
@@ -104,12 +104,12 @@ def landmarks(real: Path, people: int) -> None:
         takes = {step: play(real, load_rig(name), people, step) for step in set(STEPS.values())}
         for number, take in enumerate(TAKES):
             played = takes[STEPS[take]][number]
-            true = played.weights[:, BLINKS[0]]
+            true = played.weights[:, BLINK_INDICES[0]]
             for known in (False, True):
                 plain, own = [], []
                 for neutral, frames in played.seen(1.0, biased=True):
                     used = model.calibrate(neutral) if known else model
-                    read = used.predict(frames)[:, BLINKS]
+                    read = used.predict(frames)[:, BLINK_INDICES]
                     later = slice(0, None)
                     plain.append(errors(true, read[:, 0], later))
                     own.append(errors(true, answered(read)[:, 0], later))

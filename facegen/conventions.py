@@ -43,6 +43,12 @@ BLENDSHAPES: tuple[str, ...] = (
 
 BLENDSHAPE_INDEX: dict[str, int] = {name: index for index, name in enumerate(BLENDSHAPES)}
 
+BLINK_INDICES = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
+"""``weights[..., BLINK_INDICES]`` are the blinks of both eyes, left first."""
+
+EYE_LOOK_INDICES = [index for index, name in enumerate(BLENDSHAPES) if name.startswith("eyeLook")]
+"""``weights[..., EYE_LOOK_INDICES]`` are where both eyes look: the left one down, in, out, up, then the right one."""
+
 
 def mirrored_name(blendshape: str) -> str:
     """Name of the same blendshape on the other side of the face; shapes without a side give themselves."""

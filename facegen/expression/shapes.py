@@ -5,7 +5,13 @@ Where a draw sets eyeLook* weights, they are a wish: the gaze turns both eyes th
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
+from facegen.conventions import (
+    BLENDSHAPE_INDEX,
+    BLENDSHAPES,
+    BLINK_INDICES,
+    EYE_LOOK_INDICES,
+    MIRRORED_BLENDSHAPES,
+)
 from facegen.expression.couplings import TONGUE_NEEDS_JAW
 from facegen.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
 from facegen.expression.templates import CLOSING
@@ -28,13 +34,10 @@ EXTREME_SHAPES, EXTREME_FROM, EXTREME_GAZE = 3, 0.75, 0.25
 """Shapes of an extreme face, the weakest weight there, and the share of faces with eyes turned as far."""
 
 _JAW, _TONGUE = BLENDSHAPE_INDEX["jawOpen"], BLENDSHAPE_INDEX["tongueOut"]
-_LOOKS = tuple(index for index, name in enumerate(BLENDSHAPES) if name.startswith("eyeLook"))
-_FIRST = np.setdiff1d(np.arange(len(BLENDSHAPES)), (*RIGHT, *_LOOKS))
+_FIRST = np.setdiff1d(np.arange(len(BLENDSHAPES)), (*RIGHT, *EYE_LOOK_INDICES))
 """Every pair once, and the shapes without a side; eyes are turned by the gaze."""
 _IS_UPPER = np.array([BLENDSHAPES[index].startswith(UPPER_FACE) for index in _FIRST])
-_BLINKS, _WIDES = (
-    [BLENDSHAPE_INDEX[name + side] for side in ("Left", "Right")] for name in ("eyeBlink", "eyeWide")
-)
+_WIDES = [BLENDSHAPE_INDEX["eyeWide" + side] for side in ("Left", "Right")]
 
 
 def draw_single(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
@@ -85,7 +88,7 @@ def draw_extreme(rng: np.random.Generator, size: int, *, correlation: float) -> 
     bound = np.partition(key, EXTREME_SHAPES - 1, axis=1)[:, EXTREME_SHAPES - 1 : EXTREME_SHAPES]
     weights = _draw_active(rng, key <= bound, correlation=correlation)
     looking = np.flatnonzero(rng.random(size) < EXTREME_GAZE)
-    weights[looking, rng.choice(_LOOKS, len(looking))] = rng.random(len(looking))
+    weights[looking, rng.choice(EYE_LOOK_INDICES, len(looking))] = rng.random(len(looking))
     return np.where(weights > 0, EXTREME_FROM + (1 - EXTREME_FROM) * weights, 0.0)
 
 
@@ -112,7 +115,7 @@ def draw_combined(rng: np.random.Generator, size: int, *, correlation: float) ->
     weights = draw_dense(rng, size, correlation=correlation)
     weights[:, _JAW] = COMBINED_JAW + (1 - COMBINED_JAW) * (1 - rng.random(size))
     least, most = COMBINED_BLINK
-    weights[:, _BLINKS] = least + (most - least) * draw_sides(rng, size, correlation=correlation)
+    weights[:, BLINK_INDICES] = least + (most - least) * draw_sides(rng, size, correlation=correlation)
     weights[:, _WIDES] = 0.0
     return weights
 
@@ -122,7 +125,7 @@ def draw_wink(rng: np.random.Generator, size: int, *, correlation: float) -> np.
     strength = np.where(rng.random(size) < WINK_FULL, 1.0, rng.random(size))
     sides = np.where(rng.random(size) < WINK_BOTH, 2, rng.integers(0, 2, size))
     weights = np.zeros((size, len(BLENDSHAPES)))
-    for side, column in enumerate(_BLINKS):
+    for side, column in enumerate(BLINK_INDICES):
         weights[:, column] = np.where((sides == side) | (sides == 2), strength, 0.0)
     return weights
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES, EYE_LOOK_INDICES
 from facegen.expression.acted import draw_lips
 from facegen.expression.components import COMPONENTS, UNMIXED
 from facegen.expression.couplings import CLOSE_BEYOND_JAW, close_lips, fade, follow_gaze, restrain
@@ -27,13 +27,12 @@ FAINTEST = 0.02
 BLINK_SHUT = 0.5
 """Share of blinks in which the eyes are shut; the others are on their way."""
 
-LIDS = [BLENDSHAPE_INDEX[name] for name in ("eyeBlinkLeft", "eyeBlinkRight")]
 
 LIDS_FOLLOW_DOWN, LIDS_FOLLOW_UP = 0.8, 0.8
 """Largest share of eyeLookDown in eyeBlink, and of eyeLookUp in eyeWide; drawn anew for every face."""
 
 _RESTLESS = np.ones(len(BLENDSHAPES))
-_RESTLESS[[index for index, name in enumerate(BLENDSHAPES) if name.startswith("eyeLook")]] = 0.0
+_RESTLESS[EYE_LOOK_INDICES] = 0.0
 _RESTLESS[[CLOSING, BLENDSHAPE_INDEX["tongueOut"]]] = 0.0
 _RESTLESS[[BLENDSHAPE_INDEX[n] for n in ("jawOpen", "jawLeft", "jawRight", "mouthLeft", "mouthRight")]] = 0.3
 _RESTLESS[[BLENDSHAPE_INDEX[n] for n in ("eyeWideLeft", "eyeWideRight")]] = 0.3
@@ -96,7 +95,7 @@ def draw_faces(
     # closed lips are mostly just closed: the fourth power keeps the median at 0.004 (0.002 in the range-of-motion take)
     close_lips(weights, beyond=CLOSE_BEYOND_JAW * rng.random(size) ** 4)
     blinks = draw_blinks(streams("expression blinks"), size, share=settings.blinks)
-    weights[:, LIDS] = np.maximum(weights[:, LIDS], blinks[:, None])
+    weights[:, BLINK_INDICES] = np.maximum(weights[:, BLINK_INDICES], blinks[:, None])
     target = draw_gaze_target(spec, streams, size, wish=weights)
     gaze = axes_from_target(target, eye_center)
     apart = np.flatnonzero(~conjugate)

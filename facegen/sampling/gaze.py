@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.conventions import BLENDSHAPE_INDEX, EYE_LOOK_INDICES
 from facegen.geometry import angles_from_direction, direction_from_angles
 from facegen.spec import Spec, draw
 
@@ -19,7 +19,6 @@ AHEAD = (0.0, 0.0, 1.0)
 """Optical axis of an eye at rest."""
 
 _LEFT, _RIGHT = 0, 1
-_LOOKS = [index for name, index in BLENDSHAPE_INDEX.items() if name.startswith("eyeLook")]
 
 
 WISH_DISTANCE_M = 10.0
@@ -46,7 +45,7 @@ def draw_gaze_target(
     wide_yaw, wide_pitch = draw_wide_looks(rng, size)
     yaw, pitch = np.where(wide, wide_yaw, np.radians(yaw)), np.where(wide, wide_pitch, np.radians(pitch))
     sideways, up = _shares(wish)
-    wished = (wish[:, _LOOKS] > 0).any(axis=1)
+    wished = (wish[:, EYE_LOOK_INDICES] > 0).any(axis=1)
     yaw = np.where(wished, np.clip(sideways.sum(axis=-1), -1, 1) * FULL_YAW_RAD, yaw)
     pitch = np.where(wished, np.clip(up.sum(axis=-1), -1, 1) * FULL_PITCH_RAD, pitch)
     distance = np.where(wished, WISH_DISTANCE_M, distance)

@@ -5,10 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from facegen.conventions import BLENDSHAPES
+from facegen.conventions import BLENDSHAPES, BLINK_INDICES
 from regress.runtime.sample import Sample
 from regress.runtime.stages.own_blinks import (
-    BLINKS,
     FEWEST,
     MOST,
     OPEN,
@@ -37,13 +36,13 @@ def lid(peaks: list[float], *, fps: float = FPS, half_s: float = 0.1, apart_s: f
 def take(left: np.ndarray, right: np.ndarray | None = None, *, fps: float = FPS) -> list[Sample]:
     """Samples of a face that does nothing but blink; both eyes alike, if only one is given."""
     weights = np.full((len(left), len(BLENDSHAPES)), 0.3)
-    weights[:, BLINKS[0]] = left
-    weights[:, BLINKS[1]] = left if right is None else right
+    weights[:, BLINK_INDICES[0]] = left
+    weights[:, BLINK_INDICES[1]] = left if right is None else right
     return [Sample(label=str(row), time_s=row / fps, weights=each) for row, each in enumerate(weights)]
 
 
 def blinks_of(samples: list[Sample]) -> np.ndarray:
-    return np.array([sample.weights[BLINKS] for sample in samples])
+    return np.array([sample.weights[BLINK_INDICES] for sample in samples])
 
 
 def watched(readings: np.ndarray, fps: float = FPS) -> BlinkWatch:
@@ -139,7 +138,7 @@ def test_a_known_eye_and_all_other_shapes_stay():
     found = [stage.step(sample) for sample in samples]
     np.testing.assert_array_equal(blinks_of(found)[:, 0], blinks_of(samples)[:, 0])
     assert blinks_of(found)[-4 * FPS :, 1].max() == pytest.approx(1.0)
-    others = np.setdiff1d(np.arange(len(BLENDSHAPES)), BLINKS)
+    others = np.setdiff1d(np.arange(len(BLENDSHAPES)), BLINK_INDICES)
     assert (np.array([sample.weights for sample in found])[:, others] == 0.3).all()
 
 

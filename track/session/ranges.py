@@ -5,12 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from facegen.conventions import BLINK_INDICES
 from regress.runtime.heads.fit import FACING
 from regress.runtime.headset.parts import side_of
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
 from regress.runtime.stages.head import angles_of
-from regress.runtime.stages.own_blinks import BLINKS, WHOLE, Ends
+from regress.runtime.stages.own_blinks import WHOLE, Ends
 from regress.runtime.stages.stage import Stage
 from track.profile.profile import Profile
 from track.session.calibration import SHUT
@@ -38,8 +39,8 @@ class Ranges(Stage):
         weights = np.clip((sample.weights - self.rests) * self.factors, 0.0, 1.0)
         if sample.eyes is not None and self.by_lids.any():
             shut = np.clip(1 - sample.eyes.openness, 0, 1)
-            said = self.by_lids & np.isfinite(shut) & np.isfinite(weights[BLINKS])
-            weights[BLINKS] = np.where(said, shut, weights[BLINKS])
+            said = self.by_lids & np.isfinite(shut) & np.isfinite(weights[BLINK_INDICES])
+            weights[BLINK_INDICES] = np.where(said, shut, weights[BLINK_INDICES])
         return replace(sample, weights=weights)
 
 

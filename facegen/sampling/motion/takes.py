@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.conventions import BLENDSHAPE_INDEX, BLINK_INDICES
 from facegen.expression.acted import together
 from facegen.expression.couplings import (
     CLOSE_BEYOND_JAW,
@@ -40,8 +40,6 @@ SWAY_SD_M = 0.005
 """Sitting people sway by millimetres."""
 HIPPUS = 0.03
 """Standard deviation of the pupils' radius over time as a share of it (hippus, about 2 to 5 %; Stark et al. 1958)."""
-
-_LIDS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -118,7 +116,7 @@ def draw_take(spec: Spec, script: Script, clip: int, eye_center: np.ndarray) -> 
         weights = kind.draw[direction.index % len(kind.draw)](rng("expression"), time_s, direction)
         weights = _draw_living(spec, rng("rest"), time_s, weights, gaze)
         closure = lid_closure(draw_blinks(rng("blinks"), time_s[-1], rate_per_min=blinks_per_min), time_s)
-        weights[:, _LIDS] = together(weights[:, _LIDS], closure[:, None])
+        weights[:, BLINK_INDICES] = together(weights[:, BLINK_INDICES], closure[:, None])
         weights = restrain(ease(weights))
     return Take(
         weights=weights,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.conventions import BLENDSHAPES, BLINK_INDICES
 from regress.learning.headset.geometry import FaceGeometry
 from regress.runtime.headset.figures import Summary
 
@@ -12,8 +12,6 @@ OPEN = 0.3
 SCORED = [column for column, name in enumerate(BLENDSHAPES) if name != "tongueOut"]
 """Columns of the shapes that count in means: cameras hardly see a tongue."""
 
-_BLINK = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
-
 
 def summary(
     face: FaceGeometry, weights: np.ndarray, gaze: np.ndarray, true_weights: np.ndarray, true_gaze: np.ndarray
@@ -22,14 +20,14 @@ def summary(
     error = (np.asarray(weights, np.float64) - true_weights)[:, SCORED]
     r2 = r2_of(weights, true_weights)
     gaze_error = gaze_error_deg(gaze, true_gaze)
-    is_open = true_weights[:, _BLINK] < OPEN
+    is_open = true_weights[:, BLINK_INDICES] < OPEN
     return Summary(
         rows=len(weights),
         geometry_mm=float(face.error_mm(weights, true_weights).mean()),
         r2=_mean(r2[SCORED]),
         mae=float(np.abs(error).mean()),
         rmse=float(np.sqrt(np.mean(error**2))),
-        blink_r2=_mean(r2[_BLINK]),
+        blink_r2=_mean(r2[BLINK_INDICES]),
         gaze_deg=float(gaze_error.mean()),
         gaze_open_deg=float(gaze_error[is_open].mean()) if is_open.any() else None,
     )

@@ -9,7 +9,7 @@ import numpy as np
 from annotated_types import Interval, Len
 
 from facegen.archives import load_npy, load_npz
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, CAMERA_TERMS, VIEW_POINTS
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES, CAMERA_TERMS, VIEW_POINTS
 from regress.errors import InputError
 from regress.learning.headset.geometry import FaceGeometry
 from regress.learning.labels import Columns, read_labels
@@ -165,7 +165,7 @@ class HeadsetArrays:
         """
         keep = self.split == split
         if withhold == "combined":
-            blink = self.weights[:, [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]]
+            blink = self.weights[:, BLINK_INDICES]
             keep &= ~((self.weights[:, BLENDSHAPE_INDEX["jawOpen"]] > 0.25) & (blink.max(axis=1) > 0.2))
         elif withhold == "regions":
             keep &= self.neutral | np.isin(self.component, _ONE_REGION)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES, EYE_LOOK_INDICES
 from regress.errors import InputError
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.person import (
@@ -112,7 +112,7 @@ def person_of(
     InputError
         Where there is no ``rest``, or the face was not at rest.
     """
-    looks = {name for name in BLENDSHAPES if name.startswith("eyeLook")}
+    looks = {BLENDSHAPES[index] for index in EYE_LOOK_INDICES}
     if REST not in takes:
         raise InputError(f"--{REST} is needed: other faces are told by how they differ from it")
     reader = EyeReader(predictor)
@@ -263,7 +263,7 @@ def _own_eye(
 
 def _lids_share(side: int, readings: Mapping[str, Readings], shut_mm: float, rest_mm: float) -> float:
     """How much traced lids count against eyeBlink: the inverse of the squares of what each is off, in own units."""
-    column = BLENDSHAPE_INDEX[("eyeBlinkLeft", "eyeBlinkRight")[side]]
+    column = BLINK_INDICES[side]
     still = [face for face in (REST, LOOK) if face in readings]
     blink_rest = float(np.median(readings[REST].weights[:, column]))
     blink_span = float(np.median(readings["shut"].weights[:, column])) - blink_rest

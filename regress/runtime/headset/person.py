@@ -21,7 +21,7 @@ import cv2
 import numpy as np
 from annotated_types import Ge, Interval, Le, Len
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES
 from facegen.files import write_whole
 from facegen.formats.picture_size import picture_size
 from regress.errors import InputError
@@ -47,7 +47,6 @@ LEAST_SPAN = 0.15
 HIGHEST_REST = 0.5
 """Reading at rest; above it the face was not at rest, or the pictures are none of the network's."""
 
-_BLINKS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
 _WIDEST_MM = 40.0
 """Between a person's lids: more is an iris that was traced too small, by which millimetres are counted."""
@@ -164,7 +163,7 @@ class OwnEnds:
         self._rest = np.array([rest.get(name, 0.0) for name in BLENDSHAPES])
         top = np.array([full.get(name, 1.0) for name in BLENDSHAPES])
         least = np.full(len(BLENDSHAPES), 1 / FULL_GAIN)
-        least[_BLINKS] = LEAST_SPAN
+        least[BLINK_INDICES] = LEAST_SPAN
         self._span = np.maximum(top - self._rest, least * np.minimum(1.0, 1.0 - self._rest))
         self._lids = lids
 
@@ -184,7 +183,7 @@ class OwnEnds:
             shut = np.clip(1 - eyes.openness, 0, 1)
             known = np.isfinite(shut)
             lids = np.where(known, self._lids, 0.0)
-            moved[_BLINKS] = (1 - lids) * moved[_BLINKS] + lids * np.where(known, shut, 0.0)
+            moved[BLINK_INDICES] = (1 - lids) * moved[BLINK_INDICES] + lids * np.where(known, shut, 0.0)
         return moved
 
 

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.conventions import BLENDSHAPE_INDEX, BLINK_INDICES
 from regress.runtime.features.alignment import ANCHORS
 from regress.runtime.features.reference_shape import load_reference_shape
 from regress.runtime.sample import Sample
@@ -38,8 +38,6 @@ _PAIRS = tuple(
 """Shapes of turning to the subject's left or upwards, and of the opposite: in the order of a sample's gaze."""
 
 LOOKS = [index for pair in _PAIRS for index in pair]
-
-_BLINKS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
 
 class Looks(BatchStage):
@@ -73,7 +71,7 @@ class Looks(BatchStage):
             return replace(sample, weights=weights, confidence=trust)
         if not self._fade:
             return sample if sample.gaze is None else replace(sample, gaze=gaze_of(weights))
-        share = borne(sample.points, weights[_BLINKS])
+        share = borne(sample.points, weights[BLINK_INDICES])
         weights[LOOKS] *= share
         trust = sample.confidence
         if trust is not None:

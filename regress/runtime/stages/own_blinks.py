@@ -13,11 +13,9 @@ from typing import Annotated, ClassVar
 import numpy as np
 from annotated_types import Interval
 
-from facegen.conventions import BLENDSHAPE_INDEX
+from facegen.conventions import BLINK_INDICES
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import DelayingStage, Stage
-
-BLINKS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
 SIDE_S = 0.4
 """Before and after its peak, within which a blink has begun and is over: blinks take 0.1 to 0.4 s (docs/motion.md)."""
@@ -185,7 +183,7 @@ class OwnBlinks(Stage):
         """The sample with stretched eyeBlinks; one without a time or weights as it is."""
         if sample.weights is None or sample.time_s is None or not np.isfinite(sample.time_s):
             return sample
-        read = sample.weights[BLINKS]
+        read = sample.weights[BLINK_INDICES]
         ended = [eye.step(sample.time_s, float(blink)) for blink, eye in zip(read, self._eyes, strict=True)]
         ends = self.ends
         if any(ended) and not self._told and max(own.factor for own in ends) >= TOLD_FROM:
@@ -212,7 +210,7 @@ class TakeBlinks(DelayingStage):
         """Nothing yet."""
         self._held.append(sample)
         if sample.weights is not None and sample.time_s is not None:
-            for column, eye in zip(BLINKS, self._eyes, strict=True):
+            for column, eye in zip(BLINK_INDICES, self._eyes, strict=True):
                 eye.step(sample.time_s, sample.weights[column])
         return []
 
@@ -229,7 +227,9 @@ def _with_blinks(sample: Sample, ends: Sequence[Ends]) -> Sample:
     if sample.weights is None:
         return sample
     weights = sample.weights.copy()
-    weights[BLINKS] = [own.stretched(weights[column]) for column, own in zip(BLINKS, ends, strict=True)]
+    weights[BLINK_INDICES] = [
+        own.stretched(weights[column]) for column, own in zip(BLINK_INDICES, ends, strict=True)
+    ]
     return replace(sample, weights=weights)
 
 

@@ -6,8 +6,9 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
+from facegen.conventions import BLINK_INDICES
 from regress.runtime.sample import Sample
-from regress.runtime.stages.own_blinks import BLINKS, Ends, OwnBlinks
+from regress.runtime.stages.own_blinks import Ends, OwnBlinks
 from tests.regress.test_own_blinks import FPS, lid, take
 from tests.track.session.faces import Kept, frames, new_session
 from track.cli import running
@@ -25,7 +26,7 @@ LATE = slice(-4 * FPS, None)
 
 def shown(person: Person, samples: list[Sample] = HALF) -> np.ndarray:
     """Highest weights (2,) of the last blinks."""
-    return np.array([person.step(sample).weights[BLINKS] for sample in samples])[LATE].max(axis=0)
+    return np.array([person.step(sample).weights[BLINK_INDICES] for sample in samples])[LATE].max(axis=0)
 
 
 def test_own_blinks_shut_the_eyes():
@@ -73,7 +74,7 @@ def test_a_session_says_what_it_found(own_blinks: bool):
     for sample in HALF:
         session.answer(sample)
     sink = next(each for each in session.sinks if isinstance(each, Kept))
-    assert sink.weights[LATE, BLINKS[0]].max() == pytest.approx(1.0 if own_blinks else 0.5)
+    assert sink.weights[LATE, BLINK_INDICES[0]].max() == pytest.approx(1.0 if own_blinks else 0.5)
     assert any("fullest blinks read 0.50" in line for line in said) is own_blinks
 
 
@@ -90,7 +91,7 @@ def before_a_camera(profile: Profile = PROFILE, samples: list[Sample] = HALF, **
         session.answer(sample)
     (sink,) = session.sinks
     assert isinstance(sink, Kept)
-    return sink.weights[LATE, BLINKS[0]].max(), kept
+    return sink.weights[LATE, BLINK_INDICES[0]].max(), kept
 
 
 def test_the_next_day_begins_with_them():

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX, CAMERA_TERMS, CAMERA_TERMS_MIRRORED
+from facegen.conventions import BLINK_INDICES, CAMERA_TERMS, CAMERA_TERMS_MIRRORED
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.recipe import PLAIN_DISPLACEMENT, HeadsetRecipe
 from regress.learning.headset.training.resampling import reduced, warp_matrix
@@ -14,8 +14,6 @@ from regress.learning.headset.training.targets import outputs_of
 from regress.learning.headset.training.traced import mirrored_points, positions_of, traced_points
 from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN
 from regress.runtime.headset.parts import encoder_owners, is_symmetric, mirror_partner
-
-_BLINK = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 
 _SHUT = 0.5
 """Weight of eyeBlink from which an eye counts as shut: 5 % of the frames of datasets/headset.toml."""
@@ -75,7 +73,7 @@ class TrainingFrames:
         names = tuple(camera.name for camera in arrays.cameras)
         self.rows = rows
         self.outputs = outputs_of(arrays)
-        shut = arrays.weights[rows][:, _BLINK].max(axis=1) > _SHUT
+        shut = arrays.weights[rows][:, BLINK_INDICES].max(axis=1) > _SHUT
         self._shown = np.concatenate([rows, np.repeat(rows[shut], recipe.shut_eyes)])
         self._recipe = recipe
         self._pictures = [reduced(arrays.pictures[name], recipe.square_size) for name in names]
