@@ -4,14 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from regress.runtime.frame_noise import frame_noise
+
 PARTS = 4
 """Pieces of a recording whose medians are compared: of two seconds each is half a one, which a blink does not move."""
 
 NOISES = 4.0
 """Standard errors of a piece's median beyond which it moved; of 140 coordinates one in a hundred recordings has 4."""
-
-_SECOND_DIFFERENCE = 0.6745 * 6**0.5
-"""Median of |a - 2b + c| of three values of standard deviation 1."""
 
 _MEDIANS = 1.2533
 """Standard error of a median over that of a mean."""
@@ -48,7 +47,7 @@ def steadiness(values: np.ndarray, *, least: float) -> Steadiness:
     least
         Of a movement that counts, however small the noise is.
     """
-    noise = np.median(np.abs(values[2:] - 2 * values[1:-1] + values[:-2]), axis=0) / _SECOND_DIFFERENCE
+    noise = frame_noise(values)
     pieces = [np.median(piece, axis=0) for piece in np.array_split(values, PARTS)]
     moved = np.ptp(pieces, axis=0)
     error = _MEDIANS * 2**0.5 * noise / np.sqrt(len(values) / PARTS)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regress.errors import InputError
+from regress.runtime.frame_noise import SECOND_DIFFERENCE
 from regress.runtime.sample import Sample
 from regress.runtime.stages.smoothing import LONGEST_GAP_S, joined, with_row
 from regress.runtime.stages.stage import DelayingStage
@@ -30,9 +31,6 @@ they are measured; and a least one, as shapes at rest are cut off at 0 and show 
 _NOISE_RATE = 0.05
 """Share by which the noise's median rises or falls a frame: it doubles in a second of 30 frames."""
 
-_SECOND_DIFFERENCE = 0.6745 * 6**0.5
-"""Median of |a - 2b + c| of three values of standard deviation 1."""
-
 _PATIENCE = 1.25
 """Share of the time to look ahead within which a frame is still waited for: 41 ms of 33, one frame at 24 a second."""
 
@@ -56,7 +54,7 @@ class NoiseMeter:
         """Standard deviation (k,) of the noise after a row (k,)."""
         if len(self._last) == 2:
             size = np.abs(row - 2 * self._last[1] + self._last[0])
-            rising = size > _SECOND_DIFFERENCE * self.noise
+            rising = size > SECOND_DIFFERENCE * self.noise
             factor = np.exp(np.where(rising, _NOISE_RATE / 2, -_NOISE_RATE / 2))
             self.noise = np.maximum(self.noise * factor, NOISE_LEAST)
         self._last.append(row)

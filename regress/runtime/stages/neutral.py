@@ -4,6 +4,7 @@ import numpy as np
 
 from regress.errors import InputError
 from regress.runtime.calm import CalmFrames
+from regress.runtime.frame_noise import frame_noise
 from regress.runtime.model import Model
 from regress.runtime.stages.frame_clock import USUAL_FPS
 from regress.targets import VISIBLE_SHAPES
@@ -36,9 +37,6 @@ _STILL_SHARE = 0.75
 
 _LEAST_NOISE = 0.004
 """Standard deviation of a weight from frame to frame that every detector is taken to have."""
-
-_SECOND_DIFFERENCE = 0.6745 * 6**0.5
-"""Median of |a - 2b + c| of three values of standard deviation 1."""
 
 
 def frame_rate(time_s: np.ndarray | None) -> float:
@@ -120,7 +118,7 @@ def _movement(shown: np.ndarray, calm: np.ndarray, fps: float) -> tuple[float, f
 
     Of weights (n, k) the one that moves most; of calm frames the share that must be still moves by less.
     """
-    noise = np.median(np.abs(shown[2:] - 2 * shown[1:-1] + shown[:-2]), axis=0) / _SECOND_DIFFERENCE
+    noise = frame_noise(shown)
     noise = np.maximum(noise, _LEAST_NOISE) * 2**0.5  # of a difference of two frames
     apart = np.maximum(np.round(np.multiply(_APART_S, fps)), 1).astype(int)
     sides = np.full((2, len(calm), 2), np.inf)
