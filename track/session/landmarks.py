@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from facegen.documents import read_bytes
+from regress.runtime.even_rows import even_rows
 from regress.runtime.features import align_similarity
 from regress.runtime.features.alignment import STABLE
 from regress.runtime.inputs import Fault
@@ -102,7 +103,7 @@ class LandmarkPipeline(Pipeline):
 
     def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
         """Some of the frames, evenly chosen."""
-        rows = np.linspace(0, len(samples) - 1, min(len(samples), KEPT_FRAMES)).round().astype(int)
+        rows = even_rows(len(samples), KEPT_FRAMES)
         chosen = [samples[row] for row in rows]
         irises = [
             each.irises for each in chosen if each.irises is not None and np.isfinite(each.irises).all()

@@ -4,6 +4,7 @@ import numpy as np
 
 from facegen.conventions import VIEW_POINTS
 from regress.learning.headset.arrays import HeadsetArrays
+from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.looks import CameraLooks, looks_of
 from regress.runtime.headset.traced_eyes import eye_features
@@ -28,7 +29,7 @@ def camera_looks(
         Names of what the camera traces, in order.
     """
     people = np.unique(arrays.person[rows])
-    chosen = people[np.linspace(0, len(people) - 1, min(len(people), _PEOPLE)).round().astype(int)]
+    chosen = people[even_rows(len(people), _PEOPLE)]
     takes = [looks_of(arrays.pictures[camera][rows[arrays.person[rows] == person]]) for person in chosen]
 
     def over_people(name: str) -> tuple[float, ...]:

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.compass import QUARTERS, EyeCompass
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.parts import is_of_one_eye, is_symmetric, mirror_partner, side_of
@@ -69,7 +70,7 @@ def told_by_compass(footage: Footage, compass: EyeCompass) -> list[str]:
         rows = np.flatnonzero(footage.present[:, column])
         if not is_of_one_eye(name) or not len(rows):
             continue
-        chosen = rows[np.linspace(0, len(rows) - 1, min(len(rows), _VIEWS)).round().astype(int)]
+        chosen = rows[even_rows(len(rows), _VIEWS)]
         shares = compass.log_shares(footage.pictures[name][chosen], of_right_eye=side_of(name) == "right")
         lying = told_of_shares(name, shares)
         told += [f"{name}: {lying}"] if lying else []

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from regress.runtime.even_rows import even_rows
+
 TYPICAL_SIDE = 24
 """Pixels: a brow, a lid and a lip are still told apart, and people are not."""
 
@@ -24,7 +26,7 @@ def typical_picture(pictures: np.ndarray, rows: np.ndarray) -> np.ndarray:
     """
     import cv2
 
-    chosen = rows[np.linspace(0, len(rows) - 1, min(len(rows), _PICTURES)).round().astype(int)]
+    chosen = rows[even_rows(len(rows), _PICTURES)]
     mean = np.mean(pictures[chosen], axis=0, dtype=np.float32)
     return np.rint(cv2.resize(mean, (TYPICAL_SIDE, TYPICAL_SIDE), interpolation=cv2.INTER_AREA)).astype(
         np.uint8
