@@ -2,9 +2,6 @@
 
 import numpy as np
 
-STEEPEST = 1.875
-"""Largest slope of `smooth_step`: a change by 1 within T seconds is never faster than 1.875 / T a second."""
-
 
 def smooth_step(share: np.ndarray) -> np.ndarray:
     """From 0 to 1 as its argument goes from 0 to 1: the minimum-jerk course of voluntary movements.

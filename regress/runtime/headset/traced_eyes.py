@@ -102,7 +102,7 @@ class OwnGaze:
 
     def apply(self, gazes_deg: Sequence[np.ndarray]) -> np.ndarray:
         """One gaze (n, 2) of the answers (n, 2)."""
-        better = [gaze @ one[:, :2].T + one[:, 2] for gaze, one in zip(gazes_deg, self.maps, strict=True)]
+        better = [_mapped(gaze, one) for gaze, one in zip(gazes_deg, self.maps, strict=True)]
         return np.tensordot(self.shares, np.array(better), axes=1)
 
 
@@ -121,7 +121,10 @@ def correction(looked: np.ndarray, targets_deg: np.ndarray) -> np.ndarray:
 
 def corrected(gaze_deg: np.ndarray, looked: np.ndarray, targets_deg: np.ndarray) -> np.ndarray:
     """Gaze (n, 2) in degrees through the `correction` by targets (k, 2) at which it was said to be ``looked``."""
-    one = correction(looked, targets_deg)
+    return _mapped(gaze_deg, correction(looked, targets_deg))
+
+
+def _mapped(gaze_deg: np.ndarray, one: np.ndarray) -> np.ndarray:
     return gaze_deg @ one[:, :2].T + one[:, 2]
 
 
@@ -134,7 +137,7 @@ def own_gaze(looked: Sequence[np.ndarray], targets_deg: np.ndarray) -> OwnGaze:
     maps = [correction(each, targets_deg) if len(each) else np.eye(2, 3) for each in looked]
     if len(targets_deg) < FEWEST_TARGETS:
         return OwnGaze(maps=tuple(maps), shares=np.eye(len(maps))[0], error_deg=1.0, decided=False)
-    off = [each @ one[:, :2].T + one[:, 2] - targets_deg for each, one in zip(looked, maps, strict=True)]
+    off = [_mapped(each, one) - targets_deg for each, one in zip(looked, maps, strict=True)]
     errors = (np.array(off) ** 2).sum(axis=2).mean(axis=1)
     shares = 1 / (errors + _LEAST_DEG**2)
     shares /= shares.sum()

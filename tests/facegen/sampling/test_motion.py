@@ -15,13 +15,16 @@ from facegen.sampling import COMPONENT_NAMES, draw_samples, plan_dataset
 from facegen.sampling.motion import CLIP_KINDS, draw_take, write_script
 from facegen.sampling.motion.blinks import CLOSING_S, draw_blinks, lid_closure
 from facegen.sampling.motion.continuity import ease
-from facegen.sampling.motion.envelopes import STEEPEST, memberships
+from facegen.sampling.motion.envelopes import memberships
 from facegen.sampling.motion.glances import Fixations, gaze_course, saccade_seconds
 from facegen.sampling.motion.performances import peak_expressions
 from facegen.sampling.motion.speech import LOUDNESS, PASSAGE_S, draw_utterance, speech_course
 from facegen.sampling.people import split_of
 from facegen.spec import parse_spec
 from facegen.spec.spec import Clips
+
+STEEPEST = 1.875
+"""Largest slope of `smooth_step`: a change by 1 within T seconds is never faster than 1.875 / T a second."""
 
 EYES = np.array([[0.031, 0.0, 0.0], [-0.031, 0.0, 0.0]])
 SHORT = {
