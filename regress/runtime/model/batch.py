@@ -2,6 +2,7 @@
 
 import os
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -91,6 +92,14 @@ class BatchPredictor:
         self._w2 = np.split(w2, np.cumsum(np.bincount(place))[:-1])
         self._b2 = _column((networks.b2 + networks.w2.sum(axis=1))[outputs])
         self._rows = np.array([BLENDSHAPE_INDEX[name] for name in model.outputs])[outputs]
+        units, inputs = self._w1.shape
+        self._sizes = _Sizes(
+            units=units,
+            inputs=inputs,
+            edges=len(self._first),
+            lengths=None if self._denoising is None else len(self._mean),
+            outputs=len(self._rows),
+        )
 
     def predict(self, points: np.ndarray, *, threads: int | None = None) -> np.ndarray:
         """Blendshape weights (n, 52) float32 of faces (n, 68, 2), as `FastPredictor.predict` says."""
@@ -104,7 +113,7 @@ class BatchPredictor:
                 for start in starts:
                     block = np.ascontiguousarray(points[start : start + _BLOCK], dtype=np.float64)
                     if buffers is None or buffers.count != len(block):
-                        buffers = _Buffers(self, len(block))
+                        buffers = _Buffers(self._sizes, len(block))
                     self._fill(weights[start : start + _BLOCK], block, buffers)
 
         if len(starts) < _FEWEST_BLOCKS:
@@ -231,18 +240,28 @@ class BatchPredictor:
         coordinates *= np.divide(self._signal, gain, out=gain)
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Sizes:
+    """Rows of what a `BatchPredictor` fills for each face; ``lengths`` is None where these are the networks' inputs."""
+
+    units: int
+    inputs: int
+    edges: int
+    lengths: int | None
+    outputs: int
+
+
 class _Buffers:
     """Arrays for ``count`` faces of one `BatchPredictor`, which one thread fills again and again.
 
     What comes before the hidden units lies where they will: less memory is more of it in the cache (4 %).
     """
 
-    def __init__(self, batch: BatchPredictor, count: int) -> None:
+    def __init__(self, sizes: _Sizes, count: int) -> None:
         def rows(number: int) -> np.ndarray:
             return np.empty((number, count), np.float32)
 
-        units, inputs = batch._w1.shape
-        edges, points = len(batch._first), LANDMARK_COUNT
+        units, edges, points = sizes.units, sizes.edges, LANDMARK_COUNT
         self.count = count
         memory = rows(max(units, 2 * edges + 3 * points, 6 * points))
         self.hidden = memory[:units]
@@ -255,10 +274,10 @@ class _Buffers:
         self.centred = centred.view(np.complex128).reshape(count, points)
         self.single = single.view(np.complex64).reshape(count, points)
         self.planes = rows(2 * points).reshape(2, points, count)
-        self.inputs = rows(inputs)
+        self.inputs = rows(sizes.inputs)
         self.inputs[-1] = 1  # the bias's
-        self.lengths = self.inputs[:-1] if batch._denoising is None else rows(len(batch._mean))
-        self.outputs = rows(len(batch._rows))
+        self.lengths = self.inputs[:-1] if sizes.lengths is None else rows(sizes.lengths)
+        self.outputs = rows(sizes.outputs)
 
     def planes_of(self, points: np.ndarray) -> np.ndarray:
         """Both coordinates (2, 68, count) of points (count, 68, 2), about one of them.
