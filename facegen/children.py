@@ -14,7 +14,7 @@ STOPS = (signal.SIGINT, signal.SIGTERM)
 
 
 @contextlib.contextmanager
-def born_deaf() -> Iterator[None]:
+def block_stop_signals() -> Iterator[None]:
     """Let children that are started in this block hear no stop, until they call `ignore_stops`.
 
     This process hears at the end of the block what came in it.

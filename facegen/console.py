@@ -26,7 +26,7 @@ def say(message: str) -> None:
         sys.stderr.write(f"{one_line(message)}\n")
         sys.stderr.flush()
     except BrokenPipeError:
-        hang_up(sys.stderr)
+        redirect_to_devnull(sys.stderr)
 
 
 def counted(count: int, one: str, many: str = "") -> str:
@@ -47,7 +47,7 @@ def one_line(message: str) -> str:
     return text
 
 
-def hang_up(stream: TextIO) -> None:
+def redirect_to_devnull(stream: TextIO) -> None:
     """Send nowhere what is left of a stream whose reader has gone: its end would complain again."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 

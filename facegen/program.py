@@ -15,7 +15,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any
 
 from facegen.children import answer_stops
-from facegen.console import hang_up, say
+from facegen.console import redirect_to_devnull, say
 from facegen.errors import ExitCode, FacegenError, InputError
 from facegen.extras import Extra, missing_extra
 from facegen.version import __version__
@@ -105,11 +105,11 @@ def run(app: "typer.Typer", *, extras: tuple[Extra, ...]) -> None:
         with suppress(AttributeError, ValueError):
             sys.stdout.reconfigure(errors="surrogateescape")  # names that are no UTF-8 come out as they are
     try:
-        code = _called(app, extras)
+        code = _run_command(app, extras)
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:  # the reader has gone, as `| head` does
-        hang_up(sys.stdout)
+        redirect_to_devnull(sys.stdout)
         code = ExitCode.OK
     except OSError as error:
         code = _fault(app, error)
@@ -132,8 +132,8 @@ def end_on_stops(name: str) -> None:
         answer_stops(stop)
 
 
-def _called(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
-    """Exit code of the command that was asked for; its error has been said."""
+def _run_command(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
+    """Run the command that was asked for; its exit code, and its error has been said."""
     import typer
 
     name, usage_error = (
@@ -229,7 +229,7 @@ def _fault(app: "typer.Typer", error: Exception) -> int:
     """Say in one sentence what nobody foresaw, and keep its traceback in a file."""
     name = app.info.name
     if isinstance(error, OSError) and error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", None)):
-        hang_up(sys.stdout)  # what could not be written would be tried again at the end
+        redirect_to_devnull(sys.stdout)  # what could not be written would be tried again at the end
         say(
             f"{name}: {error.filename or 'standard output'}: no space left; free some and run the same command again"
         )

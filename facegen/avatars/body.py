@@ -102,7 +102,7 @@ def body_bytes(
     used = np.unique(feet)
     colour = SHOE_COLOURS.get(clothes, SHOE_COLOUR)
     surfaces.append(shoes(vertices[used], body.shares[used], body.names, measures, colour=colour))
-    return _on_the_floor(surfaces, body, rig, shapes.rig, person, clothes, hair)
+    return _assembled_glb(surfaces, body, rig, shapes.rig, person, clothes, hair)
 
 
 def person_body(wheel: zipfile.ZipFile, rig: Rig, person: Person, *, own: float = OWN) -> PersonBody:
@@ -179,10 +179,10 @@ def _on_bones(part: Surface) -> Surface:
     return replace(part, bones=tuple(f"mixamorig:{name}" for name in part.bones))
 
 
-def _on_the_floor(
+def _assembled_glb(
     surfaces: list[Surface], body: PersonBody, rig: Rig, head: Rig, person: Person, clothes: str, hair: str
 ) -> bytes:
-    """The file, with everything moved so that the feet stand on the origin."""
+    """The .glb file, with everything moved so that the feet stand on the origin."""
     floor = min(surface.positions[:, 1].min() for surface in surfaces)
     middle = body.source.mesh.vertices[body.bones[0].head].mean(axis=0)
     shift = np.array([0.0, -floor, -middle[2]])

@@ -61,7 +61,9 @@ def face_shapes(rig: Rig) -> FaceShapes:
     neutral, moved = faces.vertices[0], faces.vertices[1:] - faces.vertices[0]
     for index, name in enumerate(BLENDSHAPES):
         if name.startswith(CLOSING):
-            _clear(rig, neutral, moved[index], eye=int(name.endswith("Right")), looks=axes[1 + index])
+            _lift_lids_off_eyeball(
+                rig, neutral, moved[index], eye=int(name.endswith("Right")), looks=axes[1 + index]
+            )
     triangles = triangles_of(rig.faces[np.isin(rig.part, SKIN)])
     normals = vertex_normals(neutral, triangles)
     turned = np.stack([vertex_normals(neutral + one, triangles) for one in moved]) - normals
@@ -81,7 +83,9 @@ def coarse_faces(rig: Rig) -> tuple[np.ndarray, np.ndarray]:
     return rig.faces, rig.part
 
 
-def _clear(rig: Rig, neutral: np.ndarray, moved: np.ndarray, *, eye: int, looks: np.ndarray) -> None:
+def _lift_lids_off_eyeball(
+    rig: Rig, neutral: np.ndarray, moved: np.ndarray, *, eye: int, looks: np.ndarray
+) -> None:
     """Lift the skin of one eye's lids off the drawn eye on their whole way, in place.
 
     What is added grows with the weight as the shape does, so it is the most that any weight asks for.

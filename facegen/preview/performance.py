@@ -1,7 +1,8 @@
 """Plays weights on a rig, and draws its frames with the NumPy renderer."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cache
 
 import cv2
 import numpy as np
@@ -22,9 +23,13 @@ FACE_M = (-0.094, 0.066, 0.094, -0.130)
 """The same of pictures in which a mouth is large enough to be read, of a face that looks ahead."""
 EARS_M, JAW_M = -0.100, -0.090
 """How far back and how far down a head reaches whose face must not be cut."""
-SOMEBODY = draw_look(8, female=True, ancestry=np.array([0.0, 0.0, 1.0]))
-"""Who plays weights of nobody that a dataset knows."""
 _SEEN, _HIDDEN = (0, 190, 255), (255, 255, 255)
+
+
+@cache
+def default_look() -> Look:
+    """Of who plays weights of nobody that a dataset knows."""
+    return draw_look(8, female=True, ancestry=np.array([0.0, 0.0, 1.0]))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -58,7 +63,7 @@ class Performance:
     rotation: np.ndarray
     time_s: np.ndarray
     title: str
-    look: Look | None = SOMEBODY
+    look: Look | None = field(default_factory=default_look)
 
     @property
     def fps(self) -> float:

@@ -10,7 +10,7 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from typing import Literal
 
-from facegen.children import born_deaf, ignore_stops
+from facegen.children import block_stop_signals, ignore_stops
 from facegen.errors import OutputError
 from facegen.store import Dataset, open_dataset
 from facegen.validation.finding import Finding
@@ -71,7 +71,7 @@ def check_batches(
 
 
 def _submit(pool: concurrent.futures.ProcessPoolExecutor, batch: CheckBatch) -> concurrent.futures.Future:
-    with born_deaf():  # the first call starts the processes
+    with block_stop_signals():  # the first call starts the processes
         return pool.submit(_check, batch)
 
 

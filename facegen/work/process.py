@@ -11,7 +11,7 @@ from pathlib import Path
 
 import psutil
 
-from facegen.children import born_deaf
+from facegen.children import block_stop_signals
 from facegen.documents import last_lines
 from facegen.errors import InputError
 from facegen.machine import machine_name
@@ -53,7 +53,7 @@ class WorkerProcess:
         log = folder.path / "logs" / f"worker-{machine_name()}-{os.getpid()}-{time.time_ns()}.log"
         arguments = (theirs, str(folder.path), str(log), threads, os.getpid())
         process = context.Process(target=target, args=arguments, daemon=True)
-        with born_deaf():
+        with block_stop_signals():
             process.start()
         theirs.close()
         return cls(process, ours, log)

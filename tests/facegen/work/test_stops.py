@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from facegen.children import born_deaf
+from facegen.children import block_stop_signals
 
 pytestmark = pytest.mark.slow
 
@@ -89,7 +89,7 @@ def test_a_stop_before_the_first_worker_is_told(tmp_path, module, name, number):
 
 
 def test_a_child_that_is_born_deaf_hears_no_stop():
-    with born_deaf():
+    with block_stop_signals():
         child = subprocess.Popen(CHILD, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     for number in (signal.SIGINT, signal.SIGTERM):
         child.send_signal(number)
@@ -98,9 +98,9 @@ def test_a_child_that_is_born_deaf_hears_no_stop():
 
 PARENT = """
 import os, signal
-from facegen.children import born_deaf
+from facegen.children import block_stop_signals
 signal.signal(signal.SIGTERM, lambda *_: print("heard"))
-with born_deaf():
+with block_stop_signals():
     os.kill(os.getpid(), signal.SIGTERM)
     print("birth")
 """
