@@ -56,7 +56,7 @@ def open_profile(
             "calibrate on the page, or by `track calibrate`"
         )
     elif profile.neutral is not None and wishes.calibrating:
-        profile = _to_be_replaced(profile, pipeline, say)
+        profile = _use_or_leave_out_neutral(profile, pipeline, say)
     return profile, stored, path
 
 
@@ -80,7 +80,7 @@ def fitted(profile: Profile, pipeline: "Pipeline", path: Path, say: Callable[[st
     of_it = [("ranges", profile.ranges or profile.rests), ("lids", profile.eyes)]
     if read := [name for name, known in of_it if known]:
         say(f"{path}: its {' and '.join(read)} were read by another model and are left out; calibrate again")
-    if profile.placement and not pipeline.sees_as(mark):
+    if profile.placement and not pipeline.accepts_placement_of(mark):
         say(
             f"{path}: its placement was found with another network and is left out, and so is the neutral face "
             f"that was seen through it; `regress headset check` with this model finds a --placement for it"
@@ -109,8 +109,11 @@ def _part_of(placement: "CameraPlacement | None") -> tuple[float, float, float, 
     return (seen.x, seen.y, seen.size, seen.roll_deg, seen.mirror)
 
 
-def _to_be_replaced(profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:
-    """The profile without a neutral face that cannot be used: to calibrate again is what helps, and is not refused."""
+def _use_or_leave_out_neutral(profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:
+    """Use the profile's neutral face; the profile without it where that cannot be.
+
+    To calibrate again is what helps then, and is not refused.
+    """
     try:
         pipeline.use_neutral(profile.neutral)
     except InputError as error:

@@ -85,7 +85,7 @@ class Adjusting:
         if profile.placement:
             pipeline.use_placement(profile.placement)
         pipeline.use_eyes(profile.eyes)
-        pipeline.look_ahead(centre_of(profile.gaze))
+        pipeline.use_straight_ahead(centre_of(profile.gaze))
         self._use_known_neutral()
 
     @property
@@ -207,7 +207,7 @@ class Adjusting:
         self.profile = self.profile.model_copy(update=changes)
         self.person.use(self.profile)
         self._pipeline.use_eyes(self.profile.eyes)
-        self._pipeline.look_ahead(centre_of(self.profile.gaze))
+        self._pipeline.use_straight_ahead(centre_of(self.profile.gaze))
 
 
 def _whole(values: np.ndarray | None, count: int) -> np.ndarray:

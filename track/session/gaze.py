@@ -30,7 +30,7 @@ class IrisGaze(Stage):
             poses = poses_of(heads)
             self._eyes = own_eyes(points, irises, poses, typical_camera(*neutral.picture))
 
-    def look_ahead(self, gaze: np.ndarray) -> None:
+    def use_straight_ahead(self, gaze: np.ndarray) -> None:
         """Take what eyes read (4,) where they look straight ahead: those that close go there."""
         self._eyes = replace(self._eyes, ahead=gaze.reshape(2, 2))
 

@@ -162,7 +162,7 @@ class HeadsetPipeline(Pipeline):
         """See `Pipeline`."""
         return read_placement(path, self._predictor.model)
 
-    def sees_as(self, mark: ModelMark) -> bool:
+    def accepts_placement_of(self, mark: ModelMark) -> bool:
         """See `Pipeline`: of one that this was adapted from it is."""
         model = self._predictor.model
         # one that only began as the other may be of another headset, and profiles do not say of which theirs was

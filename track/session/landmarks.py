@@ -132,15 +132,15 @@ class LandmarkPipeline(Pipeline):
         if self._model.calibrated is not None:
             self.stages["networks"] = _QuickNetworks(self._model.calibrate(points))
         self.stages["head"] = _Head(neutral)
-        self.stages["head"].look_ahead(self._ahead)
+        self.stages["head"].use_straight_ahead(self._ahead)
         self.stages.pop("auto", None)
 
-    def look_ahead(self, gaze: np.ndarray) -> None:
+    def use_straight_ahead(self, gaze: np.ndarray) -> None:
         """Let eyes that close go where they look straight ahead, which is taken off behind the pipeline."""
         self._ahead = gaze
         head = self.stages.get("head")
         if isinstance(head, _Head):
-            head.look_ahead(gaze)
+            head.use_straight_ahead(gaze)
 
     def points(self, sample: Sample) -> Mapping[str, np.ndarray]:
         """The landmarks, on the one picture."""
@@ -170,11 +170,13 @@ class _QuickNetworks(LandmarkNetworks):
 
     def __init__(self, model: Model) -> None:
         super().__init__(model)
-        self._quick, self._made_of = FastPredictor(model), model
+        self._quick = FastPredictor(model)
+
+    def use_model(self, model: Model) -> None:
+        super().use_model(model)
+        self._quick = FastPredictor(model)
 
     def step(self, sample: Sample) -> Sample:
-        if self.model is not self._made_of:  # a neutral face was found
-            self._quick, self._made_of = FastPredictor(self.model), self.model
         return replace(sample, weights=self._quick.predict_frame(sample.points).astype(np.float64))
 
 
@@ -187,10 +189,10 @@ class _Head(Stage):
         self._fitted = HeadPose(HeadSettings(neutral=points, neutral_irises=irises))
         self._given = IrisGaze(neutral)
 
-    def look_ahead(self, gaze: np.ndarray) -> None:
+    def use_straight_ahead(self, gaze: np.ndarray) -> None:
         """See `HeadPose`."""
         for stage in (self._fitted, self._given):
-            stage.look_ahead(gaze)
+            stage.use_straight_ahead(gaze)
 
     def step(self, sample: Sample) -> Sample:
         return (self._fitted if sample.head is None else self._given).step(sample)

@@ -78,7 +78,7 @@ class Pipeline:
         """A person's own eyes, by camera, with what frames of a face say of them."""
         return dict(eyes)
 
-    def look_ahead(self, gaze: np.ndarray) -> None:
+    def use_straight_ahead(self, gaze: np.ndarray) -> None:
         """Take what eyes read (4,) where they look straight ahead; who does not lead closed eyes there needs it not."""
 
     def use_neutral(self, neutral: NeutralFace) -> None:
@@ -101,7 +101,7 @@ class Pipeline:
         """
         raise InputError(f"--placement {path} is for a headset's cameras, and the model takes points")
 
-    def sees_as(self, mark: ModelMark) -> bool:
+    def accepts_placement_of(self, mark: ModelMark) -> bool:
         """Whether a placement that was found with another model is right for this one."""
         return mark == self.mark
 

@@ -64,7 +64,7 @@ class HeadPose(BatchStage):
                 poses = fit_poses(faces, camera, self._shape)
                 self._eyes = own_eyes(faces, settings.neutral_irises[whole], poses, camera)
 
-    def look_ahead(self, gaze: np.ndarray) -> None:
+    def use_straight_ahead(self, gaze: np.ndarray) -> None:
         """Take what eyes read (4,) where they look straight ahead: those that close go there."""
         self._eyes = replace(self._eyes, ahead=gaze.reshape(2, 2))
 

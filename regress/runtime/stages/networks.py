@@ -40,6 +40,10 @@ class LandmarkNetworks(BatchStage):
     def __init__(self, model: Model) -> None:
         self.model = model
 
+    def use_model(self, model: Model) -> None:
+        """Predict with another model from the next frame on."""
+        self.model = model
+
     def batch(self, samples: Sequence[Sample]) -> list[Sample]:
         """Samples with weights (52,), NaN where a point is missing; those of many frames differ by 5e-15 at most."""
         weights = self.model.predict(np.stack([sample.points for sample in samples]))
@@ -103,7 +107,7 @@ class AutomaticCalibration(Stage):
         estimate = estimate_neutral(self._networks.model, points, frame_rate(times))
         self._sure = self._sure + 1 if estimate.sure else 0
         if self._sure == SURE_TIMES:
-            self._networks.model = self._networks.model.calibrate(points[estimate.frames])
+            self._networks.use_model(self._networks.model.calibrate(points[estimate.frames]))
             self._say(f"frame {label}: neutral face found ({estimate.reason}); calibrated from here on")
         elif self._count == TELL_AT:
             self._say(f"frame {label}: no neutral face found so far ({estimate.reason}); looking on")
