@@ -10,7 +10,7 @@ from track.messages import Command, Step
 from track.profile.profile import LARGEST_GAIN, Profile
 from track.session.calibration import Calibration, Outcome
 from track.session.faces import faces_of
-from track.session.outcomes import learnt
+from track.session.outcomes import learnt, neutral_shown
 from track.session.person import Person, centre_of
 from track.session.pipeline import Pipeline
 from track.session.ranges import blinks_of, ends_of
@@ -154,7 +154,10 @@ class Adjusting:
     def take(self, outcome: Outcome) -> None:
         """Use what calibration found from the next frame on, and keep it beside all that it was found with."""
         kept = outcome.ranges is None or self._neutral_is_kept
-        self._use(learnt(outcome, self.profile, self._pipeline))
+        neutral = neutral_shown(outcome, self._pipeline)
+        if neutral is not None:
+            self._pipeline.use_neutral(neutral)
+        self._use(learnt(outcome, self.profile, self._pipeline, neutral=neutral))
         if kept:
             self.has_kept = True
             self._kept = self.profile

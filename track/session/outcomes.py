@@ -2,16 +2,30 @@
 
 from collections.abc import Mapping
 
+from track.profile.neutral import NeutralFace
 from track.profile.profile import SMALLEST_RANGE, Profile
 from track.session.calibration import Outcome
 from track.session.pipeline import Pipeline
 from track.session.ranges import middle_of
 
 
-def learnt(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> Mapping[str, object]:
-    """Fields of ``profile`` that become otherwise; a neutral face is in use in the pipeline from then on."""
-    if outcome.ranges is None:
-        return _by_neutral(outcome, profile, pipeline)
+def neutral_shown(outcome: Outcome, pipeline: Pipeline) -> NeutralFace | None:
+    """The neutral face that calibration took; None where it took another face."""
+    return pipeline.neutral_of(outcome.samples) if outcome.ranges is None else None
+
+
+def learnt(
+    outcome: Outcome, profile: Profile, pipeline: Pipeline, *, neutral: NeutralFace | None = None
+) -> Mapping[str, object]:
+    """Fields of ``profile`` that become otherwise.
+
+    Parameters
+    ----------
+    neutral
+        What `neutral_shown` says; the pipeline has to use it by then, as what weights read at rest is read behind it.
+    """
+    if neutral is not None:
+        return _by_neutral(outcome, profile, pipeline, neutral)
     if outcome.name == "look_around":
         return {"gaze": middle_of([sample.gaze for sample in outcome.samples]), "model": pipeline.mark}
     readings = {name: min(max(reading, SMALLEST_RANGE), 1.0) for name, reading in outcome.ranges.items()}
@@ -22,9 +36,9 @@ def learnt(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> Mapping[st
     }
 
 
-def _by_neutral(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> Mapping[str, object]:
-    neutral = pipeline.neutral_of(outcome.samples)
-    pipeline.use_neutral(neutral)  # first: what weights read at rest is read behind it
+def _by_neutral(
+    outcome: Outcome, profile: Profile, pipeline: Pipeline, neutral: NeutralFace
+) -> Mapping[str, object]:
     # beside another neutral face of the same person they are a little off, and without them movements are too small
     kept = profile.ranges if profile.neutral and profile.model == pipeline.mark else {}
     return {
