@@ -36,10 +36,8 @@ def output_errors(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        if error.errno in (
-            errno.ENOSPC,
-            getattr(errno, "EDQUOT", None),
-        ):  # Windows knows no quota by this name
+        # Windows knows no quota by this name
+        if error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", None)):
             raise OutputError(f"{path}: no space left; free some and run the same command again") from error
         reason = os.strerror(error.errno) if error.errno else str(error)
         if error.errno == errno.EISDIR:

@@ -136,10 +136,9 @@ def _run_command(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
     """Run the command that was asked for; its exit code, and its error has been said."""
     import typer
 
-    name, usage_error = (
-        app.info.name,
-        typer.BadParameter.__mro__[2],
-    )  # click's, of which Typer has its own copy
+    name = app.info.name
+    # click's, of which Typer has its own copy
+    usage_error = typer.BadParameter.__mro__[2]
     try:
         code = commands(app)(standalone_mode=False)
     except FacegenError as error:
@@ -148,9 +147,8 @@ def _run_command(app: "typer.Typer", extras: tuple[Extra, ...]) -> int:
     except usage_error as error:
         return _misused(app, error)
     except typer.Abort as error:
-        if isinstance(
-            error.__cause__, EOFError
-        ):  # Typer takes a file that ends too soon for a person who leaves
+        # Typer takes a file that ends too soon for a person who leaves
+        if isinstance(error.__cause__, EOFError):
             return _fault(app, error.__cause__)
         code = _KEYBOARD_INTERRUPT
     except KeyboardInterrupt:

@@ -43,9 +43,8 @@ def refusal(error: "ValidationError", record: type) -> str:
 
 def _sentence(entry: dict[str, Any], record: type) -> str:
     kind = entry["type"]
-    place = tuple(
-        key for key in entry["loc"] if key != "[key]"
-    )  # pydantic's word for a key of a mapping itself
+    # pydantic's word for a key of a mapping itself
+    place = tuple(key for key in entry["loc"] if key != "[key]")
     path = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in place).lstrip(".")
     if kind in _UNKNOWN:
         known = _known_keys(place, record)

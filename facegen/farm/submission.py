@@ -85,9 +85,8 @@ def prepare(
     OutputError
         If the folder cannot be written.
     """
-    if (
-        "/" in resources.python
-    ):  # tasks begin in another folder; a link stays one, as a virtual environment's Python is
+    # tasks begin in another folder; a link stays one, as a virtual environment's Python is
+    if "/" in resources.python:
         resources = replace(resources, python=os.path.abspath(resources.python))
     chunks = cut_chunks(what.shards, what.samples, chunk=chunk) if "generate" in steps else ()
     out = dataset.folder.path.resolve()

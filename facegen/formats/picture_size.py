@@ -33,10 +33,8 @@ def picture_size(content: bytes) -> Size | None:
     """
     try:
         return next((size for size in (read(content) for read in _READERS) if size is not None), None)
-    except (
-        struct.error,
-        OverflowError,
-    ):  # the header ends before its numbers do, or points far beyond its end
+    # the header ends before its numbers do, or points far beyond its end
+    except (struct.error, OverflowError):
         return None
 
 
@@ -55,11 +53,8 @@ def _jpeg(content: bytes) -> Size | None:
             place += 1
         (marker,) = struct.unpack_from("B", content, place)
         place += 1
-        if 0xC0 <= marker <= 0xCF and marker not in (
-            0xC4,
-            0xC8,
-            0xCC,
-        ):  # start of frame; these three are tables
+        # start of frame; the three left out are tables
+        if 0xC0 <= marker <= 0xCF and marker not in (0xC4, 0xC8, 0xCC):
             height, width = struct.unpack_from(">HH", content, place + 3)
             return width, height
         if marker not in (0x00, 0x01) and not 0xD0 <= marker <= 0xD8:  # these have no length

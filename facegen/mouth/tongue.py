@@ -71,9 +71,8 @@ def tongue_surface(
     half_width, half_height = half_width * tip, half_height * (0.25 + 0.75 * tip) * np.sqrt(tip)
     tangent = np.gradient(middle, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
-    normal = np.stack(
-        [tangent[:, 1], -tangent[:, 0]], axis=-1
-    )  # (height, distance): up where it runs forward
+    # (height, distance): up where it runs forward
+    normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=-1)
     turn = np.arange(AROUND) * (2.0 * np.pi / AROUND)
     x = np.sign(np.cos(turn)) * np.abs(np.cos(turn)) ** 0.85
     y = np.sign(np.sin(turn)) * np.abs(np.sin(turn)) ** 0.9

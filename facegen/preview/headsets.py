@@ -53,9 +53,8 @@ def draw_headset(headset: Headset, rig: Rig) -> Figure:
         axes.set_title(title, fontsize=9)
     for number, (view, color) in enumerate(zip(wearer.views, _cycle(cameras), strict=True)):
         line, column = divmod(number, columns)
-        left = (
-            columns - min(columns, cameras - line * columns)
-        ) / 2  # a line that is not full stands in the middle
+        # a line that is not full stands in the middle
+        left = (columns - min(columns, cameras - line * columns)) / 2
         axes = panel(left + column, view_in, side_in + TITLE_IN + line * (view_in + TITLE_IN))
         _draw_view(canvas, axes, wearer, view)
         camera = headset.camera(view.name)

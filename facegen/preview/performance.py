@@ -203,9 +203,8 @@ def pictures(
             person=person,
         )
         picture = np.ascontiguousarray(np.round(drawn.picture * 255).astype(np.uint8))
-        picture = picture[
-            : picture.shape[0] // 2 * 2, : picture.shape[1] // 2 * 2
-        ].copy()  # films need even sizes
+        # films need even sizes
+        picture = picture[: picture.shape[0] // 2 * 2, : picture.shape[1] // 2 * 2].copy()
         if landmarks:
             _draw_landmarks(picture, drawn.landmarks, drawn.seen)
         yield picture

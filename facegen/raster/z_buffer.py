@@ -79,9 +79,8 @@ def fill_in_numpy(
         inside = (wa >= 0.0) & (wb >= 0.0) & (wc >= 0.0)
         triangle, pixel = triangle[inside], row[inside] * width + column[inside]
         base, wb, wc = values[triangle, 0], wb[inside], wc[inside]
-        here = (
-            base + wb * (values[triangle, 1] - base) + wc * (values[triangle, 2] - base)
-        )  # exact on level faces
+        # exact on level faces
+        here = base + wb * (values[triangle, 1] - base) + wc * (values[triangle, 2] - base)
         np.maximum.at(best, pixel, here)
         front = here == best[pixel]
         hit[pixel[front]] = triangle[front]

@@ -135,9 +135,8 @@ def visual_axis(optical_axis: np.ndarray) -> np.ndarray:
     """Lines of sight (..., 2, 3) of optical axes (..., 2, 3), the left eye first: nasal and a little up."""
     optical_axis = np.asarray(optical_axis, np.float64)
     nasal = np.array([-1.0, 1.0]) * np.tan(KAPPA_NASAL_RAD)
-    leftwards = np.cross(
-        np.array([0.0, 1.0, 0.0]), optical_axis
-    )  # towards the subject's left, seen along the axis
+    # towards the subject's left, seen along the axis
+    leftwards = np.cross(np.array([0.0, 1.0, 0.0]), optical_axis)
     leftwards /= np.linalg.norm(leftwards, axis=-1, keepdims=True)
     up = np.cross(optical_axis, leftwards)
     sight = optical_axis + nasal[:, None] * leftwards + np.tan(KAPPA_UP_RAD) * up

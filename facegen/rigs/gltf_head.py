@@ -80,7 +80,8 @@ def build_head(path: Path, markup_path: Path | None, *, name: str) -> AddedHead:
     lids = lid_neighbourhood(vertices, expression, center, radius, margins=np.concatenate([upper, lower], 1))
     outer = np.isin(part, (Part.SKIN, Part.LIPS, Part.BROWS))
     # outer skin first; every landmark and margin touches a face of it
-    order = np.concatenate([(cage := _used(mesh.faces[outer])), np.setdiff1d(_used(mesh.faces), cage)])
+    cage = _used(mesh.faces[outer])
+    order = np.concatenate([cage, np.setdiff1d(_used(mesh.faces), cage)])
     row = np.full(len(vertices) + 1, -1)  # the last entry serves the padding
     row[order] = np.arange(len(order))
     rig = Rig(

@@ -124,12 +124,8 @@ def _expression(folder: Path, neutral: np.ndarray) -> tuple[np.ndarray, tuple[st
     for index, name in enumerate(BLENDSHAPES):
         stem = name.replace("Left", "_L").replace("Right", "_R") if name.endswith(("Left", "Right")) else name
         stems = [f"{name}_L", f"{name}_R"] if name in _COMPOSED else [stem]
-        if name in (
-            "jawLeft",
-            "jawRight",
-            "mouthLeft",
-            "mouthRight",
-        ):  # directions, not sides: spelt as ARKit does
+        # directions, not sides: spelt as ARKit does
+        if name in ("jawLeft", "jawRight", "mouthLeft", "mouthRight"):
             stems = [name]
         files = [folder / f"{s}.obj" for s in stems]
         if all(file.is_file() for file in files):

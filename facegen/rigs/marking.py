@@ -77,9 +77,8 @@ def lip_faces(
     pairs = np.stack([owner[order][:-1][same], owner[order][1:][same]])
     linked = sparse.csr_matrix((np.ones(pairs.shape[1]), pairs), (len(faces), len(faces)))
     _, label = csgraph.connected_components(linked, directed=False)
-    inner = landmarks[
-        list(LANDMARK_GROUPS["inner_lip"])[1:4]
-    ]  # 60 and 64 are corners, which touch the cheek too
+    # 60 and 64 are corners, which touch the cheek too
+    inner = landmarks[list(LANDMARK_GROUPS["inner_lip"])[1:4]]
     return outer & np.isin(label, label[outer & np.isin(faces, inner).any(axis=1)])
 
 

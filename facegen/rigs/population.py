@@ -83,9 +83,8 @@ def _macro(traits: np.ndarray, rng: np.random.Generator) -> tuple[list[tuple[str
     """Names and weights (n, m) of MakeHuman's macro targets: multilinear in the traits, muscle and weight."""
     people = len(traits)
     _, female, age, african, asian = traits.T
-    spread = np.abs(
-        0.15 * _bounded_normal(rng, people)
-    )  # few people are as male or female as the extreme shapes
+    # few people are as male or female as the extreme shapes
+    spread = np.abs(0.15 * _bounded_normal(rng, people))
     woman = np.where(female > 0, 1.0 - spread, spread)
     muscle, weight = np.clip(0.5 + 0.15 * _bounded_normal(rng, 2, people), 0.0, 1.0)
     gender = dict(zip(GENDERS, (1.0 - woman, woman), strict=True))

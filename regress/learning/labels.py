@@ -92,12 +92,8 @@ def read_labels(
                 for name, width in columns.lists.items()
             },
         }
-    except (
-        pa.ArrowException,
-        KeyError,
-        OSError,
-        UnicodeDecodeError,
-    ) as error:  # KeyError: a nested column's name
+    # KeyError: a nested column's name
+    except (pa.ArrowException, KeyError, OSError, UnicodeDecodeError) as error:
         reason = next(iter(str(error).splitlines()), type(error).__name__)
         raise InputError(f"{path} cannot be read as Parquet ({reason}); {damaged}") from error
 

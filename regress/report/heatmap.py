@@ -43,9 +43,8 @@ def leak_map(change: np.ndarray, names: Sequence[str], *, full: float) -> str:
         for column, value in enumerate(change[row]):
             if abs(value) >= 0.02:
                 title = f"{name} moves {names[column]} by {value:+.2f}"
-                shade = (
-                    min(abs(value) / full, 1.0) ** 0.7
-                )  # leaks of a tenth stay visible beside the diagonal
+                # leaks of a tenth stay visible beside the diagonal
+                shade = min(abs(value) / full, 1.0) ** 0.7
                 kind = "more" if value > 0 else "less"
                 parts.append(_cell(_NAMES + column * CELL, y, CELL, CELL, kind, shade, title))
     end = top + len(names) * CELL

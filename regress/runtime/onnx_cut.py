@@ -116,9 +116,8 @@ def _read(content: bytes) -> tuple[_Graph, Callable[[bytes], bytes]]:
                 graph.inputs[_text(part.value, _VALUE_NAME)] = part.value
             elif part.number == _OUTPUT:
                 graph.outputs[_text(part.value, _VALUE_NAME)] = part.value
-            elif (
-                part.number != _VALUE_INFO
-            ):  # shapes of values are hints, and some would be of the other part
+            # shapes of values are hints, and some would be of the other part
+            elif part.number != _VALUE_INFO:
                 graph.others.append(part.raw)
     return graph, lambda part: b"".join([*around, bytes_field(_GRAPH, part)])
 

@@ -42,9 +42,8 @@ def observability(
     true = faces.weights[:, OUTPUT_COLUMNS]
     r2: list[list[np.ndarray]] = [[] for _ in methods]
     for level in NOISE_PERCENT:
-        rng = np.random.default_rng(
-            _NOISE_SEED
-        )  # the same directions at each level: curves without chance steps
+        # the same directions at each level: curves without chance steps
+        rng = np.random.default_rng(_NOISE_SEED)
         shown, beside = (
             displace(points, level / 100 * rng.standard_normal(points.shape))
             for points in (faces.points_px, neutral.points_px)

@@ -130,9 +130,8 @@ def read_dataset(
     labels = {name: np.concatenate([shard[name] for shard in read]) for name in columns.names}
     with np.errstate(invalid="ignore"):  # a signalling NaN, of changed bytes, is a NaN like others
         landmarks = labels[points].astype(np.float64).reshape(-1, LANDMARK_COUNT, 2)
-    has_face = ~np.isnan(landmarks).all(
-        axis=(1, 2)
-    )  # frames in which the detector finds no face teach nothing
+    # frames in which the detector finds no face teach nothing
+    has_face = ~np.isnan(landmarks).all(axis=(1, 2))
     if not has_face.any():
         raise InputError(f"{folder / 'keypoints'}: no row has a face; all of {points} is NaN")
     landmarks, split = landmarks[has_face], labels["split"][has_face]

@@ -70,9 +70,8 @@ class HeadsetGraph:
         defaults = self._session.get_overridable_initializers()
         try:
             self._interface.check(inputs, defaults, outputs)
-        except (
-            UnicodeDecodeError
-        ) as error:  # onnxruntime reads any bytes, and decodes them as they are asked for
+        # onnxruntime reads any bytes, and decodes them as they are asked for
+        except UnicodeDecodeError as error:
             raise ModelError("network.onnx has a name that is no UTF-8 text") from error
         self._outputs = {value.name for value in outputs}
         self.listens = CAMERA_INPUT in {value.name for value in defaults}

@@ -151,9 +151,8 @@ def _frame(line: str, number: int, fps: float | None) -> tuple[float | None, lis
 def _sample(
     label: str, time_s: float | None, numbers: list[float], *, timed: bool, eyes: bool, fault: Fault | None
 ) -> Sample:
-    numbers = (numbers or [math.nan] * _NUMBERS) + [
-        math.nan
-    ] * 4  # a line of a stream with irises may lack them
+    # a line of a stream with irises may lack them
+    numbers = (numbers or [math.nan] * _NUMBERS) + [math.nan] * 4
     points, irises = split_irises(np.array(numbers[:_WITH_IRISES]).reshape(1, -1, 2))
     if timed and time_s is None:
         time_s = math.nan

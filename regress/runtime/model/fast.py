@@ -165,9 +165,8 @@ class FastPredictor:
     def _map(self, plane: np.ndarray) -> tuple[complex, complex]:
         """Factors of z and of its conjugate in the map onto the mean shape, but for a common one."""
         anchors = plane.take(self._anchors)
-        mean, product, turned = self._anchor_products.dot(
-            anchors
-        ).tolist()  # the target is about its own mean
+        # the target is about its own mean
+        mean, product, turned = self._anchor_products.dot(anchors).tolist()
         anchors -= mean
         square = complex(anchors.dot(anchors))
         spread = np.vdot(anchors, anchors).real.item()

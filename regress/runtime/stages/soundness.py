@@ -44,7 +44,6 @@ class Soundness(BatchStage):
             fault = self._order.step(sample.time_s)
         if fault is None:
             return sample
-        fault = sample.faults.get(
-            "points", fault
-        )  # what its reader found says more than that no face is there
+        # what its reader found says more than that no face is there
+        fault = sample.faults.get("points", fault)
         return replace(sample, points=np.full_like(sample.points, np.nan), faults={"points": fault})
