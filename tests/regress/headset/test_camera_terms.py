@@ -18,7 +18,7 @@ from regress.learning.headset.evaluation import Condition, estimate, evaluate  #
 from regress.learning.headset.recipe import DRAWN_SETTINGS, HeadsetRecipe  # noqa: E402
 from regress.learning.headset.training import train_headset  # noqa: E402
 from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
-from regress.learning.headset.training.loop import Training, answer_to  # noqa: E402
+from regress.learning.headset.training.loop import answer_to, start_training  # noqa: E402
 from regress.runtime.headset import HeadsetGraph  # noqa: E402
 from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
 from regress.runtime.headset.predictor import load_headset_predictor  # noqa: E402
@@ -144,7 +144,7 @@ def test_a_network_that_is_told_nothing_may_begin_one_that_listens(
 ):
     deaf = replace(QUICK, camera_terms=False, epochs=1)
     train_headset(arrays, deaf, tmp_path / "deaf")
-    begun = Training(told_arrays, QUICK, start=tmp_path / "deaf")
+    begun = start_training(told_arrays, QUICK, start=tmp_path / "deaf")
     frames = TrainingFrames(told_arrays, QUICK, told_arrays.rows("train"))
     rows = told_arrays.rows("test")[:6]
     with torch.no_grad():
@@ -155,7 +155,7 @@ def test_a_network_that_is_told_nothing_may_begin_one_that_listens(
     np.testing.assert_allclose(np.clip(scaled[:, :52], 0, 1), graph, atol=1e-3)
     mouth_alone = replace(told_arrays, cameras=told_arrays.cameras[2:])
     with pytest.raises(InputError, match="start from a model of the same cameras"):
-        Training(mouth_alone, QUICK, start=tmp_path / "deaf")
+        start_training(mouth_alone, QUICK, start=tmp_path / "deaf")
 
 
 def test_a_graph_and_a_description_that_disagree_are_refused(folder: Path, tmp_path: Path):

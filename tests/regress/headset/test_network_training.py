@@ -22,7 +22,7 @@ from regress.learning.headset.evaluation import evaluate  # noqa: E402
 from regress.learning.headset.recipe import HeadsetRecipe, recipe_of  # noqa: E402
 from regress.learning.headset.training import train_headset  # noqa: E402
 from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
-from regress.learning.headset.training.loop import Training, answer_to  # noqa: E402
+from regress.learning.headset.training.loop import Training, answer_to, start_training  # noqa: E402
 from regress.runtime.headset import HeadsetGraph, read_headset_model  # noqa: E402
 from regress.runtime.headset.estimates import Estimates  # noqa: E402
 from regress.runtime.headset.model import HeadsetModel  # noqa: E402
@@ -204,7 +204,7 @@ def test_a_network_begins_as_the_one_that_it_starts_from(
         QUICK, architecture=model.architecture, epochs=1, learning_rate=0, matrix_learning_rate=0
     )
     # without a step it is the same network, whatever its normalisation has seen since
-    begun = Training(arrays, recipe, start=folder)
+    begun = start_training(arrays, recipe, start=folder)
     np.testing.assert_allclose(*begun_and_graphs_weights(arrays, begun, model, folder), atol=2e-4)
     rows = {name: pictures[arrays.rows("test")] for name, pictures in arrays.pictures.items()}
     # its normalisations are those of training data: training does not begin with a leap (from random numbers: .15)
@@ -215,7 +215,7 @@ def test_a_network_begins_as_the_one_that_it_starts_from(
     assert np.abs(again - frozen.run(rows).weights).mean() < 0.04
     other = replace(recipe, code=32)
     with pytest.raises(InputError, match="start from a model of the same cameras and recipe"):
-        Training(arrays, other, start=folder)
+        start_training(arrays, other, start=folder)
 
 
 def test_a_deeper_network_begins_as_a_shallower_one(
@@ -223,24 +223,24 @@ def test_a_deeper_network_begins_as_a_shallower_one(
 ):
     model, folder = trained
     recipe = replace(QUICK, architecture=model.architecture, epochs=1)
-    begun = Training(arrays, replace(recipe, blocks=1), start=folder)
+    begun = start_training(arrays, replace(recipe, blocks=1), start=folder)
     np.testing.assert_allclose(*begun_and_graphs_weights(arrays, begun, model, folder), atol=2e-4)
     # its blocks learn, and the graph of one that has them gives them on
     deep = train_headset(arrays, replace(recipe, blocks=1), tmp_path / "deep", start=folder)
-    again = Training(arrays, replace(recipe, blocks=2), start=tmp_path / "deep")
+    again = start_training(arrays, replace(recipe, blocks=2), start=tmp_path / "deep")
     given = again.network.state_dict()
     last = [name for name in given if re.search(r"blocks\.\d\.\d\.convolutions\.4\.weight", name)]
     assert len(last) == 2 * 3 * 2  # encoders, scales and blocks
     assert all(bool(given[name].any()) is (".0.convolutions" in name) for name in last)
     np.testing.assert_allclose(*begun_and_graphs_weights(arrays, again, deep, tmp_path / "deep"), atol=2e-4)
     with pytest.raises(InputError, match=r"do not both have the layer encoders\.\w+\.blocks"):
-        Training(arrays, recipe, start=tmp_path / "deep")
+        start_training(arrays, recipe, start=tmp_path / "deep")
 
 
 def test_a_recipe_says_how_strong_patches_are(arrays: HeadsetArrays):
     losses = []
     for patches in (0.0, 2.0):
-        training = Training(arrays, replace(QUICK, patches=patches, plain=0.0, randomise=1.0))
+        training = start_training(arrays, replace(QUICK, patches=patches, plain=0.0, randomise=1.0))
         frames = TrainingFrames(arrays, training.recipe, arrays.rows("train"))
         batch = next(iter(frames.draw_epoch(np.random.default_rng(0))))
         losses.append(training._loss(batch, np.random.default_rng(1)).item())
@@ -249,7 +249,7 @@ def test_a_recipe_says_how_strong_patches_are(arrays: HeadsetArrays):
 
 def test_a_training_that_diverges_says_so_and_keeps_nothing(arrays: HeadsetArrays, tmp_path: Path):
     recipe = replace(QUICK, learning_rate=1e30, matrix_learning_rate=1e30)
-    training = Training(arrays, recipe, checkpoint=tmp_path / "kept")
+    training = start_training(arrays, recipe, checkpoint=tmp_path / "kept")
     with pytest.raises(
         InputError, match=r"no longer a number in epoch \d+; begin anew with a lower learning_rate"
     ):

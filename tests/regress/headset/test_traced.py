@@ -13,7 +13,7 @@ from regress.learning.headset.recipe import HeadsetRecipe  # noqa: E402
 from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
 from regress.learning.headset.training.blend import Blended  # noqa: E402
 from regress.learning.headset.training.encoders import Encoder  # noqa: E402
-from regress.learning.headset.training.loop import Training  # noqa: E402
+from regress.learning.headset.training.loop import start_training  # noqa: E402
 from regress.learning.headset.training.losses import positions_loss, total_loss  # noqa: E402
 from regress.learning.headset.training.modular import ModularNetwork  # noqa: E402
 from regress.learning.headset.training.networks import Answer  # noqa: E402
@@ -174,7 +174,7 @@ def test_points_that_are_not_shown_cost_nothing():
 def test_networks_learn_where_things_are(arrays: HeadsetArrays):
     little = {"randomise": 0.0, "shift": 0.03, "scale": 0.04, "rotation_deg": 3.0, "plain": 0.0}
     recipe = HeadsetRecipe(input_size=24, code=24, epochs=12, batch=16, **little)
-    training = Training(arrays, recipe)
+    training = start_training(arrays, recipe)
     network = training.run()
     frames = TrainingFrames(arrays, recipe, training.rows)
     batch = frames.plain_batch(arrays.rows("test"))
@@ -190,5 +190,5 @@ def test_networks_learn_where_things_are(arrays: HeadsetArrays):
         off = [(found - wanted)[:, part].square().mean() for part in (slice(traced), slice(traced, None))]
         assert off[0] < 0.3 * wanted.square().mean()
         assert camera == "mouth" or off[1] < 0.75 * off[0]  # the second look sees better
-    untraced = Training(arrays, replace(recipe, points_loss=0.0, epochs=1)).run()
+    untraced = start_training(arrays, replace(recipe, points_loss=0.0, epochs=1)).run()
     assert untraced.encoder("mouth").tracer is None

@@ -1,7 +1,6 @@
 """Trains the compass on arrays of drawn headsets, epoch by epoch, and writes its graph."""
 
 import hashlib
-import io
 import json
 import math
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from regress.errors import InputError, Interrupted
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.compass.network import Compass, MeanCompass, compass_graph
 from regress.learning.headset.compass.views import draw_views, eyes_of
+from regress.learning.headset.training.checkpoint import read_checkpoint, save_checkpoint
 from regress.learning.headset.training.photometry import draw_photometry
 from regress.learning.progress import Progress
 
@@ -79,7 +79,7 @@ def train_compass(
     try:
         for member in range(members):
             checkpoint = out.parent / f".{out.name}.{member}.checkpoint"
-            run = _Run(arrays, pictures, checkpoint, seed=seed + member, epochs=epochs)
+            run = _start_run(arrays, pictures, checkpoint, seed=seed + member, epochs=epochs)
             runs.append(run)
             while run.done < epochs:
                 run.run_epoch()
@@ -115,18 +115,13 @@ class _Run:
     """A member on its way: the same on one machine, stopped or not."""
 
     def __init__(
-        self, arrays: HeadsetArrays, pictures: np.ndarray, checkpoint: Path, *, seed: int, epochs: int
+        self, network: Compass, pictures: np.ndarray, checkpoint: Path, *, key: str, seed: int, epochs: int
     ) -> None:
-        torch.manual_seed(seed)
-        self.network, self.done, self.checkpoint = Compass(), 0, checkpoint
-        self._pictures, self._seed = pictures, seed
+        self.network, self.done, self.checkpoint = network, 0, checkpoint
+        self._pictures, self._seed, self._key = pictures, seed, key
         self._batch = min(_BATCH, len(pictures))
-        self._optimizer = torch.optim.AdamW(self.network.parameters(), weight_decay=_WEIGHT_DECAY)
+        self._optimizer = torch.optim.AdamW(network.parameters(), weight_decay=_WEIGHT_DECAY)
         self._epochs = epochs
-        settings = [seed, epochs, arrays.description.get("dataset_hash"), pictures.shape]
-        self._key = hashlib.sha256(json.dumps(settings).encode()).hexdigest()
-        if checkpoint.exists():
-            self._resume()
 
     def run_epoch(self) -> None:
         """All pictures once, each in some orientation."""
@@ -150,33 +145,31 @@ class _Run:
 
     def _save(self) -> None:
         state = {
-            "key": self._key,
             "done": self.done,
             "network": self.network.state_dict(),
             "optimizer": self._optimizer.state_dict(),
         }
-        content = io.BytesIO()
-        torch.save(state, content)
-        with output_errors(self.checkpoint):
-            self.checkpoint.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(self.checkpoint, content.getvalue())
+        save_checkpoint(self.checkpoint, self._key, state)
 
-    def _resume(self) -> None:
-        try:
-            state = torch.load(self.checkpoint, weights_only=True)
-            key = state["key"]
-        except Exception as error:  # whatever a damaged file makes the unpickler raise
-            raise InputError(
-                f"{self.checkpoint} is not a checkpoint of a compass: {error}; remove it"
-            ) from error
-        if key != self._key:
-            raise InputError(
-                f"{self.checkpoint} is the checkpoint of a training with other settings or data; remove it, or repeat "
-                f"that training's command"
-            )
+    def resume(self) -> None:
+        """Go on from the checkpoint."""
+        state = read_checkpoint(self.checkpoint, self._key, of="a compass", fixed="settings or data")
         self.done = state["done"]
         self.network.load_state_dict(state["network"])
         self._optimizer.load_state_dict(state["optimizer"])
+
+
+def _start_run(
+    arrays: HeadsetArrays, pictures: np.ndarray, checkpoint: Path, *, seed: int, epochs: int
+) -> _Run:
+    """Begin a member, or go on with one; PyTorch's random numbers follow its seed from here on."""
+    torch.manual_seed(seed)
+    settings = [seed, epochs, arrays.description.get("dataset_hash"), pictures.shape]
+    key = hashlib.sha256(json.dumps(settings).encode()).hexdigest()
+    run = _Run(Compass(), pictures, checkpoint, key=key, seed=seed, epochs=epochs)
+    if checkpoint.exists():
+        run.resume()
+    return run
 
 
 def _rate(done: float) -> float:

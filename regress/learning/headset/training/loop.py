@@ -1,7 +1,6 @@
 """Runs the training loop: epochs of batches, a checkpoint after each."""
 
 import hashlib
-import io
 import json
 import math
 import time
@@ -13,11 +12,11 @@ import numpy as np
 import torch
 
 from facegen.conventions import VIEW_POINTS
-from facegen.files import output_errors, write_whole
 from regress.errors import InputError, Interrupted
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.batches import Batch, TrainingFrames
+from regress.learning.headset.training.checkpoint import read_checkpoint, save_checkpoint
 from regress.learning.headset.training.losses import total_loss
 from regress.learning.headset.training.networks import Answer, HeadsetNetwork, network_of
 from regress.learning.headset.training.optimizer import optimizers_of
@@ -40,57 +39,44 @@ _START_BATCHES = 8
 
 
 class Training:
-    """A network on its way: the same arrays and recipe give the same one on one machine, stopped or not.
+    """A network on its way, as `start_training` begins it.
 
     Parameters
     ----------
-    arrays, recipe
-        What it learns from, and how.
+    recipe, frames, validation
+        How it learns, from what, and the rows that judge it after each epoch.
+    targets, gram
+        Scale of the outputs, and of errors in millimetres.
+    network
+        What learns.
+    key
+        Of all that a checkpoint must share with it.
     checkpoint
-        File that holds the state after each epoch; where it exists, training goes on from it. None keeps none.
-    start
-        Model folder whose network this one begins as; None begins with random numbers.
+        File that holds the state after each epoch. None keeps none.
+    began_s
+        Processor time of this process when it began.
     """
 
     def __init__(
         self,
-        arrays: HeadsetArrays,
         recipe: HeadsetRecipe,
-        checkpoint: Path | None = None,
-        start: Path | None = None,
+        frames: TrainingFrames,
+        validation: np.ndarray,
+        *,
+        targets: Targets,
+        gram: torch.Tensor,
+        network: HeadsetNetwork,
+        key: str,
+        checkpoint: Path | None,
+        began_s: float,
     ) -> None:
-        self._began_s, self._earlier_s = time.process_time(), 0.0
-        torch.set_num_threads(1)  # other splits of a sum end in other last bits
-        torch.manual_seed(recipe.seed)
-        if recipe.camera_terms and not arrays.camera_terms:
-            raise InputError(
-                f"{arrays.folder} does not say where cameras are, and camera_terms asks for it; pack the dataset again "
-                "with facegen pack"
-            )
-        rows = arrays.kept_rows("train", withhold=recipe.withhold, people=recipe.people)
-        self.recipe = recipe
+        self.recipe, self.targets, self.network = recipe, targets, network
         self.history: list[dict[str, float]] = []
-        self._checkpoint = checkpoint
-        names = tuple(camera.name for camera in arrays.cameras)
-        learned = None if start is None else LearnedGraph(start)
-        if learned is not None:
-            learned.check_cameras(names)
-        self._frames = TrainingFrames(arrays, recipe, rows, None if learned is None else learned.traced)
-        self._validation = arrays.rows("validation")
-        self.targets = target_scale(self._frames.outputs[rows]) if learned is None else learned.targets
-        self._mean, self._std = torch.from_numpy(self.targets.mean), torch.from_numpy(self.targets.std)
-        self._gram = _scaled_gram(arrays, self.targets, rows)
-        self.network = network_of(recipe.architecture)(names, recipe, self._frames.traced)
-        self._set_scales()
-        if learned is not None:
-            plain = [
-                self._frames.plain_batch(block) for block in np.array_split(self._some_rows(), _START_BATCHES)
-            ]
-            learned.give(self.network, plain, answer_to)
-        self._optimizers = optimizers_of(self.network, recipe)
-        self._key = _key(arrays, recipe, rows, start)
-        if checkpoint is not None and checkpoint.exists():
-            self._resume(checkpoint)
+        self._frames, self._validation, self._gram = frames, validation, gram
+        self._mean, self._std = torch.from_numpy(targets.mean), torch.from_numpy(targets.std)
+        self._optimizers = optimizers_of(network, recipe)
+        self._key, self._checkpoint = key, checkpoint
+        self._began_s, self._earlier_s = began_s, 0.0
 
     @property
     def cpu_s(self) -> float:
@@ -170,14 +156,11 @@ class Training:
         self.history.append({"loss": float(np.mean(losses)), "validation": self._validation_error()})
 
     def _loss(self, batch: Batch, random: np.random.Generator) -> torch.Tensor:
-        pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
+        pictures, neutral, present, calibrated, terms = _tensors_of(batch)
         if self.recipe.randomise:
             pictures, neutral = draw_photometry(
                 random, pictures, neutral, self.recipe.randomise, batch.plain, self.recipe.patches
             )
-        calibrated = torch.from_numpy(batch.calibrated)
-        present = torch.from_numpy(batch.present)
-        terms = torch.from_numpy(batch.terms)
         answer = self.network(pictures.unbind(1), neutral.unbind(1), present, calibrated, terms)
         return total_loss(
             self.network,
@@ -215,58 +198,117 @@ class Training:
                 batch = self._frames.plain_batch(self._validation[start : start + 256])
                 yield answer_to(self.network, batch), self._wanted(batch)
 
-    def _set_scales(self) -> None:
-        """Give encoders the spread of training pictures, and their points' usual positions."""
-        batch = self._frames.plain_batch(self._some_rows())
-        pictures = batch.pictures.astype(np.float32)
-        for column, camera in enumerate(self.network.cameras):
-            if self.network.owners[camera] is not None:
-                continue
-            encoder = self.network.encoder(camera)
-            encoder.set_usual(torch.from_numpy(batch.positions[column]))
-            seen = pictures[:, column]
-            encoder.set_scale(float(seen.mean()), max(float(seen.std()), 1.0))
-
-    def _some_rows(self) -> np.ndarray:
-        """Training rows that stand for all where means and spreads are taken."""
-        return self.rows[:: max(1, len(self.rows) // _SCALE_ROWS)]
-
     def _save(self, path: Path) -> None:
         state = {
-            "key": self._key,
             "history": self.history,
             "cpu_s": self.cpu_s,
             "network": self.network.state_dict(),
             "optimizers": [optimizer.state_dict() for optimizer in self._optimizers],
         }
-        content = io.BytesIO()  # which torch.save fills without errors of its own kind where a disk is full
-        torch.save(state, content)
-        with output_errors(path):
-            path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, content.getvalue())
+        save_checkpoint(path, self._key, state)
 
-    def _resume(self, path: Path) -> None:
-        try:
-            state = torch.load(path, weights_only=True)
-            key = state["key"]
-        except Exception as error:  # whatever a damaged file makes the unpickler raise
-            raise InputError(f"{path} is not a checkpoint of a training: {error}; remove it") from error
-        if key != self._key:
-            raise InputError(
-                f"{path} is the checkpoint of a training with other settings, data or networks; "
-                "remove it, or repeat that training's command"
-            )
+    def resume(self, path: Path) -> None:
+        """Go on from a checkpoint.
+
+        Raises
+        ------
+        InputError
+            Where it is none, or of another training.
+        """
+        state = read_checkpoint(path, self._key, of="a training", fixed="settings, data or networks")
         self.history, self._earlier_s = state["history"], state["cpu_s"]
         self.network.load_state_dict(state["network"])
         for optimizer, kept in zip(self._optimizers, state["optimizers"], strict=True):
             optimizer.load_state_dict(kept)
 
 
+def start_training(
+    arrays: HeadsetArrays, recipe: HeadsetRecipe, checkpoint: Path | None = None, start: Path | None = None
+) -> Training:
+    """Begin a training, or go on with one.
+
+    Equal arrays and recipes give the same network on one machine, stopped or not. From here on this process
+    has one thread of PyTorch, and its random numbers follow the recipe's seed.
+
+    Parameters
+    ----------
+    arrays, recipe
+        What it learns from, and how.
+    checkpoint
+        File that holds the state after each epoch; where it exists, training goes on from it. None keeps none.
+    start
+        Model folder whose network this one begins as; None begins with random numbers.
+
+    Raises
+    ------
+    InputError
+        Where a setting is impossible, no row is left, or the checkpoint or the model belongs to another training.
+    """
+    began_s = time.process_time()
+    torch.set_num_threads(1)  # other splits of a sum end in other last bits
+    torch.manual_seed(recipe.seed)
+    if recipe.camera_terms and not arrays.camera_terms:
+        raise InputError(
+            f"{arrays.folder} does not say where cameras are, and camera_terms asks for it; pack the dataset again "
+            "with facegen pack"
+        )
+    rows = arrays.kept_rows("train", withhold=recipe.withhold, people=recipe.people)
+    names = tuple(camera.name for camera in arrays.cameras)
+    learned = None if start is None else LearnedGraph(start)
+    if learned is not None:
+        learned.check_cameras(names)
+    frames = TrainingFrames(arrays, recipe, rows, None if learned is None else learned.traced)
+    targets = target_scale(frames.outputs[rows]) if learned is None else learned.targets
+    network = network_of(recipe.architecture)(names, recipe, frames.traced)
+    some = _some_of(frames.rows)
+    _set_scales(network, frames.plain_batch(some))
+    if learned is not None:
+        plain = [frames.plain_batch(block) for block in np.array_split(some, _START_BATCHES)]
+        learned.give(network, plain, answer_to)
+    training = Training(
+        recipe,
+        frames,
+        arrays.rows("validation"),
+        targets=targets,
+        gram=_scaled_gram(arrays, targets, rows),
+        network=network,
+        key=_key(arrays, recipe, rows, start),
+        checkpoint=checkpoint,
+        began_s=began_s,
+    )
+    if checkpoint is not None and checkpoint.exists():
+        training.resume(checkpoint)
+    return training
+
+
+def _set_scales(network: HeadsetNetwork, batch: Batch) -> None:
+    """Give encoders the spread of training pictures, and their points' usual positions."""
+    pictures = batch.pictures.astype(np.float32)
+    for column, camera in enumerate(network.cameras):
+        if network.owners[camera] is not None:
+            continue
+        encoder = network.encoder(camera)
+        encoder.set_usual(torch.from_numpy(batch.positions[column]))
+        seen = pictures[:, column]
+        encoder.set_scale(float(seen.mean()), max(float(seen.std()), 1.0))
+
+
+def _some_of(rows: np.ndarray) -> np.ndarray:
+    """Training rows that stand for all where means and spreads are taken."""
+    return rows[:: max(1, len(rows) // _SCALE_ROWS)]
+
+
 def answer_to(network: HeadsetNetwork, batch: Batch) -> Answer:
     """A network's answer to a batch as it is."""
+    pictures, neutral, present, calibrated, terms = _tensors_of(batch)
+    return network(pictures.unbind(1), neutral.unbind(1), present, calibrated, terms)
+
+
+def _tensors_of(batch: Batch) -> tuple[torch.Tensor, ...]:
+    """What a network sees of a batch: pictures, neutral ones, which are there, which are calibrated, cameras' terms."""
     pictures, neutral = (torch.from_numpy(seen).float() for seen in (batch.pictures, batch.neutral))
     present, calibrated = torch.from_numpy(batch.present), torch.from_numpy(batch.calibrated)
-    return network(pictures.unbind(1), neutral.unbind(1), present, calibrated, torch.from_numpy(batch.terms))
+    return pictures, neutral, present, calibrated, torch.from_numpy(batch.terms)
 
 
 def _scaled_gram(arrays: HeadsetArrays, targets: Targets, rows: np.ndarray) -> torch.Tensor:

@@ -16,7 +16,7 @@ from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.looks import camera_looks
 from regress.learning.headset.recipe import HeadsetRecipe, recipe_of
 from regress.learning.headset.training.export import export_graph
-from regress.learning.headset.training.loop import Training
+from regress.learning.headset.training.loop import start_training
 from regress.learning.progress import Progress
 from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
 from regress.runtime.headset.folder import read_headset_model, save_headset_model
@@ -67,7 +67,7 @@ def train_headset(
     began_as = None if start is None else read_headset_model(start)
     if start is not None:
         refuse_sources(folder / "model.json", [Path(start) / "model.json"])
-    training = Training(arrays, recipe, checkpoint, None if start is None else Path(start))
+    training = start_training(arrays, recipe, checkpoint, None if start is None else Path(start))
     resumed = len(training.history)
     network = training.run(progress)
     owners = encoder_owners(tuple(camera.name for camera in arrays.cameras))
