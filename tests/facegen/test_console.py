@@ -157,6 +157,6 @@ def test_a_farm_reads_shares_and_an_unknown_style_is_refused(capsys):
         pass
 
 
-def test_one_thing_is_no_things():
+def test_a_count_of_one_is_told_in_the_singular():
     assert [counted(number, "file") for number in (0, 1, 2)] == ["0 files", "1 file", "2 files"]
     assert [counted(number, "person", "people") for number in (1, 12)] == ["1 person", "12 people"]

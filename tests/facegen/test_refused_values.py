@@ -49,7 +49,7 @@ LAMPS_KNOWN = "Known keys here: power_mw, name"
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_sentences(record, table, sentence):
+def test_a_refused_value_is_told_with_its_place_and_what_may_be_there(record, table, sentence):
     with pytest.raises(ValidationError) as error:
         TypeAdapter(record).validate_python(table)
     assert sentence in refusal(error.value, record)

@@ -15,13 +15,13 @@ CASES = list(corpus.kept_cases())
 @pytest.mark.parametrize(
     ("case", "path"), FILES, ids=[f"{case.reader.name}-{path.name}" for case, path in FILES]
 )
-def test_kept_files(attempt, case, path):
+def test_kept_files_end_well(attempt, case, path):
     outcome = attempt(case, replay=path.read_bytes())
     assert outcome.verdict.good, (outcome.verdict, outcome.stderr)
 
 
 @pytest.mark.parametrize("case", CASES, ids=str)
-def test_kept_cases(attempt, case):
+def test_kept_cases_end_well(attempt, case):
     outcome = attempt(case)
     assert outcome.verdict.good, (outcome.verdict, outcome.stderr)
 

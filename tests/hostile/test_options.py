@@ -13,5 +13,5 @@ TABLE = {reader.name: reader for reader in READERS}
 @pytest.mark.parametrize(
     ("name", "mutator"), [pytest.param(r.name, m, id=f"{r.name}-{m}") for r, m in pairs(TABLE)]
 )
-def test_values(stand, name, mutator):
+def test_values_of_options_are_taken_or_refused_in_a_sentence(stand, name, mutator):
     stand(TABLE[name], mutator)

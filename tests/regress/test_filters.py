@@ -80,7 +80,9 @@ def test_each_frame_leaves_once_in_its_order(name: str, take: tuple[np.ndarray, 
 @pytest.mark.parametrize("name", FILTERS)
 @settings(deadline=None, max_examples=20)
 @given(take=takes(), level=st.floats(0, 1))
-def test_what_stays_stays(name: str, take: tuple[np.ndarray, np.ndarray], level: float):
+def test_filters_leave_constant_weights_as_they_are(
+    name: str, take: tuple[np.ndarray, np.ndarray], level: float
+):
     weights, time_s = take
     constant = np.where(np.isnan(weights), np.nan, level)
     np.testing.assert_allclose(left(filter_stage(name), constant, time_s), constant, rtol=0, atol=1e-15)
@@ -101,7 +103,9 @@ def test_nothing_is_carried_over_a_gap(name: str, take: tuple[np.ndarray, np.nda
 @pytest.mark.parametrize("name", LINEAR)
 @settings(deadline=None, max_examples=20)
 @given(take=takes(), factor=st.floats(-2, 2))
-def test_means_are_linear(name: str, take: tuple[np.ndarray, np.ndarray], factor: float):
+def test_filters_of_means_give_sums_of_takes_the_sums_of_their_answers(
+    name: str, take: tuple[np.ndarray, np.ndarray], factor: float
+):
     weights, time_s = take
     other = np.random.default_rng(0).uniform(size=weights.shape)
     apart = left(filter_stage(name), weights, time_s)

@@ -258,7 +258,9 @@ def test_from_irises_to_a_table(kind: str, run, quick_model_folder: Path, tmp_pa
     assert rows[4]["left_eye_yaw_deg"] != ""
 
 
-def test_who_keeps_guesses(run, quick_model: Model, quick_model_folder: Path, tmp_path: Path):
+def test_an_option_keeps_guessed_gaze_and_without_it_looks_alone_differ(
+    run, quick_model: Model, quick_model_folder: Path, tmp_path: Path
+):
     """--keep-guessed-gaze leaves the networks' weights; without it only the eight shapes differ."""
     np.save(tmp_path / "take.npy", np.array([seen(np.radians([30.0, 0, 0]), np.zeros(4))[0]]))
     tables = [

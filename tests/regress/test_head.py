@@ -92,7 +92,7 @@ def test_opencv_agrees(head: np.ndarray, noise: np.ndarray):
 
 
 @given(head=heads(), seed=st.integers(0, 2**32 - 1))
-def test_derivatives(head: np.ndarray, seed: int):
+def test_derivatives_are_those_of_central_differences(head: np.ndarray, seed: int):
     """Central differences of 1e-6 (radians, metres, standard deviations) leave 1e-9 of the third derivatives."""
     rng = np.random.default_rng(seed)
     poses = fit.HeadPoses(
@@ -219,7 +219,9 @@ def test_a_mirror_and_smoothing():
         (("--focal-px", 0), "greater than or equal to 1"),
     ],
 )
-def test_refusals(options, said: str, run, quick_model_folder: Path, tmp_path: Path):
+def test_options_of_cameras_that_cannot_be_are_refused(
+    options, said: str, run, quick_model_folder: Path, tmp_path: Path
+):
     np.save(tmp_path / "take.npy", drawn_faces(np.random.default_rng(4), 3))
     code, out, err = run("predict", quick_model_folder, tmp_path / "take.npy", *options)
     assert (code, out) == (2, "")

@@ -275,7 +275,7 @@ def _subjects_right_is_at_the_images_left(frames: Frames) -> None:
         ("dlib_faces.xml", 18, False),
     ],
 )
-def test_real_files(real: Path, name: str, rows: int, timed: bool):
+def test_real_files_are_read_with_all_rows_and_times(real: Path, name: str, rows: int, timed: bool):
     frames = read_frames(real / "landmarks" / name)
     assert frames.points.shape == (rows, 68, 2)
     assert (frames.time_s is not None) == timed

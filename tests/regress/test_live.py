@@ -109,7 +109,9 @@ def test_every_reader(reader: str, run, quick_model: Model, quick_model_folder: 
 
 
 @pytest.mark.parametrize("stage", STAGES)
-def test_every_stage(stage: str, run, quick_model: Model, quick_model_folder: Path, take: Path):
+def test_frames_one_by_one_give_the_files_table_with_every_stage(
+    stage: str, run, quick_model: Model, quick_model_folder: Path, take: Path
+):
     options, output = STAGES[stage]
     code, out, err = run("predict", quick_model_folder, take, "--fps", 25, *options)
     assert code == 0, err
@@ -131,7 +133,9 @@ def _differs(output: Output, name: str) -> bool:
 
 
 @pytest.mark.parametrize("writer", TABLES)
-def test_every_table(writer: str, run, quick_model: Model, quick_model_folder: Path, take: Path):
+def test_frames_one_by_one_give_every_format_of_table(
+    writer: str, run, quick_model: Model, quick_model_folder: Path, take: Path
+):
     code, out, err = run("predict", quick_model_folder, take, "--fps", 25, "--format", writer, "--smooth", 2)
     assert code == 0, err
     head = HeadSettings() if TABLES[writer].has_head else None
@@ -177,7 +181,9 @@ def test_an_avatar_and_the_confidence(
 
 
 @pytest.mark.parametrize("stage", STAGES)
-def test_a_pipe(stage: str, run, quick_model_folder: Path, take: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_pipe_gives_the_files_table_with_every_stage(
+    stage: str, run, quick_model_folder: Path, take: Path, monkeypatch: pytest.MonkeyPatch
+):
     options, _ = STAGES[stage]
     _, out, _ = run("predict", quick_model_folder, take, "--fps", 25, *options)
     lines = [" ".join(map(repr, face.ravel().tolist())) for face in np.load(take)]

@@ -81,7 +81,7 @@ def test_an_opened_file_renders_the_same_radiance(anny, tmp_path):
     assert found["difference"] < 1e-3 * found["brightest"], "16-bit floats hold three digits"
 
 
-def test_refusals(anny, tmp_path):
+def test_unknown_cameras_and_samples_are_refused_and_leave_nothing(anny, tmp_path):
     spec = tmp_path / "spec.toml"
     spec.write_text(SPEC)
     with pytest.raises(

@@ -286,7 +286,7 @@ def test_hair_shows_where_it_is_and_a_lens_shows_what_is_behind_it_a_little_dark
     assert right == pytest.approx(1.0, abs=0.01)
 
 
-def test_refusals(renderer):
+def test_unknown_views_parameters_and_devices_are_refused(renderer):
     scene = eye_scene()
     with pytest.raises(InputError, match="no view 'mouth'; it has eye"):
         renderer.render(scene, "mouth", samples=1, seed=0)

@@ -18,7 +18,7 @@ def test_list_names_every_headset():
 
 
 @pytest.mark.parametrize("name", list_headsets())
-def test_show(name):
+def test_show_names_the_lens_of_every_camera(name):
     result = CliRunner().invoke(headset_app, ["show", name])
     assert result.exit_code == 0
     assert "fisheye" in result.stdout or "pinhole" in result.stdout

@@ -56,7 +56,7 @@ def refused(result: subprocess.CompletedProcess, code: int, *words: str) -> None
     ],
     ids=["unknown-key", "unit", "unit-text", "rig", "headset", "samples", "recording"],
 )
-def test_bad_specs(tmp_path, anny, text, words):
+def test_bad_specs_are_refused_by_every_command_that_reads_them(tmp_path, anny, text, words):
     spec = tmp_path / "spec.toml"
     spec.write_text(text)
     refused(facegen("generate", spec, "--out", tmp_path / "out"), 2, *words)

@@ -70,7 +70,7 @@ def test_the_model_s_head_turns_as_the_head_does(kind: str, angles: list[float])
         [{"name": "Head", "matrix": np.eye(4).ravel().tolist()}],
     ],
 )
-def test_no_head(nodes: list[dict]):
+def test_nodes_without_a_head_have_no_head_bone(nodes: list[dict]):
     assert head_bone({"nodes": nodes}) is None
 
 

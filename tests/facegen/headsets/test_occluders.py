@@ -107,7 +107,7 @@ depth_mm = 6
         ),
     ],
 )
-def test_refusals(was, becomes, says):
+def test_occluders_that_cannot_be_are_refused_with_their_key(was, becomes, says):
     assert was in RING
     parse(SMALL + RING)
     with pytest.raises(InputError, match=says):

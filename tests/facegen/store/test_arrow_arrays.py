@@ -20,7 +20,7 @@ def numbers(kind: pa.DataType, shape: tuple[int, ...]) -> st.SearchStrategy[np.n
 
 
 @given(st.data(), st.sampled_from(KINDS), st.integers(0, 20))
-def test_numbers(data: st.DataObject, kind: pa.DataType, rows: int):
+def test_numbers_are_as_pyarrow_has_them(data: st.DataObject, kind: pa.DataType, rows: int):
     values = data.draw(numbers(kind, (rows,)))
     assert str(arrow_array(values, kind)) == str(pa.array(values, kind))  # as words, in which NaN equals NaN
     arrow_array(values, kind).validate(full=True)
@@ -35,14 +35,14 @@ def test_lists_of_a_fixed_size(data: st.DataObject, kind: pa.DataType, rows: int
 
 
 @given(st.lists(st.text(max_size=9).filter(lambda word: not word.endswith("\0")), max_size=20))
-def test_words(words: list[str]):
+def test_words_are_as_pyarrow_has_them(words: list[str]):
     made = arrow_array(np.array(words, dtype=str), pa.string())
     assert made.equals(pa.array(words, pa.string()))
     made.validate(full=True)
 
 
 @pytest.mark.parametrize("rows", [0, 1, 9])
-def test_empty_lists(rows: int):
+def test_empty_lists_are_as_pyarrow_has_them(rows: int):
     made = arrow_array(np.zeros((rows, 0)), pa.list_(pa.float32()))
     assert made.equals(pa.array([[]] * rows, pa.list_(pa.float32())))
 

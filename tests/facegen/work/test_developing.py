@@ -61,7 +61,7 @@ def test_what_a_killed_run_left_is_swept(rendered, tmp_path):
     assert not left.exists()
 
 
-def test_refusals(rendered, tmp_path):
+def test_other_settings_missing_samples_and_strange_folders_are_refused(rendered, tmp_path):
     develop_dataset(rendered, tmp_path / "a", numbers=[0])
     with pytest.raises(InputError, match="holds pictures of another dataset or with other settings"):
         develop_dataset(rendered, tmp_path / "a", Settings(seed=3), [0])

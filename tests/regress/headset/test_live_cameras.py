@@ -141,7 +141,9 @@ def test_calibration_seats_and_taps(
 
 
 @pytest.mark.parametrize("stage", STAGES)
-def test_every_stage(stage: str, run, model: Path, predictor: HeadsetPredictor, frames, options):
+def test_frames_one_by_one_give_the_files_table_with_every_stage(
+    stage: str, run, model: Path, predictor: HeadsetPredictor, frames, options
+):
     words, output = STAGES[stage]
     code, out, said = run("headset", "predict", model, *options, "--neutral", NEUTRAL, *words)
     assert code == 0, said
@@ -149,7 +151,9 @@ def test_every_stage(stage: str, run, model: Path, predictor: HeadsetPredictor, 
 
 
 @pytest.mark.parametrize("writer", TABLES)
-def test_every_table(writer: str, run, model: Path, predictor: HeadsetPredictor, frames, options):
+def test_frames_one_by_one_give_every_format_of_table(
+    writer: str, run, model: Path, predictor: HeadsetPredictor, frames, options
+):
     code, out, said = run(
         "headset", "predict", model, *options, "--neutral", NEUTRAL, "--format", writer, "--mirror"
     )

@@ -135,7 +135,7 @@ def points_truth() -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", POINTS)
-def test_points(name):
+def test_disturbed_points_end_in_the_weights_of_undisturbed_ones_and_one_sentence(name):
     disturb, sentence = POINTS[name]
     said: list[str] = []
     session = new_session(profile=loud(calibrated_profile()), said=said)
@@ -257,7 +257,7 @@ def headset_truth() -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", CAMERAS)
-def test_headset(name):
+def test_disturbed_cameras_end_in_the_weights_of_undisturbed_ones_and_their_sentences(name):
     disturb, sentences = CAMERAS[name]
     said: list[str] = []
     check(headset_truth(), run(headset_session(said), disturb(list(headset_frames()))))

@@ -19,7 +19,7 @@ def floats(datagram: bytes) -> np.ndarray:
     return np.frombuffer(datagram[-244:], ">f4")
 
 
-def test_the_layout():
+def test_a_datagram_has_the_layout_of_live_link_face():
     sample = acted(time_s=10.26)
     with receiver() as taken:
         sink = open_sink(parse_target(f"livelink:127.0.0.1:{taken.getsockname()[1]}"), pytest.fail)

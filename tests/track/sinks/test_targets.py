@@ -100,7 +100,7 @@ def test_a_receiver_that_is_away_costs_nothing_and_is_met_when_it_comes(name):
 
 
 @pytest.mark.parametrize("name", UDP)
-def test_ipv6(name):
+def test_targets_may_have_ipv6_addresses(name):
     try:
         with receiver("::1") as taken:
             sink = open_sink(parse_target(f"{name}:[::1]:{taken.getsockname()[1]}"), pytest.fail)
