@@ -30,13 +30,13 @@ interface Networks {
   player(neutral: ArrayLike<number>): (points: ArrayLike<number>) => Float32Array;
 }
 
-/** Frames whose mean is the neutral face: a third of a second. */
-const NEUTRAL_FRAMES = 10;
+/** Of the neutral face, which is their median: a blink of a third of a second is less than half of them. */
+const NEUTRAL = { frames: 10, ms: 700 };
 /** Eye rotations at which an eyeLook weight reaches 1 (`regress.runtime.stages.gaze`). */
 const FULL_YAW_RAD = (30 * Math.PI) / 180;
 const FULL_PITCH_RAD = (25 * Math.PI) / 180;
-/** An iris that moves by a whole eye's width (30 mm) would be at 2.5 radii of the eyeball (12 mm). */
-const RADII_PER_WIDTH = 2.5;
+/** An eye's width over how far its iris lies from where it turns: 30 and 10.8 mm (`regress.runtime.heads.eyes`). */
+const REACHES_PER_WIDTH = 30 / 10.8;
 const MOST_EYE_RAD = 0.7;
 /** One-Euro filter (Casiez et al. 2012): at rest 2.5 Hz pass, and the more the faster a weight moves. */
 const CUTOFF_HZ = 2.5;
@@ -54,7 +54,7 @@ let detector: FaceLandmarker;
 let networks: Networks;
 let predict: (points: ArrayLike<number>) => Float32Array;
 let order: number[];
-let collecting: { points: Float64Array; gaze: number[]; place: Triple; head: Triple }[] | undefined;
+let collecting: { points: Float64Array; gaze: number[]; place: Triple; head: Triple; time: number }[] | undefined;
 let calibrated = false;
 let rest = { gaze: [0, 0, 0, 0], place: undefined as Triple | undefined, head: [0, 0, 0] as Triple };
 let smooth: { time: number; values: Float32Array; speeds: Float32Array } | undefined;
@@ -110,6 +110,7 @@ function answer(data: ToWorker): void {
   const matrix = found.facialTransformationMatrixes[0]?.data;
   if (!mesh || !matrix) {
     smooth = undefined;
+    if (collecting) collecting = []; // somebody else may come back
     tell({ kind: "nobody" });
     return;
   }
@@ -118,7 +119,7 @@ function answer(data: ToWorker): void {
   const place: Triple = [matrix[12]! / 100, matrix[13]! / 100, matrix[14]! / 100];
   const head = angles(matrix);
   rest.place ??= place;
-  collect(points, gaze, place, head);
+  collect({ points, gaze, place, head, time });
   const weights = new Float32Array(order.length);
   predict(points).forEach((weight, index) => (weights[order[index]!] = Math.min(1, Math.max(0, weight))));
   const turned = gaze.map((angle, index) => angle - rest.gaze[index]!) as [number, number, number, number];
@@ -163,7 +164,7 @@ function gazeOf(mesh: NormalizedLandmark[], eye: (typeof EYES)[number], width: n
   const [ox, oy] = [iris[0] - (a[0] + b[0]) / 2, iris[1] - (a[1] + b[1]) / 2];
   const along = (ox * dx + oy * dy) / span / span;
   const down = (oy * dx - ox * dy) / span / span;
-  const angle = (share: number): number => Math.max(-MOST_EYE_RAD, Math.min(MOST_EYE_RAD, Math.asin(Math.max(-1, Math.min(1, RADII_PER_WIDTH * share)))));
+  const angle = (share: number): number => Math.max(-MOST_EYE_RAD, Math.min(MOST_EYE_RAD, Math.asin(Math.max(-1, Math.min(1, REACHES_PER_WIDTH * share)))));
   return [angle(along), -angle(down)];
 }
 
@@ -192,15 +193,15 @@ function look(weights: Float32Array, [leftYaw, leftPitch, rightYaw, rightPitch]:
 }
 
 /** Towards a neutral face, once the person has asked for one. */
-function collect(points: Float64Array, gaze: number[], place: Triple, head: Triple): void {
+function collect(frame: NonNullable<typeof collecting>[number]): void {
   if (!collecting) return;
-  collecting.push({ points, gaze, place, head });
-  if (collecting.length < NEUTRAL_FRAMES) return;
+  collecting.push(frame);
   const frames = collecting;
-  const mean = (get: (frame: (typeof frames)[number]) => ArrayLike<number>): number[] =>
-    Array.from(get(frames[0]!), (_, index) => frames.reduce((sum, frame) => sum + get(frame)[index]!, 0) / frames.length);
-  predict = networks.player(mean((frame) => frame.points));
-  rest = { gaze: mean((frame) => frame.gaze), place: mean((frame) => frame.place) as Triple, head: mean((frame) => frame.head) as Triple };
+  if (frames.length < NEUTRAL.frames || frame.time - frames[0]!.time < NEUTRAL.ms) return;
+  const median = (get: (one: typeof frame) => ArrayLike<number>): number[] =>
+    Array.from(get(frame), (_, index) => frames.map((one) => get(one)[index]!).sort((a, b) => a - b)[frames.length >> 1]!);
+  predict = networks.player(median((one) => one.points));
+  rest = { gaze: median((one) => one.gaze), place: median((one) => one.place) as Triple, head: median((one) => one.head) as Triple };
   calibrated = true;
   collecting = undefined;
 }

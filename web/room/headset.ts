@@ -84,18 +84,23 @@ export class Headset {
     this.rest ??= position.y;
   }
 
-  /** Walk and turn by sticks, and say how the body stands; undefined without a headset. */
-  update(seconds: number): Worn | undefined {
-    if (!this.session || this.rest === undefined) return undefined;
+  /** Walk and turn by sticks; as often as pictures come, or the world would jerk. */
+  steer(seconds: number): void {
+    if (!this.session || this.rest === undefined) return;
     for (const { gamepad, handedness } of this.session.inputSources) {
       const [x, y] = [gamepad?.axes[STICK.x] ?? 0, gamepad?.axes[STICK.y] ?? 0];
       if (handedness === "right") this.snap(x);
       else this.stride(x, y, seconds);
     }
+    this.carry();
+  }
+
+  /** How the body stands, which turns after the head; undefined without a headset. */
+  update(seconds: number): Worn | undefined {
+    if (!this.session || this.rest === undefined) return undefined;
     const off = this.yaw() - this.body;
     this.body += Math.atan2(Math.sin(off), Math.cos(off)) * (1 - Math.exp(-FOLLOWS * seconds));
     this.turn.setFromAxisAngle(UP, -this.body).multiply(this.headTurn);
-    this.carry();
     return {
       floor_m: this.floor(),
       heading: this.walk.heading + this.body,

@@ -7,10 +7,12 @@ import type { Answer, Said, Welcome } from "./texts.js";
 const WAITS_MS = [200, 400, 800, 1000, 2000];
 
 /**
- * States without a word from the server, which gives each back within a tick, until the line counts as broken: ten seconds
- * of a page in front. Of a network that is gone a socket says nothing for minutes. Behind `online` a second is enough.
+ * Milliseconds without a word from the server, which gives each state back within a tick, until the line counts as broken. Of
+ * a network that is gone a socket says nothing for minutes. Behind `online` a second is enough.
  */
-const UNANSWERED = { most: 300, online: 30 };
+const SILENT_MS = { most: 10_000, online: 1000 };
+/** States that must have gone unanswered: a page that was halted for a while has not sent any. */
+const FEWEST_UNANSWERED = 3;
 
 export interface Handlers {
   welcome(welcome: Welcome): void;
@@ -29,6 +31,9 @@ export class Line {
   private tries = 0;
   private sequence = 0;
   private unanswered = 0;
+  /** When the server was heard last, and when the first state behind that went out. */
+  private heardAt = 0;
+  private askedAt = 0;
 
   constructor(
     private readonly address: string,
@@ -37,7 +42,11 @@ export class Line {
   ) {
     this.connect();
     // a laptop that wakes up, or changes networks, need not wait for the next try
-    addEventListener("online", () => (this.open ? this.abandon(UNANSWERED.online) : this.connect()));
+    addEventListener("online", () => {
+      if (!this.open) return this.connect();
+      const [back, socket] = [performance.now(), this.socket];
+      setTimeout(() => this.socket === socket && this.heardAt <= back && this.abandon(0), SILENT_MS.online);
+    });
   }
 
   /** Say something; false where the line is broken, and it was not said. */
@@ -49,8 +58,8 @@ export class Line {
   /** Send this person's state, unless the last ones have not gone yet: newer ones say more. */
   move(message: Omit<Message, "sequence" | "time_ms">): void {
     if (!this.open) return;
-    this.unanswered++;
-    if (this.abandon(UNANSWERED.most) || this.socket!.bufferedAmount > 4096) return;
+    if (this.unanswered++ === 0) this.askedAt = performance.now();
+    if (this.abandon(SILENT_MS.most) || this.socket!.bufferedAmount > 4096) return;
     this.sequence = (this.sequence + 1) % 2 ** 16;
     this.socket!.send(encode({ ...message, sequence: this.sequence, time_ms: Math.round(performance.now()) }));
   }
@@ -69,7 +78,7 @@ export class Line {
     socket.addEventListener("open", () => socket.send(JSON.stringify({ ...this.join, at_ms: Date.now() })));
     socket.addEventListener("message", ({ data }) => {
       if (socket !== this.socket) return;
-      this.unanswered = 0;
+      [this.unanswered, this.heardAt] = [0, performance.now()];
       if (typeof data === "string") this.hear(JSON.parse(data) as Answer);
       else this.see(new Uint8Array(data as ArrayBuffer));
     });
@@ -101,9 +110,9 @@ export class Line {
     }
   }
 
-  /** Give a socket up that so many states went into without a word back; whether it was. */
-  private abandon(unanswered: number): boolean {
-    if (this.unanswered < unanswered) return false;
+  /** Give a socket up that states went into for so long without a word back; whether it was. */
+  private abandon(silentMs: number): boolean {
+    if (this.unanswered < FEWEST_UNANSWERED || performance.now() - this.askedAt < silentMs) return false;
     const dead = this.socket;
     this.socket = undefined;
     dead?.close();

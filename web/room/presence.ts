@@ -30,6 +30,7 @@ export class Presence {
   private readonly idle = new Idle();
   private placedBy = Infinity;
   private ended = false;
+  private strolled = performance.now();
   private moved = performance.now();
 
   /** `canvas` is what is walked on and `button` puts a headset on. */
@@ -87,7 +88,7 @@ export class Presence {
   move(now: number): State {
     const seconds = Math.min(0.2, (now - this.moved) / 1000);
     this.moved = now;
-    if (!this.headset.worn) this.walk.update(this.stance.seated ? 0 : seconds);
+    this.stroll(now);
     const speaking = this.microphone?.speaking ?? false;
     const idle = this.idle.update(seconds, speaking ? this.microphone!.level : 0);
     const state = { ...this.stance.state(this.camera?.face(now) ?? idle, speaking), ...this.headset.update(seconds) };
@@ -109,10 +110,19 @@ export class Presence {
     voice.listen(at, turned);
   }
 
-  /** Look from one's eyes, which rise or sink as long as a picture takes. */
+  /** Look from one's eyes, which rise, sink and walk as long as a picture takes. */
   look(view: View, seconds: number): void {
+    this.stroll(performance.now());
     this.stance.rise(seconds);
     this.headset.look();
     view.look(this.walk.x, this.walk.z, this.stance.eyes_m, this.walk.heading, this.walk.pitch);
+  }
+
+  /** Walk on to this moment: with each picture, and where a page shows none with each state. */
+  private stroll(now: number): void {
+    const seconds = Math.max(0, Math.min(0.2, (now - this.strolled) / 1000));
+    this.strolled = now;
+    if (this.headset.worn) this.headset.steer(seconds);
+    else this.walk.update(this.stance.seated ? 0 : seconds);
   }
 }
