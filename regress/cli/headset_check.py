@@ -158,7 +158,7 @@ def _refuse_recorded(recordings: Iterable[Path], written: dict[str, Path | None]
     from facegen.files import refuse_sources
     from regress.runtime.headset.halves import split_half
 
-    paths = [path if path.exists() else Path(split_half(str(path))[0]) for path in recordings]
+    paths = [Path(split_half(str(path))[0]) for path in recordings] + list(recordings)
     read = [file for path in paths for file in (path.iterdir() if path.is_dir() else [path])]
     for option, path in written.items():
         if path is not None:

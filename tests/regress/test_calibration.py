@@ -266,6 +266,21 @@ def test_live_auto_wants_to_be_sure_twice_and_says_when_it_takes_long(quick_mode
     assert "neutral face found" in said[1]
 
 
+@pytest.mark.parametrize("fps", [20, 30, 120])
+def test_live_auto_takes_as_many_seconds_at_any_frame_rate(quick_model: Model, fps: int):
+    rng = np.random.default_rng(2)
+    said: list[str] = []
+    networks = LandmarkNetworks(quick_model)
+    stage = AutomaticCalibration(networks, said.append)
+    talk = _talk(rng, 330, rests=False)
+    for row in range(11 * fps):
+        stage.step(Sample(label=str(row), time_s=row / fps, points=talk[int(row * 30 / fps)]))
+    assert networks.model is quick_model
+    (line,) = said
+    told_s = int(line.split()[1].rstrip(":")) / fps
+    assert told_s == pytest.approx(10, abs=0.3)
+
+
 @pytest.fixture
 def recording(dataset: KeypointDataset, tmp_path):
     frames, _ = _recording(dataset, calm=40, moving=40)

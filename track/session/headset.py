@@ -8,10 +8,10 @@ import cv2
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES
+from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.levels import Levels
-from regress.runtime.headset.looks import evenly
 from regress.runtime.headset.networks import HeadsetNetworks
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, kept_openness, unpacked_picture
 from regress.runtime.headset.placement import CameraPlacement
@@ -95,7 +95,7 @@ class HeadsetPipeline(Pipeline):
 
     def rests_of(self, samples: Sequence[Sample]) -> dict[str, float]:
         """Medians of the weights, compared with the neutral pictures in use; gaze is centred by itself."""
-        chosen = [samples[row] for row in evenly(len(samples), RESTING_FRAMES)]
+        chosen = [samples[row] for row in even_rows(len(samples), RESTING_FRAMES)]
         pictures = {name: np.array([sample.pictures[name] for sample in chosen]) for name in self._opened}
         middle = np.median(self._networks.compared(pictures), axis=0)
         return {

@@ -25,8 +25,8 @@ _UNSEEN_DEG = 100.0
 HIDDEN_DEG = 20.0
 """Error of the gaze of an eye that is shut."""
 
-_KEEP_EVERY_S, _MEMORY = 1 / 30, 300
-"""Diameters are kept no oftener, and so many; their median is the iris's. It spans ten seconds or more, in which eyes
+_KEEP_EVERY_S, _MEMORY = 0.025, 300
+"""Diameters are kept no oftener, and so many; their median is the iris's. It spans 7.5 seconds or more, in which eyes
 are open for most: a half-hidden iris is traced too small."""
 
 _SETTLED = 30

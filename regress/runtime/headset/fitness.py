@@ -6,11 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from regress.errors import InputError
+from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.found_placement import FoundPlacement
-from regress.runtime.headset.looks import MEASURED_FRAMES, TakeLooks, evenly, looks_of
+from regress.runtime.headset.looks import MEASURED_FRAMES, TakeLooks, looks_of
 from regress.runtime.headset.misfits import Finding, Misfit, light_findings, lost, place_findings, turned
 from regress.runtime.headset.orientation import told_orientation
 from regress.runtime.headset.parts import mirror_partner
@@ -67,7 +68,7 @@ class CameraFitness:
 
 def checked_rows(count: int) -> np.ndarray:
     """Which of a take's frames are judged."""
-    return np.union1d(np.arange(min(count, _FOLLOWED)), evenly(count, _CHOSEN))
+    return np.union1d(np.arange(min(count, _FOLLOWED)), even_rows(count, _CHOSEN))
 
 
 def judge(predictor: HeadsetPredictor, footage: Mapping[str, np.ndarray]) -> list[CameraFitness]:
@@ -98,7 +99,7 @@ def _judge_camera(
     found = find_placement(predictor, name, pictures) if traces_an_eye(predictor, name) else None
     placement = CameraPlacement() if found is None else found.placement
     width, height = predictor.sizes[name]
-    measured = pictures[evenly(len(pictures), MEASURED_FRAMES)]
+    measured = pictures[even_rows(len(pictures), MEASURED_FRAMES)]
     looks = looks_of(np.stack([placement.view(one, width=width, height=height) for one in measured]))
     # what lies outside of the picture is repeated and moves with its edge: a rim and the lamps are seen in all of it
     whole = looks_of(pictures)
@@ -204,7 +205,7 @@ def _are_the_same(one: np.ndarray, other: np.ndarray) -> bool:
     if one.shape[1:] != other.shape[1:]:
         return False
     # of the same moments, and small: eyes of one face look alike, and the same pictures are the same at any size
-    chosen = evenly(min(len(one), len(other)), _COMPARED)
+    chosen = even_rows(min(len(one), len(other)), _COMPARED)
     first, second = (_small(stack[chosen]) for stack in (one, other))
     if first.std() == 0 or second.std() == 0:
         return False

@@ -238,15 +238,16 @@ def _own_eye(
         targets = np.zeros((1, 2))
     else:
         answers, targets = [], np.zeros((0, 2))
-    if len(targets) and np.isfinite(answers).all():
-        own = own_gaze(answers, targets)
-        gaze = {
-            "traced": tuple(map(tuple, own.maps[0].tolist())),
-            "direct": tuple(map(tuple, own.maps[1].tolist())),
-            # few targets do not show which answer is the better one; in the training's own headset it is the direct one
-            "traced_share": float(own.shares[0]) if own.decided else 0.0,
-            "error_deg": own.error_deg,
-        }
+    # of models without a map from points to the gaze no points say anything of it
+    names = [
+        name for name, each in zip(("traced", "direct"), answers, strict=False) if np.isfinite(each).all()
+    ]
+    if len(targets) and "direct" in names:
+        own = own_gaze([each for each in answers if np.isfinite(each).all()], targets)
+        gaze = {name: tuple(map(tuple, one.tolist())) for name, one in zip(names, own.maps, strict=True)}
+        # few targets do not show which answer is the better one; in the training's own headset it is the direct one
+        gaze["traced_share"] = float(own.shares[0]) if own.decided and "traced" in names else 0.0
+        gaze["error_deg"] = own.error_deg
         if own.error_deg > _MISSED_DEG:
             notes.append(
                 f"look: {camera} is off its targets by {own.error_deg:.0f} degrees even so; are their signs (left and "

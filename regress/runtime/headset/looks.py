@@ -7,6 +7,8 @@ import cv2
 import numpy as np
 from annotated_types import Interval, Len
 
+from regress.runtime.even_rows import even_rows
+
 SATURATED = 250
 """Grey level from which a pixel counts as saturated."""
 
@@ -86,7 +88,7 @@ class TakeLooks:
 
 def looks_of(pictures: np.ndarray) -> TakeLooks:
     """Measure the pictures (n, h, w) uint8 of a take, in the order of time."""
-    chosen = pictures[evenly(len(pictures), MEASURED_FRAMES)]
+    chosen = pictures[even_rows(len(pictures), MEASURED_FRAMES)]
     low, high = levels_of(chosen)
     return TakeLooks(
         low=low,
@@ -145,8 +147,3 @@ def flicker_of(pictures: np.ndarray) -> float:
             changes.append(max(abs(np.median(light - before)), _OF_BANDS * np.median(np.abs(rows))))
         before = light
     return float(np.median(changes))
-
-
-def evenly(count: int, most: int) -> np.ndarray:
-    """Rows of as many frames at most, all over a take."""
-    return np.linspace(0, count - 1, min(count, most)).round().astype(int)

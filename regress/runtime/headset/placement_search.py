@@ -17,10 +17,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.found_placement import FoundPlacement
 from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_steps import Search, evenly_chosen
+from regress.runtime.headset.placement_steps import Search
 from regress.runtime.headset.predictor import HeadsetPredictor
 
 _FRAMES, _FRAMES_DRAWN = 16, 64
@@ -67,7 +68,9 @@ def find_placement(predictor: HeadsetPredictor, camera: str, pictures: np.ndarra
         See `EyePoints.of`.
     """
     points = EyePoints.of(predictor, camera)
-    chosen = evenly_chosen(pictures, _FRAMES_DRAWN if predictor.model.of_many_headsets else _FRAMES)
+    chosen = pictures[
+        even_rows(len(pictures), _FRAMES_DRAWN if predictor.model.of_many_headsets else _FRAMES)
+    ]
     plain = _found(Search(predictor, camera, points, chosen, fades=False))
     if predictor.model.of_many_headsets or not (plain.lost or plain.turned or plain.doubt > _DOUBTFUL):
         return plain

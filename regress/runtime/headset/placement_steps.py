@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.compass import QUARTERS, eye_compass
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.found_placement import FoundPlacement
@@ -90,11 +91,6 @@ def placement_of_points(
     )
 
 
-def evenly_chosen(pictures: np.ndarray, most: int) -> np.ndarray:
-    """At most so many of the frames of a take, the first and the last among them."""
-    return pictures[np.linspace(0, len(pictures) - 1, min(len(pictures), most)).round().astype(int)]
-
-
 class Search:
     """Looks at a take's frames (n, h, w) at one placement after the other."""
 
@@ -108,7 +104,7 @@ class Search:
         fades: bool,
     ) -> None:
         self._predictor, self._camera, self._points = predictor, camera, points
-        self._pictures, self._few = pictures, evenly_chosen(pictures, _FEW)
+        self._pictures, self._few = pictures, pictures[even_rows(len(pictures), _FEW)]
         self._view = predictor.sizes[camera]
         self._picture = (pictures.shape[2], pictures.shape[1])
         self._aspect = self._picture[0] / self._picture[1]

@@ -12,6 +12,7 @@ import numpy as np
 from facegen.documents import unreadable
 from facegen.formats.film import FILMS
 from regress.errors import InputError
+from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.film_frames import Film
 from regress.runtime.headset.frame_names import frame_names
@@ -208,7 +209,7 @@ def recorded_size(path: Path) -> tuple[int, int]:
     path, half = _without_half(path)
     if path.is_dir():
         files = sorted(_pictures_in(path))
-        rows = np.linspace(0, len(files) - 1, min(len(files), _LOOKED_AT)).round().astype(int)
+        rows = even_rows(len(files), _LOOKED_AT)
         sizes = [size for row in rows if (size := _size_of(files[row]))]
         sizes = sizes or [size for size in islice(filter(None, map(_size_of, files)), 1)]
         if not sizes:
@@ -228,7 +229,7 @@ def recorded_size(path: Path) -> tuple[int, int]:
 def _without_half(path: Path) -> tuple[Path, str]:
     """A path, and the half of its pictures that stands behind it; a folder whose name ends so is whole."""
     whole, half = split_half(os.fspath(path))
-    return (path, "") if path.exists() else (Path(whole), half)
+    return (Path(whole), half) if half and not path.exists() else (path, "")
 
 
 def _size_of(file: Path) -> tuple[int, int] | None:

@@ -10,22 +10,25 @@ from regress.errors import InputError
 from regress.runtime.model import Model
 from regress.runtime.sample import Sample
 from regress.runtime.stages.confidence import confidence
+from regress.runtime.stages.frame_clock import FrameClock
 from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 from regress.runtime.stages.stage import BatchStage, Stage
 
-ESTIMATE_EVERY, ESTIMATE_LATER = 30, 150
-"""Frames between two estimates of the neutral face: a second of video; five from the tenth on, as an estimate of 900
-frames takes a tenth of a second.
+ESTIMATE_EVERY_S, ESTIMATE_LATER_S = 1.0, 5.0
+"""Between two estimates of the neutral face; the longer from `TELL_AT_S` on, as one of half a minute takes a tenth of a
+second.
 """
 
 SURE_TIMES = 2
 """Estimates in a row that must be sure: of people who talk all the time one in ten passes once, in the short run."""
 
-TELL_AT = 300
-"""Frames after which a person is told once that nothing was found so far, and why: ten seconds of video."""
+TELL_AT_S = 10.0
+"""After which a person is told once that nothing was found so far, and why."""
 
-_REMEMBERED = 900
-"""Frames that an estimate looks back on: half a minute of video."""
+_KEPT_EVERY_S, _REMEMBERED = 0.025, 900
+"""Frames are kept no oftener; an estimate looks back on so many, 22 seconds or more, half a minute of most cameras."""
+
+_ROUNDING_S = 1e-6
 
 
 class LandmarkNetworks(BatchStage):
@@ -90,15 +93,20 @@ class AutomaticCalibration(Stage):
         self._networks = networks
         self._say = say
         self._recent: deque[tuple[float, np.ndarray]] = deque(maxlen=_REMEMBERED)
-        self._count = 0
-        self._sure = 0
+        self._clock = FrameClock()
+        self._seen_s = self._kept_s = self._estimated_s = 0.0
+        self._sure, self._told = 0, False
 
     def step(self, sample: Sample) -> Sample:
         """Take a frame into account; frames with missing points are left out."""
         if self._sure < SURE_TIMES and np.isfinite(sample.points).all():
-            self._recent.append((np.nan if sample.time_s is None else sample.time_s, sample.points))
-            self._count += 1
-            if self._count % (ESTIMATE_EVERY if self._count <= TELL_AT else ESTIMATE_LATER) == 0:
+            self._seen_s += self._clock.step(sample.time_s)
+            if self._seen_s > self._kept_s + _KEPT_EVERY_S - _ROUNDING_S:
+                self._recent.append((np.nan if sample.time_s is None else sample.time_s, sample.points))
+                self._kept_s = self._seen_s
+            every_s = ESTIMATE_LATER_S if self._told else ESTIMATE_EVERY_S
+            if self._seen_s > self._estimated_s + every_s - _ROUNDING_S:
+                self._estimated_s = self._seen_s
                 self._estimate(sample.label)
         return sample
 
@@ -109,5 +117,6 @@ class AutomaticCalibration(Stage):
         if self._sure == SURE_TIMES:
             self._networks.use_model(self._networks.model.calibrate(points[estimate.frames]))
             self._say(f"frame {label}: neutral face found ({estimate.reason}); calibrated from here on")
-        elif self._count == TELL_AT:
+        elif self._seen_s > TELL_AT_S - _ROUNDING_S and not self._told:
+            self._told = True
             self._say(f"frame {label}: no neutral face found so far ({estimate.reason}); looking on")

@@ -14,7 +14,7 @@ from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.eye_reader import HALF_SHUT, IRIS_MM, EyeReader
 from regress.runtime.headset.person import OwnEye, Person
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.traced_eyes import corrected, eye_features, fused, traced_eyes
+from regress.runtime.headset.traced_eyes import corrected, eye_features, fused, own_gaze, traced_eyes
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
 LIDS, IRIS = 12, 8
@@ -264,3 +264,20 @@ def test_an_eye_that_was_away_shows_no_pupil_of_before():
     bright = {"left_eye": np.full_like(seen["left_eye"], 200)}
     back, _ = reader.read(1 / 30, bright, points, np.zeros(4))
     assert back.pupil[0] != before.pupil[0]
+
+
+@pytest.mark.parametrize("count", [5, 9])
+def test_errors_at_targets_are_those_of_fresh_looks(count: int):
+    """Six numbers fit five targets well: residuals at them say two thirds of what other looks are off by."""
+    rng = np.random.default_rng(count)
+    said, fresh, favoured = [], [], []
+    for _ in range(400):
+        targets, others = rng.uniform(-20, 20, (2, count, 2))
+        good, bad = (targets + rng.normal(0, sd, targets.shape) for sd in (2.0, 4.0))
+        own = own_gaze([good, bad], targets)
+        said.append(own.error_deg**2)
+        looks = own.apply([others + rng.normal(0, sd, others.shape) for sd in (2.0, 4.0)])
+        fresh.append(((looks - others) ** 2).sum(axis=1).mean())
+        favoured.append(own.shares[0] > 0.5)
+    assert np.sqrt(np.mean(said)) == pytest.approx(np.sqrt(np.mean(fresh)), rel=0.25)
+    assert np.mean(favoured) > 0.85
