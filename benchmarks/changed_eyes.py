@@ -4,7 +4,8 @@
 
 Each film comes nearer and farther, moved, turned, mirrored, with other light, noise and blur. At the placement that is
 found from the frames alone the traced pupil is compared with the film's marks (`benchmarks/real_eyes.py`: r of x and of
-y, and the median error in percent of the width, after an affine fit). Film b has no marks, so there it is compared with
+y, and the median error, after an affine fit to the same frames). Errors are in percent of the film's own width, grown
+with the eye: a farther eye does not err by less. Film b has no marks, so there it is compared with
 what the network traces in the film as it comes: that says how steady it is, not how right. Prints Markdown, which
 stands in docs/measurements/headset-networks.md.
 
@@ -28,7 +29,8 @@ from regress.runtime.headset.found_placement import FoundPlacement
 from regress.runtime.headset.placement_search import find_placement
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 
-Change = Callable[[Film], Film]
+Change = tuple[float, Callable[[Film], Film]]
+"""How much wider eyes come out, and what is done to a film."""
 
 NEARER = (1.0, 1.2, 1.35, 1.5, 1.7, 2.0)
 """Of the films' own scale, for `--beyond`."""
@@ -54,8 +56,8 @@ def main() -> None:
     for model in arguments.models:
         predictor = load_headset_predictor(model)
         marked = [with_marks(predictor, film) for film in films]
-        for what, change in changes().items():
-            cells = [told(predictor, change(film)) for film in marked]
+        for what, (near, change) in changes().items():
+            cells = [told(predictor, change(film), near * film.pictures.shape[2]) for film in marked]
             print(f"| {model} | {what} | {' | '.join(cells)} |", flush=True)
 
 
@@ -68,12 +70,18 @@ def with_marks(predictor: HeadsetPredictor, film: Film) -> Film:
     return replace(film, pupils=traced[:, EyePoints.of(predictor, CAMERA).pupil])
 
 
-def told(predictor: HeadsetPredictor, film: Film) -> str:
-    """A cell: how well pupils are traced, and how the eye is taken to lie where that is not upright."""
+def told(predictor: HeadsetPredictor, film: Film, width: float) -> str:
+    """A cell: how well pupils are traced, and how the eye is taken to lie where that is not upright.
+
+    Parameters
+    ----------
+    width
+        Pixels that errors are in percent of: of the film as it comes, grown with the eye.
+    """
     found = find_placement(predictor, CAMERA, film.pictures)
     traced = answer_to(predictor, film, found.placement).points[:, EyePoints.of(predictor, CAMERA).pupil]
     marked = np.isfinite(film.pupils).all(axis=1)
-    r, error = pupil_figures(traced[marked], film.pupils[marked], film.pictures.shape[2])
+    r, error = pupil_figures(traced[marked], film.pupils[marked], width)
     return f"{r[0]:.3f}, {r[1]:.3f}, {error:.2f}{''.join(f'; {word}' for word in words(found))}"
 
 
@@ -93,8 +101,8 @@ def beyond_rows(model: str, films: list[Film]) -> Iterator[str]:
             known = np.isfinite(seen.pupils).all(axis=1)
             for fades in (False, True):
                 traced = answer_to(predictor, seen, at, fades=fades).points[:, pupil]
-                r, error = pupil_figures(traced[known], seen.pupils[known], seen.pictures.shape[2])
-                cells.append(f"{r.min():.3f}, {error / near:.2f}")
+                r, error = pupil_figures(traced[known], seen.pupils[known], near * film.pictures.shape[2])
+                cells.append(f"{r.min():.3f}, {error:.2f}")
         yield f"| {model} | {near:g} | {' | '.join(cells)} |"
 
 
@@ -115,31 +123,30 @@ def changes() -> dict[str, Change]:
     def noisy(picture: np.ndarray) -> np.ndarray:
         return np.clip(picture + noise.normal(0, 12, picture.shape), 0, 255).astype(np.uint8)
 
+    def grey(change: Callable[[np.ndarray], np.ndarray]) -> Change:
+        return 1.0, lambda film: lit(film, change)
+
     return {
-        "none": lambda film: film,
-        "1.35 times as near": lambda film: moved(film, 1.35),
-        "1.7 times as near": lambda film: moved(film, 1.7),
-        "0.7 times as near": lambda film: moved(film, 0.7),
-        "0.5 times as near": lambda film: moved(film, 0.5),
-        "0.7, moved by .15 and -.1": lambda film: moved(film, 0.7, across=0.15, down=-0.1),
-        "turned by 12°": lambda film: moved(film, 1.0, turn_deg=12),
-        "turned by -20°": lambda film: moved(film, 1.0, turn_deg=-20),
-        "mirrored": lambda film: flipped(film, mirror=True),
-        "upside down": lambda film: flipped(flipped(film, mirror=True), mirror=False),
-        "on its side": lambda film: laid(film),
-        "on its other side": lambda film: laid(flipped(flipped(film, mirror=True), mirror=False)),
-        "gamma 2": lambda film: lit(film, lambda picture: (255 * (picture / 255.0) ** 2).astype(np.uint8)),
-        "gamma 0.5": lambda film: lit(
-            film, lambda picture: (255 * (picture / 255.0) ** 0.5).astype(np.uint8)
+        "none": (1.0, lambda film: film),
+        "1.35 times as near": (1.35, lambda film: moved(film, 1.35)),
+        "1.7 times as near": (1.7, lambda film: moved(film, 1.7)),
+        "0.7 times as near": (0.7, lambda film: moved(film, 0.7)),
+        "0.5 times as near": (0.5, lambda film: moved(film, 0.5)),
+        "0.7, moved by .15 and -.1": (0.7, lambda film: moved(film, 0.7, across=0.15, down=-0.1)),
+        "turned by 12°": (1.0, lambda film: moved(film, 1.0, turn_deg=12)),
+        "turned by -20°": (1.0, lambda film: moved(film, 1.0, turn_deg=-20)),
+        "mirrored": (1.0, lambda film: flipped(film, mirror=True)),
+        "upside down": (1.0, lambda film: flipped(flipped(film, mirror=True), mirror=False)),
+        "on its side": (1.0, laid),
+        "on its other side": (1.0, lambda film: laid(flipped(flipped(film, mirror=True), mirror=False))),
+        "gamma 2": grey(lambda picture: (255 * (picture / 255.0) ** 2).astype(np.uint8)),
+        "gamma 0.5": grey(lambda picture: (255 * (picture / 255.0) ** 0.5).astype(np.uint8)),
+        "a quarter of the contrast": grey(lambda picture: (90 + picture / 4).astype(np.uint8)),
+        "noise of 12 grey levels": grey(noisy),
+        "blur of 1 % of the width": grey(
+            lambda picture: cv2.GaussianBlur(picture, (0, 0), picture.shape[1] / 100)
         ),
-        "a quarter of the contrast": lambda film: lit(
-            film, lambda picture: (90 + picture / 4).astype(np.uint8)
-        ),
-        "noise of 12 grey levels": lambda film: lit(film, noisy),
-        "blur of 1 % of the width": lambda film: lit(
-            film, lambda picture: cv2.GaussianBlur(picture, (0, 0), picture.shape[1] / 100)
-        ),
-        "1.5 times as wide": lambda film: warped(film, np.array([[1.5, 0, 0], [0, 1, 0]]), widen=1.5),
+        "1.5 times as wide": (1.5, lambda film: warped(film, np.array([[1.5, 0, 0], [0, 1, 0]]), widen=1.5)),
     }
 
 

@@ -44,7 +44,7 @@ def main() -> None:
         films = [read_film(arguments.real / "eyes" / name) for name in FILMS]
         cells = " | ".join(f"{film.name}: right side | wrong side" for film in films)
         print(f"\n| change | {cells} |\n|{'---|' * (1 + 2 * len(films))}")
-        for what, change in changes().items():
+        for what, (_, change) in changes().items():
             if what == "mirrored" or what in TURNED:
                 continue
             margins = [margin for film in films for margin in film_margins(change(film).pictures, film.name)]
@@ -52,7 +52,7 @@ def main() -> None:
         for what, true in TURNED.items():
             for film in films:
                 of_right_eye = OF_RIGHT_EYE[film.name]
-                shares = shares_of(changes()[what](film).pictures, of_right_eye=of_right_eye)
+                shares = shares_of(changes()[what][1](film).pictures, of_right_eye=of_right_eye)
                 told = "right" if np.argmax(shares) == true[of_right_eye] else f"wrong ({np.argmax(shares)})"
                 print(f"{film.name}, {what}: {told}")
 

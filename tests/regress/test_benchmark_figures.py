@@ -149,6 +149,39 @@ def test_gaze_errors_are_angles(benchmark):
     assert off == pytest.approx(np.degrees(2 * np.arcsin(np.sin(np.radians(10)) * 0.5)))
 
 
+def test_errors_of_changed_films_are_of_one_width(benchmark, monkeypatch: pytest.MonkeyPatch):
+    sys.path.insert(0, str(ROOT))
+    changed = benchmark("benchmarks.changed_eyes")
+    rng = np.random.default_rng(4)
+    pupils = rng.uniform((50, 40), (80, 60), (40, 2))
+    film = changed.Film(
+        name="film_a",
+        frames=tuple(map(str, range(40))),
+        pictures=np.zeros((40, 100, 130), np.uint8),
+        pupils=pupils,
+    )
+    wrong = rng.normal(0, 1, pupils.shape)
+    placed = SimpleNamespace(placement=SimpleNamespace(mirror=False, roll_deg=0.0), lost=False)
+    monkeypatch.setattr(changed, "find_placement", lambda *given: placed)
+    monkeypatch.setattr(changed.EyePoints, "of", lambda *given: SimpleNamespace(pupil=0))
+    errors = {}
+    for what in (
+        "none",
+        "0.5 times as near",
+        "1.7 times as near",
+        "on its side",
+        "0.7, moved by .15 and -.1",
+    ):
+        near, change = changed.changes()[what]
+        seen = change(film)
+        # whoever traces errs by as much of the eye, however near it is
+        off = near * (wrong @ [[0, -1], [1, 0]] if what == "on its side" else wrong)
+        traced = SimpleNamespace(points=(seen.pupils + off)[:, None])
+        monkeypatch.setattr(changed, "answer_to", lambda *given, traced=traced: traced)
+        errors[what] = changed.told(None, seen, near * film.pictures.shape[2]).split(", ")[2]
+    assert len(set(errors.values())) == 1, errors
+
+
 def test_a_fit_is_judged_on_frames_that_it_has_not_seen(benchmark):
     eyes = benchmark("real_eyes")
     rng = np.random.default_rng(1)
