@@ -22,12 +22,13 @@ def train(
         Path, typer.Option("--out", help="Model folder to write; an older model of this kind is replaced.")
     ],
     architecture: Annotated[
-        Literal[tuple(ARCHITECTURES)],
+        Literal[tuple(ARCHITECTURES)] | None,
         typer.Option(
             "--architecture",
-            help="; ".join(f"{name}: {one.help}" for name, one in ARCHITECTURES.items()) + ".",
+            help="; ".join(f"{name}: {one.help}" for name, one in ARCHITECTURES.items())
+            + f". That of --start; {_PLAIN.architecture} without.",
         ),
-    ] = "modular",
+    ] = None,
     seed: Annotated[
         int, typer.Option("--seed", min=0, help="Seed of the start, order and changes of pictures.")
     ] = 0,
@@ -150,5 +151,6 @@ def _settings(chosen: dict[str, object], pairs: Sequence[str]) -> dict[str, obje
         if not sign or name not in others:
             raise InputError(f"--set {pair!r} is not NAME=VALUE with one of {', '.join(others)}")
         chosen[name] = text
-    recipe_of(chosen)
-    return chosen
+    said = {name: value for name, value in chosen.items() if value is not None}
+    recipe_of(said)
+    return said

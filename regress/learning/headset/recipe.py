@@ -164,8 +164,8 @@ DRAWN_SETTINGS: Mapping[str, Any] = {"camera_terms": True}
 """What is another default where the arrays' headsets are drawn: the network is told of each."""
 
 
-_SIZES = ("input_size", "blocks", "code", "hidden", "skip", "second_look", "camera_terms")
-"""Settings in which a network is as the one that it begins as."""
+_SIZES = ("architecture", "input_size", "blocks", "code", "hidden", "skip", "second_look", "camera_terms")
+"""Settings in which a network is as the one that it begins as, unless others are asked for."""
 
 
 def sizes_of(settings: Mapping[str, Any]) -> dict[str, Any]:

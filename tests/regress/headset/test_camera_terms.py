@@ -110,12 +110,14 @@ def test_drawn_headsets_are_trained_for_with_another_recipe(run, told_arrays: He
         assert recipe[name] == value
 
 
+@pytest.mark.parametrize("architecture", ["modular", "holistic"])
 def test_a_network_has_the_sizes_of_the_one_that_it_begins_as(
-    run, told_arrays: HeadsetArrays, tmp_path: Path
+    run, told_arrays: HeadsetArrays, tmp_path: Path, architecture: str
 ):
     sizes = {"input_size": 16, "blocks": 1, "code": 8, "skip": 4, "camera_terms": True}
     first, second = tmp_path / "first", tmp_path / "second"
-    said = [f"--set={name}={value}" for name, value in sizes.items()]
+    said = [f"--set={name}={value}" for name, value in sizes.items()] + ["--architecture", architecture]
+    sizes["architecture"] = architecture
     code, _, errors = run("headset", "train", told_arrays.folder, "--out", first, "--epochs", 1, *said)
     assert code == 0, errors
     begun = ["--start", first, "--set", "shift=0.03"]
