@@ -22,6 +22,7 @@ from regress.cli.options import (
     BitsOption,
     FpsOption,
     FromStartOption,
+    HeadsetOption,
     LeftEyeOption,
     MouthOption,
     RightEyeOption,
@@ -59,6 +60,7 @@ def adapt(
     fps: FpsOption = None,
     bits: BitsOption = None,
     placement: Placement = None,
+    headset: HeadsetOption = None,
 ) -> None:
     """Adapt a model's last layers to a person, where frames that were held out get better by it; refuse to else.
 
@@ -73,6 +75,7 @@ def adapt(
 
     from facegen.console import say
     from facegen.files import refuse_sources
+    from facegen.headsets import told_cameras
     from regress.cli.headset_minute import read_minute
     from regress.learning.headset.adaptation import LEAST_GAIN, adapted_graph, changes, judge, read_heads
     from regress.learning.headset.known_frames import known_frames
@@ -86,6 +89,8 @@ def adapt(
         raise InputError("--out is needed: a folder for the person's model")
     check_place(out, KIND)
     predictor = load_headset_predictor(model or HEADSET)
+    terms = None if headset is None else told_cameras(headset, predictor.sizes)
+    predictor = predictor if terms is None else predictor.told(terms)
     folder = model_folder(model or HEADSET)
     refuse_sources(out / "model.json", [folder / "model.json"])
     minute = read_minute(
@@ -103,7 +108,7 @@ def adapt(
         say(note)
     pictures, neutral, frames = known_frames(predictor, minute.takes, minute.labels)
     graph = (folder / "network.onnx").read_bytes()
-    heads = read_heads(graph, predictor.model, pictures, neutral)
+    heads = read_heads(graph, predictor.model, pictures, neutral, terms=terms)
     held = judge(heads, frames)
     said = f"known weights of held-out frames err by {held.before:.4f}, and by {held.after:.4f} when adapted"
     if not held.better:

@@ -5,7 +5,7 @@ points stay. The shares with which cameras count do not depend on these heads, s
 both sides of the face share a head through the mirror. Needs no PyTorch.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -100,9 +100,19 @@ class Heads:
 
 
 def read_heads(
-    graph: bytes, model: HeadsetModel, pictures: dict[str, np.ndarray], neutral: dict[str, np.ndarray] | None
+    graph: bytes,
+    model: HeadsetModel,
+    pictures: dict[str, np.ndarray],
+    neutral: dict[str, np.ndarray] | None,
+    *,
+    terms: Mapping[str, np.ndarray] | None = None,
 ) -> Heads:
     """Run a network on frames, and keep what its heads read.
+
+    Parameters
+    ----------
+    terms
+        Where cameras are, as `HeadsetGraph.told` takes them; nothing is told without.
 
     Raises
     ------
@@ -116,9 +126,9 @@ def read_heads(
         raise ModelError("network.onnx has no heads as `regress headset train` makes them; train it anew")
     for node in nodes:
         whole.graph.output.append(helper.make_tensor_value_info(node.input[0], onnx.TensorProto.FLOAT, None))
-    estimates, read = HeadsetGraph(whole.SerializeToString(), model.cameras, model.points).read(
-        [node.input[0] for node in nodes], pictures, neutral=neutral
-    )
+    run = HeadsetGraph(whole.SerializeToString(), model.cameras, model.points)
+    run = run if terms is None else run.told(terms)
+    estimates, read = run.read([node.input[0] for node in nodes], pictures, neutral=neutral)
     shares = estimates.shares if len(nodes) > 1 else np.ones((len(estimates.weights), 1, _SHAPES))
     return Heads(
         names=tuple(node.input[1] for node in nodes),

@@ -3,10 +3,12 @@
 import csv
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
+from facegen.headsets import told_cameras
 from regress.learning.headset.adaptation import (
     Heads,
     HeldOut,
@@ -209,3 +211,21 @@ def test_tables_that_say_nothing_are_refused(run, tmp_path: Path, monkeypatch, o
     Path("other.csv").write_text("frame,jaw\n1,0.1\n")
     code, _, told = run("headset", "adapt", *CAMERAS, *options, "--out", "anna")
     assert (code, said in told) == (2, True), told
+
+
+def test_heads_are_read_as_the_network_that_is_told_of_its_cameras_reads_them(run, tmp_path: Path):
+    predictor = load_headset_predictor("headset-any")
+    terms = told_cameras("tracking3", predictor.sizes)
+    pictures = {
+        name: np.stack([cv2.imread(str(file), 0) for file in sorted((TAKE / name).glob("*.png"))[:4]])
+        for name in predictor.sizes
+    }
+    graph = (model_folder("headset-any") / "network.onnx").read_bytes()
+    plain = read_heads(graph, predictor.model, pictures, None).weights
+    heads = read_heads(graph, predictor.model, pictures, None, terms=terms)
+    np.testing.assert_allclose(heads.weights, predictor.told(terms).predict(pictures).weights, atol=1e-5)
+    assert np.abs(heads.weights - plain).max() > 0.01
+    words = ("headset", "adapt", "headset-tracking3", "--out", tmp_path / "model", "--headset", "tracking3")
+    code, _, said = run(*words, *CAMERAS, "--rest", "0-9", "--shut", "90-93")
+    assert code == 2
+    assert "trained for one headset" in said
