@@ -131,18 +131,18 @@ def _mapped(gaze_deg: np.ndarray, one: np.ndarray) -> np.ndarray:
 def own_gaze(looked: Sequence[np.ndarray], targets_deg: np.ndarray) -> OwnGaze:
     """What targets (k, 2) in degrees say of several answers (k, 2) at them.
 
-    An answer counts by the inverse of its squared error at each target by the map of the others: at those that made a
-    map it is smaller, and six numbers fit five targets well. Fewer than `FEWEST_TARGETS` show no errors; the first
-    answer then stands alone.
+    An answer counts by the inverse of its squared error at the targets. What all together are off by is told by maps of
+    the other targets: six numbers fit five targets well. Fewer than `FEWEST_TARGETS` show no errors; the first answer
+    then stands alone.
     """
     maps = [correction(each, targets_deg) if len(each) else np.eye(2, 3) for each in looked]
     if len(targets_deg) < FEWEST_TARGETS:
         return OwnGaze(maps=tuple(maps), shares=np.eye(len(maps))[0], error_deg=1.0, decided=False)
-    off = [_off_at_others(each, targets_deg) for each in looked]
+    off = [_mapped(each, one) - targets_deg for each, one in zip(looked, maps, strict=True)]
     errors = (np.array(off) ** 2).sum(axis=2).mean(axis=1)
     shares = 1 / (errors + _LEAST_DEG**2)
     shares /= shares.sum()
-    together = np.tensordot(shares, np.array(off), axes=1)
+    together = np.tensordot(shares, [_off_at_others(each, targets_deg) for each in looked], axes=1)
     error_deg = float(np.sqrt((together**2).sum(axis=1).mean() + _LEAST_DEG**2))
     return OwnGaze(maps=tuple(maps), shares=shares, error_deg=error_deg)
 
