@@ -1,5 +1,6 @@
 """Keeps what cameras show: a folder of pictures each, numbered by moments, and the moments' times."""
 
+import shutil
 from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -96,7 +97,7 @@ class FootageWriter:
         self._raise_errors()
 
     def close(self) -> None:
-        """Wait until all is written.
+        """Wait until all is written; of a take without pictures nothing stays.
 
         Raises
         ------
@@ -108,6 +109,8 @@ class FootageWriter:
             self._times.close()
         except OSError as error:
             self._errors.append(error)
+        if not any(self.written.values()):
+            shutil.rmtree(self._folder, ignore_errors=True)
         self._raise_errors()
 
     def _write_time(self, line: str) -> None:

@@ -92,6 +92,12 @@ def test_a_full_disk_ends_the_take_in_one_sentence(tmp_path: Path, monkeypatch: 
         record()
 
 
+def test_a_take_without_pictures_leaves_nothing(tmp_path: Path):
+    with FootageWriter(tmp_path / "take", ["a"]) as writer:
+        writer.write(Sample(label="", time_s=0.0, pictures={}))
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_take_that_is_there_is_kept(tmp_path: Path):
     with pytest.raises(InputError, match="is there already"):
         FootageWriter(tmp_path, ["a"])

@@ -52,7 +52,7 @@ def record(
                 writer.write(sample)
                 told("recorded", math.floor(sample.time_s - first_s), math.ceil(seconds))
     if not any(writer.written.values()):
-        raise CameraError(f"no camera gave a picture, so {folder} is empty")
+        raise CameraError(f"no camera gave a picture, so there is no {folder}")
     for name, count in writer.written.items():
         say(f"{folder / name}: {counted(count, 'picture')}")
     if are_named(wishes.cameras):
