@@ -56,6 +56,7 @@ class FootageWriter:
                 (folder / name).mkdir()
             self._times = (folder / TIMES).open("w", encoding="utf-8", newline="\n")
         except OSError as error:
+            shutil.rmtree(folder, ignore_errors=True)
             raise OutputError(f"{folder}: cannot be made ({error.strerror})") from None
         self.written = dict.fromkeys(cameras, 0)
         self._last: dict[str, np.ndarray] = {}

@@ -156,9 +156,9 @@ def _what_next(
 def _refuse_recorded(recordings: Iterable[Path], written: dict[str, Path | None]) -> None:
     """Refuse to write over what is read: films, and pictures in folders."""
     from facegen.files import refuse_sources
-    from regress.runtime.headset.halves import split_half
+    from regress.runtime.headset.halves import whole_of
 
-    paths = [Path(split_half(str(path))[0]) for path in recordings] + list(recordings)
+    paths = [*recordings, *map(whole_of, recordings)]
     read = [file for path in paths for file in (path.iterdir() if path.is_dir() else [path])]
     for option, path in written.items():
         if path is not None:

@@ -172,6 +172,7 @@ def predict(
     from regress.cli.results import check_targets, needs_times, write_prediction
     from regress.errors import InputError
     from regress.runtime.headset.film import check_film_name, write_film
+    from regress.runtime.headset.halves import whole_of
     from regress.runtime.headset.levels import levelled, tables_of
     from regress.runtime.headset.placement_file import read_placement
     from regress.runtime.headset.points import points_csv
@@ -207,7 +208,7 @@ def predict(
         retargeted=retarget is not None,
         tables={"--confidence": trust, "--points": points, "--eyes": eyes},
         film=video,
-        sources=(*paths.values(), adjust, person, placement),
+        sources=(*paths.values(), *map(whole_of, paths.values()), adjust, person, placement),
     )
     targets = targets_of(looked_at or [])
     if looked_at and eyes is None:

@@ -26,6 +26,7 @@ def record(
     import math
 
     from facegen.console import counted, progress, say
+    from regress.runtime.headset.halves import split_half
     from track.cli.opening import Wishes, are_named, camera_texts, open_cameras
     from track.cli.running import ended_by_signals
     from track.errors import CameraError, InputError
@@ -35,7 +36,7 @@ def record(
 
     wishes = Wishes(cameras=camera or (), fast=fast, fps=fps)
     texts = camera_texts(wishes.cameras, headset=are_named(wishes.cameras))
-    if "-" in texts.values():
+    if any(split_half(text)[0] == "-" for text in texts.values()):
         raise InputError("--camera -: lines of points have no pictures to record")
     check_folder(folder)
     telling, first_s = FaultTelling(say), None

@@ -1,5 +1,6 @@
 """Whether a headset's cameras were exchanged while it is worn: each picture against what every camera showed lately."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from enum import Enum
@@ -10,10 +11,12 @@ import numpy as np
 
 from regress.runtime.headset.typical import TYPICAL_SIDE
 from regress.runtime.sample import Sample
+from regress.runtime.stages.frame_clock import FrameClock
 from regress.runtime.stages.stage import Stage
 
-LEARNT = 0.02
-"""Share of a new picture in what a camera showed lately: half a second at 120 frames a second."""
+LATELY_S = 0.5
+"""In which what a camera showed is forgotten, at any frame rate: two cameras whose pictures differ little would else be
+learnt for each other before anybody is told."""
 
 MARGIN = 0.15
 """Mean correlation by which two pictures must be liker each other's camera than their own; while they are exchanged
@@ -35,9 +38,11 @@ class ExchangeWatch(Stage):
     def __init__(self) -> None:
         self._looks: dict[str, np.ndarray] = {}
         self._exchanged: set[str] = set()
+        self._clock = FrameClock()
 
     def step(self, sample: Sample) -> Sample:
         """The sample without exchanged pictures; ``faults`` names their cameras."""
+        learnt = 1 - math.exp(-self._clock.step(sample.time_s) / LATELY_S)
         seen = {name: _standard(_small(picture)) for name, picture in (sample.pictures or {}).items()}
         before, self._exchanged = self._exchanged, set()
         known = [name for name in seen if name in self._looks]
@@ -54,7 +59,7 @@ class ExchangeWatch(Stage):
         faults = dict.fromkeys(sorted(self._exchanged), CameraFault.EXCHANGED)
         if not faults:
             for name, look in seen.items():
-                self._learn(name, look)
+                self._learn(name, look, learnt)
             return sample
         pictures = {name: picture for name, picture in sample.pictures.items() if name not in faults}
         return replace(sample, pictures=pictures, faults={**sample.faults, **faults})
@@ -67,8 +72,8 @@ class ExchangeWatch(Stage):
             np.array([seen[name] for name in names]) @ np.array([self._looks[name] for name in names]).T
         ).tolist()
 
-    def _learn(self, name: str, look: np.ndarray) -> None:
-        mixed = (1 - LEARNT) * self._looks.get(name, look) + LEARNT * look
+    def _learn(self, name: str, look: np.ndarray, share: float) -> None:
+        mixed = (1 - share) * self._looks.get(name, look) + share * look
         self._looks[name] = _normed(mixed)
 
 

@@ -209,11 +209,14 @@ class _Soundness(PictureSoundness):
 
 
 class _Grey(Stage):
-    """One grey level a pixel, as infra-red cameras have it."""
+    """One grey level a pixel, as infra-red cameras have it; of the same picture the same array."""
+
+    def __init__(self) -> None:
+        self._last: dict[str, tuple[np.ndarray, np.ndarray]] = {}
 
     def step(self, sample: Sample) -> Sample:
-        pictures = {
-            name: picture if picture.ndim == 2 else cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
-            for name, picture in (sample.pictures or {}).items()
-        }
-        return replace(sample, pictures=pictures)
+        for name, picture in (sample.pictures or {}).items():
+            if name not in self._last or self._last[name][0] is not picture:
+                grey = picture if picture.ndim == 2 else cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
+                self._last[name] = picture, grey
+        return replace(sample, pictures={name: self._last[name][1] for name in sample.pictures or {}})

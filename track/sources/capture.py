@@ -85,7 +85,10 @@ class Capture:
             raise
         self._halves = dict(halves or {name: (name, "") for name in openers})
         self._seen: dict[str, tuple[np.ndarray, np.ndarray]] = {}
-        self.titles = {name: self._cameras[whole].title for name, (whole, _) in self._halves.items()}
+        self.titles = {
+            name: self._cameras[whole].title + (f"#{half}" if half else "")
+            for name, (whole, half) in self._halves.items()
+        }
         self.live = any(camera.live for camera in self._cameras.values())
         lengths_s = [camera.length_s for camera in self._cameras.values()]
         self.length_s = None if None in lengths_s else max(lengths_s, default=None)
@@ -181,10 +184,12 @@ class Capture:
 
     def _awaited(self) -> bool:
         """Whether a camera has no picture yet from which one is expected that goes with those that are there."""
-        cameras = self._cameras.values()
+        cameras, now_s = self._cameras.values(), time.perf_counter()
         until_s = min(each.waiting.came_s + each.waiting.together_s for each in cameras if each.waiting)
         return any(
-            not (each.waiting or each.ended or each.trouble()) and each.waiting.due_s <= until_s
+            not (each.waiting or each.ended or each.trouble())
+            and each.waiting.due_s <= until_s
+            and (np.isinf(each.waiting.due_s) or now_s < each.waiting.due_s + WAIT_S)
             for each in cameras
         )
 
@@ -202,7 +207,7 @@ class Capture:
             latest_s = first.time_s + min(WAIT_S, first.together_s)
             return [name for name, each in waiting.items() if each.time_s <= latest_s]
         behind = time.perf_counter() - self._caught_up_s > LONGEST_S
-        if behind or self._awaited():  # another camera was waited for in vain
+        if behind:
             for each in waiting.values():
                 each.leave_newest()
             return list(waiting)

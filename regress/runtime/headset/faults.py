@@ -75,6 +75,7 @@ class FrozenWatch:
     def __init__(self) -> None:
         self._first: dict[str, np.ndarray] = {}
         self._still_s: dict[str, float] = {}
+        self._held_s: dict[str, float] = {}
         self._moved: set[str] = set()
 
     def step(
@@ -96,9 +97,13 @@ class FrozenWatch:
         for name, picture in pictures.items():
             # compared with the first of a run, so that slow drift is no repeat
             if name in self._first and _same(self._first[name], picture):
-                self._still_s[name] += 0.0 if name in held else seconds
+                # what a slow camera's picture stood for counts once its next one is the same
+                self._held_s[name] += seconds
+                if name not in held:
+                    self._still_s[name] += self._held_s[name]
+                    self._held_s[name] = 0.0
             else:
-                self._first[name], self._still_s[name] = picture, 0.0
+                self._first[name], self._still_s[name], self._held_s[name] = picture, 0.0, 0.0
                 self._moved.discard(name)
                 changed.add(name)
         self._moved |= {name for name in pictures if name not in changed and changed}

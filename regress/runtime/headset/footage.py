@@ -115,13 +115,12 @@ def line_up(
     still
         For frames that have nothing to do with each other: none is frozen, and no number is lacking between others.
     fps
-        Frames a second, whatever films say; without it a film's own, or times are not known.
+        Frames a second, whatever films say; without it films and names that are times tell them, or nothing does.
 
     Raises
     ------
     InputError
-        Where there is no recording, films have other frame rates, numbers have nothing in common, or no picture is
-        usable.
+        Where there is no recording, the cameras have nothing in common, or no picture is usable.
     """
     if not recordings:
         raise InputError(f"no camera is given; the model has {', '.join(sizes)}")

@@ -1,5 +1,8 @@
 """Half pictures: one camera's pictures that show both eyes side by side, or one above the other."""
 
+import os
+from pathlib import Path
+
 import numpy as np
 
 HALVES = ("left", "right", "top", "bottom")
@@ -10,6 +13,11 @@ def split_half(source: str) -> tuple[str, str]:
     """A source without the half that stands behind it, and the half; empty where none does."""
     whole, sign, half = source.rpartition("#")
     return (whole, half) if sign and whole and half in HALVES else (source, "")
+
+
+def whole_of(path: Path) -> Path:
+    """The folder or film of a half."""
+    return Path(split_half(os.fspath(path))[0])
 
 
 def half_of(picture: np.ndarray, half: str) -> np.ndarray:

@@ -11,16 +11,24 @@ from regress.runtime.headset.recordings import Recording
 _LONGEST_GRID = 4
 """Frames of an even count for each that is there; numbers farther apart, or not even, are clock times."""
 
-_SHARED = 0.5
-"""Share of a camera's numbers that are another's too, below which they do not number the same frames. Of two cameras
-that are named by clocks of their own, at 60 a second to the millisecond, 6 in 100 are the same by chance."""
+_SHARED, _SHARED_TICKS = 0.5, 0.9
+"""Share of a camera's numbers that are another's too, below which they do not number the same frames; and of numbers
+that are a clock's ticks, which are the same by chance: in 6 of 100 frames of two cameras of 60 a second, named by
+milliseconds, and in most where their steps fall on whole ones."""
 
 _APART = 0.55
 """Of the time from one frame of a camera to the next, by which its frame may differ from the moment it stands for."""
 
 
-_SLOWER = 1.5
-"""Steps of a camera over those of all, from which it is slow, and its picture stands for several moments."""
+_SLOWER, _STANDS = 1.3, 1.6
+"""Steps of a camera over those of all, from which it is slow; and for how many of its own its picture stands, as live,
+where the next one does not come sooner."""
+
+_WINDOW = 20
+"""Frames over which a camera that gives three for four moments, say, gives as many again and again."""
+
+_SAME_SPAN = 1.1
+"""Factor between the lengths of takes from which counters of other steps are not one counter."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -77,16 +85,35 @@ def match(
     """
     recordings = {name: _timed(each) for name, each in recordings.items()}
     begun = {name: _begun(each) for name, each in recordings.items()} if from_start else recordings
-    numbered = any(each.numbered for each in recordings.values())
-    timed = all(each.time_s is not None and (fps is None or each.numbered) for each in recordings.values())
-    if still or (numbered and (len(recordings) == 1 or _shared(begun) >= _SHARED)):
+    timed = all(each.time_s is not None and (fps is None or not each.film) for each in recordings.values())
+    clocks = timed and any(not each.film for each in recordings.values())
+    if still or _are_numbers(begun, clocks=clocks, from_start=from_start):
         matched = _by_number(begun, still=still, fps=fps)
-        return _to_the_shortest(matched, begun) if from_start else matched
-    if timed:
-        return _by_time(begun)
-    if numbered and not from_start:
-        _refuse_numbers(begun)
-    return _one_by_one(recordings, fps)
+        matched = _to_the_shortest(matched, begun) if from_start else matched
+    elif timed:
+        matched = _by_time(begun)
+    elif any(each.numbered for each in recordings.values()) and not from_start:
+        raise _no_numbers(begun)
+    else:
+        return _one_by_one(recordings, fps)
+    if not from_start:
+        return matched
+    # frames keep the numbers of the first camera that has any
+    first = next((int(each.numbers[0]) for each in recordings.values() if each.numbered), 0)
+    return replace(matched, numbers=matched.numbers + first)
+
+
+def _are_numbers(recordings: Mapping[str, Recording], *, clocks: bool, from_start: bool) -> bool:
+    """Whether names number the same frames of all cameras."""
+    if not any(each.numbered for each in recordings.values()) or (clocks and from_start):
+        return False
+    if len(recordings) == 1:
+        return True
+    spans = [int(each.numbers[-1] - each.numbers[0]) + 1 for each in recordings.values()]
+    steps = [span / len(each.numbers) for span, each in zip(spans, recordings.values(), strict=True)]
+    if from_start and max(steps) > _SLOWER * min(steps) and max(spans) > _SAME_SPAN * min(spans):
+        return False
+    return _shared(recordings) >= (_SHARED_TICKS if clocks else _SHARED)
 
 
 def _timed(recording: Recording) -> Recording:
@@ -103,24 +130,29 @@ def _begun(recording: Recording) -> Recording:
 
 
 def _shared(recordings: Mapping[str, Recording]) -> float:
-    """Least share of a camera's numbers, within the range of the one that has most, that the latter has too."""
+    """Least share of numbers, in the range of a camera and of the one with most, that both have."""
     most = max(recordings.values(), key=lambda each: len(each.numbers)).numbers
     shares = [1.0]
     for each in recordings.values():
-        inside = each.numbers[(each.numbers >= most[0]) & (each.numbers <= most[-1])]
-        shares.append(float(np.isin(inside, most).mean()) if len(inside) else 0.0)
+        own, others = (
+            numbers[(numbers >= max(each.numbers[0], most[0])) & (numbers <= min(each.numbers[-1], most[-1]))]
+            for numbers in (each.numbers, most)
+        )
+        both = len(np.intersect1d(own, others))
+        shares.append(both / min(len(own), len(others)) if both else 0.0)
     return min(shares)
 
 
-def _refuse_numbers(recordings: Mapping[str, Recording]) -> None:
+def _no_numbers(recordings: Mapping[str, Recording]) -> InputError:
+    """What is wrong with numbers of which few are shared."""
     ranges = {name: (int(r.numbers[0]), int(r.numbers[-1])) for name, r in recordings.items()}
     if max(start for start, _ in ranges.values()) > min(stop for _, stop in ranges.values()):
         found = ", ".join(f"{name} {start}-{stop}" for name, (start, stop) in ranges.items())
-        raise InputError(
+        return InputError(
             f"the cameras' frame numbers have nothing in common ({found}); --from-start matches takes of different "
             f"recordings"
         )
-    raise InputError(
+    return InputError(
         "few frame numbers of one camera are another's, as where files are called by times of clocks of their own; "
         "--from-start matches first frames"
     )
@@ -128,28 +160,53 @@ def _refuse_numbers(recordings: Mapping[str, Recording]) -> None:
 
 def _by_number(recordings: Mapping[str, Recording], *, still: bool, fps: float | None) -> Matching:
     numbers = _grid(recordings, still=still)
-    step = float(np.median(np.diff(numbers))) if len(numbers) > 1 else 1.0
-    rows, clock_s = {}, None
+    step, rows = _quickest_step(recordings), {}
     for name, each in recordings.items():
         rows[name] = np.full(len(numbers), -1)
         rows[name][np.searchsorted(numbers, each.numbers)] = np.arange(len(each.numbers))
-        own_step = float(np.median(np.diff(each.numbers))) if len(each.numbers) > 1 else step
+        own_step = _slow_step(each.numbers, step)
         if not still and own_step > _SLOWER * step:
-            rows[name] = _held(rows[name], numbers, each.numbers, own_step)
-        if each.numbered and each.time_s is not None:
-            clock_s = np.interp(numbers, each.numbers, each.time_s)
+            rows[name] = _held(numbers, each.numbers, own_step)
     rate = fps or _film_rate(recordings)
     time_s = None if rate is None else np.arange(len(numbers)) / rate
-    if fps is None and clock_s is not None:
-        time_s = clock_s - clock_s[0]
+    clock = max(
+        (each for each in recordings.values() if each.numbered and each.time_s is not None),
+        key=lambda each: len(each.numbers),
+        default=None,
+    )
+    if fps is None and clock is not None and len(clock.numbers) > 1:
+        tick_s = (clock.time_s[-1] - clock.time_s[0]) / int(clock.numbers[-1] - clock.numbers[0])
+        time_s = (numbers - numbers[0]) * tick_s
     return Matching(numbers=numbers, rows=rows, time_s=time_s, notes=_counting_note(recordings))
 
 
-def _held(rows: np.ndarray, numbers: np.ndarray, own: np.ndarray, own_step: float) -> np.ndarray:
-    """Rows in which a slow camera's frame stands for all moments until its next one is due."""
+def _quickest_step(recordings: Mapping[str, Recording]) -> float:
+    """Between numbers of the camera that gives most frames."""
+    steps = [np.median(np.diff(each.numbers)) for each in recordings.values() if len(each.numbers) > 1]
+    return float(min(steps, default=1.0))
+
+
+def _slow_step(numbers: np.ndarray, step: float) -> float:
+    """From one frame to the next of a camera that gives them evenly; 0 of one that loses some now and then.
+
+    A slow camera has no two moments in a row, or as many in each window of them.
+    """
+    gaps = np.diff(numbers)
+    if len(gaps) < 3:
+        return 0.0
+    usual = float(gaps[gaps <= np.quantile(gaps, 0.95)].mean())
+    if np.quantile(gaps, 0.05) >= 2 * step:
+        return usual
+    if len(numbers) < 5 * _WINDOW:
+        return 0.0
+    reach = numbers[_WINDOW:] - numbers[:-_WINDOW]
+    return usual if np.quantile(np.abs(reach[_WINDOW:] - reach[:-_WINDOW]), 0.9) <= 2 * step else 0.0
+
+
+def _held(numbers: np.ndarray, own: np.ndarray, own_step: float) -> np.ndarray:
+    """Rows in which a slow camera's frame stands for all moments until its next one."""
     before = np.searchsorted(own, numbers, side="right") - 1
-    there = (before >= 0) & (numbers - own[before] < own_step)
-    return np.where(rows >= 0, rows, np.where(there, before, -1))
+    return np.where((before >= 0) & (numbers - own[before] < _STANDS * own_step), before, -1)
 
 
 def _grid(recordings: Mapping[str, Recording], *, still: bool) -> np.ndarray:
@@ -217,8 +274,13 @@ def _counting_note(recordings: Mapping[str, Recording]) -> tuple[str, ...]:
 
 def _to_the_shortest(matched: Matching, recordings: Mapping[str, Recording]) -> Matching:
     """Without what comes behind the end of the first camera that ends."""
-    last = min(int(each.numbers[-1]) for each in recordings.values())
-    kept = matched.numbers <= last
+    step = _quickest_step(recordings)
+    slow = {name: _slow_step(each.numbers, step) for name, each in recordings.items()}
+    end = min(
+        each.numbers[-1] + (slow[name] if slow[name] > _SLOWER * step else step)
+        for name, each in recordings.items()
+    )
+    kept = matched.numbers < end
     notes = matched.notes
     if not kept.all():
         lengths = ", ".join(f"{name} has {len(each.numbers)}" for name, each in recordings.items())

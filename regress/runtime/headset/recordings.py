@@ -55,6 +55,8 @@ class Recording:
         At the network's size; 0 where a frame is at fault.
     faults
         Of each frame.
+    film
+        Whether times and rate are a film's own.
     fps
         Frames a second, where a film tells.
     time_s : (n,) float64 or None
@@ -73,6 +75,7 @@ class Recording:
     numbered: bool
     pictures: np.ndarray
     faults: tuple[Fault | None, ...]
+    film: bool = False
     fps: float | None = None
     time_s: np.ndarray | None = None
     note: str = ""
@@ -186,6 +189,7 @@ def _read_film(
         path,
         np.array(numbers),
         numbered=False,
+        film=True,
         fps=fps,
         time_s=time_s if rises else None if fps is None else np.array(numbers) / fps,
         placement=placement,

@@ -36,6 +36,7 @@ class PictureSoundness(Stage):
     ) -> None:
         self._sizes, self._placement = sizes, placement or {}
         self._watch, self._clock = FrozenWatch(), FrameClock(fps)
+        self._last: dict[str, np.ndarray] = {}
 
     def step(self, sample: Sample) -> Sample:
         """The sample with sound pictures alone; ``faults`` says what the other cameras have.
@@ -43,8 +44,10 @@ class PictureSoundness(Stage):
         Parameters
         ----------
         sample
-            Its pictures are grey (h, w) uint8, of any size.
+            Its pictures are grey (h, w) uint8, of any size; a slow camera's is the same array in several samples.
         """
+        held = {name for name, picture in sample.pictures.items() if picture is self._last.get(name)}
+        self._last = dict(sample.pictures)
         pictures, faults = {}, {}
         for name in self._sizes:
             if name not in sample.pictures:
@@ -55,7 +58,7 @@ class PictureSoundness(Stage):
                 pictures[name] = fitted.picture
             else:
                 faults[name] = fitted.fault
-        for name in self._watch.step(self._clock.step(sample.time_s), pictures):
+        for name in self._watch.step(self._clock.step(sample.time_s), pictures, held=held):
             faults[name] = Fault.FROZEN
             del pictures[name]
         return replace(sample, pictures=pictures, faults=faults)

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from regress.errors import InputError
+from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.footage import line_up
 from regress.runtime.headset.matching import Matching, match
 from regress.runtime.headset.recordings import read_recording
@@ -66,11 +67,74 @@ def test_a_slow_camera_whose_numbers_are_in_between_stands_until_its_next_one(ti
     assert rows[first:].tolist() == [(row - first) // times for row in range(first, 100)]
 
 
-def test_what_a_slow_camera_lost_is_missing():
+def test_what_a_slow_camera_lost_is_missing_from_one_and_a_half_of_its_steps_on():
     numbers = np.delete(np.arange(0, 100, 4), [5])
     mouth = recording("mouth", np.full((len(numbers), 2, 2), 100, np.uint8), numbers=numbers)
     rows = match({"left_eye": recording("left_eye", np.full((100, 2, 2), 9, np.uint8)), "mouth": mouth}).rows
-    assert np.flatnonzero(rows["mouth"] == -1).tolist() == [20, 21, 22, 23]
+    assert np.flatnonzero(rows["mouth"] == -1).tolist() == [23]
+
+
+@pytest.mark.parametrize(("eyes", "mouth"), [(120, 90), (120, 50), (30, 10), (200, 60)])
+def test_whatever_part_of_the_moments_a_slow_camera_has_its_picture_stands(eyes: int, mouth: int):
+    """As `track record` numbers them: a moment for each picture of the quick one."""
+    numbers = np.unique(np.arange(0, 400 * mouth // eyes) * eyes // mouth)
+    takes = {
+        "left_eye": recording("left_eye", np.full((400, 2, 2), 9, np.uint8)),
+        "mouth": recording("mouth", np.full((len(numbers), 2, 2), 9, np.uint8), numbers=numbers),
+    }
+    assert (match(takes).rows["mouth"][: numbers[-1]] >= 0).all()
+
+
+@given(st.integers(0, 99), st.floats(0.02, 0.2))
+def test_what_a_camera_loses_now_and_then_is_missing(seed: int, share: float):
+    kept = np.flatnonzero(np.random.default_rng(seed).random(600) > share)
+    takes = {
+        "left_eye": recording("left_eye", np.full((600, 2, 2), 9, np.uint8)),
+        "mouth": recording("mouth", np.full((len(kept), 2, 2), 9, np.uint8), numbers=kept),
+    }
+    assert np.array_equal(np.flatnonzero(match(takes).rows["mouth"] >= 0), kept)
+
+
+def test_a_clock_and_a_film_begin_together_by_their_times():
+    clock = recording(
+        "left_eye",
+        np.full((100, 2, 2), 9, np.uint8),
+        numbers=1_700_000_000_000 + np.arange(100) * 33,
+        time_s=1.7e9 + np.arange(100) * 0.033,
+    )
+    film = timed("mouth", np.arange(120) / 30, film=True, fps=30.0)
+    rows = match({"left_eye": clock, "mouth": film}, from_start=True).rows
+    assert np.abs(rows["left_eye"] - rows["mouth"]).max() <= 1
+    assert len(rows["mouth"]) >= 98
+
+
+def test_moments_behind_a_camera_that_ended_go_on_in_time():
+    takes = {
+        name: recording(
+            name,
+            np.full((count, 2, 2), 9, np.uint8),
+            numbers=1_700_000_000_000 + 33 * np.arange(count),
+            time_s=1.7e9 + 0.033 * np.arange(count),
+        )
+        for name, count in (("left_eye", 60), ("mouth", 20))
+    }
+    assert np.diff(match(takes).time_s) == pytest.approx(0.033, abs=1e-4)
+
+
+def test_takes_of_other_numbers_keep_those_of_the_first_camera():
+    takes = {
+        name: recording(name, np.full((9, 2, 2), 9, np.uint8), numbers=range(first, first + 9))
+        for name, first in (("left_eye", 1000), ("mouth", 7))
+    }
+    assert match(takes, from_start=True).numbers.tolist() == list(range(1000, 1009))
+
+
+def test_a_camera_that_goes_on_for_longer_shares_the_numbers_of_both():
+    eye = recording("left_eye", np.full((120, 2, 2), 9, np.uint8))
+    mouth = recording("mouth", np.full((180, 2, 2), 9, np.uint8), numbers=np.arange(180) * 4)
+    rows = match({"left_eye": eye, "mouth": mouth}).rows
+    assert (rows["left_eye"] >= 0).sum() == 120
+    assert rows["mouth"][:120].tolist() == [row // 4 for row in range(120)]
 
 
 def test_takes_that_begin_elsewhere_keep_their_gaps():
@@ -136,6 +200,17 @@ def test_a_stray_picture_among_numbered_ones_is_told(tmp_path):
     write_pictures(tmp_path, pictures([90]), name="sheet.png")
     footage = line_up({"left_eye": read_recording(tmp_path, "left_eye", width=WIDTH, height=HEIGHT)}, SIZES)
     assert "left_eye: names do not count frames (sheet.png among them); counted from 0" in footage.notes
+
+
+def test_a_slow_camera_that_is_frozen_is_found_by_its_time():
+    eye = recording("left_eye", pictures([100] * 240), numbered=False, time_s=np.arange(240) / 120)
+    mouth = recording("mouth", pictures([110] * 60, seed=1), numbered=False, time_s=np.arange(60) / 30)
+    mouth.pictures[20:] = mouth.pictures[19]
+    footage = line_up({"left_eye": eye, "mouth": mouth}, SIZES)
+    frozen = np.array([fault is Fault.FROZEN for fault in footage.faults["mouth"]])
+    first_s = footage.time_s[np.argmax(frozen)] - 19 / 30
+    assert 0.25 < first_s < 0.4
+    assert frozen[np.argmax(frozen) :].all()
 
 
 def test_a_slow_cameras_picture_that_stands_is_not_frozen():

@@ -58,7 +58,7 @@ def test_films_are_matched_by_their_times():
     def films(eye_fps: float, mouth_fps: float) -> dict[str, Recording]:
         rates = {"left_eye": eye_fps, "mouth": mouth_fps}
         return {
-            name: recording(name, pictures([100] * 5, seed=2), numbered=False, fps=rate)
+            name: recording(name, pictures([100] * 5, seed=2), numbered=False, film=True, fps=rate)
             for name, rate in rates.items()
         }
 
@@ -77,7 +77,7 @@ def test_films_are_matched_by_their_times():
 
 def test_a_film_is_matched_with_the_numbers_of_a_folder():
     eye, mouth = pictures([100] * 10), pictures([120] * 10, seed=1)
-    film = recording("left_eye", eye, numbered=False, fps=30)
+    film = recording("left_eye", eye, numbered=False, film=True, fps=30)
 
     def beside(numbers: list[int], **settings: bool) -> Footage:
         folder = recording("mouth", mouth[[number % 10 for number in numbers]], numbers=numbers)
