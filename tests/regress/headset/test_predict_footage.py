@@ -13,6 +13,8 @@ from regress.errors import InputError
 from regress.runtime.headset.faults import FROZEN_S, Fault, FrozenWatch, fault_sentences, picture_fault
 from regress.runtime.headset.footage import Footage, line_up
 from regress.runtime.headset.recordings import Recording, read_recording, read_rendered, recorded_size
+from regress.runtime.headset.soundness import PictureSoundness
+from regress.runtime.sample import Sample
 from tests.lying_film import lying_film
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 
@@ -161,6 +163,19 @@ def test_a_scene_in_which_nothing_moves_is_not_frozen_nor_is_a_camera_alone():
         watch = FrozenWatch()
         assert not any(watch.step(1 / 30, dict.fromkeys(cameras, picture)) for picture in still)
     assert any(watch.step(1 / 30, {"a": still[0], "b": picture}) for picture in pictures([100] * 40))
+
+
+@pytest.mark.parametrize("hangs", [False, True])
+def test_live_a_slow_cameras_picture_stands_and_one_that_hangs_is_frozen(hangs: bool):
+    """A mouth of two pictures a second beside eyes of 60: the same array stands; who hangs gives it anew."""
+    soundness = PictureSoundness(SIZES)
+    eyes, mouths = pictures([100] * 120), list(pictures([110] * 4, seed=1))
+    faults = []
+    for row in range(120):
+        mouth = mouths[0].copy() if hangs else mouths[row // 30]
+        sample = Sample(pictures={"left_eye": eyes[row], "mouth": mouth}, time_s=row / 60)
+        faults.append(soundness.step(sample).faults.get("mouth"))
+    assert (Fault.FROZEN in faults) is hangs
 
 
 def test_black_and_flat_pictures_are_told_from_dark_ones():

@@ -206,7 +206,8 @@ def _exchanged(one: str, other: str) -> Disturbance:
 
 def frozen_camera(samples: list[Sample]) -> list[Sample]:
     still = samples[BEGIN].pictures["mouth"]
-    return _pictures(lambda pictures, row: {**pictures, "mouth": still})(samples)
+    # a camera that hangs gives its picture anew each time
+    return _pictures(lambda pictures, row: {**pictures, "mouth": still.copy()})(samples)
 
 
 def brighter(pictures: dict[str, np.ndarray], row: int) -> dict[str, np.ndarray]:
