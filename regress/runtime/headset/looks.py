@@ -22,8 +22,8 @@ MEASURED_FRAMES = 120
 """Frames, evenly chosen, of which a take is measured: twice as many change no figure in its second digit."""
 
 _STRIPS, _OF_BANDS = 12, 0.5
-"""Of a picture, and how much their own changes count: where eyes move they change by .042 and .031 in two films of steady
-light, and by .13 where bands of 12 % run over them."""
+"""Of a picture, and how much their own changes count: where eyes move they change by .042 and .031 in two films of
+steady light, and by .13 where bands of 12 % run over them."""
 
 _MOST_FOLLOWED = 300
 """Frames one after another in which light is looked at for flicker."""
