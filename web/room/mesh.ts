@@ -8,6 +8,9 @@
 import { candidateOf, saidOf, sessionOf, type Lines, type Send } from "./lines.js";
 import type { Candidate, Description, Person } from "./texts.js";
 
+/** From a call until it is given up for another one: slow networks take half of that, and a word that was lost never comes. */
+const PATIENCE_MS = 30_000;
+
 interface Peer {
   readonly connection: RTCPeerConnection;
   readonly polite: boolean;
@@ -127,6 +130,7 @@ export class Mesh implements Lines {
     const connection = new RTCPeerConnection({ iceServers: this.ice });
     const peer: Peer = { connection, polite, visit, offering: false, ignoring: false, number };
     this.peers.set(id, peer);
+    if (!polite) setTimeout(() => this.callAgain(id, peer), PATIENCE_MS);
 
     connection.ontrack = ({ track }) => this.out.play(id, track);
     connection.onicecandidate = ({ candidate }) => candidate && this.send(saidOf(candidate, peer.number));
@@ -155,6 +159,12 @@ export class Mesh implements Lines {
       });
     }
     return peer;
+  }
+
+  /** Give up a connection that never came about; one of the two does, and the other answers. */
+  private callAgain(id: string, peer: Peer): void {
+    const begins = ["new", "connecting"].includes(peer.connection.connectionState);
+    if (this.peers.get(id) === peer && begins) this.renew(id, peer, true);
   }
 
   private describe({ connection, number }: Peer): void {
