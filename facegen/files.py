@@ -76,6 +76,27 @@ def refuse_sources(out: Path, sources: Iterable[Path], *, option: str = "--out")
             raise InputError(f"{option} {out} is also what is read ({source}); give another name")
 
 
+def check_new_folder(folder: Path, *, what: str) -> None:
+    """See that a folder can be made, before the work that fills it.
+
+    Parameters
+    ----------
+    what
+        It is for, as ``"the take"``.
+
+    Raises
+    ------
+    InputError
+        Where something of that name is there.
+    OutputError
+        Where there is no folder to make it in.
+    """
+    if folder.exists() or folder.is_symlink():
+        raise InputError(f"{folder} is there already; name a new folder for {what}")
+    if not folder.parent.is_dir():
+        raise OutputError(f"{folder}: cannot be made, as there is no folder {folder.parent}")
+
+
 @contextlib.contextmanager
 def staging(parent: Path, name: str) -> Iterator[Path]:
     """A private folder below ``parent`` for half-made things; removed at the end, whatever happened.

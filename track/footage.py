@@ -9,8 +9,9 @@ from threading import BoundedSemaphore
 import cv2
 import numpy as np
 
+from facegen.files import check_new_folder
 from regress.runtime.sample import Sample
-from track.errors import InputError, OutputError
+from track.errors import OutputError
 
 TIMES = "times.csv"
 """Number and seconds of each moment."""
@@ -48,7 +49,7 @@ class FootageWriter:
     """
 
     def __init__(self, folder: Path, cameras: Sequence[str]) -> None:
-        check_folder(folder)
+        check_new_folder(folder, what="the take")
         self._folder = folder
         try:
             folder.mkdir()
@@ -132,22 +133,6 @@ class FootageWriter:
             raise OutputError(
                 f"{self._folder}: cannot be written ({getattr(error, 'strerror', None) or error})"
             )
-
-
-def check_folder(folder: Path) -> None:
-    """See that a take can be written, before cameras are opened.
-
-    Raises
-    ------
-    InputError
-        Where something of that name is there.
-    OutputError
-        Where there is no folder to make it in.
-    """
-    if folder.exists() or folder.is_symlink():
-        raise InputError(f"{folder} is there already; name a new folder for the take")
-    if not folder.parent.is_dir():
-        raise OutputError(f"{folder}: cannot be made, as there is no folder {folder.parent}")
 
 
 def _write_picture(path: Path, picture: np.ndarray) -> None:

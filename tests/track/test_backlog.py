@@ -216,6 +216,19 @@ def test_a_slow_camera_neither_costs_a_quick_one_pictures_nor_holds_them_up(
 
 
 @settings(deadline=None)
+@given(st.floats(0.005, 0.012), st.integers(2, 6), st.floats(0.1, 0.9), st.floats(0.05, 0.4))
+def test_a_slow_camera_that_is_overdue_costs_a_quick_one_no_picture(step_s, times, phase, stalls_s):
+    slow = pictures(times * step_s, (phase,), [0.0])
+    slow = [Coming(each.came_s, "mouth", each.number, each.time_s) for each in slow]
+    eyes = pictures(step_s, (0.0,), [0.0])
+    since_s = eyes[PICTURES // 2].came_s
+    late = [each for each in slow if not since_s <= each.came_s < since_s + stalls_s]
+    taken = Simulation(sorted(eyes + late, key=lambda each: each.came_s)).run([0.2 * step_s])
+    seen = [number for number in numbers_of(taken, "left") if eyes[number].came_s > since_s]
+    assert seen == list(range(seen[0], PICTURES))
+
+
+@settings(deadline=None)
 @given(st.floats(0.008, 0.012), little, st.integers(5, 40), st.floats(0.0, 0.015))
 def test_one_camera_whose_thread_sleeps_costs_no_picture(step_s, jitter, at, pause_s):
     coming = pictures(step_s, (0.0, 0.0, 0.0), jitter)

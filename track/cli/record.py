@@ -26,11 +26,12 @@ def record(
     import math
 
     from facegen.console import counted, progress, say
+    from facegen.files import check_new_folder
     from regress.runtime.headset.halves import split_half
     from track.cli.opening import Wishes, are_named, camera_texts, open_cameras
     from track.cli.running import ended_by_signals
     from track.errors import CameraError, InputError
-    from track.footage import FootageWriter, check_folder
+    from track.footage import FootageWriter
     from track.session.fault_telling import FaultTelling
     from track.session.pipeline import words
 
@@ -38,7 +39,7 @@ def record(
     texts = camera_texts(wishes.cameras, headset=are_named(wishes.cameras))
     if any(split_half(text)[0] == "-" for text in texts.values()):
         raise InputError("--camera -: lines of points have no pictures to record")
-    check_folder(folder)
+    check_new_folder(folder, what="the take")
     telling, first_s = FaultTelling(say), None
     with open_cameras(wishes, texts) as capture, FootageWriter(folder, list(texts)) as writer:
         with ended_by_signals(capture), progress(unit="s") as told:

@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
-from facegen.files import staging, write_whole
-from track.errors import InputError, OutputError
+from facegen.files import check_new_folder, staging, write_whole
 
 SHARD_ROWS = 10_000
 """Of a file of rows, as datasets have them."""
@@ -27,10 +26,7 @@ def check_place(folder: Path) -> None:
     """
     import pyarrow.parquet  # noqa: F401
 
-    if folder.exists():
-        raise InputError(f"{folder} is there already; name a new folder for the take")
-    if not folder.parent.is_dir():
-        raise OutputError(f"{folder}: cannot be made, as there is no folder {folder.parent}")
+    check_new_folder(folder, what="the take")
 
 
 def write_take(folder: Path, *, points: np.ndarray, weights: np.ndarray, neutral: np.ndarray) -> Path:

@@ -19,7 +19,6 @@ milliseconds, and in most where their steps fall on whole ones."""
 _APART = 0.55
 """Of the time from one frame of a camera to the next, by which its frame may differ from the moment it stands for."""
 
-
 _SLOWER, _STANDS = 1.3, 1.6
 """Steps of a camera over those of all, from which it is slow; and for how many of its own its picture stands, as live,
 where the next one does not come sooner."""
@@ -91,7 +90,7 @@ def match(
         matched = _by_number(begun, still=still, fps=fps)
         matched = _to_the_shortest(matched, begun) if from_start else matched
     elif timed:
-        matched = _by_time(begun)
+        return _by_time(begun, called=recordings)
     elif any(each.numbered for each in recordings.values()) and not from_start:
         raise _no_numbers(begun)
     else:
@@ -222,7 +221,8 @@ def _grid(recordings: Mapping[str, Recording], *, still: bool) -> np.ndarray:
     return np.arange(known[0], known[-1] + 1, step)
 
 
-def _by_time(recordings: Mapping[str, Recording]) -> Matching:
+def _by_time(recordings: Mapping[str, Recording], called: Mapping[str, Recording]) -> Matching:
+    """Moments of the quickest camera, called as its frames in ``called``, and the others' frames next to them."""
     steps_s = {name: _step_s(each) for name, each in recordings.items()}
     quickest = min(recordings, key=lambda name: (steps_s[name], -len(recordings[name].numbers)))
     start_s = max(each.time_s[0] - _APART * steps_s[name] for name, each in recordings.items())
@@ -251,7 +251,9 @@ def _by_time(recordings: Mapping[str, Recording]) -> Matching:
         for name, each in recordings.items()
     )
     notes = () if whole else (f"the cameras' times differ ({spans}); what they share counts",)
-    return Matching(numbers=moments.numbers[inside], rows=rows, time_s=time_s - time_s[0], notes=notes)
+    return Matching(
+        numbers=called[quickest].numbers[inside], rows=rows, time_s=time_s - time_s[0], notes=notes
+    )
 
 
 def _step_s(recording: Recording) -> float:

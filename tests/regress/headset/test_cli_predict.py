@@ -300,6 +300,15 @@ def test_what_cannot_be_done_is_one_sentence(
     assert out == ""
 
 
+def test_a_film_whose_half_is_read_is_not_written_over(run, model: Path, tmp_path: Path):
+    film = tmp_path / "both.mp4"
+    film.write_bytes(b"a recording")
+    code, _, said = run("headset", "predict", model, "--mouth", f"{film}#left", "--video", film)
+    assert code == 2
+    assert "is also what is read" in said
+    assert film.read_bytes() == b"a recording"
+
+
 def test_a_model_of_keypoints_is_told_apart(run, quick_model_folder: Path, take: list[str]):
     code, _, said = run("headset", "predict", quick_model_folder, *take)
     assert code == 2
