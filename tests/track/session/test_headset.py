@@ -198,3 +198,16 @@ def test_lids_are_of_the_side_that_a_camera_s_name_says(spelled):
     profile = Profile(person="anna", camera="eyes", eyes={spelled: shut, other: OwnEye(rest_mm=10.0)})
     np.testing.assert_array_equal(by_lids(profile), [True, False])
     np.testing.assert_array_equal(by_lids(profile.model_copy(update={"eyes": {other: shut}})), [False, True])
+
+
+def test_a_slow_cameras_picture_stays_the_same_array_in_grey():
+    """By that one that stands is told from one that hangs, of cameras in colour too."""
+    stage = headset_session().pipeline.stages["grey"]
+    colour = np.random.default_rng(0).integers(0, 255, (96, 96, 3), dtype=np.uint8)
+    grey = [
+        stage.step(Sample(pictures={"mouth": picture}, time_s=0.0)).pictures["mouth"]
+        for picture in (colour, colour, colour.copy())
+    ]
+    assert grey[0].ndim == 2
+    assert grey[0] is grey[1]
+    assert grey[2] is not grey[1]
