@@ -120,4 +120,6 @@ def test_the_command_keeps_each_camera_s_pictures(tmp_path: Path, monkeypatch, c
     assert "is there already" in capsys.readouterr().err
     assert ended(monkeypatch, "record", str(tmp_path / "b"), "--camera", "-") == 2
     assert "have no pictures to record" in capsys.readouterr().err
+    assert ended(monkeypatch, "record", str(tmp_path / "b"), "--camera", "left_eye=0", "--camera", "1") == 2
+    assert "--camera 1: a headset's camera needs its name before it" in capsys.readouterr().err
     assert not (tmp_path / "b").exists()

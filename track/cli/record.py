@@ -36,7 +36,8 @@ def record(
     from track.session.pipeline import words
 
     wishes = Wishes(cameras=camera or (), fast=fast, fps=fps)
-    texts = camera_texts(wishes.cameras, headset=are_named(wishes.cameras))
+    # of several each needs a name, which its folder gets
+    texts = camera_texts(wishes.cameras, headset=len(wishes.cameras) > 1 or are_named(wishes.cameras))
     if any(split_half(text)[0] == "-" for text in texts.values()):
         raise InputError("--camera -: lines of points have no pictures to record")
     check_new_folder(folder, what="the take")
