@@ -53,7 +53,8 @@ def check(
     from regress.runtime.headset.fitness_sheet import fitness_sheet
     from regress.runtime.headset.placement_file import Placement, write_placement
     from regress.runtime.headset.predictor import load_headset_predictor
-    from regress.runtime.headset.recordings import read_recording, recorded_size
+    from regress.runtime.headset.recorded_paths import recorded_size
+    from regress.runtime.headset.recordings import read_recording
     from regress.runtime.ready_made import HEADSET
 
     if sheet is not None:

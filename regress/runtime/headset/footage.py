@@ -7,7 +7,8 @@ import numpy as np
 
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault, FrozenWatch, fault_sentences
-from regress.runtime.headset.matching import Matching, match
+from regress.runtime.headset.matching import match
+from regress.runtime.headset.moments import Moments
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.recordings import Recording
 from regress.runtime.sample import Sample
@@ -176,9 +177,7 @@ def line_up(
     )
 
 
-def _mark_frozen(
-    pictures: dict[str, np.ndarray], faults: Mapping[str, np.ndarray], matched: Matching
-) -> None:
+def _mark_frozen(pictures: dict[str, np.ndarray], faults: Mapping[str, np.ndarray], matched: Moments) -> None:
     """Find frozen pictures, as a live headset's are found, and blank them."""
     watch, clock = FrozenWatch(), FrameClock()
     held = {name: np.diff(matched.rows[name], prepend=-1) == 0 for name in pictures}

@@ -1,10 +1,8 @@
 """One camera's pictures from a folder, a film or a dataset's renders, at the size that a network takes."""
 
-import os
 import stat
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -12,28 +10,24 @@ import numpy as np
 from facegen.documents import unreadable
 from facegen.formats.film import FILMS
 from regress.errors import InputError
-from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.film_frames import Film
 from regress.runtime.headset.frame_names import frame_names
-from regress.runtime.headset.halves import half_of, half_size, split_half
+from regress.runtime.headset.halves import half_of
 from regress.runtime.headset.pictures import (
     PICTURES,
     FittedPicture,
-    decoded,
     fit_picture,
     read_picture,
 )
 from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.recorded_paths import of_address, pictures_in, without_half
 
 MOST_FRAMES = 500_000
 """Of one camera's recording, which is held in memory: 92 minutes at 90 a second, 4.6 GB at 96 x 96."""
 
 _EXPECTED = 10_000
 """Frames of a film for which memory is taken before they come: what films say of their length may be wrong."""
-
-_LOOKED_AT = 12
-"""Pictures of a folder, all over it, whose commonest size is the folder's."""
 
 _MOST_NUMBER = 2**62
 """A sample's number is less, as all frames' are."""
@@ -112,12 +106,12 @@ def read_recording(
     InputError
         Where the path is missing, is no folder or film, holds no pictures or too many; see ``read_picture``.
     """
-    path, half = _without_half(path)
+    path, half = without_half(path)
     try:
         kind = path.stat().st_mode
     except (FileNotFoundError, NotADirectoryError):
         raise InputError(
-            f"{path} does not exist; a folder of {camera}'s pictures or a film of them is needed{_of_address(path)}"
+            f"{path} does not exist; a folder of {camera}'s pictures or a film of them is needed{of_address(path)}"
         ) from None
     except OSError as error:
         raise unreadable(path, error) from None
@@ -137,7 +131,7 @@ def _read_folder(
     choose: Callable[[int], np.ndarray] | None,
     half: str,
 ) -> Recording:
-    files = _pictures_in(path)
+    files = pictures_in(path)
     if not files:
         raise InputError(f"{path} has no pictures of {camera}; {', '.join(PICTURES)} can be read")
     names = frame_names(files)
@@ -196,52 +190,6 @@ def _read_film(
     )
 
 
-def _of_address(path: Path) -> str:
-    """What to do with a live camera's address."""
-    scheme = path.parts[0] if path.parts else ""
-    return "; recordings are read here, and `track` reads addresses" if scheme[1:].endswith(":") else ""
-
-
-def recorded_size(path: Path) -> tuple[int, int]:
-    """Width and height of most of a folder's pictures that can be read, or of a film; of their halves.
-
-    Raises
-    ------
-    InputError
-        Where there is none.
-    """
-    path, half = _without_half(path)
-    if path.is_dir():
-        files = sorted(_pictures_in(path))
-        rows = even_rows(len(files), _LOOKED_AT)
-        sizes = [size for row in rows if (size := _size_of(files[row]))]
-        sizes = sizes or [size for size in islice(filter(None, map(_size_of, files)), 1)]
-        if not sizes:
-            raise InputError(f"{path} has no picture that can be read")
-        return half_size(max(sizes, key=sizes.count), half)
-    if not path.exists():
-        raise InputError(
-            f"{path} does not exist; a folder of pictures or a film is needed{_of_address(path)}"
-        )
-    with Film(path) as film:
-        width, height = film.size
-    if width < 1 or height < 1:
-        raise InputError(f"{path} cannot be read as a film")
-    return half_size((width, height), half)
-
-
-def _without_half(path: Path) -> tuple[Path, str]:
-    """A path, and the half of its pictures that stands behind it; a folder whose name ends so is whole."""
-    whole, half = split_half(os.fspath(path))
-    return (Path(whole), half) if half and not path.exists() else (path, "")
-
-
-def _size_of(file: Path) -> tuple[int, int] | None:
-    """Width and height as it is seen: by its header a picture may lie on its side, which EXIF says."""
-    grey = decoded(file)
-    return None if isinstance(grey, Fault) else (grey.shape[1], grey.shape[0])
-
-
 def read_rendered(dataset: Path, camera: str, *, width: int, height: int) -> Recording:
     """Read a camera's pictures of a facegen dataset, by sample number.
 
@@ -262,18 +210,6 @@ def read_rendered(dataset: Path, camera: str, *, width: int, height: int) -> Rec
     for number in sorted(files):
         stack.add(read_picture(files[number], width=width, height=height))
     return stack.recording(camera, dataset, np.array(sorted(files), dtype=np.int64), numbered=True)
-
-
-def _pictures_in(folder: Path) -> list[Path]:
-    """Files by their ending; macOS writes ``._1.png`` beside 1.png on disks of other systems."""
-    try:
-        return [
-            file
-            for file in folder.iterdir()
-            if file.suffix.lower() in PICTURES and not file.name.startswith(".")
-        ]
-    except OSError as error:
-        raise unreadable(folder, error) from None
 
 
 def _check_count(frames: int, path: Path) -> None:

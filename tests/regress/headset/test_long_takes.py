@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from regress.runtime.headset.fitness import checked_rows
-from regress.runtime.headset.recordings import read_recording, recorded_size
+from regress.runtime.headset.recorded_paths import recorded_size
+from regress.runtime.headset.recordings import read_recording
 from tests.regress.headset.takes import write_pictures
 
 

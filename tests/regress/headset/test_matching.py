@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.footage import line_up
-from regress.runtime.headset.matching import Matching, match
+from regress.runtime.headset.matching import match
+from regress.runtime.headset.moments import Moments
 from regress.runtime.headset.recordings import read_recording
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 
@@ -21,7 +22,7 @@ def timed(name: str, time_s: np.ndarray, **changes: object):
     return recording(name, stack, **{"numbered": False, "time_s": time_s, **changes})
 
 
-def seen_s(matched: Matching, name: str, time_s: np.ndarray) -> np.ndarray:
+def seen_s(matched: Moments, name: str, time_s: np.ndarray) -> np.ndarray:
     """When a camera's frames were taken; NaN where it has none."""
     rows = matched.rows[name]
     return np.where(rows >= 0, time_s[rows], np.nan)

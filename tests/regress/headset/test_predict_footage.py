@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from regress.errors import InputError
 from regress.runtime.headset.faults import FROZEN_S, Fault, FrozenWatch, fault_sentences, picture_fault
 from regress.runtime.headset.footage import Footage, line_up
-from regress.runtime.headset.recordings import Recording, read_recording, read_rendered, recorded_size
+from regress.runtime.headset.recorded_paths import recorded_size
+from regress.runtime.headset.recordings import Recording, read_recording, read_rendered
 from regress.runtime.headset.soundness import PictureSoundness
 from regress.runtime.sample import Sample
 from tests.lying_film import lying_film
