@@ -196,7 +196,7 @@ def test_units_and_signs_of_the_tables():
     written = [float(row[name]) for name in HEAD_COLUMNS]
     np.testing.assert_allclose(written, [0.035, 0.02, 0.6, *np.degrees([0.3, 0.05, -0.06])], atol=1e-4)
     row = list(csv.DictReader(io.StringIO(live_link_text(prediction))))[3]
-    np.testing.assert_allclose([float(row[name]) for name in ROTATIONS[:3]], [-0.3, -0.05, -0.06], atol=1e-6)
+    np.testing.assert_allclose([float(row[name]) for name in ROTATIONS[:3]], [0.3, 0.05, 0.06], atol=1e-6)
     assert {float(row[name]) for name in ROTATIONS[3:]} == {0}
 
 

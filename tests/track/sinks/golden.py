@@ -55,10 +55,10 @@ def live_link() -> list[Part]:
             for number, (bone, angle, value) in zip(
                 floats[52:],
                 [
-                    ("head", "yaw", "-30° in radians, to the right is positive"),
-                    ("head", "pitch", "0"),
-                    ("head", "roll", "0"),
-                    ("left eye", "yaw", "-0.1"),
+                    ("head", "yaw", "30° in radians, to its left is positive"),
+                    ("head", "pitch", "0, upwards is positive"),
+                    ("head", "roll", "0, to its right shoulder is positive"),
+                    ("left eye", "yaw", "-0.1, to the right is positive"),
                     ("left eye", "pitch", "-0.05, downwards is positive"),
                     ("left eye", "roll", "0"),
                     ("right eye", "yaw", "-0.1"),

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 
 from facegen.conventions import BLENDSHAPES
+from regress.runtime.sample import Sample
 from tests.track.sinks.receivers import ANY_SAMPLE, acted, lost, received, receiver
 from track.sinks.live_link import LiveLink
 from track.sinks.targets import open_sink, parse_target
@@ -59,8 +60,18 @@ def test_angles_by_their_unit_and_sign():
     np.testing.assert_allclose(turns * 180, np.degrees(radians), atol=1e-4)
     yaw, pitch, roll = sample.head[3:]
     left_yaw, left_pitch, right_yaw, right_pitch = sample.gaze
-    expected = [-yaw, -pitch, roll, -left_yaw, -left_pitch, 0, -right_yaw, -right_pitch, 0]
+    expected = [yaw, pitch, -roll, -left_yaw, -left_pitch, 0, -right_yaw, -right_pitch, 0]
     np.testing.assert_allclose(radians, expected, atol=1e-7)
+
+
+def test_vrcfacetracking_turns_head_and_eyes_as_the_person_does():
+    """By ArKitPacketReader.cs, and the senses of UnifiedData.cs: yaw to the right, pitch down, roll to the left."""
+    head, gaze = np.array([0, 0, 0.6, 0.3, 0.2, 0.1]), np.array([0.3, 0.2, 0.3, 0.2])
+    angles = floats(LiveLink()(Sample(weights=np.zeros(52), head=head, gaze=gaze))[0])[52:]
+    to_the_right, down, tilted_left = -angles[:3]
+    np.testing.assert_allclose([to_the_right, down, tilted_left], [-0.3, -0.2, 0.1], atol=1e-7)
+    gaze_x, gaze_y = angles[3], -angles[4]  # to the right and upwards are positive
+    np.testing.assert_allclose([gaze_x, gaze_y], [-0.3, 0.2], atol=1e-7)
 
 
 def test_pylivelinkface_reads_it():
@@ -74,7 +85,7 @@ def test_pylivelinkface_reads_it():
     shapes = pylivelinkface.FaceBlendShape
     for name, weight in zip(BLENDSHAPES, sample.weights, strict=True):
         assert face.get_blendshape(shapes[name[0].upper() + name[1:]]) == pytest.approx(weight, abs=1e-6)
-    assert face.get_blendshape(shapes["HeadYaw"]) == pytest.approx(-sample.head[3], abs=1e-6)
+    assert face.get_blendshape(shapes["HeadYaw"]) == pytest.approx(sample.head[3], abs=1e-6)
     assert face.get_blendshape(shapes["RightEyePitch"]) == pytest.approx(-sample.gaze[3], abs=1e-6)
     good, _ = pylivelinkface.PyLiveLinkFace.decode(LiveLink()(lost())[0])
     assert not good
