@@ -4,24 +4,33 @@
 
     jawOpen-12|...|=head#rx,ry,rz,px,py,pz|rightEye#rx,ry,rz|leftEye#rx,ry,rz|
 
-Weights are whole numbers from 0 to 100, angles degrees for Unity's ``Quaternion.Euler``, places metres; version 2 has
-``&`` for ``-`` between a name and its number. A receiver may ask for one of them by a greeting to our port 49983; the
-answer goes to its own port 49983, wherever the greeting came from. The app itself takes no notice of a lost face;
-VMagicMirror sees it by datagrams that are equal to the last byte, so that is what a lost face is here.
+Weights are whole numbers from 0 to 100, angles degrees in ARKit's frame, which is glTF's: x to the subject's left, y up,
+z out of the face; places are metres from the camera. Version 2 has ``&`` for ``-`` between a name and its number. A
+receiver may ask for one of them by a greeting to our port 49983; the answer goes to its own port 49983, wherever the
+greeting came from. The app itself takes no notice of a lost face; VMagicMirror sees it by datagrams that are equal to
+the last byte, so that is what a lost face is here.
+
+No phone was at hand: signs are read in programs of others, and in packets that they caught [3]_ [4]_ [5]_.
 
 References
 ---------
 .. [1] www.ifacialmocap.com/for-developer: greeting, ports, grammar.
 .. [2] VRCFaceTracking/VRC_iFacialMocap: takes what comes without a greeting; exchanges left and right of the weights,
-   which it says the app sends as a mirror shows them (``sides=mirrored``), and takes the eyes' angles as they are. It
-   skips the first weight (``Split('|')[1..^1]``), and reads ``browInnerUp_L`` and ``browInnerUp_R``.
+   but takes angles of head and eyes as they are, y positive to the right: it shows the app's person as a mirror does
+   (``sides=mirrored`` undoes that). It skips the first weight (``Split('|')[1..^1]``), and reads ``browInnerUp_L`` and
+   ``browInnerUp_R``.
+.. [3] emoto-yasushi/NVIDIA_ARSDK_iFacialMocap, ``ExpressionApp.cpp``, by the app's author: an eye's +x is LookDown, its
+   +y LookOutLeft and LookInRight; with names exchanged, a place's +x is the picture's left.
+.. [4] Menithal/UnityIFM, ``IFMPacket.cs``: y and z of all angles change their sign on the way to Unity.
+.. [5] prodzpod/SnekStudio-iFacialMocap, ``iFacialMocap.gd``: a packet with eyeLookIn_R 54, eyeLookOut_L 44, y of the eyes
+   +19 and +16, and of the head -7: eyes that stay on something while the head turns away from it.
 """
 
 import numpy as np
 
 from facegen.conventions import BLENDSHAPES, MIRRORED_BLENDSHAPES
 from regress.runtime.sample import Sample
-from track.sinks.axes import head_pose, unity_euler_deg, unity_position
+from track.sinks.axes import head_pose, unity_euler_deg
 from track.sinks.sink import Sink, Tell, has_face
 from track.sinks.targets import Target
 from track.sinks.udp import UdpSink, is_of_this_machine, resolved
@@ -40,6 +49,12 @@ _ORDER = (BLENDSHAPES.index(_FIRST), *(i for i, name in enumerate(BLENDSHAPES) i
 
 _BROW = "browInnerUp"
 """Sent for each side as well, by names that ARKit does not have."""
+
+_TURNS = {"own": np.array([1, -1, -1]), "mirrored": np.array([1, 1, 1])}
+"""On Unity's angles. Unity's frame mirrors x of ARKit's, so that a mirrored person's angles there are Unity's."""
+
+_PLACES = {"own": np.array([1, 1, 1]), "mirrored": np.array([-1, 1, 1])}
+"""On places in glTF's frame."""
 
 _WHOLE = ("jawLeft", "jawRight", "mouthLeft", "mouthRight")
 
@@ -60,13 +75,15 @@ class IFacialMocap:
     version
         1 or 2; a greeting changes it.
     sides
-        Of `SIDES`: whose left is called left among the weights; angles stay the person's own.
+        Of `SIDES`: whether the person is sent, or its picture in a mirror: left is right then in names, turns and
+        places. ``leftEye`` stays the person's own, as VRCFaceTracking's module has it.
     """
 
     def __init__(self, version: int = 1, sides: str = "own") -> None:
         self._separator = "&" if version == 2 else "-"
         names = tuple(map(app_name, BLENDSHAPES))
         self._names = names if sides == "own" else tuple(names[other] for other in MIRRORED_BLENDSHAPES)
+        self._turns, self._places = _TURNS[sides], _PLACES[sides]
         self._last: list[bytes] = []
 
     def greeted(self, datagram: bytes) -> bool:
@@ -87,9 +104,10 @@ class IFacialMocap:
         head, gaze = head_pose(sample.head), sample.gaze
         where = np.zeros(6)
         if head is not None:
-            where = np.concatenate([unity_euler_deg(head.angles_rad), unity_position(head.position)])
+            turn = unity_euler_deg(head.angles_rad) * self._turns
+            where = np.concatenate([turn, head.position * self._places])
         eyes = np.zeros((2, 3)) if gaze is None or np.isnan(gaze).any() else gaze.reshape(2, 2) @ np.eye(2, 3)
-        left, right = (unity_euler_deg(eye) for eye in eyes)
+        left, right = (unity_euler_deg(eye) * self._turns for eye in eyes)
         bones = f"=head#{_list(where)}|rightEye#{_list(right)}|leftEye#{_list(left)}|"
         self._last = [("".join(weights) + bones).encode("ascii")]
         return self._last

@@ -107,8 +107,8 @@ def ifacialmocap() -> list[Part]:
     parts = [(f"{part}|", meanings.get(part.split("-")[0], "0")) for part in weights.split("|")[:-1]]
     head, right, left = (f"{part}|" for part in bones.split("|")[:-1])
     parts += [
-        (f"={head}", "degrees about Unity's x, y, z: the head is turned to -x, its left; then metres"),
-        (right, "degrees: up is negative about x, left about y"),
+        (f"={head}", "degrees about x, y, z: to its left is positive about y; then metres, x to its left"),
+        (right, "degrees: up is negative about x, left positive about y"),
         (left, "as the right eye"),
     ]
     assert "".join(part for part, _ in parts) == text

@@ -9,7 +9,10 @@ import pytest
 from hypothesis import given
 
 from facegen.conventions import BLENDSHAPES, mirrored_name
+from facegen.geometry import rotation_from_angles
+from regress.runtime.sample import Sample
 from tests.track.sinks.receivers import ANY_SAMPLE, acted, lost, received, receiver
+from tests.track.sinks.test_axes import ANGLES, MIRROR_X, unity_euler_matrix
 from track.sinks.ifacialmocap import GREETING, GreetedSink, IFacialMocap, app_name
 from track.sinks.targets import Target, open_sink, parse_target
 
@@ -51,10 +54,10 @@ def test_a_receiver_reads_all_of_it(version):
             assert weights[app_name(name)] == pytest.approx(100 * weight, abs=0.5001)
     assert weights["browInnerUp_L"] == weights["browInnerUp_R"] == weights["browInnerUp"]
     yaw, pitch, roll = np.degrees(sample.head[3:])
-    np.testing.assert_allclose(bones["head"], [-pitch, -yaw, roll, -0.1, 0.05, -0.6], atol=1e-4)
+    np.testing.assert_allclose(bones["head"], [-pitch, yaw, -roll, 0.1, 0.05, -0.6], atol=1e-4)
     left_yaw, left_pitch, right_yaw, right_pitch = np.degrees(sample.gaze)
-    np.testing.assert_allclose(bones["leftEye"], [-left_pitch, -left_yaw, 0], atol=1e-4)
-    np.testing.assert_allclose(bones["rightEye"], [-right_pitch, -right_yaw, 0], atol=1e-4)
+    np.testing.assert_allclose(bones["leftEye"], [-left_pitch, left_yaw, 0], atol=1e-4)
+    np.testing.assert_allclose(bones["rightEye"], [-right_pitch, right_yaw, 0], atol=1e-4)
 
 
 def test_names_are_the_app_s():
@@ -70,10 +73,33 @@ def test_mirrored_sides_are_what_vrcfacetracking_takes():
     sent = [name for name in BLENDSHAPES if name != "tongueOut"]
     exchanged = {app_name(mirrored_name(name)): own[0][app_name(name)] for name in sent}
     assert exchanged.items() <= mirrored[0].items()
-    assert own[1] == mirrored[1]
     # the module's gaze of an eye, positive to the person's right, and upwards
     (pitch, yaw, _), (left_yaw, left_pitch) = mirrored[1]["leftEye"], sample.gaze[:2]
     assert math.tan(yaw / 90) * left_yaw < 0 < -math.tan(pitch / 90) * left_pitch
+    # its head, by UpdateHeadData and UnifiedData.cs: down, to the right, tilted to the left
+    down, to_the_right, tilted_left, *_ = mirrored[1]["head"]
+    np.testing.assert_allclose([-to_the_right, -down, tilted_left], np.degrees(sample.head[3:]), atol=1e-4)
+
+
+def test_eyes_turn_as_in_a_packet_of_the_app():
+    """eyeLookIn_R-54, eyeLookOut_L-44, eyeLookDown-16 came with rightEye#5.36,19.07 and leftEye#5.56,15.62."""
+    weights = np.zeros(52)
+    for name, weight in {"eyeLookInRight": 0.54, "eyeLookOutLeft": 0.44, "eyeLookDownLeft": 0.16}.items():
+        weights[BLENDSHAPES.index(name)] = weight
+    left_and_down = np.radians([15.6168, -5.5606, 19.068, -5.3555])
+    named, bones = parsed(IFacialMocap()(Sample(weights=weights, gaze=left_and_down))[0])
+    assert (named["eyeLookIn_R"], named["eyeLookOut_L"], named["eyeLookDown_L"]) == (54, 44, 16)
+    np.testing.assert_allclose(bones["rightEye"], [5.3555, 19.068, 0], atol=1e-4)
+    np.testing.assert_allclose(bones["leftEye"], [5.5606, 15.6168, 0], atol=1e-4)
+
+
+@given(angles=ANGLES)
+def test_a_unity_program_turns_the_head_as_the_person_does(angles):
+    """By UnityIFM's IFMPacket.cs, which changes the signs of y and z for ``Quaternion.Euler``."""
+    head = np.array([0.1, -0.05, 0.6, *angles])
+    _, bones = parsed(IFacialMocap()(Sample(weights=np.zeros(52), head=head))[0])
+    turn = unity_euler_matrix(np.array(bones["head"][:3]) * [1, -1, -1])
+    np.testing.assert_allclose(turn, MIRROR_X @ rotation_from_angles(*angles) @ MIRROR_X, atol=1e-5)
 
 
 def test_a_lost_face_repeats_the_last_datagram():
