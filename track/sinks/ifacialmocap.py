@@ -2,13 +2,13 @@
 
 ::
 
-    jawOpen-12|...|=head#rx,ry,rz,px,py,pz|rightEye#rx,ry,rz|leftEye#rx,ry,rz|
+    trackingStatus-1|jawOpen-12|...|=head#rx,ry,rz,px,py,pz|rightEye#rx,ry,rz|leftEye#rx,ry,rz|
 
 Weights are whole numbers from 0 to 100, angles degrees in ARKit's frame, which is glTF's: x to the subject's left, y up,
 z out of the face; places are metres from the camera. Version 2 has ``&`` for ``-`` between a name and its number. A
 receiver may ask for one of them by a greeting to our port 49983; the answer goes to its own port 49983, wherever the
-greeting came from. The app itself takes no notice of a lost face; VMagicMirror sees it by datagrams that are equal to
-the last byte, so that is what a lost face is here.
+greeting came from. A lost face has ``trackingStatus-0`` and the numbers of the last one: who does not read the status,
+as VMagicMirror, sees it by datagrams that are equal to the last byte.
 
 No phone was at hand: signs are read in programs of others, and in packets that they caught [3]_ [4]_ [5]_.
 
@@ -17,13 +17,14 @@ References
 .. [1] www.ifacialmocap.com/for-developer: greeting, ports, grammar.
 .. [2] VRCFaceTracking/VRC_iFacialMocap: takes what comes without a greeting; exchanges left and right of the weights,
    but takes angles of head and eyes as they are, y positive to the right: it shows the app's person as a mirror does
-   (``sides=mirrored`` undoes that). It skips the first weight (``Split('|')[1..^1]``), and reads ``browInnerUp_L`` and
-   ``browInnerUp_R``.
+   (``sides=mirrored`` undoes that). It skips what stands first (``Split('|')[1..^1]``), which is the status in packets
+   that others caught [5]_, and reads ``browInnerUp_L`` and ``browInnerUp_R``.
 .. [3] emoto-yasushi/NVIDIA_ARSDK_iFacialMocap, ``ExpressionApp.cpp``, by the app's author: an eye's +x is LookDown, its
    +y LookOutLeft and LookInRight; with names exchanged, a place's +x is the picture's left.
 .. [4] Menithal/UnityIFM, ``IFMPacket.cs``: y and z of all angles change their sign on the way to Unity.
 .. [5] prodzpod/SnekStudio-iFacialMocap, ``iFacialMocap.gd``: a packet with eyeLookIn_R 54, eyeLookOut_L 44, y of the eyes
-   +19 and +16, and of the head -7: eyes that stay on something while the head turns away from it.
+   +19 and +16, and of the head -7: eyes that stay on something while the head turns away from it. Others of the kind,
+   in programs of others, begin with ``trackingStatus-1|`` and end with ``hapihapi-0|``.
 """
 
 import numpy as np
@@ -42,10 +43,8 @@ _VERSION_2 = b"sendDataVersion=v2"
 _GREETINGS_A_FRAME = 8
 """Read before each frame: a flood of them must not hold a frame up."""
 
-_FIRST = "tongueOut"
-"""Sent before all others, as VRCFaceTracking's module skips the first: without it a blink was lost."""
-
-_ORDER = (BLENDSHAPES.index(_FIRST), *(i for i, name in enumerate(BLENDSHAPES) if name != _FIRST))
+_STATUS = "trackingStatus"
+"""Stands before the weights: 1 where a face is seen."""
 
 _BROW = "browInnerUp"
 """Sent for each side as well, by names that ARKit does not have."""
@@ -84,7 +83,7 @@ class IFacialMocap:
         names = tuple(map(app_name, BLENDSHAPES))
         self._names = names if sides == "own" else tuple(names[other] for other in MIRRORED_BLENDSHAPES)
         self._turns, self._places = _TURNS[sides], _PLACES[sides]
-        self._last: list[bytes] = []
+        self._last = ""
 
     def greeted(self, datagram: bytes) -> bool:
         """Take a greeting, and with it the version that is asked for; whether it is one."""
@@ -94,11 +93,18 @@ class IFacialMocap:
         return True
 
     def __call__(self, sample: Sample) -> list[bytes]:
-        """The sample's datagram; the last one again where the face is lost."""
-        if not has_face(sample):
-            return self._last
+        """The sample's datagram; the last face again where it is lost."""
+        seen = has_face(sample)
+        if seen:
+            self._last = self._text(sample)
+        if not self._last:
+            return []
+        return [f"{_STATUS}{self._separator}{int(seen)}|{self._last}".encode("ascii")]
+
+    def _text(self, sample: Sample) -> str:
+        """All of it but the status."""
         percent = np.clip(np.rint(sample.weights * 100), 0, 100).astype(int).tolist()
-        named = [(self._names[i], percent[i]) for i in _ORDER]
+        named = list(zip(self._names, percent, strict=True))
         named += [(f"{_BROW}_{side}", percent[BLENDSHAPES.index(_BROW)]) for side in "LR"]
         weights = (f"{name}{self._separator}{value}|" for name, value in named)
         head, gaze = head_pose(sample.head), sample.gaze
@@ -108,9 +114,7 @@ class IFacialMocap:
             where = np.concatenate([turn, head.position * self._places])
         eyes = np.zeros((2, 3)) if gaze is None or np.isnan(gaze).any() else gaze.reshape(2, 2) @ np.eye(2, 3)
         left, right = (unity_euler_deg(eye) * self._turns for eye in eyes)
-        bones = f"=head#{_list(where)}|rightEye#{_list(right)}|leftEye#{_list(left)}|"
-        self._last = [("".join(weights) + bones).encode("ascii")]
-        return self._last
+        return "".join(weights) + f"=head#{_list(where)}|rightEye#{_list(right)}|leftEye#{_list(left)}|"
 
 
 def _list(numbers: np.ndarray) -> str:

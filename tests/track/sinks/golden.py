@@ -103,7 +103,12 @@ def ifacialmocap() -> list[Part]:
     """The text in pieces."""
     text = IFacialMocap()(face())[0].decode()
     weights, bones = text.split("=")
-    meanings = {"jawOpen": "half open", "mouthSmile_L": "the person's left", "eyeBlink_R": "shut"}
+    meanings = {
+        "trackingStatus": "a face is seen",
+        "jawOpen": "half open",
+        "mouthSmile_L": "the person's left",
+        "eyeBlink_R": "shut",
+    }
     parts = [(f"{part}|", meanings.get(part.split("-")[0], "0")) for part in weights.split("|")[:-1]]
     head, right, left = (f"{part}|" for part in bones.split("|")[:-1])
     parts += [

@@ -20,7 +20,7 @@ from track.sinks.targets import Target, open_sink, parse_target
 def parsed(datagram: bytes) -> tuple[dict[str, int], dict[str, list[float]]]:
     """Weights and bones, by the module's rules: parts between bars, exactly one sign of equality, whole numbers.
 
-    The module skips the first weight, which its own table shows as 0.
+    The module skips what stands first, which is the status.
     """
     text = datagram.decode("ascii")
     assert text.endswith("|")
@@ -47,11 +47,10 @@ def test_a_receiver_reads_all_of_it(version):
         sink.close()
     assert (b"&" in datagram) == (version == 2)
     weights, bones = parsed(datagram)
-    assert len(weights) == 51 + 2
-    assert datagram.startswith(b"tongueOut")
+    assert len(weights) == 52 + 2
+    assert datagram.startswith(b"trackingStatus&1|" if version == 2 else b"trackingStatus-1|")
     for name, weight in zip(BLENDSHAPES, sample.weights, strict=True):
-        if name != "tongueOut":
-            assert weights[app_name(name)] == pytest.approx(100 * weight, abs=0.5001)
+        assert weights[app_name(name)] == pytest.approx(100 * weight, abs=0.5001)
     assert weights["browInnerUp_L"] == weights["browInnerUp_R"] == weights["browInnerUp"]
     yaw, pitch, roll = np.degrees(sample.head[3:])
     np.testing.assert_allclose(bones["head"], [-pitch, yaw, -roll, 0.1, 0.05, -0.6], atol=1e-4)
@@ -70,8 +69,7 @@ def test_names_are_the_app_s():
 def test_mirrored_sides_are_what_vrcfacetracking_takes():
     sample = acted()
     own, mirrored = (parsed(IFacialMocap(sides=sides)(sample)[0]) for sides in ("own", "mirrored"))
-    sent = [name for name in BLENDSHAPES if name != "tongueOut"]
-    exchanged = {app_name(mirrored_name(name)): own[0][app_name(name)] for name in sent}
+    exchanged = {app_name(mirrored_name(name)): own[0][app_name(name)] for name in BLENDSHAPES}
     assert exchanged.items() <= mirrored[0].items()
     # the module's gaze of an eye, positive to the person's right, and upwards
     (pitch, yaw, _), (left_yaw, left_pitch) = mirrored[1]["leftEye"], sample.gaze[:2]
@@ -102,12 +100,14 @@ def test_a_unity_program_turns_the_head_as_the_person_does(angles):
     np.testing.assert_allclose(turn, MIRROR_X @ rotation_from_angles(*angles) @ MIRROR_X, atol=1e-5)
 
 
-def test_a_lost_face_repeats_the_last_datagram():
+def test_a_lost_face_is_told_and_repeats_the_last_numbers():
     sending = IFacialMocap()
     assert sending(lost()) == []
-    shown = sending(acted())
-    assert sending(lost()) == shown
-    assert sending(acted(1)) != shown
+    (shown,) = sending(acted())
+    (gone,) = sending(lost())
+    assert gone == shown.replace(b"trackingStatus-1", b"trackingStatus-0")
+    assert sending(lost()) == [gone]  # by the last byte, which VMagicMirror takes for a lost face
+    assert sending(acted(1))[0].startswith(b"trackingStatus-1|")
 
 
 def _greeted(sink: GreetedSink, taken: socket.socket, listen: tuple[str, int]) -> bytes:
