@@ -4,9 +4,9 @@
 
     trackingStatus-1|jawOpen-12|...|=head#rx,ry,rz,px,py,pz|rightEye#rx,ry,rz|leftEye#rx,ry,rz|
 
-Weights are whole numbers from 0 to 100, angles degrees in ARKit's frame, which is glTF's: x to the subject's left, y up,
-z out of the face; places are metres from the camera. Version 2 has ``&`` for ``-`` between a name and its number. A
-receiver may ask for one of them by a greeting to our port 49983; the answer goes to its own port 49983, wherever the
+Weights are whole numbers from 0 to 100. Angles are degrees in ARKit's frame, which is glTF's: x to the subject's left,
+y up, z out of the face; places are metres from the camera. Version 2 has ``&`` for ``-`` between a name and its number.
+A receiver may ask for one of them by a greeting to our port 49983; the answer goes to its own port 49983, wherever the
 greeting came from. A lost face has ``trackingStatus-0`` and the numbers of the last one: who does not read the status,
 as VMagicMirror, sees it by datagrams that are equal to the last byte.
 
@@ -17,14 +17,14 @@ References
 .. [1] www.ifacialmocap.com/for-developer: greeting, ports, grammar.
 .. [2] VRCFaceTracking/VRC_iFacialMocap: takes what comes without a greeting; exchanges left and right of the weights,
    but takes angles of head and eyes as they are, y positive to the right: it shows the app's person as a mirror does
-   (``sides=mirrored`` undoes that). It skips what stands first (``Split('|')[1..^1]``), which is the status in packets
-   that others caught [5]_, and reads ``browInnerUp_L`` and ``browInnerUp_R``.
+   (``sides=mirrored`` undoes that). It skips what stands first (``Split('|')[1..^1]``), which is the status in the
+   app's packets [5]_, and reads ``browInnerUp_L`` and ``browInnerUp_R``.
 .. [3] emoto-yasushi/NVIDIA_ARSDK_iFacialMocap, ``ExpressionApp.cpp``, by the app's author: an eye's +x is LookDown, its
    +y LookOutLeft and LookInRight; with names exchanged, a place's +x is the picture's left.
 .. [4] Menithal/UnityIFM, ``IFMPacket.cs``: y and z of all angles change their sign on the way to Unity.
-.. [5] prodzpod/SnekStudio-iFacialMocap, ``iFacialMocap.gd``: a packet with eyeLookIn_R 54, eyeLookOut_L 44, y of the eyes
-   +19 and +16, and of the head -7: eyes that stay on something while the head turns away from it. Others of the kind,
-   in programs of others, begin with ``trackingStatus-1|`` and end with ``hapihapi-0|``.
+.. [5] prodzpod/SnekStudio-iFacialMocap, ``iFacialMocap.gd``: a packet with eyeLookIn_R 54, eyeLookOut_L 44, y of the
+   eyes +19 and +16, and of the head -7: eyes that stay on something while the head turns away from it. Packets that
+   others caught begin with ``trackingStatus-1|`` and end with ``hapihapi-0|``.
 """
 
 import numpy as np

@@ -1,11 +1,17 @@
 """Sends datagrams and waits for nobody: a receiver that is away, slow or gone costs nothing."""
 
 import socket
+from dataclasses import replace
+
+import numpy as np
 
 from regress.runtime.sample import Sample
 from track.errors import InputError
-from track.sinks.sink import Datagrams, Sink, Tell
+from track.sinks.sink import Datagrams, Sink, Tell, has_face
 from track.sinks.targets import Target
+
+_PARTINGS = 2
+"""How often the last datagrams are sent: no others come behind them, should one get lost."""
 
 
 class UdpSink(Sink):
@@ -32,10 +38,23 @@ class UdpSink(Sink):
         family, self._address = resolved(target)
         self._socket = socket.socket(family, socket.SOCK_DGRAM)
         self._socket.setblocking(False)
+        self._shown: Sample | None = None
 
     def send(self, sample: Sample) -> None:
         """Send a sample's datagrams; what the system does not take at once is lost."""
-        for datagram in self._datagrams(sample):
+        if has_face(sample):
+            self._shown = sample
+        self._put(self._datagrams(sample))
+
+    def close(self) -> None:
+        """Leave a face at rest that nobody tracks, and let the socket go: avatars keep what they were told last."""
+        if self._shown is not None:
+            for sample in _parting(self._shown):
+                self._put(self._datagrams(sample) * _PARTINGS)
+        self._socket.close()
+
+    def _put(self, datagrams: list[bytes]) -> None:
+        for datagram in datagrams:
             try:
                 self._socket.sendto(datagram, self._address)
             except (BlockingIOError, ConnectionError):
@@ -45,9 +64,12 @@ class UdpSink(Sink):
                     self._told = True
                     self._tell(f"{self.title}: nothing can be sent ({error.strerror}); going on without it")
 
-    def close(self) -> None:
-        """Let the socket go."""
-        self._socket.close()
+
+def _parting(last: Sample) -> tuple[Sample, Sample]:
+    """A face at rest where the last one was, and then none."""
+    head = None if last.head is None else np.concatenate([last.head[:3], np.zeros(3)])
+    rest = replace(last, weights=np.zeros_like(last.weights), gaze=np.zeros(4), head=head)
+    return rest, replace(rest, weights=None, gaze=None, head=None)
 
 
 def resolved(target: Target) -> tuple[socket.AddressFamily, tuple]:
