@@ -47,7 +47,8 @@ class VrChat:
     prefix
         What stands before a parameter's name; many avatars have ``FT/v2``.
     bits
-        Of each parameter; 0 sends floats.
+        Of each parameter, beside its float: avatars have some as bits and others as floats, and VRChat drops what it
+        does not know. 0 sends floats alone.
     eyes
         Which are sent: ``parameters``, VRChat's own (``native``), or ``both``. VRCFaceTracking sends its own only to
         avatars without parameters of eyes; of a wink they shut both by half.
@@ -151,9 +152,9 @@ class VrChat:
 
     def _parameter(self, name: str, value: float) -> Iterator[bytes]:
         """A parameter's messages, where it is not what was sent last."""
+        if self._changed(name, value):
+            yield message(self._address + name, value)
         if self._bits == 0:
-            if self._changed(name, value):
-                yield message(self._address + name, value)
             return
         steps = min(int(abs(value) * 2**self._bits), 2**self._bits - 1)
         for bit in range(self._bits):
