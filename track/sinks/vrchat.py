@@ -50,8 +50,8 @@ class VrChat:
         Of each parameter, beside its float: avatars have some as bits and others as floats, and VRChat drops what it
         does not know. 0 sends floats alone.
     eyes
-        Which are sent: ``parameters``, VRChat's own (``native``), or ``both``. VRCFaceTracking sends its own only to
-        avatars without parameters of eyes; of a wink they shut both by half.
+        Which are sent: ``parameters``, VRChat's own (``native``, and no parameter of eyes), or ``both``. VRCFaceTracking
+        sends VRChat's own only to avatars without parameters of eyes; of a wink they shut both by half.
     clock
         Seconds.
     """
@@ -68,7 +68,12 @@ class VrChat:
         prefix = prefix.strip("/").removeprefix(_PARAMETERS.strip("/")).strip("/")
         self._address, self._bits = f"{_PARAMETERS}{prefix}/" if prefix else _PARAMETERS, bits
         targets = [read_retargeting("unified_expressions"), read_retargeting(str(_COMBINED))]
-        driven = [target.factors.any(axis=0) for target in targets]
+        self._parameters, self._native = eyes != "native", eyes != "parameters"
+        driven = [
+            target.factors.any(axis=0)
+            & [self._parameters or not name.startswith("Eye") for name in target.names]
+            for target in targets
+        ]
         self._names = [
             name
             for target, some in zip(targets, driven, strict=True)
@@ -84,7 +89,6 @@ class VrChat:
         )
         self._sent: dict[str, float] = {}
         self._clock, self._all_s = clock, -np.inf
-        self._parameters, self._native = eyes != "native", eyes != "parameters"
 
     def __call__(self, sample: Sample) -> list[bytes]:
         """Bundles of one sample; without a face they say so, and nothing moves."""
