@@ -33,6 +33,10 @@ _PARAMETERS = "/avatar/parameters/"
 PUPIL_ENDS = (0.2, 0.65)
 """Pupil over iris, of an adult's pupil of 2.3 and of 7.6 mm."""
 
+_CENTIMETRES = 1.17
+"""Of an iris, nearly the same in all people (F. Rüfer et al., Cornea 24(3), 2005). VRCFaceTracking sends a pupil's
+millimetres times 0.1 (``UnifiedExpressionsParameters.cs``)."""
+
 _ALL_AFTER_S = 1.0
 """After which everything is sent again, changed or not: datagrams are lost, and avatars are changed."""
 
@@ -144,14 +148,16 @@ class VrChat:
             yield from self._parameter(name, float(pair.mean()))
 
     def _pupils(self, shares: np.ndarray) -> Iterator[bytes]:
-        """Pupils' diameters as shares of the widest, and how far they are dilated between their ends."""
+        """Pupils' diameters in centimetres, and how far they are dilated between their ends."""
         narrow, wide = PUPIL_ENDS
         dilated = np.clip((shares - narrow) / (wide - narrow), 0, 1)
-        for side, share in zip(("Left", "Right"), shares.tolist(), strict=True):
-            if np.isfinite(share):
-                yield from self._parameter(f"PupilDiameter{side}", round(min(share / wide, 1.0), 2))
+        diameters = np.clip(shares * _CENTIMETRES, 0, 1)
+        for side, diameter in zip(("Left", "Right"), diameters.tolist(), strict=True):
+            if np.isfinite(diameter):
+                # hundredths: a parameter that trembles would be sent in every frame
+                yield from self._parameter(f"PupilDiameter{side}", round(diameter, 2))
         if np.isfinite(dilated).any():
-            # hundredths: a parameter that trembles would be sent in every frame
+            yield from self._parameter("PupilDiameter", round(float(np.nanmean(diameters)), 2))
             yield from self._parameter("PupilDilation", round(float(np.nanmean(dilated)), 2))
 
     def _parameter(self, name: str, value: float) -> Iterator[bytes]:

@@ -110,8 +110,11 @@ def test_pupils_and_their_dilation_go_where_they_are_known():
         return parameters(VrChat()(replace(acted(), eyes=eyes)))
 
     said = sent(0.65, np.nan)
-    assert (said["PupilDiameterLeft"], said["PupilDilation"]) == (1.0, 1.0)
+    assert said["PupilDilation"] == 1.0
+    # of an iris of 11.7 mm; VRCFaceTracking: millimetres times 0.1
+    assert said["PupilDiameterLeft"] == said["PupilDiameter"] == pytest.approx(0.65 * 11.7 * 0.1, abs=0.006)
     assert "PupilDiameterRight" not in said
+    assert sent(0.2, 0.4)["PupilDiameter"] == pytest.approx(0.3 * 11.7 * 0.1, abs=0.006)
     assert sent(0.2, 0.65)["PupilDilation"] == 0.5
     assert "PupilDilation" not in sent(np.nan, np.nan)
     assert "PupilDilation" not in parameters(VrChat()(acted()))
