@@ -12,6 +12,7 @@ References
    documentation: a gaze of 1 is 45 degrees.
 """
 
+import re
 import time
 from collections.abc import Callable, Iterator
 from importlib import resources
@@ -29,6 +30,8 @@ from track.sinks.udp import UdpSink
 PORT = 9000
 FULL_GAZE_RAD = np.pi / 4
 _PARAMETERS = "/avatar/parameters/"
+
+FLAGS = ("EyeTrackingActive", "ExpressionTrackingActive", "LipTrackingActive")
 
 PUPIL_ENDS = (0.2, 0.65)
 """Pupil over iris, of an adult's pupil of 2.3 and of 7.6 mm."""
@@ -71,6 +74,11 @@ class VrChat:
         # people paste whole addresses, and some avatars have no prefix
         prefix = prefix.strip("/").removeprefix(_PARAMETERS.strip("/")).strip("/")
         self._address, self._bits = f"{_PARAMETERS}{prefix}/" if prefix else _PARAMETERS, bits
+        # VRCFaceTracking's flags have no version, but whatever stands before it: FT/EyeTrackingActive
+        beside = re.fullmatch(r"(.+/)v\d+", prefix)
+        self._flags = [
+            f"{before}{name}" for before in ("", *(beside.groups() if beside else ())) for name in FLAGS
+        ]
         targets = [read_retargeting("unified_expressions"), read_retargeting(str(_COMBINED))]
         self._parameters, self._native = eyes != "native", eyes != "parameters"
         driven = [
@@ -104,7 +112,7 @@ class VrChat:
 
     def _messages(self, sample: Sample) -> Iterator[bytes]:
         seen = has_face(sample)
-        for name in ("EyeTrackingActive", "ExpressionTrackingActive", "LipTrackingActive"):
+        for name in self._flags:
             if self._changed(name, seen):
                 yield message(_PARAMETERS + name, seen)
         if not seen:

@@ -11,7 +11,7 @@ from regress.runtime.stages.retargeting.target_file import read_retargeting
 from tests.track.sinks.receivers import ANY_SAMPLE, acted, lost, received, receiver
 from tests.track.sinks.test_vmc import messages
 from track.sinks.targets import open_sink, parse_target
-from track.sinks.vrchat import _COMBINED, VrChat
+from track.sinks.vrchat import _COMBINED, FLAGS, VrChat
 
 V2 = "/avatar/parameters/v2/"
 
@@ -187,6 +187,18 @@ def test_a_prefix_of_the_avatar_s(prefix):
 
 def test_an_avatar_without_a_prefix():
     assert "JawOpen" in parameters(VrChat(prefix="")(acted()), "/avatar/parameters/")
+
+
+@pytest.mark.parametrize(
+    ("prefix", "befores"), [("", [""]), ("v2", [""]), ("FT/v2", ["", "FT/"]), ("a/b/v2", ["", "a/b/"])]
+)
+def test_flags_stand_before_the_version_as_well(prefix, befores):
+    """VRCFaceTracking takes them under any prefix, but none of a version."""
+    vrchat = VrChat(prefix=prefix)
+    for sample, seen in ((acted(), True), (lost(), False)):
+        told = parameters(vrchat(sample), "/avatar/parameters/")
+        flags = {name: value for name, value in told.items() if name.endswith("TrackingActive")}
+        assert flags == {f"{before}{name}": seen for before in befores for name in FLAGS}
 
 
 def test_what_did_not_change_is_sent_again_each_second_alone():
