@@ -22,6 +22,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.sample import Sample
 from regress.runtime.stages.retargeting.target_file import read_retargeting
+from track.sinks.axes import HeadPose, head_pose, unity_position
 from track.sinks.osc import bundles, message
 from track.sinks.sink import Sink, Tell, has_face
 from track.sinks.targets import Target
@@ -29,6 +30,8 @@ from track.sinks.udp import UdpSink
 
 PORT = 9000
 FULL_GAZE_RAD = np.pi / 4
+FULL_TURN_RAD, FULL_WAY_M = np.pi / 2, 0.5
+"""What 1 is of a head's turn and of its way from where it was first (VRCFaceTracking, ``UnifiedData.cs``)."""
 _PARAMETERS = "/avatar/parameters/"
 
 FLAGS = ("EyeTrackingActive", "ExpressionTrackingActive", "LipTrackingActive")
@@ -57,8 +60,8 @@ class VrChat:
         Of each parameter, beside its float: avatars have some as bits and others as floats, and VRChat drops what it
         does not know. 0 sends floats alone.
     eyes
-        Which are sent: ``parameters``, VRChat's own (``native``, and no parameter of eyes), or ``both``. VRCFaceTracking
-        sends VRChat's own only to avatars without parameters of eyes; of a wink they shut both by half.
+        Which are sent: ``parameters``, VRChat's own (``native``, and no parameter of eyes), or ``both``.
+        VRCFaceTracking sends VRChat's own only to avatars without parameters of eyes; of a wink they shut both by half.
     clock
         Seconds.
     """
@@ -100,6 +103,7 @@ class VrChat:
             for part in ("factors", "low", "high")
         )
         self._sent: dict[str, float] = {}
+        self._origin: np.ndarray | None = None
         self._clock, self._all_s = clock, -np.inf
 
     def __call__(self, sample: Sample) -> list[bytes]:
@@ -123,6 +127,9 @@ class VrChat:
         closed, wide, squint, smile, frown, stretch = np.clip(sample.weights[_PAIRS], 0, 1)
         yield from self._sides("SmileSad", smile - np.maximum(frown, stretch), mean=True)
         yield from self._sides("MouthSad", np.maximum(frown, stretch))
+        head = head_pose(sample.head)
+        if head is not None:
+            yield from self._head(head)
         gaze = None if sample.gaze is None or np.isnan(sample.gaze).any() else sample.gaze
         if self._parameters:
             yield from self._lids(closed, wide, squint)
@@ -133,6 +140,17 @@ class VrChat:
                 yield message("/tracking/eye/LeftRightPitchYaw", *(-np.degrees(gaze[[1, 0, 3, 2]])).tolist())
         if sample.eyes is not None:
             yield from self._pupils(sample.eyes.pupil)
+
+    def _head(self, head: HeadPose) -> Iterator[bytes]:
+        """Parameters of the head, in Unity's frame: to the right, down and tilted to the left are positive."""
+        if self._origin is None:
+            self._origin = head.position
+        yaw, pitch, roll = head.angles_rad
+        turns = np.array([-yaw, -pitch, roll]) / FULL_TURN_RAD
+        way = unity_position(head.position - self._origin) / FULL_WAY_M
+        names = ("Yaw", "Pitch", "Roll", "PosX", "PosY", "PosZ")
+        for name, value in zip(names, np.clip([*turns, *way], -1, 1).tolist(), strict=True):
+            yield from self._parameter(f"Head/{name}", value + 0.0)
 
     def _lids(self, closed: np.ndarray, wide: np.ndarray, squint: np.ndarray) -> Iterator[bytes]:
         yield from self._sides("EyeOpen", 1 - closed, mean=True)

@@ -162,6 +162,8 @@ VRCHAT = {
     "/avatar/parameters/v2/SmileFrownLeft": "combined: from -1 to 1",
     "/avatar/parameters/v2/EyeLidLeft": "0.75 is open, 1 is wide",
     "/avatar/parameters/v2/EyeLidRight": "shut",
+    "/avatar/parameters/v2/Head/Yaw": "to the right is positive, 90° is 1",
+    "/avatar/parameters/v2/Head/PosX": "from where it was first, 0.5 m is 1",
     "/tracking/eye/EyesClosedAmount": "both eyes",
     "/avatar/parameters/v2/EyeLeftX": "to the right is positive, 45° is 1",
     "/avatar/parameters/v2/EyeLeftY": "up is positive",

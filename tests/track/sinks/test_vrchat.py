@@ -1,5 +1,7 @@
 """VRChat's OSC, read by python-osc: names and sums of VRCFaceTracking, bits, eyes, and what is sent again."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import example, given
@@ -102,9 +104,29 @@ def test_eyes_go_where_they_are_wanted(eyes, parameter, native):
     assert any(address.startswith(V2 + "Eye") for address in told) == bool(parameter)
 
 
-def test_pupils_and_their_dilation_go_where_they_are_known():
-    from dataclasses import replace
+def test_a_head_turns_and_goes_as_vrcfacetracking_has_it():
+    """By UnifiedData.cs: yaw to the right, pitch down, roll to the left, 90 degrees are 1; half a metre from where it
+    was first is 1, in Unity's frame."""
+    vrchat = VrChat(clock=lambda: 0.0)
+    first = Sample(weights=np.zeros(52), head=np.array([0.1, -0.05, 0.6, 0.3, 0.2, 0.1]))
+    head = {name: value for name, value in parameters(vrchat(first)).items() if name.startswith("Head/")}
+    quarter = np.pi / 2
+    expected = {
+        "Yaw": -0.3 / quarter,
+        "Pitch": -0.2 / quarter,
+        "Roll": 0.1 / quarter,
+        "PosX": 0,
+        "PosY": 0,
+        "PosZ": 0,
+    }
+    assert head == pytest.approx({f"Head/{name}": value for name, value in expected.items()}, abs=1e-6)
+    # to the picture's right, which is the person's left, up in the picture, and nearer
+    moved = parameters(vrchat(replace(first, head=first.head + np.array([0.1, -0.05, -0.2, 0, 0, 0]))))
+    assert moved == pytest.approx({"Head/PosX": -0.2, "Head/PosY": 0.1, "Head/PosZ": 0.4}, abs=1e-6)
+    assert not any("Head" in name for name in parameters(VrChat()(Sample(weights=np.zeros(52)))))
 
+
+def test_pupils_and_their_dilation_go_where_they_are_known():
     def sent(left: float, right: float) -> dict[str, object]:
         eyes = EyeMeasures(openness_mm=np.ones(2), openness=np.ones(2), pupil=np.array([left, right]))
         return parameters(VrChat()(replace(acted(), eyes=eyes)))
