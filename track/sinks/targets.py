@@ -51,7 +51,7 @@ SINKS: dict[str, SinkKind] = {
         description="VSeeFace, Warudo, VMagicMirror, VNyan and others: expressions, head and eyes",
         module="vmc",
         port=39539,
-        options={"names": ("both", "perfect-sync", "vrm0", "vrm1")},
+        options={"names": ("both", "perfect-sync", "vrm0", "vrm1"), "emotions": ("off", "on")},
     ),
     "livelink": SinkKind(
         description="Unreal, as the Live Link Face app",

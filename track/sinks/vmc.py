@@ -29,6 +29,10 @@ SETS = {
 }
 """Names of expressions by what a person asks for: an avatar that has Perfect Sync and VRM's moves twice by both."""
 
+EMOTIONS = ("joy", "angry", "sorrow", "fun", "happy", "sad", "relaxed", "surprised")
+"""Whole faces of an avatar, not parts of one: VRoid's shut the eyes, and a smile would do so beside its own shape. They
+stay with the buttons of the receiver."""
+
 REST = {
     "Head": np.array([0.0, 0.09, 0.01]),
     "LeftEye": np.array([0.032, 0.07, 0.07]),
@@ -45,17 +49,21 @@ class Vmc:
     ----------
     names
         Key of `SETS`.
+    emotions
+        ``on`` sends those of `EMOTIONS` that the names have.
     """
 
-    def __init__(self, names: str = "both") -> None:
-        targets = [read_retargeting(target) for target in SETS[names]]
-        self._retargets = [
-            (
-                target,
-                [number_message("/VMC/Ext/Blend/Val", _spelled(name, target_name)) for name in target.names],
-            )
-            for target, target_name in zip(targets, SETS[names], strict=True)
-        ]
+    def __init__(self, names: str = "both", emotions: str = "off") -> None:
+        self._retargets = []
+        for target_name in SETS[names]:
+            target = read_retargeting(target_name)
+            sent = {
+                i: name for i, name in enumerate(target.names) if emotions == "on" or name not in EMOTIONS
+            }
+            values = [
+                number_message("/VMC/Ext/Blend/Val", _spelled(name, target_name)) for name in sent.values()
+            ]
+            self._retargets.append((target, list(sent), values))
 
     def __call__(self, sample: Sample) -> list[bytes]:
         """Bundles of one sample; the last message applies the expressions. Without a face they say only so."""
@@ -76,8 +84,8 @@ class Vmc:
         if eyes is not None:
             for name, turn in zip(("LeftEye", "RightEye"), eyes, strict=True):
                 yield _bone("/VMC/Ext/Bone/Pos", name, REST[name], turn)
-        for target, values in self._retargets:
-            weights = target.apply(sample.weights[None])[0].tolist()
+        for target, sent, values in self._retargets:
+            weights = target.apply(sample.weights[None])[0, sent].tolist()
             yield from (value(weight) for value, weight in zip(values, weights, strict=True))
         yield message("/VMC/Ext/Blend/Apply")
 

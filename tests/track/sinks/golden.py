@@ -148,7 +148,6 @@ VMC = {
     "/VMC/Ext/Blend/Val EyeBlinkRight": "Perfect Sync, shut",
     "/VMC/Ext/Blend/Val JawOpen": "Perfect Sync, half open",
     "/VMC/Ext/Blend/Val MouthSmileLeft": "Perfect Sync, the person's left",
-    "/VMC/Ext/Blend/Val Joy": "VRM 0: the mean of both corners",
     "/VMC/Ext/Blend/Val A": "VRM 0",
     "/VMC/Ext/Blend/Val Blink_R": "VRM 0",
     "/VMC/Ext/Blend/Apply": "the last message",

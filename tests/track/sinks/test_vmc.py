@@ -16,9 +16,8 @@ from track.sinks.osc import bundles, message
 from track.sinks.targets import open_sink, parse_target
 from track.sinks.vmc import SETS, Vmc
 
-VRM0 = (
-    "Joy Angry Sorrow Fun A I U E O Blink Blink_L Blink_R LookUp LookDown LookLeft LookRight Neutral".split()
-)
+VRM0 = "A I U E O Blink Blink_L Blink_R LookUp LookDown LookLeft LookRight Neutral".split()
+EMOTIONS = "Joy Angry Sorrow Fun".split()
 """As UniVRM's enumeration has them; receivers compare letter by letter."""
 
 
@@ -86,12 +85,32 @@ def test_head_and_eyes_turn_as_the_person_does():
 @pytest.mark.parametrize("names", SETS)
 def test_names_of_expressions(names):
     spelled = [m.params[0] for m in messages(Vmc(names)(acted())) if m.address.endswith("Val")]
-    assert (
-        len(spelled) == len(set(spelled)) == {"both": 69, "perfect-sync": 52, "vrm0": 17, "vrm1": 18}[names]
-    )
+    assert len(spelled) == len(set(spelled))
+    assert len(spelled) == {"both": 65, "perfect-sync": 52, "vrm0": 13, "vrm1": 13}[names]
     assert ("JawOpen" in spelled) == (names in ("both", "perfect-sync"))
     assert set(VRM0) <= set(spelled) or names not in ("both", "vrm0")
     assert ("blinkLeft" in spelled) == (names == "vrm1")
+
+
+@pytest.mark.parametrize(
+    ("names", "emotions"),
+    [
+        ("both", set(EMOTIONS)),
+        ("vrm1", {"happy", "angry", "sad", "relaxed", "surprised"}),
+        ("perfect-sync", set()),
+    ],
+)
+def test_emotions_are_sent_where_they_are_asked_for(names, emotions):
+    """VRoid's Joy shuts the eyes, whatever the lids do."""
+
+    def sent(**options) -> dict[str, float]:
+        told = messages(Vmc(names, **options)(acted()))
+        return {each.params[0]: each.params[1] for each in told if each.address.endswith("Val")}
+
+    without, with_them = sent(), sent(emotions="on")
+    assert with_them.keys() - without.keys() == emotions
+    assert without.items() <= with_them.items()
+    assert not {name.casefold() for name in without} & {name.casefold() for name in emotions}
 
 
 def test_a_lost_face_is_told_and_moves_nothing():
