@@ -73,6 +73,14 @@ def quaternion(yaw_rad: float, pitch_rad: float, roll_rad: float = 0.0) -> np.nd
     )
 
 
+def share_of(rotation: np.ndarray, share: float) -> np.ndarray:
+    """The rotation (4,) about the same axis by a share of the angle, the short way round."""
+    rotation = rotation if rotation[3] >= 0 else -rotation
+    sine = float(np.linalg.norm(rotation[:3]))
+    half = share * np.arctan2(sine, rotation[3])
+    return np.append(rotation[:3] * (np.sin(half) / sine if sine > 1e-12 else share), np.cos(half))
+
+
 def unity_position(position: np.ndarray) -> np.ndarray:
     """A place (3,) of glTF's frame in Unity's: x is mirrored."""
     return position * [-1, 1, 1]

@@ -51,7 +51,11 @@ SINKS: dict[str, SinkKind] = {
         description="VSeeFace, Warudo, VMagicMirror, VNyan and others: expressions, head and eyes",
         module="vmc",
         port=39539,
-        options={"names": ("both", "perfect-sync", "vrm0", "vrm1"), "emotions": ("off", "on")},
+        options={
+            "names": ("both", "perfect-sync", "vrm0", "vrm1"),
+            "emotions": ("off", "on"),
+            "neck": ("on", "off"),
+        },
     ),
     "livelink": SinkKind(
         description="Unreal, as the Live Link Face app",

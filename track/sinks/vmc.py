@@ -13,7 +13,7 @@ import numpy as np
 
 from regress.runtime.sample import Sample
 from regress.runtime.stages.retargeting.target_file import read_retargeting
-from track.sinks.axes import NO_TURN, eye_turns, head_pose, unity_position, unity_quaternion
+from track.sinks.axes import NO_TURN, eye_turns, head_pose, share_of, unity_position, unity_quaternion
 from track.sinks.osc import bundles, message, number_message
 from track.sinks.sink import Sink, Tell, has_face
 from track.sinks.targets import Target
@@ -33,7 +33,11 @@ EMOTIONS = ("joy", "angry", "sorrow", "fun", "happy", "sad", "relaxed", "surpris
 """Whole faces of an avatar, not parts of one: VRoid's shut the eyes, and a smile would do so beside its own shape. They
 stay with the buttons of the receiver."""
 
+OF_THE_NECK = 1 / 3
+"""Of a head's turn: a head that turns on a neck at rest looks like an owl's."""
+
 REST = {
+    "Neck": np.array([0.0, 0.1, -0.02]),
     "Head": np.array([0.0, 0.09, 0.01]),
     "LeftEye": np.array([0.032, 0.07, 0.07]),
     "RightEye": np.array([-0.032, 0.07, 0.07]),
@@ -51,9 +55,12 @@ class Vmc:
         Key of `SETS`.
     emotions
         ``on`` sends those of `EMOTIONS` that the names have.
+    neck
+        ``on`` turns the neck by its share, and the head by the rest; ``off`` turns the head alone.
     """
 
-    def __init__(self, names: str = "both", emotions: str = "off") -> None:
+    def __init__(self, names: str = "both", emotions: str = "off", neck: str = "on") -> None:
+        self._neck = OF_THE_NECK if neck == "on" else 0.0
         self._retargets = []
         for target_name in SETS[names]:
             target = read_retargeting(target_name)
@@ -79,7 +86,11 @@ class Vmc:
         yield _bone("/VMC/Ext/Root/Pos", "root", np.zeros(3), NO_TURN)
         head = head_pose(sample.head)
         if head is not None:
-            yield _bone("/VMC/Ext/Bone/Pos", "Head", REST["Head"], head.rotation)
+            if self._neck:
+                turn = share_of(head.rotation, self._neck)
+                yield _bone("/VMC/Ext/Bone/Pos", "Neck", REST["Neck"], turn)
+            turn = share_of(head.rotation, 1 - self._neck)
+            yield _bone("/VMC/Ext/Bone/Pos", "Head", REST["Head"], turn)
         eyes = eye_turns(sample.gaze)
         if eyes is not None:
             for name, turn in zip(("LeftEye", "RightEye"), eyes, strict=True):

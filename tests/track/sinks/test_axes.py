@@ -14,6 +14,7 @@ from track.sinks.axes import (
     eye_turns,
     head_pose,
     quaternion,
+    share_of,
     unity_euler_deg,
     unity_position,
     unity_quaternion,
@@ -69,6 +70,19 @@ def test_unity_sees_the_same_head_in_a_mirrored_frame(angles, position):
     np.testing.assert_allclose(matrix(unity_quaternion(turn)), expected, atol=1e-12)
     np.testing.assert_allclose(unity_euler_matrix(unity_euler_deg(np.array(angles))), expected, atol=1e-12)
     np.testing.assert_allclose(unity_position(np.array(position)), MIRROR_X @ position)
+
+
+@given(angles=ANGLES, share=st.floats(0, 1))
+def test_shares_of_a_turn_make_the_turn(angles, share):
+    turn = quaternion(*angles)
+    one, rest = (matrix(share_of(turn, part)) for part in (share, 1 - share))
+    np.testing.assert_allclose(one @ rest, matrix(turn), atol=1e-9)
+    np.testing.assert_allclose(
+        share_of(-turn, share), share_of(turn, share), atol=1e-12
+    )  # both say the same turn
+    half = matrix(share_of(turn, 0.5))
+    np.testing.assert_allclose(half @ half, matrix(turn), atol=1e-9)
+    assert np.trace(half) >= 1 - 1e-9  # by 90 degrees at most: the short way
 
 
 @given(angles=ANGLES, position=METRES)

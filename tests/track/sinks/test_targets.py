@@ -53,7 +53,7 @@ def test_what_is_understood(text, target):
         ("vmc:host:65536", "there is no port 65536"),
         ("vmc:host:port", "is no address"),
         ("vmc,names=vrm2", "names is 'vrm2'; both or perfect-sync or vrm0 or vrm1 are allowed"),
-        ("vmc,colour=red", "vmc has no option 'colour'; names, emotions are known"),
+        ("vmc,colour=red", "vmc has no option 'colour'; names, emotions, neck are known"),
         ("vmc,vrm1", "',vrm1' is no option"),
         ("csv", "csv needs a file; write csv:FILE"),
         ("csv:", "csv needs a file"),

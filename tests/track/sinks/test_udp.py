@@ -51,7 +51,7 @@ def test_vmc_leaves_a_face_at_rest_and_says_that_nobody_is_tracked():
     got = messages(left("vmc", acted()))
     assert {each.params[1] for each in got if each.address.endswith("Val")} == {0}
     turns = [each.params[4:] for each in got if each.address.endswith("Bone/Pos")]
-    assert len(turns) == 2 * 3
+    assert len(turns) == 2 * 4
     assert all(turn == [0, 0, 0, 1] for turn in turns)
     states = [each.params[3] for each in got if each.address.endswith("OK")]
     assert states == [1, 1, 0, 0]

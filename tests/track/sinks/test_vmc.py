@@ -66,16 +66,20 @@ def test_every_number_is_a_float_and_every_datagram_passes_a_router():
             )
 
 
-def test_head_and_eyes_turn_as_the_person_does():
+@pytest.mark.parametrize("neck", ["on", "off"])
+def test_head_and_eyes_turn_as_the_person_does(neck):
     sample = acted(3)
     bones = {
         each.params[0]: np.array(each.params[1:])
-        for each in messages(Vmc()(sample))
+        for each in messages(Vmc(neck=neck)(sample))
         if each.address.endswith("Bone/Pos")
     }
-    assert set(bones) == {"Head", "LeftEye", "RightEye"}
+    assert set(bones) == {"Head", "LeftEye", "RightEye"} | ({"Neck"} if neck == "on" else set())
     turn = MIRROR_X @ rotation_from_angles(*sample.head[3:]) @ MIRROR_X
-    np.testing.assert_allclose(matrix(bones["Head"][3:]), turn, atol=1e-6)
+    of_neck = matrix(bones["Neck"][3:]) if neck == "on" else np.eye(3)
+    np.testing.assert_allclose(of_neck @ matrix(bones["Head"][3:]), turn, atol=1e-6)
+    share = np.arccos((np.trace(of_neck) - 1) / 2) / np.arccos((np.trace(turn) - 1) / 2)
+    assert share == pytest.approx(1 / 3 if neck == "on" else 0, abs=1e-5)
     for name, (yaw, pitch) in zip(("LeftEye", "RightEye"), sample.gaze.reshape(2, 2), strict=True):
         looks = matrix(bones[name][3:])[:, 2]
         np.testing.assert_allclose(looks, MIRROR_X @ direction_from_angles(yaw, pitch), atol=1e-6)
