@@ -86,4 +86,9 @@ def _text(text: str) -> bytes:
 
 def open_sink(target: Target, tell: Tell) -> Sink:
     """Live Link Face on its way to Unreal."""
+    subject = target.options.get("subject", SUBJECT)
+    if len(subject.encode()) != len(SUBJECT):
+        tell(
+            f"{target.title}: subject {subject!r} has not six bytes, and VRCFaceTracking takes no other; Unreal does"
+        )
     return UdpSink(target, LiveLink(**target.options), tell)

@@ -91,6 +91,16 @@ def test_pylivelinkface_reads_it():
     assert not good
 
 
+@pytest.mark.parametrize(
+    ("subject", "said"), [("", 0), (",subject=Anna B", 0), (",subject=Jörgen", 1), (",subject=Me", 1)]
+)
+def test_a_subject_that_vrcfacetracking_does_not_take_is_told(subject, said):
+    """Of a length of 312 bytes it takes all, and no other: six bytes of UTF-8, not letters."""
+    told = []
+    open_sink(parse_target(f"livelink{subject}"), told.append).close()
+    assert len(told) == said
+
+
 def test_a_lost_face_is_a_header_alone():
     assert len(LiveLink()(lost())[0]) == struct.calcsize(HEADER)
 
