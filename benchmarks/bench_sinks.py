@@ -2,18 +2,18 @@
 
     python benchmarks/bench_sinks.py
 
-Last run (2026-11-23, one of two shared cores of an AMD EPYC, Python 3.11.7, NumPy 1.26.4), ms a frame:
+Last run (2026-11-29, one of two shared cores of an Intel Xeon, Python 3.11.7, NumPy 1.26.4), ms a frame:
 
-    vmc           0.310   and 0 ms at the end
-    livelink      0.039   and 0 ms at the end
-    ifacialmocap  0.052   and 0 ms at the end
-    vrchat        0.428   and 0 ms at the end
-    csv           0.085   and 1 ms at the end
-    livelink-csv  0.141   and 1 ms at the end
-    gltf          0.007   and 14 ms at the end
-    vrma          0.007   and 39 ms at the end
+    vmc           0.179   and 0 ms at the end
+    livelink      0.029   and 0 ms at the end
+    ifacialmocap  0.045   and 0 ms at the end
+    vrchat        0.353   and 1 ms at the end
+    csv           0.056   and 1 ms at the end
+    livelink-csv  0.091   and 1 ms at the end
+    gltf          0.005   and 186 ms at the end
+    vrma          0.005   and 54 ms at the end
 
-VMC and VRChat send 76 and 138 messages; all sinks together take a thirtieth of a camera's frame.
+VMC and VRChat send 73 and 155 messages; all sinks together take a thirtieth of a camera's frame.
 """
 
 import tempfile
