@@ -237,6 +237,17 @@ def test_readers_agree_on_irises(tmp_path: Path):
     assert read_frames(_table(tmp_path / "take.csv", take)).take([1, 2]).irises.shape == (2, 2, 2)
 
 
+@pytest.mark.parametrize("fps", [None, 30.0])
+@pytest.mark.parametrize("first", ["", "no frame"])
+def test_the_first_face_of_a_pipe_says_whether_there_are_irises(first: str, fps: float | None):
+    take = _take()
+    lines = [first, *(" ".join(map(repr, row.ravel().tolist())) for row in take)]
+    samples = list(read_lines(lines, fps=fps))
+    np.testing.assert_array_equal([sample.irises for sample in samples[1:]], take[:, [69, 68]])
+    assert np.isnan(samples[0].irises).all()
+    assert [sample.time_s for sample in samples[:2]] == ([0, 1 / 30] if fps else [None, None])
+
+
 @pytest.mark.parametrize("kind", ["npy", "csv", "pipe"])
 def test_from_irises_to_a_table(kind: str, run, quick_model_folder: Path, tmp_path: Path, monkeypatch):
     """The gaze leaves in degrees, and its shapes in place of the networks'; a neutral frame says what ahead is."""
