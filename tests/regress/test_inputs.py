@@ -1,10 +1,13 @@
 """Readers of landmark files, on real files and on broken ones."""
 
 import json
+import tempfile
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from facegen.errors import FormatError
@@ -40,15 +43,18 @@ def _pyfeat(path: Path, *, empty: tuple[int, ...] = ()) -> Path:
 
 def _dlib(path: Path) -> Path:
     """Two faces in the first picture, one in the second; a box without parts has no face."""
+    first, second, third = _boxes(FACES)
+    images = f"<image file='1.jpg'>{first}{second}</image><image file='2.jpg'>{third}</image>"
+    path.write_text(f"<?xml version='1.0'?><dataset><images>{images}</images></dataset>")
+    return path
 
+
+def _boxes(faces: np.ndarray) -> list[str]:
     def box(face: np.ndarray) -> str:
         parts = [f"<part name='{i:02d}' x='{x!r}' y='{y!r}'/>" for i, (x, y) in enumerate(face.tolist())]
         return f"<box top='1' left='1' width='9' height='9'>{''.join(reversed(parts))}</box>"
 
-    first, second, third = map(box, FACES)
-    images = f"<image file='1.jpg'>{first}{second}</image><image file='2.jpg'>{third}</image>"
-    path.write_text(f"<?xml version='1.0'?><dataset><images>{images}</images></dataset>")
-    return path
+    return list(map(box, faces))
 
 
 def _coco(path: Path, *, key: str = "keypoints", hidden: tuple[int, ...] = ()) -> Path:
@@ -165,6 +171,63 @@ def test_coco_faces_of_one_picture_are_takes_of_their_own(tracks: list | None, t
     frames = read_frames(path)
     assert {face: rows.tolist() for face, rows in frames.takes().items()} == takes
     assert frames.at_rate(10).time_s == pytest.approx([0, 0, 0.1])
+
+
+@given(seen=st.sets(st.integers(0, 19), min_size=1, max_size=3))
+@pytest.mark.parametrize("name", ["coco", "dlib_xml", "pts_folder"])
+def test_pictures_without_a_face_take_their_time(name: str, seen: set[int]):
+    with tempfile.TemporaryDirectory() as folder:
+        frames = read_frames(_film_of_twenty(name, Path(folder), sorted(seen)))
+    first = min(seen)
+    counts = name != "pts_folder" or (len(seen) > 1 and np.median(np.diff(sorted(seen))) == 1)
+    expected = [number - first if counts else row for row, number in enumerate(sorted(seen))]
+    assert frames.at_rate(10).time_s == pytest.approx(np.array(expected) / 10)
+    assert frames.faces is None
+
+
+def _film_of_twenty(name: str, folder: Path, seen: list[int]) -> Path:
+    """A film of which only some pictures have a face."""
+    if name == "pts_folder":
+        for number, face in zip(seen, FACES, strict=False):
+            write_pts(folder / f"take2_{number}.pts", face)
+        return folder
+    if name == "coco":
+        document = json.loads(_coco(folder / "a.json").read_text())
+        annotations = sorted(document["annotations"], key=lambda each: each["image_id"])[: len(seen)]
+        for annotation, number in zip(annotations, seen, strict=True):
+            annotation["image_id"] = 100 - 5 * (19 - number)
+        images = [{"id": 100 - 5 * number, "file_name": f"{number}.png"} for number in range(20)]
+        (folder / "a.json").write_text(json.dumps({"images": images, "annotations": annotations}))
+        return folder / "a.json"
+    boxes = dict(zip(seen, _boxes(FACES), strict=False))
+    images = "".join(f"<image file='{number}.jpg'>{boxes.get(number, '')}</image>" for number in range(20))
+    (folder / "a.xml").write_text(f"<dataset><images>{images}</images></dataset>")
+    return folder / "a.xml"
+
+
+@pytest.mark.parametrize(
+    ("names", "numbers"),
+    [
+        (["frame_1", "frame_2", "frame_10", "frame_11"], [1, 2, 10, 11]),
+        (["a/7_l", "a/8_l"], [7, 8]),
+        (["indoor_018", "indoor_090", "indoor_203"], None),
+        (["1000", "1033", "1066"], None),
+        (["a/1", "b/2"], None),
+        (["a_1", "a_01"], None),
+        (["1_1", "2_2"], None),
+        (["one", "two"], None),
+        (["1" * 30, "1" * 29 + "2"], None),
+        (["frame_1"], None),
+    ],
+)
+def test_names_of_faces_count_pictures_where_most_go_up_by_one(
+    names: list[str], numbers: list[int] | None, tmp_path: Path
+):
+    for name in names:
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        write_pts(tmp_path / f"{name}.pts", FACES[0])
+    found = read_frames(tmp_path).numbers
+    assert (None if found is None else found.tolist()) == numbers
 
 
 def test_coco_points_that_are_not_labelled_are_missing(tmp_path: Path):

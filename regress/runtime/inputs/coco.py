@@ -53,6 +53,7 @@ def read_coco(path: Path) -> Frames:
 
     A frame is called by its picture's file name, or ``name/ID`` where a picture has several annotations. Each face of
     such pictures is a take of its own, by ``track_id`` where all have one, else by its place among those of a picture.
+    Pictures without an annotation have no frame, and take their time all the same.
     """
     try:
         document = checked(_Coco, load_json(path, most_bytes=_MOST_BYTES))
@@ -72,7 +73,9 @@ def read_coco(path: Path) -> Frames:
         labels.append(name if faces[entry.image_id] == 1 else f"{name}/{entry.id}")
     points = stacked((_face(entry, path) for entry in annotations), path)
     frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
-    return of_pictures(frames, [entry.image_id for entry in annotations], _tracks(annotations))
+    pictures = sorted(names.keys() | faces.keys(), key=_order)
+    place = {picture: number for number, picture in enumerate(pictures)}
+    return of_pictures(frames, [place[entry.image_id] for entry in annotations], _tracks(annotations))
 
 
 def _tracks(annotations: list[_Annotation]) -> list[str] | None:

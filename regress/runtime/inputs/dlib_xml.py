@@ -22,7 +22,8 @@ def is_dlib_xml(path: Path) -> bool:
 def read_dlib_xml(path: Path) -> Frames:
     """Every box is a frame: ``picture.jpg``, or ``picture.jpg/2`` for the second box of a picture; a take of its own.
 
-    A box without parts has no face; parts are counted from 0 by name, missing ones are NaN.
+    A box without parts has no face; parts are counted from 0 by name, missing ones are NaN. Pictures without a box have
+    no frame, and take their time all the same.
     """
     labels: list[str] = []
     pictures: list[int] = []
