@@ -173,6 +173,25 @@ def test_coco_faces_of_one_picture_are_takes_of_their_own(tracks: list | None, t
     assert frames.at_rate(10).time_s == pytest.approx([0, 0, 0.1])
 
 
+@pytest.mark.parametrize(
+    "without",
+    [{}, {"keypoints": None}, {"keypoints": []}, {"keypoints": [1, 2, 2] * 17}, {"face_kpts": "no"}],
+)
+def test_coco_annotations_without_68_points_are_no_faces(without: dict, tmp_path: Path):
+    """As boxes alone, or bodies, beside a face and in a picture of their own; tracks are of faces."""
+    path = _coco(tmp_path / "a.json")
+    document = json.loads(path.read_text())
+    for track, annotation in enumerate(document["annotations"]):
+        annotation["track_id"] = track
+    document["annotations"] += [{"id": 50 + image, "image_id": image, **without} for image in (4, 5, 8)]
+    path.write_text(json.dumps(document))
+    frames = read_frames(path)
+    assert frames.labels == ("0.png", "1.png", "2.png")
+    np.testing.assert_allclose(frames.points, FACES)
+    assert frames.numbers.tolist() == [1, 2, 3]
+    assert frames.faces is None
+
+
 @given(seen=st.sets(st.integers(0, 19), min_size=1, max_size=3))
 @pytest.mark.parametrize("name", ["coco", "dlib_xml", "pts_folder"])
 def test_pictures_without_a_face_take_their_time(name: str, seen: set[int]):
