@@ -151,6 +151,23 @@ def test_dlib_faces_are_called_by_picture_and_number(tmp_path: Path):
     assert frames.at_rate(10).time_s == pytest.approx([0, 0, 0.1, 0.1])
 
 
+@pytest.mark.parametrize("true", ["1", "true"])
+def test_boxes_that_dlib_ignores_are_no_faces(true: str, tmp_path: Path):
+    """Also where they have parts; a box behind one has the number that it had without."""
+    first, second, third = _boxes(FACES)
+    ignored = third.replace("<box", f"<box ignore='{true}'")
+    kept = second.replace("<box", "<box ignore='0'")
+    images = f"<image file='1.jpg'>{ignored}{first}{kept}</image><image file='2.jpg'>{ignored}</image>"
+    path = tmp_path / "a.xml"
+    path.write_text(f"<dataset><images>{images}</images></dataset>")
+    frames = read_frames(path)
+    assert frames.labels == ("1.jpg", "1.jpg/2")
+    np.testing.assert_allclose(frames.points, FACES[:2])
+    path.write_text(f"<dataset><images><image file='1.jpg'>{ignored}</image></images></dataset>")
+    with pytest.raises(InputError, match="no image with a box"):
+        read_frames(path)
+
+
 @pytest.mark.parametrize(
     ("tracks", "takes"),
     [
