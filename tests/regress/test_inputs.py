@@ -355,6 +355,31 @@ def test_faces_of_one_picture_share_its_time_and_have_names_of_their_own(tmp_pat
     assert read.at_rate(10).time_s == pytest.approx([0, 0, 0.1])
 
 
+@pytest.mark.parametrize(
+    ("people", "takes"),
+    [
+        (["Person_0", "Person_1", "Person_1", "Person_0"], {"Person_0": [0, 3], "Person_1": [1, 2]}),
+        (["Person_0", "Person_0", "Person_1", "Person_0"], {"0": [0, 2], "1": [1, 3]}),
+        (["Person_0", "", "Person_1", "Person_0"], {"0": [0, 2], "1": [1, 3]}),
+        (["", "", "", ""], {"0": [0, 2], "1": [1, 3]}),
+    ],
+)
+@pytest.mark.parametrize("column", ["Identity", "face_id"])
+def test_people_whose_rows_change_order_are_told_by_their_names(
+    column: str, people: list[str], takes: dict, tmp_path: Path
+):
+    """The last frame has no face, and py-feat no name for it."""
+    lines = [",".join([*COLUMNS, "frame", column])]
+    for frame, face, person in zip("4455", [*FACES, FACES[0]], people, strict=True):
+        lines.append(",".join([*_cells(face), frame, person]))
+    (tmp_path / "a.csv").write_text("\n".join([*lines, "," * len(COLUMNS) + "6,"]) + "\n")
+    read = read_frames(tmp_path / "a.csv")
+    first = next(iter(takes))
+    expected = {**takes, first: [*takes[first], 4]}
+    assert {face: rows.tolist() for face, rows in read.takes().items()} == expected
+    assert read.labels[4] == f"6/{first}"
+
+
 def _subjects_right_is_at_the_images_left(frames: Frames) -> None:
     """Point 0 is the subject's right jaw, 36 the right eye's outer, 48 the right mouth corner; y is down."""
     x, y = frames.points[frames.usable][..., 0], frames.points[frames.usable][..., 1]
