@@ -25,6 +25,7 @@ from regress.runtime.model import Model
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, Looks, gaze_of, look_weights, yaw_of
 from regress.runtime.stages.head import HeadPose, HeadSettings
+from tests.facegen.formats.test_gltf_eyes import compressed
 
 MEAN = load_reference_shape().points
 CAMERA = FaceCamera(focal_px=900.0, centre_px=(639.5, 359.5))
@@ -157,6 +158,15 @@ def test_a_guess_fades_with_a_turn(head_deg: float, share: float):
     assert answer.gaze is answer.head is None
     kept = Looks(fade=False).step(_sample(head_deg, GUESS))
     assert kept.weights[BLENDSHAPE_INDEX["eyeLookOutLeft"]] == 0.4
+
+
+def test_an_avatar_whose_eyes_are_compressed_is_told(run, quick_model_folder: Path, tmp_path: Path):
+    np.save(tmp_path / "take.npy", _take())
+    worn = compressed(tmp_path / "a.glb")
+    options = ("--fps", 25, "--gltf", worn, "--out", tmp_path / "b.glb")
+    code, _, err = run("predict", quick_model_folder, tmp_path / "take.npy", *options)
+    assert code == 0, err
+    assert f"{worn} is compressed, which hides whether morph targets turn its eyes" in err
 
 
 @pytest.mark.parametrize(
