@@ -37,7 +37,8 @@ _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _TRIANGLES = 4
 _MOST_JOINTS = 65_536  # vertices name them in 16 bits
-_COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
+COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
+"""Extensions by which meshes are stored as nothing here reads them."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -86,7 +87,7 @@ def read_gltf(path: Path) -> tuple[GltfPart, ...]:
         # by what it holds: pygltflib's own `load` takes all but .glb for JSON, .vrm too
         load = GLTF2.load_binary if is_binary(content) else GLTF2.load_json
         gltf = load(str(path))
-        compressed = [name for name in _COMPRESSED if name in (gltf.extensionsRequired or [])]
+        compressed = [name for name in COMPRESSIONS if name in (gltf.extensionsRequired or [])]
         if compressed:
             raise FormatError(
                 f"{path} is compressed with {compressed[0]}, which facegen does not read; export it without "

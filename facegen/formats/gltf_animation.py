@@ -20,7 +20,7 @@ from facegen.errors import FormatError
 from facegen.formats.gltf_additions import Additions, records
 from facegen.formats.gltf_container import glb_bytes, open_glb
 from facegen.formats.gltf_expressions import read_expressions
-from facegen.formats.gltf_eyes import eye_bones
+from facegen.formats.gltf_eyes import eye_bones, hides_eyes
 from facegen.formats.gltf_head import head_bone, listed, record
 from facegen.formats.gltf_targets import target_names
 
@@ -40,11 +40,14 @@ class AnimatedAvatar:
         Names that no expression with morph targets and no mesh of the avatar has, in their order.
     headless
         Whether a head's turn was given and the avatar has no bone for it.
+    compressed
+        Whether a gaze was given, and the eyes' bones are left alone because nobody sees what morph targets turn.
     """
 
     content: bytes
     missing: tuple[str, ...]
     headless: bool = False
+    compressed: bool = False
 
 
 def animate_avatar(
@@ -142,6 +145,7 @@ def animate_avatar(
         content=glb_bytes(document, chunks, path),
         missing=tuple(name for name in names if _key(name) not in matched),
         headless=head_rad is not None and bone is None,
+        compressed=gaze_rad is not None and hides_eyes(document),
     )
 
 

@@ -30,6 +30,8 @@ def read_buffers(gltf: Any, folder: Path) -> list[bytes]:
     left = MOST_BYTES
     for number, buffer in enumerate(gltf.buffers):
         if buffer.uri is None:
+            if number:
+                raise FormatError(f"buffer {number} has no uri, and the binary chunk is buffer 0's")
             content = gltf.binary_blob()
             if content is None:
                 raise FormatError(f"buffer {number} has no uri, and the file no binary chunk")

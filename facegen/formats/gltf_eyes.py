@@ -11,35 +11,54 @@ from typing import Any
 import numpy as np
 
 from facegen.errors import FormatError
-from facegen.formats.gltf import GltfFile, accessor_values, damage_told
+from facegen.formats.gltf import COMPRESSIONS, GltfFile, accessor_values, damage_told
 from facegen.formats.gltf_buffers import read_buffers
 from facegen.formats.gltf_container import read_gltf_bytes
-from facegen.formats.gltf_head import HeadBone, named_bone
+from facegen.formats.gltf_head import HeadBone, listed, named_bone
 from facegen.formats.gltf_targets import target_names
 
 _SIDES = ("left", "right")
+_LOOKS = tuple(f"eyelookout{side}" for side in _SIDES)
 
 
 def eye_bones(document: dict[str, Any], path: Path) -> tuple[HeadBone, ...]:
     """The left and the right eye's bone of a binary file; neither where one is missing or a target turns an eye.
 
-    What cannot be read of the file's meshes is taken for a target that does.
+    What cannot be read of the file's meshes, as where they are compressed, is taken for a target that does.
     """
-    bones = [named_bone(document, f"{side}Eye") for side in _SIDES]
-    if None in bones:
+    bones = _both_bones(document)
+    if not bones or not _has_looks(document):
+        return bones
+    if _is_compressed(document):
         return ()
-    names = [f"eyelookout{side}" for side in _SIDES]
-    if not any(_letters(name) in names for mesh in document.get("meshes", []) for name in target_names(mesh)):
-        return tuple(bones)
     with suppress(FormatError), damage_told(path):
         from pygltflib import GLTF2
 
         gltf = GLTF2().load_from_bytes(read_gltf_bytes(path))
         file = GltfFile(gltf, read_buffers(gltf, path.parent))
-        turning = (_turns(file, bone.node, name) for bone, name in zip(bones, names, strict=True))
+        turning = (_turns(file, bone.node, name) for bone, name in zip(bones, _LOOKS, strict=True))
         if not any(turning):
-            return tuple(bones)
+            return bones
     return ()
+
+
+def hides_eyes(document: dict[str, Any]) -> bool:
+    """Whether eyes have bones that are left alone because the meshes are compressed."""
+    return bool(_both_bones(document)) and _has_looks(document) and _is_compressed(document)
+
+
+def _both_bones(document: dict[str, Any]) -> tuple[HeadBone, ...]:
+    bones = tuple(named_bone(document, f"{side}Eye") for side in _SIDES)
+    return () if None in bones else bones
+
+
+def _has_looks(document: dict[str, Any]) -> bool:
+    return any(_letters(name) in _LOOKS for mesh in document.get("meshes", []) for name in target_names(mesh))
+
+
+def _is_compressed(document: dict[str, Any]) -> bool:
+    named = [name for key in ("extensionsUsed", "extensionsRequired") for name in listed(document.get(key))]
+    return any(name in named for name in COMPRESSIONS)
 
 
 def _turns(file: GltfFile, bone: int, name: str) -> bool:

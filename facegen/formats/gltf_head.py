@@ -4,6 +4,8 @@ References
 ----------
 .. [1] Khronos Group, "glTF 2.0 Specification": 3.5 nodes; an asset's front faces +z, y is up.
 .. [2] VRM Consortium, "VRMC_vrm 1.0": ``humanoid.humanBones.head``; VRM 0.x: ``humanBones`` as a list, models face -z.
+.. [3] B. K. P. Horn, "Closed-form solution of absolute orientation using unit quaternions", JOSA A 4, 1987: the largest
+   eigenvector of a symmetric matrix is the rotation that is nearest to a matrix.
 """
 
 from dataclasses import dataclass
@@ -23,7 +25,7 @@ class HeadBone:
     at_rest : (4,) float64
         Its rotation as the file has it: x, y, z, w as in glTF.
     above : (4,) float64
-        Rotation of all nodes above it.
+        Rotation of all nodes above it, without their scales and mirrors.
     faces_away
         Whether the model faces -z.
     """
@@ -75,12 +77,17 @@ def named_bone(document: dict[str, Any], name: str) -> HeadBone | None:
         for child in listed(node.get("children"))
         if isinstance(child, int)
     }
-    above, at, passed = np.array([0.0, 0.0, 0.0, 1.0]), named, {named}
+    above, at, passed = _NO_TURN, named, {named}
     while (at := parents.get(at)) is not None and at not in passed:
         passed.add(at)
-        above = _product(_rotation_of(nodes[at]), above)
+        above = _product(_turn_of(nodes[at]), above)
     return HeadBone(node=named, at_rest=_rotation_of(nodes[named]), above=above, faces_away=faces_away)
 
+
+_NO_TURN = np.array([0.0, 0.0, 0.0, 1.0])
+
+_LARGEST = 1e100
+"""Of a number in a node."""
 
 _NAMES = {
     "head": ("head",),
@@ -118,12 +125,43 @@ def record(value: object) -> dict[str, Any]:
 
 def _rotation_of(node: dict[str, Any]) -> np.ndarray:
     """A node's rotation as a unit quaternion; none where it has no four numbers."""
-    value = node.get("rotation")
-    whole = isinstance(value, list) and len(value) == 4 and all(isinstance(one, int | float) for one in value)
-    length = np.linalg.norm(value) if whole else 0.0
+    value = _numbers(node.get("rotation"), 4)
+    length = 0.0 if value is None else np.linalg.norm(value)
     if not 0.5 < length < 2:  # glTF's are of length 1
-        return np.array([0.0, 0.0, 0.0, 1.0])
-    return np.array(value, dtype=np.float64) / length
+        return _NO_TURN
+    return value / length
+
+
+def _turn_of(node: dict[str, Any]) -> np.ndarray:
+    """A unit quaternion of what a node turns by its matrix, or by rotation and scale.
+
+    One that mirrors is taken times -1, which is a rotation: both bring a turn of the model to the same one below.
+    """
+    matrix = _numbers(node.get("matrix"), 16)
+    if matrix is not None:
+        return _nearest_rotation(matrix.reshape(4, 4).T[:3, :3])
+    scale = _numbers(node.get("scale"), 3)
+    signs = np.ones(3) if scale is None else np.sign(scale) * np.sign(scale).prod()
+    # two axes that are turned round are half a turn about the third
+    return _product(_rotation_of(node), np.array([*(signs > 0), 0.0]) if (signs < 0).any() else _NO_TURN)
+
+
+def _nearest_rotation(matrix: np.ndarray) -> np.ndarray:
+    """The unit quaternion that is nearest to a matrix (3, 3), or to its opposite where it mirrors [3]_."""
+    m = matrix / max(np.abs(matrix).max(), 1 / _LARGEST)
+    m = m * np.sign(np.linalg.det(m))
+    likeness = np.zeros((4, 4))
+    likeness[:3, :3] = m + m.T - np.trace(m) * np.eye(3)
+    likeness[3] = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1], np.trace(m)
+    return np.linalg.eigh(likeness)[1][:, -1]  # of a symmetric matrix the lower half is read
+
+
+def _numbers(value: object, count: int) -> np.ndarray | None:
+    """So many numbers; none where it is something else."""
+    if not isinstance(value, list) or len(value) != count:
+        return None
+    known = all(isinstance(one, int | float) and abs(one) < _LARGEST for one in value)
+    return np.array(value, dtype=np.float64) if known else None
 
 
 def _product(first: np.ndarray, second: np.ndarray) -> np.ndarray:

@@ -95,5 +95,10 @@ def write_prediction(
         say(f"{gltf} has no morph target for {count}: {', '.join(avatar.missing)}")
     if avatar.headless:
         say(f"{gltf} has no bone called head that can be turned: the head's pose is left out")
+    if avatar.compressed:
+        say(
+            f"{gltf} is compressed, which hides whether morph targets turn its eyes: their bones are left alone; "
+            "export it without compression"
+        )
     write_whole(out, avatar.content)
     say(f"{out}: {gltf.name} with an animation of {counted(len(prediction.weights), 'frame')}")

@@ -122,7 +122,7 @@ def predict_stream(
         Where smoothing needs times and there are none.
     """
     output = output or Output()
-    soundness = Soundness(needs_times=output.needs_times, unit="line")
+    soundness = Soundness(needs_times=output.needs_times, live=True, unit="line")
     chain = Chain(
         [
             soundness,

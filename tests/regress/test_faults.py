@@ -2,6 +2,7 @@
 
 import io
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,8 +18,9 @@ from regress.runtime.inputs import (
     fault_sentences,
     read_frames,
 )
-from regress.runtime.predict import predict_frames
+from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.sample import Sample
+from regress.runtime.stages.filters import FILTERS
 from regress.runtime.stages.output import Output
 from regress.runtime.stages.soundness import Soundness
 from tests.regress.drawn import drawn_face, drawn_faces
@@ -79,6 +81,58 @@ def test_times_must_go_on_and_smoothing_wants_each_to_be_later():
     late, none = Fault.DISORDER, Fault.TIMELESS
     assert [loose.step(time) for time in times] == [None, None, None, late, None, None]
     assert [strict.step(time) for time in times] == [None, None, late, late, none, None]
+
+
+@given(
+    fps=st.integers(10, 120),
+    wrong=st.sampled_from([9999.0, 1.7e9, 1e17]),
+    before=st.integers(0, 20),
+    strictly=st.booleans(),
+)
+def test_one_time_that_is_far_ahead_costs_itself_in_a_file_and_half_a_second_live(
+    fps: int, wrong: float, before: int, strictly: bool
+):
+    times = (np.arange(200) / fps).tolist()
+    times.insert(before, wrong)
+    faults = TimeOrder(strictly=strictly).run(times)
+    assert [row for row, fault in enumerate(faults) if fault] == [before]
+    live = TimeOrder(strictly=strictly, set_after_s=0.5)
+    late = [row for row, time in enumerate(times) if live.step(time)]
+    assert late == list(range(before + 1, before + 1 + len(late)))
+    assert 0.5 * fps <= len(late) <= max(0.5 * fps + 1, 4)
+
+
+@given(fps=st.integers(1, 120), last_s=st.floats(5, 1e6))
+def test_a_live_clock_that_begins_anew_is_followed_and_single_late_rows_are_not(fps: int, last_s: float):
+    live = TimeOrder(strictly=True, set_after_s=0.5)
+    for row in range(20):
+        assert live.step(last_s + row / fps) is None
+        if row % 3 == 0:
+            assert live.step(row / fps) is Fault.DISORDER
+    faults = [live.step(row / fps) for row in range(4 * fps + 10)]
+    anew = faults.index(None)
+    assert anew == max(int(np.ceil(fps / 2)), 4)
+    assert not any(faults[anew:])
+    assert any(TimeOrder(strictly=True).run([last_s, *(row / fps for row in range(4))]))
+
+
+@pytest.mark.parametrize("name", FILTERS)
+def test_a_pipe_whose_detector_begins_anew_goes_on_by_every_filter(name: str, quick_model):
+    """Its filter starts afresh, as after a pause: nothing of the time before is in the faces behind."""
+    faces = drawn_faces(np.random.default_rng(8), 60)
+    times = [*(100 + np.arange(30) / 30), *(np.arange(30) / 30)]
+    output = Output(filter=name, smooth_landmarks_hz=1.0)
+    samples = [
+        Sample(label=str(row), time_s=time, points=face)
+        for row, (time, face) in enumerate(zip(times, faces, strict=True))
+    ]
+    answers = list(predict_stream(samples, quick_model, output))
+    assert [row for row, answer in enumerate(answers) if answer.faults] == list(range(30, 45))
+    paused = [*samples[:30], *(replace(sample, time_s=sample.time_s + 200) for sample in samples[45:])]
+    for answer, expected in zip(
+        answers[45:], list(predict_stream(paused, quick_model, output))[30:], strict=True
+    ):
+        np.testing.assert_allclose(answer.weights, expected.weights, atol=1e-9)
 
 
 def test_runs_of_rows_are_joined():

@@ -25,6 +25,7 @@ from regress.runtime.model import Model
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, Looks, gaze_of, look_weights, yaw_of
 from regress.runtime.stages.head import HeadPose, HeadSettings
+from tests.facegen.formats.test_gltf_eyes import compressed
 
 MEAN = load_reference_shape().points
 CAMERA = FaceCamera(focal_px=900.0, centre_px=(639.5, 359.5))
@@ -159,6 +160,15 @@ def test_a_guess_fades_with_a_turn(head_deg: float, share: float):
     assert kept.weights[BLENDSHAPE_INDEX["eyeLookOutLeft"]] == 0.4
 
 
+def test_an_avatar_whose_eyes_are_compressed_is_told(run, quick_model_folder: Path, tmp_path: Path):
+    np.save(tmp_path / "take.npy", _take())
+    worn = compressed(tmp_path / "a.glb")
+    options = ("--fps", 25, "--gltf", worn, "--out", tmp_path / "b.glb")
+    code, _, err = run("predict", quick_model_folder, tmp_path / "take.npy", *options)
+    assert code == 0, err
+    assert f"{worn} is compressed, which hides whether morph targets turn its eyes" in err
+
+
 @pytest.mark.parametrize(
     ("left", "right", "share"), [(0.9, 0.0, 0), (0.1, 0.8, 0), (0.9, 0.9, 1), (0.3, 0.2, 1), (0.35, 0, 0.5)]
 )
@@ -235,6 +245,17 @@ def test_readers_agree_on_irises(tmp_path: Path):
         np.testing.assert_array_equal(frames.irises, take[:, [69, 68]])
         np.testing.assert_array_equal(frames.irises, of_lines[1:-1])
     assert read_frames(_table(tmp_path / "take.csv", take)).take([1, 2]).irises.shape == (2, 2, 2)
+
+
+@pytest.mark.parametrize("fps", [None, 30.0])
+@pytest.mark.parametrize("first", ["", "no frame"])
+def test_the_first_face_of_a_pipe_says_whether_there_are_irises(first: str, fps: float | None):
+    take = _take()
+    lines = [first, *(" ".join(map(repr, row.ravel().tolist())) for row in take)]
+    samples = list(read_lines(lines, fps=fps))
+    np.testing.assert_array_equal([sample.irises for sample in samples[1:]], take[:, [69, 68]])
+    assert np.isnan(samples[0].irises).all()
+    assert [sample.time_s for sample in samples[:2]] == ([0, 1 / 30] if fps else [None, None])
 
 
 @pytest.mark.parametrize("kind", ["npy", "csv", "pipe"])

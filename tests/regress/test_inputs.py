@@ -1,10 +1,13 @@
 """Readers of landmark files, on real files and on broken ones."""
 
 import json
+import tempfile
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from facegen.errors import FormatError
@@ -40,15 +43,18 @@ def _pyfeat(path: Path, *, empty: tuple[int, ...] = ()) -> Path:
 
 def _dlib(path: Path) -> Path:
     """Two faces in the first picture, one in the second; a box without parts has no face."""
+    first, second, third = _boxes(FACES)
+    images = f"<image file='1.jpg'>{first}{second}</image><image file='2.jpg'>{third}</image>"
+    path.write_text(f"<?xml version='1.0'?><dataset><images>{images}</images></dataset>")
+    return path
 
+
+def _boxes(faces: np.ndarray) -> list[str]:
     def box(face: np.ndarray) -> str:
         parts = [f"<part name='{i:02d}' x='{x!r}' y='{y!r}'/>" for i, (x, y) in enumerate(face.tolist())]
         return f"<box top='1' left='1' width='9' height='9'>{''.join(reversed(parts))}</box>"
 
-    first, second, third = map(box, FACES)
-    images = f"<image file='1.jpg'>{first}{second}</image><image file='2.jpg'>{third}</image>"
-    path.write_text(f"<?xml version='1.0'?><dataset><images>{images}</images></dataset>")
-    return path
+    return list(map(box, faces))
 
 
 def _coco(path: Path, *, key: str = "keypoints", hidden: tuple[int, ...] = ()) -> Path:
@@ -145,6 +151,23 @@ def test_dlib_faces_are_called_by_picture_and_number(tmp_path: Path):
     assert frames.at_rate(10).time_s == pytest.approx([0, 0, 0.1, 0.1])
 
 
+@pytest.mark.parametrize("true", ["1", "true"])
+def test_boxes_that_dlib_ignores_are_no_faces(true: str, tmp_path: Path):
+    """Also where they have parts; a box behind one has the number that it had without."""
+    first, second, third = _boxes(FACES)
+    ignored = third.replace("<box", f"<box ignore='{true}'")
+    kept = second.replace("<box", "<box ignore='0'")
+    images = f"<image file='1.jpg'>{ignored}{first}{kept}</image><image file='2.jpg'>{ignored}</image>"
+    path = tmp_path / "a.xml"
+    path.write_text(f"<dataset><images>{images}</images></dataset>")
+    frames = read_frames(path)
+    assert frames.labels == ("1.jpg", "1.jpg/2")
+    np.testing.assert_allclose(frames.points, FACES[:2])
+    path.write_text(f"<dataset><images><image file='1.jpg'>{ignored}</image></images></dataset>")
+    with pytest.raises(InputError, match="no image with a box"):
+        read_frames(path)
+
+
 @pytest.mark.parametrize(
     ("tracks", "takes"),
     [
@@ -165,6 +188,82 @@ def test_coco_faces_of_one_picture_are_takes_of_their_own(tracks: list | None, t
     frames = read_frames(path)
     assert {face: rows.tolist() for face, rows in frames.takes().items()} == takes
     assert frames.at_rate(10).time_s == pytest.approx([0, 0, 0.1])
+
+
+@pytest.mark.parametrize(
+    "without",
+    [{}, {"keypoints": None}, {"keypoints": []}, {"keypoints": [1, 2, 2] * 17}, {"face_kpts": "no"}],
+)
+def test_coco_annotations_without_68_points_are_no_faces(without: dict, tmp_path: Path):
+    """As boxes alone, or bodies, beside a face and in a picture of their own; tracks are of faces."""
+    path = _coco(tmp_path / "a.json")
+    document = json.loads(path.read_text())
+    for track, annotation in enumerate(document["annotations"]):
+        annotation["track_id"] = track
+    document["annotations"] += [{"id": 50 + image, "image_id": image, **without} for image in (4, 5, 8)]
+    path.write_text(json.dumps(document))
+    frames = read_frames(path)
+    assert frames.labels == ("0.png", "1.png", "2.png")
+    np.testing.assert_allclose(frames.points, FACES)
+    assert frames.numbers.tolist() == [1, 2, 3]
+    assert frames.faces is None
+
+
+@given(seen=st.sets(st.integers(0, 19), min_size=1, max_size=3))
+@pytest.mark.parametrize("name", ["coco", "dlib_xml", "pts_folder"])
+def test_pictures_without_a_face_take_their_time(name: str, seen: set[int]):
+    with tempfile.TemporaryDirectory() as folder:
+        frames = read_frames(_film_of_twenty(name, Path(folder), sorted(seen)))
+    first = min(seen)
+    counts = name != "pts_folder" or (len(seen) > 1 and np.median(np.diff(sorted(seen))) == 1)
+    expected = [number - first if counts else row for row, number in enumerate(sorted(seen))]
+    assert frames.at_rate(10).time_s == pytest.approx(np.array(expected) / 10)
+    assert frames.faces is None
+
+
+def _film_of_twenty(name: str, folder: Path, seen: list[int]) -> Path:
+    """A film of which only some pictures have a face."""
+    if name == "pts_folder":
+        for number, face in zip(seen, FACES, strict=False):
+            write_pts(folder / f"take2_{number}.pts", face)
+        return folder
+    if name == "coco":
+        document = json.loads(_coco(folder / "a.json").read_text())
+        annotations = sorted(document["annotations"], key=lambda each: each["image_id"])[: len(seen)]
+        for annotation, number in zip(annotations, seen, strict=True):
+            annotation["image_id"] = 100 - 5 * (19 - number)
+        images = [{"id": 100 - 5 * number, "file_name": f"{number}.png"} for number in range(20)]
+        (folder / "a.json").write_text(json.dumps({"images": images, "annotations": annotations}))
+        return folder / "a.json"
+    boxes = dict(zip(seen, _boxes(FACES), strict=False))
+    images = "".join(f"<image file='{number}.jpg'>{boxes.get(number, '')}</image>" for number in range(20))
+    (folder / "a.xml").write_text(f"<dataset><images>{images}</images></dataset>")
+    return folder / "a.xml"
+
+
+@pytest.mark.parametrize(
+    ("names", "numbers"),
+    [
+        (["frame_1", "frame_2", "frame_10", "frame_11"], [1, 2, 10, 11]),
+        (["a/7_l", "a/8_l"], [7, 8]),
+        (["indoor_018", "indoor_090", "indoor_203"], None),
+        (["1000", "1033", "1066"], None),
+        (["a/1", "b/2"], None),
+        (["a_1", "a_01"], None),
+        (["1_1", "2_2"], None),
+        (["one", "two"], None),
+        (["1" * 30, "1" * 29 + "2"], None),
+        (["frame_1"], None),
+    ],
+)
+def test_names_of_faces_count_pictures_where_most_go_up_by_one(
+    names: list[str], numbers: list[int] | None, tmp_path: Path
+):
+    for name in names:
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        write_pts(tmp_path / f"{name}.pts", FACES[0])
+    found = read_frames(tmp_path).numbers
+    assert (None if found is None else found.tolist()) == numbers
 
 
 def test_coco_points_that_are_not_labelled_are_missing(tmp_path: Path):
@@ -254,6 +353,31 @@ def test_faces_of_one_picture_share_its_time_and_have_names_of_their_own(tmp_pat
     assert read.labels == ("4/0", "4/1", "5/0")
     assert {face: rows.tolist() for face, rows in read.takes().items()} == {"0": [0, 2], "1": [1]}
     assert read.at_rate(10).time_s == pytest.approx([0, 0, 0.1])
+
+
+@pytest.mark.parametrize(
+    ("people", "takes"),
+    [
+        (["Person_0", "Person_1", "Person_1", "Person_0"], {"Person_0": [0, 3], "Person_1": [1, 2]}),
+        (["Person_0", "Person_0", "Person_1", "Person_0"], {"0": [0, 2], "1": [1, 3]}),
+        (["Person_0", "", "Person_1", "Person_0"], {"0": [0, 2], "1": [1, 3]}),
+        (["", "", "", ""], {"0": [0, 2], "1": [1, 3]}),
+    ],
+)
+@pytest.mark.parametrize("column", ["Identity", "face_id"])
+def test_people_whose_rows_change_order_are_told_by_their_names(
+    column: str, people: list[str], takes: dict, tmp_path: Path
+):
+    """The last frame has no face, and py-feat no name for it."""
+    lines = [",".join([*COLUMNS, "frame", column])]
+    for frame, face, person in zip("4455", [*FACES, FACES[0]], people, strict=True):
+        lines.append(",".join([*_cells(face), frame, person]))
+    (tmp_path / "a.csv").write_text("\n".join([*lines, "," * len(COLUMNS) + "6,"]) + "\n")
+    read = read_frames(tmp_path / "a.csv")
+    first = next(iter(takes))
+    expected = {**takes, first: [*takes[first], 4]}
+    assert {face: rows.tolist() for face, rows in read.takes().items()} == expected
+    assert read.labels[4] == f"6/{first}"
 
 
 def _subjects_right_is_at_the_images_left(frames: Frames) -> None:

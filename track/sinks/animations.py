@@ -154,6 +154,11 @@ def open_sink(target: Target, tell: Tell) -> Sink:
         tell(f"{avatar} has no morph target for {', '.join(made.missing)}")
     if made.headless:
         tell(f"{avatar} has no bone called head that can be turned: the head's pose is left out")
+    if made.compressed:
+        tell(
+            f"{avatar} is compressed, which hides whether morph targets turn its eyes: their bones are left alone; "
+            "export it without compression"
+        )
     return AnimationSink(target, lambda take: moved(take).content, tell)
 
 

@@ -53,6 +53,8 @@ def read_coco(path: Path) -> Frames:
 
     A frame is called by its picture's file name, or ``name/ID`` where a picture has several annotations. Each face of
     such pictures is a take of its own, by ``track_id`` where all have one, else by its place among those of a picture.
+    Annotations without 68 points, as of bodies or boxes alone, are no faces. Pictures without a face have no frame, and
+    take their time all the same.
     """
     try:
         document = checked(_Coco, load_json(path, most_bytes=_MOST_BYTES))
@@ -64,7 +66,15 @@ def read_coco(path: Path) -> Frames:
     names = {
         image.id: str(image.id if image.file_name is None else image.file_name) for image in document.images
     }
-    annotations = sorted(document.annotations, key=lambda entry: (_order(entry.image_id), _order(entry.id)))
+    annotations = sorted(
+        (entry for entry in document.annotations if _numbers(entry) is not None),
+        key=lambda entry: (_order(entry.image_id), _order(entry.id)),
+    )
+    if not annotations:
+        raise InputError(
+            f"{path}: annotations have no {3 * LANDMARK_COUNT} numbers in keypoints or face_kpts, "
+            f"x y v of {LANDMARK_COUNT} points"
+        )
     faces = Counter(entry.image_id for entry in annotations)
     labels = []
     for entry in annotations:
@@ -72,7 +82,9 @@ def read_coco(path: Path) -> Frames:
         labels.append(name if faces[entry.image_id] == 1 else f"{name}/{entry.id}")
     points = stacked((_face(entry, path) for entry in annotations), path)
     frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
-    return of_pictures(frames, [entry.image_id for entry in annotations], _tracks(annotations))
+    pictures = sorted(names.keys() | {entry.image_id for entry in document.annotations}, key=_order)
+    place = {picture: number for number, picture in enumerate(pictures)}
+    return of_pictures(frames, [place[entry.image_id] for entry in annotations], _tracks(annotations))
 
 
 def _tracks(annotations: list[_Annotation]) -> list[str] | None:
@@ -88,15 +100,15 @@ def _order(key: _Id) -> tuple[bool, int | NaturalOrder]:
     return (True, natural_order(key)) if isinstance(key, str) else (False, key)
 
 
-def _face(entry: _Annotation, path: Path) -> np.ndarray:
+def _numbers(entry: _Annotation) -> list[Any] | None:
+    """Those of 68 points, where the annotation has them."""
     given = (entry.keypoints, entry.face_kpts)
-    values = next((one for one in given if isinstance(one, list) and len(one) == 3 * LANDMARK_COUNT), None)
-    if values is None:
-        raise InputError(
-            f"{path}: annotation {entry.id} has no {3 * LANDMARK_COUNT} numbers in keypoints or face_kpts"
-        )
+    return next((one for one in given if isinstance(one, list) and len(one) == 3 * LANDMARK_COUNT), None)
+
+
+def _face(entry: _Annotation, path: Path) -> np.ndarray:
     try:
-        triples = np.array(values, dtype=np.float64).reshape(LANDMARK_COUNT, 3)
+        triples = np.array(_numbers(entry), dtype=np.float64).reshape(LANDMARK_COUNT, 3)
     except (ValueError, TypeError, OverflowError) as error:
         raise InputError(
             f"{path}: annotation {entry.id} holds something that is not a number ({error})"

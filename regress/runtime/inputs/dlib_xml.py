@@ -13,6 +13,9 @@ from regress.runtime.inputs.frames import Frames, of_pictures, stacked
 _CHUNK_BYTES = 64 * 1024
 """Read at a time: nothing but faces is kept, whatever else the file holds."""
 
+_TRUE = ("1", "true")
+"""Of a box's ``ignore``, by which imglab marks what is no face to train on."""
+
 
 def is_dlib_xml(path: Path) -> bool:
     """Whether this is an ``.xml`` file."""
@@ -22,7 +25,8 @@ def is_dlib_xml(path: Path) -> bool:
 def read_dlib_xml(path: Path) -> Frames:
     """Every box is a frame: ``picture.jpg``, or ``picture.jpg/2`` for the second box of a picture; a take of its own.
 
-    A box without parts has no face; parts are counted from 0 by name, missing ones are NaN.
+    A box without parts has no face; parts are counted from 0 by name, missing ones are NaN. Boxes that
+    are to be ignored are no faces. Pictures without a box have no frame, and take their time all the same.
     """
     labels: list[str] = []
     pictures: list[int] = []
@@ -48,6 +52,7 @@ class _Reading:
         self._image: str | None = None
         self._images = self._boxes = 0
         self._face: np.ndarray | None = None
+        self._ignored = False
 
     def doctype(self, *_: object) -> None:
         raise InputError(
@@ -60,16 +65,19 @@ class _Reading:
             self._image, self._boxes = attributes.get("file", ""), 0
             self._images += 1
         elif tag == "box" and self._image is not None and self._face is None:
-            self._boxes += 1
+            self._ignored = attributes.get("ignore") in _TRUE
+            self._boxes += not self._ignored
             self._face = np.full((LANDMARK_COUNT, 2), np.nan)
         elif tag == "part" and self._face is not None:
             self._take_part(attributes)
 
     def end(self, tag: str) -> None:
         if tag == "box" and self._face is not None:
-            name = self._image if self._boxes == 1 else f"{self._image}/{self._boxes}"
-            self.whole.append((name, self._images, self._face))
-            self.found, self._face = True, None
+            if not self._ignored:
+                name = self._image if self._boxes == 1 else f"{self._image}/{self._boxes}"
+                self.whole.append((name, self._images, self._face))
+                self.found = True
+            self._face = None
         elif tag == "image" and self._face is None:
             self._image = None
 
@@ -103,4 +111,4 @@ def _boxes(path: Path) -> Iterator[tuple[str, int, np.ndarray]]:
         except (expat.ExpatError, LookupError, ValueError) as error:  # the latter two: encodings
             raise InputError(f"{path} is not XML: {error}") from error
     if not reading.found:
-        raise InputError(f"{path} holds no image with a box; dlib's training files do")
+        raise InputError(f"{path} holds no image with a box that counts; dlib's training files do")

@@ -1,7 +1,9 @@
 """Rows that cannot be used: no face, a face that has collapsed or is the wrong way round, times out of order."""
 
 import math
+from collections.abc import Sequence
 from enum import Enum
+from itertools import pairwise
 
 import numpy as np
 
@@ -34,6 +36,13 @@ Faces of the default dataset have -0.38 to -0.79, recorded ones -0.35 to -0.71, 
 
 _FARTHEST, _SMALLEST = 1e15, 1e-15
 """Of a coordinate and of a face's half size, in pixels: alignment takes the fourth power of both."""
+
+
+_LOOKED_AHEAD = 2
+"""Times behind one by which it is told from those that are late: where it alone is wrong, both are in order."""
+
+_FEWEST_OF_SET_CLOCK = 5
+"""Frames that a clock that was set has shown, also of a camera that gives few."""
 
 
 class Fault(Enum):
@@ -78,19 +87,50 @@ class TimeOrder:
     ----------
     strictly
         As smoothing needs it: greater, and known. Two faces of one picture share a time otherwise.
+    set_after_s
+        How long times must be in order among themselves, farther than this behind the latest, to be of a clock that
+        was set: it counts from then on. None leaves them out for good, as a file's times should go one way.
     """
 
-    def __init__(self, *, strictly: bool) -> None:
-        self._strictly = strictly
+    def __init__(self, *, strictly: bool, set_after_s: float | None = None) -> None:
+        self._strictly, self._set_after_s = strictly, set_after_s
         self._latest = -math.inf
+        self._behind: list[float] = []
+
+    def run(self, times_s: Sequence[float]) -> list[Fault | None]:
+        """What is wrong with each of the next times; one that leaps over both behind it is wrong, and not they."""
+        return [
+            self._step(time_s, times_s[place : place + _LOOKED_AHEAD])
+            for place, time_s in enumerate(times_s, start=1)
+        ]
 
     def step(self, time_s: float) -> Fault | None:
         """What is wrong with the next time; NaN where it is not known."""
+        return self._step(time_s, ())
+
+    def _step(self, time_s: float, ahead: Sequence[float]) -> Fault | None:
         if not math.isfinite(time_s):
             return Fault.TIMELESS if self._strictly else None
-        late = time_s < self._latest or (self._strictly and time_s == self._latest)
-        self._latest = max(self._latest, time_s)
-        return Fault.DISORDER if late else None
+        leaps = len(ahead) == _LOOKED_AHEAD and self._rise([self._latest, *ahead]) and ahead[-1] < time_s
+        late = not self._rise([self._latest, time_s])
+        if leaps or (late and not self._is_of_set_clock(time_s)):
+            return Fault.DISORDER
+        self._latest = time_s
+        self._behind.clear()
+        return None
+
+    def _is_of_set_clock(self, time_s: float) -> bool:
+        if self._set_after_s is None or self._latest - time_s <= self._set_after_s:
+            return False
+        if not self._rise([*self._behind[-1:], time_s]):
+            self._behind.clear()
+        self._behind.append(time_s)
+        lasted_s = time_s - self._behind[0]
+        return len(self._behind) >= _FEWEST_OF_SET_CLOCK and lasted_s >= self._set_after_s
+
+    def _rise(self, times_s: Sequence[float]) -> bool:
+        """Whether times are in order; none is where one is not known."""
+        return all(a < b or (a == b and not self._strictly) for a, b in pairwise(times_s))
 
 
 def fault_sentences(faults: list[Fault | None]) -> list[str]:

@@ -88,26 +88,22 @@ class Frames:
         ]
 
 
-def of_pictures(frames: Frames, pictures: Sequence[Hashable], faces: Sequence[str] | None = None) -> Frames:
-    """The frames with the pictures they are of, in whose order they are, where some picture has several faces.
+def of_pictures(frames: Frames, pictures: Sequence[int], faces: Sequence[str] | None = None) -> Frames:
+    """The frames with the pictures they are of, in whose order they are; a take each where some have several faces.
 
     Parameters
     ----------
     frames
         Without ``numbers`` and ``faces``.
     pictures
-        What each is of.
+        Place among all pictures of the one that each is of; pictures without a face count, as time passes in them.
     faces
         Which of the faces each is; by default its place among those of its picture, from 1.
     """
+    frames = replace(frames, numbers=np.array(pictures, dtype=np.int64))
     if len(set(pictures)) == len(pictures):
         return frames
-    rank = {picture: number for number, picture in enumerate(dict.fromkeys(pictures))}
-    return replace(
-        frames,
-        numbers=np.array([rank[picture] for picture in pictures]),
-        faces=tuple(faces or places_of(pictures, first=1)),
-    )
+    return replace(frames, faces=tuple(faces or places_of(pictures, first=1)))
 
 
 def places_of(pictures: Sequence[Hashable], *, first: int = 0) -> list[str]:

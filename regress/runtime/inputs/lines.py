@@ -43,8 +43,8 @@ def text_lines(stream: TextIO) -> Iterator[str]:
 def read_lines(lines: Iterable[str], *, fps: float | None = None) -> Iterator[Sample]:
     """Samples of lines, each as soon as it comes; labels count from 1.
 
-    The first frame says whether frames have times, and irises; empty lines before it wait for it, unless ``fps`` is
-    given. A line that is no frame has a fault and costs no more than itself.
+    The first frame says whether frames have times, and irises; empty lines before it wait for it. A line that is no
+    frame has a fault and costs no more than itself.
 
     Parameters
     ----------
@@ -59,8 +59,7 @@ def read_lines(lines: Iterable[str], *, fps: float | None = None) -> Iterator[Sa
     InputError
         Where no line is a frame and some are something else, or `MOST_BAD_AT_START` of them come before the first one.
     """
-    timed = None if fps is None else True
-    eyes = False
+    timed, eyes = fps is not None, False
     waiting = _Waiting()
     for number, line in enumerate(lines, start=1):
         try:
@@ -70,17 +69,16 @@ def read_lines(lines: Iterable[str], *, fps: float | None = None) -> Iterator[Sa
             waiting.refuse(reason)
         else:
             fault = None
-        if not waiting.over and (fault or (timed is None and not numbers)):
+        if not waiting.over and not numbers:
             waiting.add(fault, time_s)
             continue
         if not waiting.over:
-            timed = time_s is not None if timed is None else timed
-            eyes = len(numbers) == _WITH_IRISES
+            timed, eyes = time_s is not None, len(numbers) == _WITH_IRISES
             yield from waiting.samples(timed=timed, eyes=eyes)
         yield _sample(str(number), time_s, numbers, timed=timed, eyes=eyes, fault=fault)
     if not waiting.over:
         waiting.check()
-        yield from waiting.samples(timed=bool(timed), eyes=False)
+        yield from waiting.samples(timed=timed, eyes=False)
 
 
 class _NoFrame(Exception):

@@ -1,6 +1,8 @@
 """iBUG ``.pts`` files: one face each, alone or folders of them in the order of their names."""
 
+import re
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +16,11 @@ from regress.runtime.inputs.frames import Frames, stacked
 
 _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".webp")
 """Of a folder for which landmarks are still to be found."""
+
+_DIGITS = re.compile(r"(\d+)")
+
+_MOST_DIGITS = 18
+"""Of a number that 64 bits hold."""
 
 
 def is_pts(path: Path) -> bool:
@@ -29,7 +36,8 @@ def read_one(path: Path) -> Frames:
 def read_folder(path: Path) -> Frames:
     """All ``.pts`` files of a folder and those below it, as 300-W has them; ``frame_2`` before ``frame_10``.
 
-    A face is called by its file's name, with the folders between where there are some.
+    A face is called by its file's name, with the folders between where there are some. A number in the names that
+    counts a film's pictures is theirs, so that those without a face take their time.
     """
     files = sorted(
         (file for file in path.rglob("*") if is_pts(file) and not is_litter(file.name)),
@@ -44,7 +52,20 @@ def read_folder(path: Path) -> Frames:
         raise InputError(f"{path} holds no .pts file")
     points = stacked(map(_face, files), path)
     labels = tuple(file.relative_to(path).with_suffix("").as_posix() for file in files)
-    return Frames(points=points, labels=labels, time_s=None, source=str(path))
+    return Frames(points=points, labels=labels, time_s=None, source=str(path), numbers=_counted(labels))
+
+
+def _counted(names: Sequence[str]) -> np.ndarray | None:
+    """The one number that differs among names, where it counts: most go up by one, as milliseconds do not."""
+    pieces = [_DIGITS.split(name) for name in names]
+    if len({len(each) for each in pieces}) > 1:
+        return None
+    varying = [each for each in zip(*pieces, strict=True) if len(set(each)) > 1]
+    if len(varying) != 1 or not all(each.isdecimal() and len(each) <= _MOST_DIGITS for each in varying[0]):
+        return None
+    numbers = np.array([int(each) for each in varying[0]])
+    steps = np.diff(numbers)
+    return numbers if steps.min() > 0 and np.median(steps) == 1 else None
 
 
 def _face(path: Path) -> np.ndarray:

@@ -22,7 +22,10 @@ _IRISES = tuple(f"{axis}_{index}" for index in (LANDMARK_COUNT, LANDMARK_COUNT +
 _MESH = f"x_{LANDMARK_COUNT + 2}"
 """MediaPipe's detector in py-feat writes 478 points in the same columns, in another order."""
 
-_OTHERS = ("frame", "face_id", "timestamp", "success")
+_PEOPLE = ("face_id", "Identity")
+"""Which person a face is, as OpenFace and py-feat call it."""
+
+_OTHERS = ("frame", "timestamp", "success", *_PEOPLE)
 
 _LATEST_S = 1e19
 """Of a time: nanoseconds since 1970 are less."""
@@ -37,7 +40,8 @@ def read_table(path: Path) -> Frames:
     """Frames of an OpenFace or py-feat CSV, told apart by the column ``success``, which OpenFace has.
 
     In OpenFace's a frame without success has no face. Labels are the column ``frame``, or count from 0. Several faces
-    of a frame are rows of their own: ``frame/FACE``, by the column ``face_id`` or in the order of their rows.
+    of a frame are rows of their own: ``frame/FACE``, by the column ``face_id`` or ``Identity`` where it tells the faces
+    of each frame apart, else in the order of their rows.
     """
     with CsvRows(path) as table:
         missing = [name for name in _BY_AXIS if name not in table.columns]
@@ -64,20 +68,20 @@ def read_table(path: Path) -> Frames:
 def _frames(table: CsvRows) -> Frames:
     columns = table.columns
     openface = "success" in columns
-    timed, named = openface and "timestamp" in columns, openface and "face_id" in columns
+    timed = openface and "timestamp" in columns
+    person = next((columns[name] for name in _PEOPLE if name in columns), None)
     shown = _POINTS + (_IRISES if set(_IRISES) <= columns.keys() else ())
     names = (*shown, *(["success"] if openface else []), *(["timestamp"] if timed else []))
     picked = [columns[name] for name in names]
     labels: list[str] = []
-    face_ids: list[str] = []
+    people: list[str] = []
     time_s: list[float] = []
 
     def faces() -> Iterator[np.ndarray]:
         for number, row in enumerate(table):
             numbers = _numbers(table, row, names, picked)
             labels.append(row[columns["frame"]].strip() if "frame" in columns else str(number))
-            if named:
-                face_ids.append(row[columns["face_id"]].strip())
+            people.append("" if person is None else row[person].strip())
             if timed:
                 time_s.append(numbers[-1])
             points = numbers[: len(shown)].reshape(-1, 2)
@@ -87,7 +91,8 @@ def _frames(table: CsvRows) -> Frames:
     if any(abs(time) > _LATEST_S for time in time_s):
         raise InputError(f"{table.path}: a timestamp is beyond {_LATEST_S:g} s")
     numbers = _counted(labels) if "frame" in columns else None
-    if named and numbers is not None and (np.diff(numbers) < 0).any():
+    face_ids = _told_apart(labels, people, np.isfinite(points).all(axis=(1, 2)))
+    if face_ids is not None and numbers is not None and (np.diff(numbers) < 0).any():
         # sorted by faces: a film goes from picture to picture
         order = np.argsort(numbers, kind="stable")
         points, numbers = points[order], numbers[order]
@@ -97,7 +102,7 @@ def _frames(table: CsvRows) -> Frames:
     elif numbers is not None and (np.diff(numbers) < 0).any():
         numbers = None
     several = len(set(labels)) < len(labels)
-    if several and not named:
+    if several and face_ids is None:
         face_ids = places_of(labels)
     if several:
         labels = [f"{frame}/{face}" for frame, face in zip(labels, face_ids, strict=True)]
@@ -110,6 +115,17 @@ def _frames(table: CsvRows) -> Frames:
         numbers=numbers,
         faces=tuple(face_ids) if several and numbers is not None else None,
     )
+
+
+def _told_apart(frames: list[str], people: list[str], seen: np.ndarray) -> list[str] | None:
+    """Which person each row is of, where that is known of every face, and two in a frame are two.
+
+    A row without a face, of which it need not be known, is the first person's.
+    """
+    first = next((person for person in people if person), "")
+    known = [person or ("" if face else first) for person, face in zip(people, seen, strict=True)]
+    rows = set(zip(frames, known, strict=True))
+    return None if "" in known or len(rows) < len(known) else known
 
 
 def _counted(frames: list[str]) -> np.ndarray | None:

@@ -102,7 +102,8 @@ class KalmanSmoothing(DelayingStage):
         Raises
         ------
         InputError
-            Where a frame with weights has no time, or one no later than the frame before; the message has its label.
+            Where a frame with weights has no time, or one no later than the frame before by up to `LONGEST_GAP_S`; the
+            message has its label.
         """
         row = joined(sample)
         if np.isnan(row).any():
@@ -111,13 +112,14 @@ class KalmanSmoothing(DelayingStage):
         if sample.time_s is None or not np.isfinite(sample.time_s):
             raise InputError(f"frame {sample.label} has no time, which a Kalman filter needs")
         seconds = sample.time_s - self._time
-        if not seconds > 0:
+        afresh = abs(seconds) > LONGEST_GAP_S  # also by a clock that was set back
+        if not (seconds > 0 or afresh):
             raise InputError(
                 f"frame {sample.label}: time goes from {self._time:g} s to {sample.time_s:g} s; frames must be in order"
             )
-        before = self.finish() if seconds > LONGEST_GAP_S else []
-        self._time, self._interval_s = sample.time_s, seconds
-        self._last = self._estimate(row, seconds)
+        before = self.finish() if afresh else []
+        self._time, self._interval_s = sample.time_s, abs(seconds)
+        self._last = self._estimate(row, self._interval_s)
         self._waiting.append((sample, self._last))
         return before + self._ready(sample.time_s)
 

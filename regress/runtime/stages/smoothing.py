@@ -18,7 +18,8 @@ _SELDOM = 3
 """Times the last step that a pause is at least, for a mean of frames."""
 
 LONGEST_GAP_S = 0.5
-"""Seconds without a face after which smoothing starts afresh: what was before says nothing any more."""
+"""Seconds without a face after which smoothing starts afresh: what was before says nothing any more. So it does where
+a clock was set back by more."""
 
 
 EYES_FASTER = 3.0
@@ -53,10 +54,10 @@ class OneEuroFilter:
         self._value = self._speed = np.zeros(len(self._cutoffs))
 
     def step(self, time_s: float, weights: np.ndarray) -> np.ndarray:
-        """Smoothed weights (k,) at a time later than the last; rows of NaN pass through."""
+        """Smoothed weights (k,) at a time later than the last, or far before it; rows of NaN pass through."""
         if np.isnan(weights).any():
             return weights
-        if self._time is None or time_s - self._time > LONGEST_GAP_S:
+        if self._time is None or abs(time_s - self._time) > LONGEST_GAP_S:
             self._value, self._speed = weights, np.zeros_like(weights)
         else:
             seconds = time_s - self._time
@@ -105,7 +106,7 @@ class LandmarkSmoothing(Stage):
         Raises
         ------
         InputError
-            Where a frame with a face has no time, or one no later than the frame before.
+            Where a frame with a face has no time, or one no later than the frame before by up to `LONGEST_GAP_S`.
         """
         if np.isnan(sample.points).any():
             return sample
@@ -127,7 +128,7 @@ class Pauses:
         last_s, self._time_s = self._time_s, time_s
         if last_s is None or time_s is None:
             return False
-        step_s, usual_s = time_s - last_s, self._step_s
+        step_s, usual_s = abs(time_s - last_s), self._step_s
         paused = step_s > max(LONGEST_GAP_S, _SELDOM * (usual_s or 0.0))
         if usual_s is None or not paused:
             self._step_s = step_s  # a first one that is long may be a pause, and is taken for one
@@ -220,7 +221,8 @@ class OneEuroSmoothing(Stage):
         Raises
         ------
         InputError
-            Where a frame with weights has no time, or one no later than the frame before; the message has its label.
+            Where a frame with weights has no time, or one no later than the frame before by up to `LONGEST_GAP_S`; the
+            message has its label.
         """
         row = joined(sample)
         if np.isnan(row).any():

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
-from facegen.formats.gltf import read_gltf
+from facegen.errors import FormatError
+from facegen.formats.gltf import COMPRESSIONS, read_gltf
 from facegen.formats.gltf_animation import animate_avatar
 from facegen.formats.gltf_container import glb_bytes, open_glb
 from facegen.formats.gltf_eyes import eye_bones
@@ -63,6 +64,17 @@ def avatar(
         writer.add("nodes", node)
     writer.scene([0, 3] if skinned else [0])
     path.write_bytes(writer.content())
+    return path
+
+
+def compressed(path: Path, name: str = COMPRESSIONS[0], key: str = "extensionsUsed") -> Path:
+    """An avatar whose targets turn its eyes, as Draco leaves it: joints and weights have no bytes, and read 0."""
+    document, chunks = open_glb(avatar(path, moved=(LEFT, RIGHT)))
+    document[key] = [name]
+    attributes = document["meshes"][0]["primitives"][0]["attributes"]
+    for attribute in ("JOINTS_0", "WEIGHTS_0"):
+        del document["accessors"][attributes[attribute]]["bufferView"]
+    path.write_bytes(glb_bytes(document, chunks, path))
     return path
 
 
@@ -125,6 +137,32 @@ def test_what_cannot_be_read_is_left_to_the_targets(damage: dict, tmp_path: Path
     document["skins"] = [damage] if "inverseBindMatrices" not in damage else []
     path.write_bytes(glb_bytes(document, chunks, path))
     assert _found(path) == []
+
+
+@pytest.mark.parametrize("key", ["extensionsUsed", "extensionsRequired"])
+@pytest.mark.parametrize("name", COMPRESSIONS)
+def test_eyes_of_compressed_meshes_are_left_to_the_targets(name: str, key: str, tmp_path: Path):
+    path = compressed(tmp_path / "a.glb", name, key)
+    document, chunks = open_glb(path)
+    assert _found(path) == []
+    still = {"weights": np.zeros((1, 52)), "time_s": np.zeros(1), "title": "take"}
+    assert animate_avatar(path, BLENDSHAPES, **still, gaze_rad=np.zeros((1, 4))).compressed
+    assert not animate_avatar(path, BLENDSHAPES, **still).compressed
+    names = document["meshes"][0]["extras"]["targetNames"]
+    document["meshes"][0]["extras"]["targetNames"] = ["jawOpen", names[1].replace("LookOut", "Squint")]
+    path.write_bytes(glb_bytes(document, chunks, path))
+    assert _found(path) == [1, 2]  # no target looks anywhere
+    assert not animate_avatar(path, BLENDSHAPES, **still, gaze_rad=np.zeros((1, 4))).compressed
+
+
+def test_a_second_buffer_has_no_part_of_the_binary_chunk(tmp_path: Path):
+    """Meshopt's buffers to unpack into have no uri either."""
+    path = avatar(tmp_path / "a.glb")
+    document, chunks = open_glb(path)
+    document["buffers"].append({"byteLength": 9})
+    path.write_bytes(glb_bytes(document, chunks, path))
+    with pytest.raises(FormatError, match="buffer 1 has no uri, and the binary chunk is buffer 0's"):
+        read_gltf(path)
 
 
 def test_an_animation_turns_head_and_eyes(tmp_path: Path):

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pygltflib import GLTF2
+from scipy.spatial.transform import Rotation
 
 from facegen.conventions import BLENDSHAPES
 from facegen.formats.gltf_animation import animate_avatar
@@ -60,6 +61,57 @@ def test_the_model_s_head_turns_as_the_head_does(kind: str, angles: list[float])
     turn = model_from_head @ rotation_from_angles(*angles) @ model_from_head
     at_rest = matrix(QUARTER) @ matrix([0.5, 0.5, 0.5, 0.5])
     np.testing.assert_allclose(matrix(QUARTER) @ matrix(local), turn @ at_rest, atol=1e-9)
+
+
+TURNS = st.lists(st.floats(-3, 3), min_size=3, max_size=3).map(lambda angles: rotation_from_angles(*angles))
+SIZES = st.sampled_from([0.01, 1.0, 3.0])
+SIGNS = st.lists(st.sampled_from([-1.0, 1.0]), min_size=3, max_size=3)
+
+
+@given(
+    turns=st.lists(TURNS, min_size=2, max_size=2),
+    size=SIZES,
+    signs=SIGNS,
+    kind=st.sampled_from(["matrix", "scale"]),
+)
+def test_nodes_above_may_have_a_matrix_or_mirror(
+    turns: list[np.ndarray], size: float, signs: list[float], kind: str
+):
+    """As where z is up: a head that turns about the model's y, turns about it."""
+    whole = np.eye(4)
+    whole[:3, :3] = turns[0] @ np.diag(signs) * size
+    whole[:3, 3] = 7.0
+    above = {"matrix": whole.T.ravel().tolist()}
+    if kind == "scale":
+        above = {"rotation": quaternion(turns[0]), "scale": [size * sign for sign in signs]}
+    nodes = [{"children": [1]} | above, {"children": [2], "rotation": QUARTER}, {"name": "head"}]
+    bone = head_bone({"nodes": nodes})
+    turned = matrix(bone.turned(np.array([[0.3, 0.2, 0.1]]))[0])
+    down = whole[:3, :3] @ matrix(QUARTER)
+    np.testing.assert_allclose(down @ turned, rotation_from_angles(0.3, 0.2, 0.1) @ down, atol=1e-9 * size)
+
+
+def quaternion(rotation: np.ndarray) -> list[float]:
+    return Rotation.from_matrix(rotation).as_quat().tolist()
+
+
+@pytest.mark.parametrize(
+    "above",
+    [
+        {"matrix": [0] * 16},
+        {"matrix": [1] * 16},
+        {"matrix": [10**400] * 16},
+        {"matrix": [float("nan")] * 16},
+        {"matrix": "x" * 16},
+        {"matrix": [1e-90] * 16},
+        {"scale": [0, -1, 1]},
+        {"scale": [True] * 3},
+        {"rotation": [10**400] * 4},
+    ],
+)
+def test_damage_above_a_head_turns_nothing(above: dict):
+    bone = head_bone({"nodes": [{"children": [1]} | above, {"name": "head"}]})
+    np.testing.assert_allclose(matrix(bone.turned(np.zeros((1, 3)))[0]), np.eye(3), atol=1e-9)
 
 
 @pytest.mark.parametrize(

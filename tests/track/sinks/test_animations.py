@@ -15,6 +15,7 @@ from facegen.geometry import rotation_from_angles
 from regress.runtime.sample import Sample
 from tests.facegen.formats.test_gltf_animation import avatar
 from tests.facegen.formats.test_gltf_expressions import vrm
+from tests.facegen.formats.test_gltf_eyes import compressed
 from tests.node_modules import answer_of
 from tests.track.sinks.receivers import acted, lost
 from tests.track.sinks.test_axes import matrix
@@ -43,6 +44,12 @@ def recorded(target: str, samples: list[Sample]) -> list[str]:
         sink.send(sample)
     sink.close()
     return told
+
+
+def test_an_avatar_whose_eyes_are_compressed_is_told(tmp_path: Path):
+    worn = compressed(tmp_path / "worn.glb")
+    told = recorded(f"gltf:{tmp_path / 'b.glb'},avatar={worn}", take())
+    assert any(f"{worn} is compressed, which hides" in sentence for sentence in told)
 
 
 def headed(path: Path) -> Path:
