@@ -44,7 +44,7 @@ export class Meeting {
     this.presence.camera?.word ?? "",
     this.cameraWord,
   ]);
-  private lineWord = "";
+  private lineWord = "Connecting …";
   private cameraWord = "";
   private locked = false;
 
@@ -85,7 +85,7 @@ export class Meeting {
       welcome: (welcome) => this.welcome(welcome),
       answer: (answer) => this.hear(answer),
       state: (number, message) => this.see(number, message),
-      broken: () => (this.lineWord = "The connection broke; coming back …"),
+      broken: () => (this.lineWord = this.own ? "The connection broke; coming back …" : "The room cannot be reached; trying again …"),
       ended: (text) => this.end(text),
     });
     this.brought = new Brought(`${location.pathname}/avatar`, join.key, join.secret, () => this.line.say({ kind: "undress" }));
