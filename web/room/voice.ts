@@ -93,13 +93,19 @@ export class Voice {
   /** Put the ears where the own head is, turned by its heading in radians (0 looks along z, to the left is positive). */
   listen(at: Place, heading: number): void {
     const { listener } = this.context;
-    if (!listener.positionX) return; // Firefox before 2025 has only the old calls
+    const [x, z] = [Math.sin(heading), Math.cos(heading)];
+    if (!listener.positionX) {
+      // Firefox has the old calls alone, which do not glide
+      listener.setPosition(at.x, at.y, at.z);
+      listener.setOrientation(x, 0, z, 0, 1, 0);
+      return;
+    }
     glide(this.context, [
       [listener.positionX, at.x],
       [listener.positionY, at.y],
       [listener.positionZ, at.z],
-      [listener.forwardX, Math.sin(heading)],
-      [listener.forwardZ, Math.cos(heading)],
+      [listener.forwardX, x],
+      [listener.forwardZ, z],
     ]);
   }
 
