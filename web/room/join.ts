@@ -84,7 +84,6 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
       const given = await Microphone.ask(devices.value || undefined);
       if (choice !== newest) return given.close(); // something else was chosen while the browser asked
       microphone = given;
-      void given.resume();
       const found = (await navigator.mediaDevices.enumerateDevices()).filter(({ kind }) => kind === "audioinput");
       const chosen = devices.value;
       devices.replaceChildren(...found.map(({ label, deviceId }) => new Option(label || "microphone", deviceId)));
@@ -97,9 +96,6 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   };
   let listening = listen();
   for (const each of [voice, devices]) each.addEventListener("change", () => (listening = listen()));
-  // a browser plays, and measures, nothing before its person has touched the page
-  const touched = (): void => void microphone?.resume();
-  for (const each of ["pointerdown", "keydown"]) addEventListener(each, touched);
   const shown = setInterval(() => {
     const db = 20 * Math.log10(Math.max(microphone?.level ?? 0, 1e-6));
     level.value = Math.max(0, 1 - db / SILENT_DB);
@@ -115,10 +111,8 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   // another one may be chosen meanwhile, or none: that answers for the one that the browser still asks about
   for (let last; last !== listening; ) await Promise.race([(last = listening), once([voice, devices], "change")]);
   clearInterval(shown);
-  for (const each of ["pointerdown", "keydown"]) removeEventListener(each, touched);
   localStorage.setItem("name", name.value.trim());
   form.hidden = true;
-  await microphone?.resume();
   const echoes = !!microphone && !headphones.checked && "userAgentData" in navigator; // only Chromium has that
   const recorded = recording && consent.value === "yes";
   return { name: name.value.trim(), avatar: avatar.value, own: field<HTMLInputElement>("own").files?.[0], microphone, camera: camera.checked, echoes, recorded };

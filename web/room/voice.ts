@@ -9,6 +9,7 @@ import { Loopback } from "./loopback.js";
 import { Mesh } from "./mesh.js";
 import { glide, Sound, type Place } from "./sound.js";
 import type { Answer, Candidate, Description, Person } from "./texts.js";
+import { Waker } from "./waker.js";
 
 export class Voice {
   /** Made when the person joins: browsers play nothing before a click. */
@@ -18,11 +19,11 @@ export class Voice {
   readonly sounds = new Map<string, Sound>();
   readonly loopback: Loopback | undefined;
   lines: Lines | undefined;
-  /** What the person should know of voices; empty while all is well. */
-  word = "";
   private readonly volumes = new Map<string, number>();
   private readonly muted = new Set<string>();
   private track: MediaStreamTrack | null = null;
+  private readonly waker = new Waker(this.context);
+  private engineWord = "";
 
   /** `echoes` where a microphone hears the loudspeakers: then the browser's echo cancellation has to see what is played. */
   constructor(
@@ -31,6 +32,11 @@ export class Voice {
   ) {
     if (echoes) this.loopback = new Loopback(this.context, this.mix);
     else this.mix.connect(this.context.destination);
+  }
+
+  /** What the person should know of voices; empty while all is well. */
+  get word(): string {
+    return this.engineWord || this.waker.word;
   }
 
   /** What the room says on coming in, again after each break; lines that are there go on. */
@@ -67,7 +73,7 @@ export class Voice {
     if (!(this.lines instanceof Engine)) return;
     if (answer.kind === "heard") this.lines.voices = answer.voices;
     else {
-      this.word = answer.state === "away" ? "Voices are interrupted; they come back by themselves …" : "";
+      this.engineWord = answer.state === "away" ? "Voices are interrupted; they come back by themselves …" : "";
       this.lines.begin(answer.state === "ready");
     }
   }
@@ -144,7 +150,7 @@ export class Voice {
     this.lines?.close();
     for (const id of [...this.sounds.keys()]) this.stop(id);
     this.loopback?.close();
-    void this.context.close();
+    this.waker.close();
   }
 
   private use(lines: Lines): void {

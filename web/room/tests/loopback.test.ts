@@ -19,6 +19,7 @@ class Node {
 class Context {
   readonly destination = new Node("straight");
   readonly state: string = "running";
+  addEventListener(): void {}
 }
 const connections: Connection[] = [];
 class Connection {
@@ -57,6 +58,7 @@ Object.assign(globalThis, {
   },
 });
 
+Object.assign(globalThis, { addEventListener: () => undefined });
 const { Voice } = await import("../voice.js");
 const settled = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 5));
 

@@ -10,6 +10,7 @@ class Anything {
   readonly gain: { value: number };
   readonly listener: Record<string, unknown> = {};
   connectionState = "connected";
+  state = "running";
   constructor(_context?: unknown, options?: { gain?: number }) {
     this.gain = { value: options?.gain ?? 1 };
   }
@@ -39,6 +40,7 @@ class Gain extends Anything {
 }
 Object.assign(globalThis, { GainNode: Gain });
 
+Object.assign(globalThis, { addEventListener: () => undefined });
 const { Voice } = await import("../voice.js");
 
 const person = (muted: boolean): Person => ({
