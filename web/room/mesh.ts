@@ -5,11 +5,8 @@
  * break one side may have let go of a connection which the other still keeps: a description of another session tells.
  */
 
-import { candidateOf, saidOf, sessionOf, type Lines, type Send } from "./lines.js";
+import { begins, candidateOf, PATIENCE_MS, saidOf, sessionOf, type Lines, type Send } from "./lines.js";
 import type { Candidate, Description, Person } from "./texts.js";
-
-/** From a call until it is given up for another one: slow networks take half of that, and a word that was lost never comes. */
-const PATIENCE_MS = 30_000;
 
 interface Peer {
   readonly connection: RTCPeerConnection;
@@ -163,8 +160,7 @@ export class Mesh implements Lines {
 
   /** Give up a connection that never came about; one of the two does, and the other answers. */
   private callAgain(id: string, peer: Peer): void {
-    const begins = ["new", "connecting"].includes(peer.connection.connectionState);
-    if (this.peers.get(id) === peer && begins) this.renew(id, peer, true);
+    if (this.peers.get(id) === peer && begins(peer.connection)) this.renew(id, peer, true);
   }
 
   private describe({ connection, number }: Peer): void {
