@@ -108,20 +108,17 @@ function answer(data: ToWorker): void {
   const found = detect(picture, time);
   const [mesh] = found.faceLandmarks;
   const matrix = found.facialTransformationMatrixes[0]?.data;
-  if (!mesh || !matrix) {
-    smooth = undefined;
-    if (collecting) collecting = []; // somebody else may come back
-    tell({ kind: "nobody" });
-    return;
-  }
+  if (!mesh || !matrix) return nobody();
   const points = landmarks(mesh, width, height);
   const gaze = EYES.flatMap((eye) => gazeOf(mesh, eye, width, height));
   const place: Triple = [matrix[12]! / 100, matrix[13]! / 100, matrix[14]! / 100];
   const head = angles(matrix);
+  if (![...points, ...gaze, ...place, ...head].every(Number.isFinite)) return nobody(); // one would stay in all that follow
   rest.place ??= place;
   collect({ points, gaze, place, head, time });
   const weights = new Float32Array(order.length);
   predict(points).forEach((weight, index) => (weights[order[index]!] = Math.min(1, Math.max(0, weight))));
+  if (!weights.every(Number.isFinite)) return nobody();
   const turned = gaze.map((angle, index) => angle - rest.gaze[index]!) as [number, number, number, number];
   look(weights, turned);
   tell({
@@ -133,6 +130,13 @@ function answer(data: ToWorker): void {
     calibrated,
     ms: performance.now() - begun,
   });
+}
+
+/** No face is in this picture, or none that can be shown. */
+function nobody(): void {
+  smooth = undefined;
+  if (collecting) collecting = []; // somebody else may come back
+  tell({ kind: "nobody" });
 }
 
 function detect(picture: ImageBitmap, time: number): FaceLandmarkerResult {
