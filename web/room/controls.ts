@@ -1,6 +1,7 @@
 /** The row of buttons under the picture: what each does is the meeting's, what it says is here. */
 
 import { byId } from "../elements.js";
+import { isMeant } from "./keys.js";
 import { openByKeys } from "./lists.js";
 import type { Microphone } from "./microphone.js";
 import { ANIMATIONS } from "./protocol.js";
@@ -49,12 +50,9 @@ export class Controls {
       wishes.gesture(Number(this.select.value), false);
       this.select.blur();
     });
-    addEventListener("keydown", ({ key, repeat, target, ctrlKey, metaKey, altKey }) => {
-      const typing = target instanceof HTMLElement && target.closest("input, textarea, select");
-      const number = Number(key);
-      if (!typing && !repeat && !ctrlKey && !metaKey && !altKey && Number.isInteger(number) && number >= 0 && number < ANIMATIONS.length && key.trim()) {
-        wishes.gesture(number, true);
-      }
+    addEventListener("keydown", (event) => {
+      const number = /^\d$/.test(event.key) ? Number(event.key) : Infinity;
+      if (number < ANIMATIONS.length && !event.repeat && isMeant(event)) wishes.gesture(number, true);
     });
     byId("program").addEventListener("click", () => {
       const command = `track --to "room:${faceLink}"`; // cmd.exe knows no other quotes

@@ -1,6 +1,7 @@
 /** The list and buttons by which somebody shares: a window, a picture, or a PDF page by page. */
 
 import { byId } from "../elements.js";
+import { isMeant } from "./keys.js";
 import { openByKeys } from "./lists.js";
 import type { Paper } from "./paper.js";
 import type { Sharing } from "./sharing.js";
@@ -48,10 +49,10 @@ export class Offering {
     this.chosen(paper, (file) => this.begin(() => this.open(file), true));
     byId("before").addEventListener("click", () => void this.turn(this.page - 1));
     byId("next").addEventListener("click", () => void this.turn(this.page + 1));
-    addEventListener("keydown", ({ key, target }) => {
-      if (!this.paper || (target instanceof HTMLElement && target.closest("input, textarea, select"))) return;
-      if (key === "PageUp") void this.turn(this.page - 1);
-      if (key === "PageDown") void this.turn(this.page + 1);
+    addEventListener("keydown", (event) => {
+      if (!this.paper || !isMeant(event)) return;
+      if (event.key === "PageUp") void this.turn(this.page - 1);
+      if (event.key === "PageDown") void this.turn(this.page + 1);
     });
   }
 

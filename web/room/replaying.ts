@@ -1,6 +1,7 @@
 /** The bar of a replay: where it is, halt and go on, a jump, a pace; by mouse and by keys. All who look see the same. */
 
 import { byId } from "../elements.js";
+import { isMeant } from "./keys.js";
 import type { Said } from "./texts.js";
 
 export type Playing = { kind: "playing"; time_s: number; length_s: number; paused: boolean; speed: number };
@@ -79,9 +80,9 @@ export class Replaying {
   }
 
   private key(event: KeyboardEvent): void {
-    const { key, repeat, target, ctrlKey, metaKey, altKey } = event;
-    const typing = target instanceof HTMLElement && target.closest("input, textarea, select, button");
-    if (!this.playing || typing || ctrlKey || metaKey || altKey) return;
+    const { key, repeat, target } = event;
+    if (!this.playing || !isMeant(event)) return;
+    if (key === " " && target instanceof HTMLButtonElement) return; // it presses that one
     const faster = SPEEDS.find((speed) => speed > this.playing!.speed);
     const slower = SPEEDS.filter((speed) => speed < this.playing!.speed).at(-1);
     if (key === " " || key === "k") {

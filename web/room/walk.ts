@@ -1,5 +1,6 @@
 /** Moves one's own body: keys or a thumb on the floor to walk, mouse or finger to look around. */
 
+import { isMeant } from "./keys.js";
 import type { Layout } from "./layout.js";
 
 /** Metres and radians a second; an unhurried walk. */
@@ -38,11 +39,9 @@ export class Walk {
     readonly layout: Layout,
   ) {
     addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || typing(event)) return;
-      if (event.code in KEYS) {
-        this.held.add(event.code);
-        event.preventDefault();
-      }
+      if (!(event.code in KEYS) || !isMeant(event)) return;
+      this.held.add(event.code);
+      event.preventDefault();
     });
     addEventListener("keyup", ({ code, key }) => {
       this.held.delete(code);
@@ -94,8 +93,4 @@ export class Walk {
 function floorFrom(): number {
   const chat = document.querySelector("aside")?.getBoundingClientRect();
   return 0.67 * (chat && chat.width > innerWidth / 2 ? chat.top : innerHeight);
-}
-
-function typing({ target }: Event): boolean {
-  return target instanceof HTMLElement && target.closest("input, textarea, select, #lines, #people") !== null;
 }
