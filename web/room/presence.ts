@@ -123,6 +123,6 @@ export class Presence {
     const seconds = Math.max(0, Math.min(0.2, (now - this.strolled) / 1000));
     this.strolled = now;
     if (this.headset.worn) this.headset.steer(seconds);
-    else this.walk.update(this.stance.seated ? 0 : seconds);
+    else this.walk.update(seconds, this.stance.seated);
   }
 }
