@@ -202,6 +202,22 @@ def test_a_browser_without_pictures_is_told_before_anything_is_asked():
     asyncio.run(run())
 
 
+def test_what_fails_behind_come_in_can_be_read():
+    forgets = "void (Storage.prototype.getItem = () => { throw new Error('no storage'); })"
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+                await tab.ask(forgets)
+                await tab.ask(JOIN)
+                await tab.until("document.querySelector('#word').textContent.includes('no storage')")
+                assert await tab.ask("document.querySelector('#word').checkVisibility()")
+
+    asyncio.run(run())
+
+
 def test_a_microphone_that_is_unplugged_is_told_to_all():
     async def run() -> None:
         async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:

@@ -13,7 +13,10 @@ function drawsPictures(): boolean {
   return context !== null;
 }
 
+/** Say why nobody comes in, also where the form has gone already. */
 function refuse(text: string): void {
+  byId("meeting").hidden = true;
+  byId("join").hidden = false;
   byId("word").textContent = text;
   byId("join").querySelector("button")!.disabled = true;
 }
