@@ -255,6 +255,22 @@ def test_a_camera_that_is_pulled_out_is_told_and_hides_no_word_of_the_microphone
     asyncio.run(run())
 
 
+def test_a_camera_that_gives_no_pictures_is_told():
+    stuck = "void (HTMLMediaElement.prototype.play = () => new Promise(() => undefined))"
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Ada")
+                await tab.ask(stuck)
+                await tab.ask("meeting.watch()")
+                await tab.ask("void (meeting.presence.camera.begun -= 10000)")  # so long ago
+                await tab.until(f"{STATE}.startsWith('Your camera gives no pictures')")
+
+    asyncio.run(run())
+
+
 def test_a_microphone_that_cannot_begin_is_let_go_of():
     broken = """void ((media, ask) => {
       media.getUserMedia = async (wish) => (globalThis.given = await ask(wish));
