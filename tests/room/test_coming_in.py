@@ -56,3 +56,30 @@ def test_who_unticks_the_microphone_while_the_browser_asks_comes_in_without(unti
                 )
 
     assert asyncio.run(run()) == [True, "No microphone"]
+
+
+PLUGGED = """void ((devices) => {
+  const list = devices.enumerateDevices.bind(devices);
+  const other = { kind: 'audioinput', deviceId: 'other', groupId: '', label: 'Another one' };
+  devices.enumerateDevices = async () => [other, ...(await list())];
+  devices.dispatchEvent(new Event('devicechange'));
+})(navigator.mediaDevices)"""
+"""Another microphone comes, and the system lists it first."""
+
+
+@pytest.mark.slow
+@needs_chromium
+def test_the_list_of_microphones_names_the_one_in_use_also_when_another_comes():
+    async def run() -> list[str]:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                named = "document.querySelector('#join [name=microphone]')?.selectedOptions[0]?.text"
+                await tab.until(named)
+                before = await tab.ask(named)
+                await tab.ask(PLUGGED)
+                await tab.until("document.querySelector('#join [name=microphone]').options[0].text === 'Another one'")
+                return [before, await tab.ask(named)]
+
+    before, after = asyncio.run(run())
+    assert after == before != "Another one"

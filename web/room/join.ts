@@ -73,6 +73,13 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   name.value ||= localStorage.getItem("name") ?? ""; // a quick hand has typed already
   let microphone: Microphone | undefined;
 
+  /** Which there are, and which one is in use. */
+  const list = async (): Promise<void> => {
+    const found = (await navigator.mediaDevices.enumerateDevices()).filter(({ kind }) => kind === "audioinput");
+    devices.replaceChildren(...found.map(({ label, deviceId }) => new Option(label || "microphone", deviceId)));
+    const used = microphone?.stream.getAudioTracks()[0]?.getSettings().deviceId;
+    if (used) devices.value = used;
+  };
   let newest = 0;
   const listen = async (): Promise<void> => {
     const choice = ++newest;
@@ -84,10 +91,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
       const given = await Microphone.ask(devices.value || undefined);
       if (choice !== newest) return given.close(); // something else was chosen while the browser asked
       microphone = given;
-      const found = (await navigator.mediaDevices.enumerateDevices()).filter(({ kind }) => kind === "audioinput");
-      const chosen = devices.value;
-      devices.replaceChildren(...found.map(({ label, deviceId }) => new Option(label || "microphone", deviceId)));
-      if (chosen) devices.value = chosen;
+      await list();
     } catch (error) {
       if (choice !== newest) return;
       voice.checked = false;
@@ -96,6 +100,8 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   };
   let listening = listen();
   for (const each of [voice, devices]) each.addEventListener("change", () => (listening = listen()));
+  const plugged = (): void => void (microphone?.gone ? (listening = listen()) : list());
+  navigator.mediaDevices?.addEventListener("devicechange", plugged);
   const shown = setInterval(() => {
     const db = 20 * Math.log10(Math.max(microphone?.level ?? 0, 1e-6));
     level.value = Math.max(0, 1 - db / SILENT_DB);
@@ -111,6 +117,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   // another one may be chosen meanwhile, or none: that answers for the one that the browser still asks about
   for (let last; last !== listening; ) await Promise.race([(last = listening), once([voice, devices], "change")]);
   clearInterval(shown);
+  navigator.mediaDevices?.removeEventListener("devicechange", plugged);
   localStorage.setItem("name", name.value.trim());
   form.hidden = true;
   const echoes = !!microphone && !headphones.checked && "userAgentData" in navigator; // only Chromium has that
