@@ -110,6 +110,8 @@ def test_a_replay_is_halted_moved_along_and_slowed(tmp_path):
     print(found)
     assert found["held"] == pytest.approx(3 * PACE, abs=0.01), "two seconds later nobody has sunk or gone on"
     assert found["clock"].startswith("0:03 / 0:0")
-    assert found["held keys"] == [1, 0, True, 3], "one jump, and the slider's last moment a quarter of a second later"
+    assert found["held keys"] == [1, 0, True, 3], (
+        "one jump, and the slider's last moment a quarter of a second later"
+    )
     assert found["pace"] == pytest.approx(PACE / 4, rel=0.1), "not a half"
     assert found["complaints"] == []

@@ -31,23 +31,6 @@ export function readLink(): Link | undefined {
   return room && key ? { room, key } : undefined;
 }
 
-/** So many random bytes as base64url; a multiple of three. */
-export function randomText(bytes: number): string {
-  const text = btoa(String.fromCharCode(...crypto.getRandomValues(new Uint8Array(bytes))));
-  return text.replaceAll("+", "-").replaceAll("/", "_");
-}
-
-/** This person's secret in this room: one for each tab, so that two tabs are two people, and the same after a reload. */
-export function secretOf({ room }: Link): string {
-  const place = `secret of ${room}`;
-  let secret = sessionStorage.getItem(place);
-  if (!secret) {
-    secret = randomText(18);
-    sessionStorage.setItem(place, secret);
-  }
-  return secret;
-}
-
 /** What the room says to whoever is still outside; a server that says nothing is tried for by the line itself. */
 export async function about({ room }: Link): Promise<About> {
   const answer = await fetch(`/room/${room}/about.json`, { cache: "no-store" }).catch(() => undefined);
@@ -109,7 +92,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   const submitted = new Promise<void>((resolve) => {
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      if (name.value.trim()) resolve();
+      resolve();
     });
   });
   await submitted;

@@ -2,9 +2,10 @@
 
 import { byId } from "../elements.js";
 import { Wardrobe } from "./avatars.js";
-import { about, ask, randomText, readLink, secretOf } from "./join.js";
+import { about, ask, readLink } from "./join.js";
 import { Meeting } from "./meeting.js";
 import { Place } from "./place.js";
+import { randomText, secretOf } from "./secret.js";
 
 /** Whether there is WebGL 2, which the picture is drawn with. */
 function drawsPictures(): boolean {
@@ -32,7 +33,7 @@ async function main(): Promise<void> {
   }
   const place = Place.load(link.room); // while the person fills in the form
   const choice = await ask(await Wardrobe.names(), await about(link));
-  const secret = secretOf(link);
+  const secret = await secretOf(link);
   const visit = randomText(9);
   const { protocol, host, origin } = location;
   const meeting = new Meeting(

@@ -215,7 +215,9 @@ def test_a_folder_and_what_no_browser_reads_are_one_sentence(loop, stand, tmp_pa
         await stand.tab.until("said.textContent")
         return await stand.tab.ask("said.textContent")
 
-    assert loop.run_until_complete(look("folder.glb")).startswith("folder.glb cannot be read, as it is a folder")
+    assert loop.run_until_complete(look("folder.glb")).startswith(
+        "folder.glb cannot be read, as it is a folder"
+    )
     assert loop.run_until_complete(look("large.glb")).startswith("large.glb is larger than 512 MiB")
 
 
