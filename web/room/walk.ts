@@ -62,7 +62,7 @@ export class Walk {
     canvas.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return; // a menu opens, and takes the mouse with it
       const drag = { id: event.pointerId, x: event.clientX, y: event.clientY };
-      if (event.pointerType === "touch" && event.clientY > floorFrom()) this.thumb = drag;
+      if (event.pointerType === "touch" && event.clientY > floorFrom(canvas)) this.thumb = drag;
       else this.finger = drag;
       canvas.setPointerCapture(event.pointerId);
     });
@@ -112,7 +112,7 @@ export class Walk {
 }
 
 /** With a finger, the lower third of what is to be seen of the picture is the floor to walk on; on a telephone the chat lies below. */
-function floorFrom(): number {
+function floorFrom({ clientWidth, clientHeight }: HTMLElement): number {
   const chat = document.querySelector("aside")?.getBoundingClientRect();
-  return 0.67 * (chat && chat.width > innerWidth / 2 ? chat.top : innerHeight);
+  return 0.67 * (chat && chat.width > clientWidth / 2 ? chat.top : clientHeight);
 }

@@ -10,12 +10,12 @@ Object.assign(globalThis, {
   HTMLElement: class {},
   addEventListener: (name: string, act: (event: Event) => void) => page.addEventListener(name, act),
   document: { querySelector: () => null },
-  innerWidth: 900,
-  innerHeight: 900,
 });
 const { Walk } = await import("../walk.js");
 
 class Canvas extends EventTarget {
+  readonly clientWidth = 900;
+  readonly clientHeight = 900;
   setPointerCapture(): void {}
 }
 
