@@ -112,10 +112,16 @@ function once(elements: readonly HTMLElement[], event: string): Promise<unknown>
   return new Promise((resolve) => elements.forEach((each) => each.addEventListener(event, resolve, { once: true })));
 }
 
+/** Whether it was the operating system that refused, which Chromium's browsers say; a person can change it there alone. */
+export function isOfSystem(error: unknown): boolean {
+  return error instanceof DOMException && error.name === "NotAllowedError" && /by system/i.test(error.message);
+}
+
 /** What a browser's refusal of a device means; `then` is what to do once it is allowed. */
 export function sentence(error: unknown, then = "tick again"): string {
   const name = error instanceof DOMException ? error.name : "";
   if (!isSecureContext) return "Browsers give devices to https pages alone; you can still listen and write.";
+  if (isOfSystem(error)) return `The system keeps the device from the browser; allow it in the system's privacy settings, then ${then}.`;
   if (name === "NotAllowedError") return `The browser was told not to give the device; allow it beside the address, then ${then}.`;
   if (name === "NotFoundError") return "No such device was found; you can still listen and write.";
   return `The device cannot be used (${error instanceof Error ? error.message : error}).`;

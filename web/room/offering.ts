@@ -1,6 +1,7 @@
 /** The list and buttons by which somebody shares: a window, a picture, or a PDF page by page. */
 
 import { byId } from "../elements.js";
+import { isOfSystem } from "./join.js";
 import { isMeant } from "./keys.js";
 import { openByKeys } from "./lists.js";
 import type { Paper } from "./paper.js";
@@ -90,7 +91,8 @@ export class Offering {
     } catch (error) {
       const refused = error instanceof DOMException && error.name === "NotAllowedError";
       const why = error instanceof Error ? error.message.replace(/\.$/, "") : error;
-      this.meeting.tell(refused ? "" : `Nothing is shared: ${why}.`);
+      const system = "Nothing is shared: the system keeps the screen from the browser; allow it in the system's privacy settings.";
+      this.meeting.tell(isOfSystem(error) ? system : refused ? "" : `Nothing is shared: ${why}.`);
     }
   }
 
