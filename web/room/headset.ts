@@ -27,6 +27,8 @@ type Worn = Pick<Message, "floor_m" | "heading" | "rotation" | "head_m" | "left_
 export class Headset {
   private session: XRSession | undefined;
   private over = false;
+  /** Whether the browser asks. */
+  private entering = false;
   /** Turn of the body in the room that the headset knows, whose zero is where it looked first. */
   private body = 0;
   private rest: number | undefined;
@@ -125,17 +127,23 @@ export class Headset {
   }
 
   private async enter(): Promise<void> {
+    if (this.entering) return;
+    this.entering = true;
+    let session: XRSession | undefined;
     try {
-      const session = await navigator.xr!.requestSession("immersive-vr", { optionalFeatures: ["local-floor", "hand-tracking"] });
-      session.addEventListener("end", () => this.end());
+      session = await navigator.xr!.requestSession("immersive-vr", { optionalFeatures: ["local-floor", "hand-tracking"] });
       this.renderer.xr.setReferenceSpaceType("local-floor");
       await this.renderer.xr.setSession(session);
+      session.addEventListener("end", () => this.end());
       [this.session, this.rest, this.body] = [session, undefined, 0];
       this.button.textContent = "Take the headset off";
       this.carry();
       if (this.over) void session.end(); // while the browser asked
     } catch (error) {
+      void session?.end().catch(() => undefined); // or the headset waits for pictures that never come
       this.tell(`The headset cannot be used (${error instanceof Error ? error.message : error}).`);
+    } finally {
+      this.entering = false;
     }
   }
 
