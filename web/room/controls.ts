@@ -22,6 +22,7 @@ export interface Wishes {
 
 export class Controls {
   private readonly mute = byId<HTMLButtonElement>("mute");
+  private readonly seatButton = byId<HTMLButtonElement>("seat");
   private readonly select = byId<HTMLSelectElement>("gesture");
 
   /** `faceLink` is what a program needs to move one's face. */
@@ -41,7 +42,7 @@ export class Controls {
       sayMute();
     });
     byId("neutral").addEventListener("click", () => wishes.neutral());
-    byId("seat").addEventListener("click", () => wishes.sit());
+    this.seatButton.addEventListener("click", () => wishes.sit());
     this.select.replaceChildren(
       ...ANIMATIONS.map((name, number) => new Option(number ? `${number} ${name}` : "Gesture …", String(number))),
     );
@@ -71,7 +72,8 @@ export class Controls {
   }
 
   seat(seated: boolean): void {
-    byId("seat").textContent = seated ? "Stand up" : "Sit";
+    const word = seated ? "Stand up" : "Sit";
+    if (this.seatButton.textContent !== word) this.seatButton.textContent = word;
   }
 
   /** Show what the room allows, and what is known of who shares and who is recorded. */

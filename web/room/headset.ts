@@ -48,6 +48,8 @@ export class Headset {
     private readonly walk: Walk,
     private readonly button: HTMLButtonElement,
     private readonly tell: (text: string) => void,
+    /** Called as one begins to look through the headset. */
+    private readonly begun: () => void,
   ) {
     button.addEventListener("click", () => void (this.session ? this.session.end() : this.enter()));
     // the button is there only where a headset is
@@ -137,6 +139,7 @@ export class Headset {
       session.addEventListener("end", () => this.end());
       [this.session, this.rest, this.body] = [session, undefined, 0];
       this.button.textContent = "Take the headset off";
+      this.begun();
       this.carry();
       if (this.over) void session.end(); // while the browser asked
     } catch (error) {

@@ -216,6 +216,7 @@ export class Meeting {
     this.status.show(now);
     if (!this.own || !this.presence.stand(now, this.people.taken(), this.own.replay)) return;
     if (this.presence.stance.isOver(now / 1000)) this.gesture(0);
+    this.controls.seat(this.presence.stance.seated);
     this.line.move(this.presence.move(now));
     this.presence.listen(this.voice, this.people.others, now);
   }
@@ -249,9 +250,9 @@ export class Meeting {
   }
 
   private sit(): void {
-    if (!this.presence.stance.sit(this.people.taken())) return this.tell("No free seat is near; walk to one.");
-    this.controls.seat(this.presence.stance.seated);
-    this.tell("");
+    const { headset, stance } = this.presence;
+    if (headset.worn) return this.tell("Take the headset off to sit on a seat of the room.");
+    this.tell(stance.sit(this.people.taken()) ? "" : "No free seat is near; walk to one.");
   }
 
   private gesture(number: number): void {

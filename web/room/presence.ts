@@ -44,7 +44,7 @@ export class Presence {
   ) {
     this.walk = new Walk(canvas, place.layout);
     this.stance = new Stance(this.walk);
-    this.headset = new Headset(view.renderer, view.rig, this.walk, button, tell);
+    this.headset = new Headset(view.renderer, view.rig, this.walk, button, tell, () => this.stance.stand());
   }
 
   /** Let a camera see one's face, and say whether it does; throws where there is none. */
