@@ -1,6 +1,6 @@
 /** One person as others see them: avatar and body where they stand, a name, and a sign while they speak. */
 
-import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3, type Object3D, type SkinnedMesh } from "three";
+import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3, type SkinnedMesh } from "three";
 
 import { release, type Avatar } from "../avatar/index.js";
 import { EYES_M, makeBody, SEATED_M } from "./body.js";
@@ -30,7 +30,6 @@ export class Figure {
   readonly root = new Group();
   private readonly upper = new Group();
   private readonly limbs: Limbs;
-  private right: Object3D | undefined;
   private lowered = 0;
   private readonly before = new Vector3();
   private readonly label = new Sprite(new SpriteMaterial({ transparent: true, depthWrite: false }));
@@ -59,9 +58,6 @@ export class Figure {
     this.standing = whole ? 0 : EYES_M;
     const joint = avatar.headJoint_m;
     this.face_m = !whole ? EYES_M : joint === undefined ? EYES_SHARE * height : joint + FACE_SHARE * (height - joint);
-    body.traverse((node) => {
-      if (/^(mixamorig:?)?RightHand$/.test(node.name)) this.right = node;
-    });
     this.upper.add(avatar.root, body);
     avatar.root.traverse((node) => void (node.castShadow = true));
     const top = whole ? height + NAME_M / 2 : NAME_M;
@@ -151,7 +147,8 @@ export class Figure {
 
   /** Put where the right hand is into `at`; of a body without hands, before its chest. */
   hand(at: Vector3): void {
-    if (this.right) this.right.getWorldPosition(at);
+    const { rightHand } = this.limbs;
+    if (rightHand) rightHand.getWorldPosition(at);
     else this.root.localToWorld(at.set(-0.15, EYES_M - 0.35 - this.lowered, 0.25));
   }
 
