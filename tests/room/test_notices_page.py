@@ -255,6 +255,29 @@ def test_a_camera_that_is_pulled_out_is_told_and_hides_no_word_of_the_microphone
     asyncio.run(run())
 
 
+def test_nobody_is_removed_by_one_click():
+    remove = "[...document.querySelectorAll('#people button')].find((it) => it.ariaLabel === 'remove: Ben').click()"
+    answers = "void (globalThis.confirm = (text) => (globalThis.asked = text, %s))"
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'moderator')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Chair")
+                await place.guest(name="Ben")
+                await tab.until("meeting.known.size === 2")
+                await tab.ask(answers % "false")
+                await tab.ask(remove)
+                assert await tab.ask("asked") == "Remove Ben from the room for good?"
+                await place.guest(name="Cem")
+                await tab.until("meeting.known.size === 3")
+                await tab.ask(answers % "true")
+                await tab.ask(remove)
+                await tab.until("meeting.known.size === 2")
+
+    asyncio.run(run())
+
+
 def test_a_camera_that_gives_no_pictures_is_told():
     stuck = "void (HTMLMediaElement.prototype.play = () => new Promise(() => undefined))"
 

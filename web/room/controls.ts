@@ -98,6 +98,6 @@ export class Controls {
     const microphone = this.microphone?.gone ? undefined : this.microphone;
     this.mute.textContent = microphone ? (microphone.isOpen ? "Mute me" : "Unmute me") : "No microphone";
     this.mute.disabled = !microphone;
-    this.mute.setAttribute("aria-pressed", String(microphone ? !microphone.isOpen : false));
+    this.mute.classList.toggle("on", microphone?.isOpen === false);
   }
 }
