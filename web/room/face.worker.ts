@@ -8,7 +8,7 @@
 import { FaceLandmarker, FilesetResolver, type FaceLandmarkerResult, type NormalizedLandmark } from "@mediapipe/tasks-vision";
 
 import table from "../../track/detectors/data/mediapipe_points.json";
-import { SHAPE_INDEX } from "../avatar/shapes.js";
+import { FULL_PITCH_RAD, FULL_YAW_RAD, SHAPE_INDEX } from "../avatar/shapes.js";
 
 export type ToWorker = { kind: "picture"; picture: ImageBitmap; time: number } | { kind: "neutral" };
 export type FromWorker =
@@ -32,9 +32,6 @@ interface Networks {
 
 /** Of the neutral face, which is their median: a blink of a third of a second is less than half of them. */
 const NEUTRAL = { frames: 10, ms: 700 };
-/** Eye rotations at which an eyeLook weight reaches 1 (`regress.runtime.stages.gaze`). */
-const FULL_YAW_RAD = (30 * Math.PI) / 180;
-const FULL_PITCH_RAD = (25 * Math.PI) / 180;
 /** An eye's width over how far its iris lies from where it turns: 30 and 10.8 mm (`regress.runtime.heads.eyes`). */
 const REACHES_PER_WIDTH = 30 / 10.8;
 const MOST_EYE_RAD = 0.7;

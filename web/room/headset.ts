@@ -4,7 +4,7 @@ import { Matrix4, Quaternion, Vector3, type Group, type WebGLRenderer } from "th
 
 import { wristOf } from "./hands.js";
 import type { Message } from "./protocol.js";
-import type { Place } from "./sound.js";
+import type { Position } from "./sound.js";
 import type { Walk } from "./walk.js";
 
 /** A turn by a stick: at once, as slow turns make many people sick. */
@@ -68,7 +68,7 @@ export class Headset {
   }
 
   /** Where the ears are, and where they point; undefined without a headset. */
-  ears(): { at: Place; heading: number } | undefined {
+  ears(): { at: Position; heading: number } | undefined {
     if (!this.session) return undefined;
     const [x, z] = this.floor();
     return { at: { x, y: this.head.y, z }, heading: this.walk.heading + this.yaw() };

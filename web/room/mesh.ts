@@ -13,6 +13,8 @@ interface Peer {
   readonly polite: boolean;
   readonly visit: string;
   offering: boolean;
+  /** Whether an answer is being taken: an offer that comes meanwhile collides with none. */
+  answering: boolean;
   ignoring: boolean;
   number: number;
 }
@@ -84,7 +86,8 @@ export class Mesh implements Lines {
         await connection.addIceCandidate(candidateOf(signal));
         return;
       }
-      await connection.setRemoteDescription(signal);
+      peer.answering = signal.type === "answer";
+      await connection.setRemoteDescription(signal).finally(() => (peer.answering = false));
       if (signal.type === "offer") {
         await connection.setLocalDescription();
         this.describe(peer);
@@ -108,7 +111,8 @@ export class Mesh implements Lines {
     const { connection, polite } = peer;
     const known = connection.remoteDescription?.sdp;
     const other = known !== undefined && sessionOf(sdp) !== sessionOf(known);
-    const collides = type === "offer" && (peer.offering || connection.signalingState !== "stable");
+    const ready = !peer.offering && (connection.signalingState === "stable" || peer.answering);
+    const collides = type === "offer" && !ready;
     peer.ignoring = !polite && collides;
     if (peer.ignoring) return undefined;
     if (type === "offer") return other || (collides && known === undefined) ? this.renew(id, peer, false) : peer;
@@ -125,7 +129,7 @@ export class Mesh implements Lines {
   /** `calls` where this side makes the first offer. */
   private call({ id, number, visit }: Pick<Person, "id" | "number" | "visit">, polite: boolean, calls: boolean): Peer {
     const connection = new RTCPeerConnection({ iceServers: this.ice });
-    const peer: Peer = { connection, polite, visit, offering: false, ignoring: false, number };
+    const peer: Peer = { connection, polite, visit, offering: false, answering: false, ignoring: false, number };
     this.peers.set(id, peer);
     if (!polite) setTimeout(() => this.callAgain(id, peer), PATIENCE_MS);
 

@@ -58,14 +58,15 @@ export class Sharing {
   /** Show a picture, in place of the one that is shown. */
   still(picture: Picture): void {
     if (this.shown && this.own === this.shown.stream) return this.shown.turn(picture);
-    this.shown = new Still(picture);
-    this.take(this.shown.stream);
+    const still = new Still(picture);
+    this.take(still.stream);
+    this.shown = still;
   }
 
   /** Show nothing more. */
   end(): void {
     for (const track of this.own?.getTracks() ?? []) track.stop();
-    this.own = undefined;
+    this.own = this.shown = undefined;
     this.granted = false;
     for (const id of [...this.viewers.keys()]) this.hangUp(id);
     this.show(undefined);
@@ -123,6 +124,7 @@ export class Sharing {
     track!.contentHint = "detail";
     track!.addEventListener("ended", () => this.own === stream && this.ended());
     for (const before of this.own?.getTracks() ?? []) before.stop();
+    this.shown = undefined;
     for (const { connection } of this.viewers.values()) void connection.getSenders()[0]?.replaceTrack(track!);
     this.own = stream;
     this.show(stream);

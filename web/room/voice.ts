@@ -7,7 +7,7 @@ import { Engine } from "./engine.js";
 import type { Lines, Send } from "./lines.js";
 import { Loopback } from "./loopback.js";
 import { Mesh } from "./mesh.js";
-import { glide, Sound, type Place } from "./sound.js";
+import { glide, Sound, type Position } from "./sound.js";
 import type { Answer, Candidate, Description, Person } from "./texts.js";
 import { Waker } from "./waker.js";
 
@@ -92,12 +92,12 @@ export class Voice {
   }
 
   /** Put a voice where a head is. */
-  place(id: string, at: Place): void {
+  place(id: string, at: Position): void {
     this.sounds.get(id)?.place(at);
   }
 
   /** Put the ears where the own head is, turned by its heading in radians (0 looks along z, to the left is positive). */
-  listen(at: Place, heading: number): void {
+  listen(at: Position, heading: number): void {
     const { listener } = this.context;
     const [x, z] = [Math.sin(heading), Math.cos(heading)];
     if (!listener.positionX) {

@@ -20,11 +20,12 @@ class Connection {
   }
 }
 
-const picture = { width: 4, height: 4 } as HTMLCanvasElement;
+const picture = { width: 4, height: 4, close: (): void => undefined } as ImageBitmap;
 const track = Object.assign(new EventTarget(), { stop: (): void => undefined });
 const stream = { active: true, getTracks: () => [track], getVideoTracks: () => [track] };
+class HTMLCanvasElement {}
 const canvas = { getContext: () => ({ drawImage: () => undefined }), captureStream: () => stream };
-Object.assign(globalThis, { RTCPeerConnection: Connection, document: { createElement: () => canvas } });
+Object.assign(globalThis, { HTMLCanvasElement, RTCPeerConnection: Connection, document: { createElement: () => canvas } });
 mock.timers.enable({ apis: ["setTimeout", "setInterval"] });
 const { Sharing } = await import("../sharing.js");
 
