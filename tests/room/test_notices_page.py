@@ -109,7 +109,7 @@ def test_a_window_that_is_given_after_the_end_is_not_captured():
                 await tab.ask("document.querySelector('#leave').click()")
                 await tab.ask("void give()")
                 await tab.until(STOPPED)
-                assert not await tab.ask("meeting.sharing.shares || meeting.board.shown")
+                assert not await tab.ask("meeting.screen.sharing.shares || meeting.screen.board.shown")
                 assert (await tab.ask(STATE)).startswith("You have left")
 
     asyncio.run(run())
@@ -127,7 +127,7 @@ def test_who_is_muted_shares_nothing_and_is_told():
                 await tab.ask("void (globalThis.taken = 0)")
                 await tab.ask(
                     "void ((sharing) => { const { still } = sharing; sharing.still = (picture) => {"
-                    " ++globalThis.taken; still.call(sharing, picture); }; })(meeting.sharing)"
+                    " ++globalThis.taken; still.call(sharing, picture); }; })(meeting.screen.sharing)"
                 )
                 await chair.say(kind="moderate", action="mute", number=number)
                 await tab.until("meeting.known.get(meeting.own.number).person.muted")
@@ -141,7 +141,7 @@ def test_who_is_muted_shares_nothing_and_is_told():
                 await tab.ask(f"void {PICTURE}")
                 await tab.until(f"{STATE}.includes('has muted you')")
                 assert await tab.ask("globalThis.taken") == 1
-                assert not await tab.ask("meeting.sharing.shares || meeting.board.shown")
+                assert not await tab.ask("meeting.screen.sharing.shares || meeting.screen.board.shown")
                 assert not any(changed.person.shares for changed in chair.all(Changed))
 
     asyncio.run(run())

@@ -84,6 +84,12 @@ export class Presence {
     return this.placed;
   }
 
+  /** Sit down on a seat that is near, or stand up; says why not. */
+  sit(taken: [number, number][]): string {
+    if (this.headset.worn) return "Take the headset off to sit on a seat of the room.";
+    return this.stance.sit(taken) ? "" : "No free seat is near; walk to one.";
+  }
+
   /** How one looks and where one stands by now, for the others. */
   move(now: number): State {
     const seconds = Math.min(0.2, (now - this.moved) / 1000);

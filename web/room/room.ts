@@ -44,7 +44,7 @@ async function main(): Promise<void> {
     choice.echoes,
     await place,
   );
-  if (choice.own) void meeting.bring(choice.own);
+  if (choice.own) void meeting.brought.wear(choice.own);
   if (choice.camera) await meeting.watch();
   Object.assign(globalThis, { meeting }); // for tests, and for who looks into the page
 }
