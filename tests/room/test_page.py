@@ -138,9 +138,12 @@ async def observe(folder: Path) -> dict[str, object]:
 WAITS = """void (() => {
   globalThis.waits = [];
   const { setTimeout } = globalThis;
-  globalThis.setTimeout = (act, ms, ...more) => (waits.push(ms), setTimeout(act, ms, ...more));
+  globalThis.setTimeout = (act, ms, ...more) => {
+    if (String(act).includes('.connect()')) waits.push(ms);
+    return setTimeout(act, ms, ...more);
+  };
 })()"""
-"""For how many milliseconds a page puts things off from now on."""
+"""For how many milliseconds a page puts its next try off from now on."""
 
 
 async def restarted(folder: Path) -> dict[str, object]:
