@@ -156,7 +156,7 @@ async def main() -> None:
             for guest, line in zip(guests, LINES, strict=True):
                 await guest.say(kind="chat", text=line)
             await tab.ask(f"{SHARE}('{base64.b64encode(scan()).decode()}')")
-            await tab.until("meeting.board.shown")
+            await tab.until("meeting.screen.board.shown")
             await dressed(tab)
             with tempfile.TemporaryDirectory() as folder:
                 page = Path(folder) / "page.png"

@@ -7,7 +7,7 @@ import pytest
 from tests.browser import chromium, needs_chromium
 from tests.room.bare_place import BARE
 from tests.room.guests import open_room
-from tests.room.page import AWAKE, UNDRAWN
+from tests.room.page import AWAKE, UNDRAWN, come_in
 
 ASKED = """void (() => {
   const devices = navigator.mediaDevices;
@@ -56,3 +56,57 @@ def test_who_unticks_the_microphone_while_the_browser_asks_comes_in_without(unti
                 )
 
     assert asyncio.run(run()) == [True, "No microphone"]
+
+
+PLUGGED = """void ((devices) => {
+  const list = devices.enumerateDevices.bind(devices);
+  const other = { kind: 'audioinput', deviceId: 'other', groupId: '', label: 'Another one' };
+  devices.enumerateDevices = async () => [other, ...(await list())];
+  devices.dispatchEvent(new Event('devicechange'));
+})(navigator.mediaDevices)"""
+"""Another microphone comes, and the system lists it first."""
+
+
+@pytest.mark.slow
+@needs_chromium
+def test_the_list_of_microphones_names_the_one_in_use_also_when_another_comes():
+    async def run() -> list[str]:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                named = "document.querySelector('#join [name=microphone]')?.selectedOptions[0]?.text"
+                await tab.until(named)
+                before = await tab.ask(named)
+                await tab.ask(PLUGGED)
+                await tab.until(
+                    "document.querySelector('#join [name=microphone]').options[0].text === 'Another one'"
+                )
+                return [before, await tab.ask(named)]
+
+    before, after = asyncio.run(run())
+    assert after == before != "Another one"
+
+
+@pytest.mark.slow
+@needs_chromium
+def test_a_copy_of_a_tab_is_somebody_else_and_a_tab_that_is_loaded_again_is_not():
+    secret = "sessionStorage.getItem('secret of meeting')"
+
+    async def run() -> list[object]:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as first, browser.open(link) as copy:
+                await come_in(first, "Ada")
+                before = await first.ask(secret)
+                await copy.ask(f"sessionStorage.setItem('secret of meeting', '{before}')")
+                await come_in(copy, "Ada again")
+                copied = await copy.ask(secret)
+                await first.until("meeting.known.size === 2")
+                await first.ask("void (globalThis.earlier = true)")
+                await first.call("Page.reload")
+                await first.until("!globalThis.earlier")
+                await come_in(first, "Ada")
+                again = await first.ask(secret)
+                return [copied == before, again == before, await first.ask("meeting.known.size")]
+
+    assert asyncio.run(run()) == [False, True, 2]

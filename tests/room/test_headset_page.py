@@ -125,8 +125,13 @@ async def worn(folder: Path) -> dict[str, object]:
         left = await seen(lambda it: it.sequence > sent)
         found["left behind"] = math.dist(left.floor_m, walked.floor_m)
         found["field"] = await tab.ask("meeting.stage.view.camera.fov")
+        await tab.ask("void (meeting.presence.stance.seated = true)")
+        await tab.until("document.querySelector('#seat').textContent === 'Stand up'")
         await tab.ask("document.querySelector('#headset').click()")
         await tab.until("meeting.presence.headset.worn")
+        await tab.until("document.querySelector('#seat').textContent === 'Sit'")
+        await tab.ask("document.querySelector('#seat').click()")
+        found["seated"] = await tab.ask("meeting.presence.stance.seated")
         await tab.ask("document.querySelector('#leave').click()")
         await tab.until("!meeting.presence.headset.worn")
         found["offered"] = await tab.ask("document.querySelector('#headset').checkVisibility()")
@@ -174,3 +179,7 @@ def test_a_stick_walks_where_one_looks_and_the_page_goes_on_there(found):
 def test_the_pages_view_is_that_of_before_and_who_leaves_the_meeting_leaves_the_headset(found):
     assert found["field"] == 50
     assert not found["offered"]
+
+
+def test_who_puts_the_headset_on_stands(found):
+    assert found["seated"] is False

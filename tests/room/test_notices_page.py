@@ -109,7 +109,7 @@ def test_a_window_that_is_given_after_the_end_is_not_captured():
                 await tab.ask("document.querySelector('#leave').click()")
                 await tab.ask("void give()")
                 await tab.until(STOPPED)
-                assert not await tab.ask("meeting.sharing.shares || meeting.board.shown")
+                assert not await tab.ask("meeting.screen.sharing.shares || meeting.screen.board.shown")
                 assert (await tab.ask(STATE)).startswith("You have left")
 
     asyncio.run(run())
@@ -127,7 +127,7 @@ def test_who_is_muted_shares_nothing_and_is_told():
                 await tab.ask("void (globalThis.taken = 0)")
                 await tab.ask(
                     "void ((sharing) => { const { still } = sharing; sharing.still = (picture) => {"
-                    " ++globalThis.taken; still.call(sharing, picture); }; })(meeting.sharing)"
+                    " ++globalThis.taken; still.call(sharing, picture); }; })(meeting.screen.sharing)"
                 )
                 await chair.say(kind="moderate", action="mute", number=number)
                 await tab.until("meeting.known.get(meeting.own.number).person.muted")
@@ -141,7 +141,7 @@ def test_who_is_muted_shares_nothing_and_is_told():
                 await tab.ask(f"void {PICTURE}")
                 await tab.until(f"{STATE}.includes('has muted you')")
                 assert await tab.ask("globalThis.taken") == 1
-                assert not await tab.ask("meeting.sharing.shares || meeting.board.shown")
+                assert not await tab.ask("meeting.screen.sharing.shares || meeting.screen.board.shown")
                 assert not any(changed.person.shares for changed in chair.all(Changed))
 
     asyncio.run(run())
@@ -202,6 +202,22 @@ def test_a_browser_without_pictures_is_told_before_anything_is_asked():
     asyncio.run(run())
 
 
+def test_what_fails_behind_come_in_can_be_read():
+    forgets = "void (Storage.prototype.getItem = () => { throw new Error('no storage'); })"
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await tab.until("document.querySelector('#join select[name=avatar]')?.value")
+                await tab.ask(forgets)
+                await tab.ask(JOIN)
+                await tab.until("document.querySelector('#word').textContent.includes('no storage')")
+                assert await tab.ask("document.querySelector('#word').checkVisibility()")
+
+    asyncio.run(run())
+
+
 def test_a_microphone_that_is_unplugged_is_told_to_all():
     async def run() -> None:
         async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
@@ -235,6 +251,45 @@ def test_a_camera_that_is_pulled_out_is_told_and_hides_no_word_of_the_microphone
                 await tab.until(f"{STATE}.startsWith('Your camera is gone')")
                 await tab.ask(gone % "microphone.stream")
                 await tab.until(f"{STATE}.startsWith('Your microphone is gone')")
+
+    asyncio.run(run())
+
+
+def test_nobody_is_removed_by_one_click():
+    remove = "[...document.querySelectorAll('#people button')].find((it) => it.ariaLabel === 'remove: Ben').click()"
+    answers = "void (globalThis.confirm = (text) => (globalThis.asked = text, %s))"
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'moderator')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Chair")
+                await place.guest(name="Ben")
+                await tab.until("meeting.known.size === 2")
+                await tab.ask(answers % "false")
+                await tab.ask(remove)
+                assert await tab.ask("asked") == "Remove Ben from the room for good?"
+                await place.guest(name="Cem")
+                await tab.until("meeting.known.size === 3")
+                await tab.ask(answers % "true")
+                await tab.ask(remove)
+                await tab.until("meeting.known.size === 2")
+
+    asyncio.run(run())
+
+
+def test_a_camera_that_gives_no_pictures_is_told():
+    stuck = "void (HTMLMediaElement.prototype.play = () => new Promise(() => undefined))"
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Ada")
+                await tab.ask(stuck)
+                await tab.ask("meeting.watch()")
+                await tab.ask("void (meeting.presence.camera.begun -= 10000)")  # so long ago
+                await tab.until(f"{STATE}.startsWith('Your camera gives no pictures')")
 
     asyncio.run(run())
 

@@ -138,9 +138,12 @@ async def observe(folder: Path) -> dict[str, object]:
 WAITS = """void (() => {
   globalThis.waits = [];
   const { setTimeout } = globalThis;
-  globalThis.setTimeout = (act, ms, ...more) => (waits.push(ms), setTimeout(act, ms, ...more));
+  globalThis.setTimeout = (act, ms, ...more) => {
+    if (String(act).includes('.connect()')) waits.push(ms);
+    return setTimeout(act, ms, ...more);
+  };
 })()"""
-"""For how many milliseconds a page puts things off from now on."""
+"""For how many milliseconds a page puts its next try off from now on."""
 
 
 async def restarted(folder: Path) -> dict[str, object]:
@@ -166,7 +169,7 @@ async def restarted(folder: Path) -> dict[str, object]:
                 await tab.ask(WAITS)
             await ben.until(f"{other('Ada')}.newest?.floor_m[0] === 2.5")
             await ben.ask(f"void {PICTURE}")
-            await ada.until(f"{other('Ben')}.person.shares && meeting.board.shown")
+            await ada.until(f"{other('Ben')}.person.shares && meeting.screen.board.shown")
         for tab in tabs:
             await tab.until("document.querySelector('#state').textContent.includes('broke')")
             await tab.until("waits.length > 4")  # the next wait is as long as any
@@ -178,11 +181,13 @@ async def restarted(folder: Path) -> dict[str, object]:
             seconds = time.monotonic() - start
             for tab in tabs:
                 await tab.until(CONNECTED)
-            await ada.until(f"{other('Ben')}.person.shares && meeting.board.shown")
+            await ada.until(f"{other('Ben')}.person.shares && meeting.screen.board.shown")
             return {
                 "seconds": seconds,
                 "longest wait": [await tab.ask("Math.max(...waits)") for tab in tabs],
-                "still shares": await ben.ask("meeting.sharing.shares && meeting.sharing.granted"),
+                "still shares": await ben.ask(
+                    "meeting.screen.sharing.shares && meeting.screen.sharing.granted"
+                ),
                 "place": await ben.ask(f"{other('Ada')}.newest.floor_m"),
                 "same voices": [
                     await tab.ask("before[1] === [...meeting.voice.lines.peers.values()][0]") for tab in tabs

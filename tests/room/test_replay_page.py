@@ -21,6 +21,26 @@ SLIDE = """(() => {
   slider.value = %s;
   slider.dispatchEvent(new Event('change'));
 })()"""
+HELD = """(() => {
+  const { replaying } = meeting, { say } = replaying, slider = document.querySelector('#moment');
+  let asked = 0;
+  replaying.say = (said) => { asked++; say(said); };
+  const press = (target, key) =>
+    target.dispatchEvent(new KeyboardEvent('keydown', { key, repeat: true, bubbles: true, cancelable: true }));
+  for (let i = 0; i < 30; i++) press(document.body, 'l');
+  const byLetter = asked;
+  slider.focus();
+  for (let i = 1; i <= 30; i++) {
+    press(slider, 'ArrowRight');
+    slider.value = i / 10;
+    for (const kind of ['input', 'change']) slider.dispatchEvent(new Event(kind));
+  }
+  replaying.say = say;
+  const focused = document.activeElement === slider;
+  slider.blur();
+  return [byLetter, asked - byLetter, focused, slider.valueAsNumber];
+})()"""
+"""What a held key asks for, on the page and on the slider; whether that keeps the focus, and where it stands then."""
 SHOWN = (
     "[...meeting.known.values()].filter(({ person, newest }) => person.replayed && newest)"
     ".map(({ playback }) => playback.at(performance.now()).heading)[0]"
@@ -58,6 +78,9 @@ async def watched(tab: Tab) -> dict[str, object]:
     await tab.until(f"{PLAYING}.time_s > 5")
     await tab.ask(PRESS % "j")
     await tab.until(f"{PLAYING}.time_s < 2")
+    await asyncio.sleep(1.0)
+    found["held keys"] = await tab.ask(HELD)
+    await tab.until(f"{PLAYING}.time_s === 3")
     await tab.ask(PRESS % "Home")
     for speed in (0.5, 0.25):
         await tab.ask(PRESS % "<")
@@ -87,5 +110,8 @@ def test_a_replay_is_halted_moved_along_and_slowed(tmp_path):
     print(found)
     assert found["held"] == pytest.approx(3 * PACE, abs=0.01), "two seconds later nobody has sunk or gone on"
     assert found["clock"].startswith("0:03 / 0:0")
+    assert found["held keys"] == [1, 0, True, 3], (
+        "one jump, and the slider's last moment a quarter of a second later"
+    )
     assert found["pace"] == pytest.approx(PACE / 4, rel=0.1), "not a half"
     assert found["complaints"] == []

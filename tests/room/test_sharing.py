@@ -117,7 +117,7 @@ PICTURE = """(async () => {
 })()"""
 SEEN = """(() => {
   const pen = new OffscreenCanvas(8, 8).getContext('2d');
-  pen.drawImage(meeting.board.film, 0, 0, 8, 8);
+  pen.drawImage(meeting.screen.board.film, 0, 0, 8, 8);
   return [...pen.getImageData(4, 4, 1, 1).data];
 })()"""
 PAPER = """((encoded, name) => {
@@ -132,7 +132,7 @@ LARGE = """(() => {
   input.files = carried.files; input.dispatchEvent(new Event('change'));
 })()"""
 DARK = """(() => {
-  const { film } = meeting.board, pen = new OffscreenCanvas(160, 120).getContext('2d');
+  const { film } = meeting.screen.board, pen = new OffscreenCanvas(160, 120).getContext('2d');
   pen.drawImage(film, 0, 0, 160, 120);
   const { data } = pen.getImageData(0, 60, 160, 60);
   return data.filter((value, at) => at % 4 === 2 && value < 60).length;
@@ -188,10 +188,10 @@ async def turn_pages(ada: Tab, ben: Tab) -> dict[str, object]:
     found: dict[str, object] = {"before": [each for each in ben.asked if "paper.js" in each]}
     pages = paper((400, 300, (0.1, 0.1, 0.9)), (300, 400, (0.1, 0.6, 0.1)))
     await ben.ask(f"{PAPER}('{base64.b64encode(pages).decode()}', 'slides.pdf')")
-    await ada.until("`${meeting.board.size}` === '1920,1440'")
+    await ada.until("`${meeting.screen.board.size}` === '1920,1440'")
     await ada.until(f"({SEEN})[2] > 190 && {DARK} > 50")
     await ben.ask(NEXT)
-    await ada.until(f"`${{meeting.board.size}}` === '1440,1920' && ({SEEN})[2] < 70")
+    await ada.until(f"`${{meeting.screen.board.size}}` === '1440,1920' && ({SEEN})[2] < 70")
     await ben.ask(REST)
     found["blue"] = await ben.ask(f"{APART}('{base64.b64encode(pages).decode()}')")
     found["page"] = await ben.ask("document.querySelector('#page').textContent")
@@ -243,20 +243,20 @@ def test_a_picture_a_pdf_and_a_window_reach_the_other_and_a_moderator_ends_them(
                     await tab.look(width=480, height=360)
                     await come_in(tab, name)
                 await ben.ask(f"void {PICTURE}")
-                await ada.until("meeting.board.shown && `${meeting.board.size}` === '640,360'")
+                await ada.until("meeting.screen.board.shown && `${meeting.screen.board.size}` === '640,360'")
                 await ada.until(f"(([red, green, blue]) => red > 190 && green < 70 && blue < 70)({SEEN})")
                 found["told"] = await ada.ask(f"{SHARED}.textContent")
                 found["told self"] = await ben.ask(f"{SHARED}.textContent")
                 found |= await turn_pages(ada, ben)
                 await ada.ask(STOP)
                 await ben.until("document.querySelector('#pages').hidden")
-                await ben.until(f"!meeting.sharing.shares && {SHARED}.hidden")
-                await ada.until(f"!meeting.board.shown && {SHARED}.hidden")
+                await ben.until(f"!meeting.screen.sharing.shares && {SHARED}.hidden")
+                await ada.until(f"!meeting.screen.board.shown && {SHARED}.hidden")
                 await ada.ask(WISH.format("window"))
-                await ben.until("meeting.board.shown")
-                found["window"] = await ben.ask("meeting.board.size")
+                await ben.until("meeting.screen.board.shown")
+                found["window"] = await ben.ask("meeting.screen.board.size")
                 await ada.ask(WISH.format("nothing"))
-                await ben.until("!meeting.board.shown")
+                await ben.until("!meeting.screen.board.shown")
                 # the pointer: on a key, seen by the other where the own view looks
                 await ada.ask(
                     "void Object.assign(meeting.presence.walk, { x: 0, z: 2.4, heading: Math.PI, pitch: 0.1 })"

@@ -36,7 +36,7 @@ WALKED = """(async () => {
     .filter(([x, y]) => document.elementFromPoint(x, y)?.id === 'view');
   if (free.length < 10) return -1;
   const say = (kind, [x, y]) => document.querySelector('#view').dispatchEvent(
-    new PointerEvent(kind, { pointerId: 1, pointerType: 'touch', clientX: x, clientY: y })
+    new PointerEvent(kind, { pointerId: 1, pointerType: 'touch', buttons: 1, clientX: x, clientY: y })
   );
   HTMLElement.prototype.setPointerCapture = () => undefined;  // of a finger that is none
   say('pointerdown', free[0]); say('pointermove', [free[0][0], free[0][1] - 60]);

@@ -1,6 +1,6 @@
 /** One avatar: a model whose face, eyes and head follow a `Face`. */
 
-import { Group, Object3D, Quaternion, type Material, type SkinnedMesh, Texture, Vector3 } from "three";
+import { Group, Object3D, Quaternion, type Material, type ShaderMaterial, type SkinnedMesh, Texture, Vector3 } from "three";
 import { clone } from "three/addons/utils/SkeletonUtils.js";
 import type { VRM } from "@pixiv/three-vrm";
 
@@ -135,8 +135,14 @@ export function release(root: Object3D): void {
     geometry?.dispose();
     skeleton?.dispose();
     for (const each of [material ?? []].flat() as Material[]) {
-      for (const value of Object.values(each)) if (value instanceof Texture) value.dispose();
+      for (const picture of picturesOf(each)) picture.dispose();
       each.dispose();
     }
   });
+}
+
+/** Pictures of a material; MToon, as other shaders, keeps its own among the uniforms. */
+function picturesOf(material: Material & Partial<Pick<ShaderMaterial, "uniforms">>): Texture[] {
+  const uniforms = Object.values(material.uniforms ?? {}).map(({ value }): unknown => value);
+  return [...Object.values(material), ...uniforms].filter((value) => value instanceof Texture);
 }

@@ -2,7 +2,7 @@
 
 import { Euler, Quaternion } from "three";
 
-import { SHAPE_INDEX } from "./shapes.js";
+import { FULL_PITCH_RAD, FULL_YAW_RAD, SHAPE_INDEX } from "./shapes.js";
 
 /**
  * Angles are radians: yaw to the subject's left, pitch upwards, roll towards the left shoulder. Left is the subject's.
@@ -15,10 +15,6 @@ export interface Face {
   /** Yaw, pitch and roll of the head; without it the head rests. */
   readonly head?: readonly [number, number, number] | undefined;
 }
-
-/** Eye rotations at which an eyeLook weight reaches 1, as in `regress.runtime.stages.gaze`. */
-const FULL_YAW_RAD = (30 * Math.PI) / 180;
-const FULL_PITCH_RAD = (25 * Math.PI) / 180;
 
 const euler = new Euler(0, 0, 0, "YXZ");
 

@@ -3,6 +3,6 @@
 export { Avatar, release } from "./avatar.js";
 export { findBone, type BoneName } from "./bones.js";
 export { rotation, type Face } from "./face.js";
-export { AvatarError, fetchAvatar, loadAvatar } from "./load.js";
+export { AvatarError, fetchAvatar, loadAvatar, openAvatar } from "./load.js";
 export { frameOf, Portrait, portraitLights } from "./portrait.js";
 export { SHAPE_INDEX, SHAPES, shapeIndex } from "./shapes.js";

@@ -15,6 +15,15 @@ export class AvatarError extends Error {
 const MOST_BYTES = 512 * 2 ** 20;
 const GLB = 0x46546c67; // "glTF", little endian
 
+/** An avatar of a file that somebody chose. */
+export async function openAvatar(file: File): Promise<Avatar> {
+  checkSize(file.size, file.name); // more than 2 GB no browser reads
+  const content = await file.arrayBuffer().catch(() => {
+    throw new AvatarError(`${file.name} cannot be read, as it is a folder or is there no longer: choose a .glb or .vrm file.`);
+  });
+  return loadAvatar(content, file.name);
+}
+
 /** An avatar of a file's bytes; `name` is what it is called in sentences. */
 export async function loadAvatar(content: ArrayBuffer, name: string): Promise<Avatar> {
   check(content, name);
@@ -46,8 +55,12 @@ export async function fetchAvatar(address: string, name: string): Promise<Avatar
   return loadAvatar(await answer.arrayBuffer(), name);
 }
 
+function checkSize(bytes: number, name: string): void {
+  if (bytes > MOST_BYTES) throw new AvatarError(`${name} is larger than 512 MiB, the most that is read.`);
+}
+
 function check(content: ArrayBuffer, name: string): void {
-  if (content.byteLength > MOST_BYTES) throw new AvatarError(`${name} is larger than 512 MiB, the most that is read.`);
+  checkSize(content.byteLength, name);
   const header = new DataView(content);
   if (content.byteLength < 20 || header.getUint32(0, true) !== GLB) {
     throw new AvatarError(`${name} is no .glb or .vrm file: its first bytes are not those of binary glTF.`);

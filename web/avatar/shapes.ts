@@ -20,6 +20,10 @@ export const SHAPES: readonly string[] = [
   "tongueOut",
 ];
 
+/** Eye rotations at which an eyeLook weight reaches 1, as in `regress.runtime.stages.gaze`. */
+export const FULL_YAW_RAD = (30 * Math.PI) / 180;
+export const FULL_PITCH_RAD = (25 * Math.PI) / 180;
+
 export const SHAPE_INDEX: ReadonlyMap<string, number> = new Map(SHAPES.map((name, index) => [name, index]));
 
 /** Letters alone, in lower case, with a lone L or R at the end in full. */

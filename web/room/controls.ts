@@ -1,6 +1,7 @@
 /** The row of buttons under the picture: what each does is the meeting's, what it says is here. */
 
 import { byId } from "../elements.js";
+import { isMeant } from "./keys.js";
 import { openByKeys } from "./lists.js";
 import type { Microphone } from "./microphone.js";
 import { ANIMATIONS } from "./protocol.js";
@@ -21,6 +22,7 @@ export interface Wishes {
 
 export class Controls {
   private readonly mute = byId<HTMLButtonElement>("mute");
+  private readonly seatButton = byId<HTMLButtonElement>("seat");
   private readonly select = byId<HTMLSelectElement>("gesture");
 
   /** `faceLink` is what a program needs to move one's face. */
@@ -40,7 +42,7 @@ export class Controls {
       sayMute();
     });
     byId("neutral").addEventListener("click", () => wishes.neutral());
-    byId("seat").addEventListener("click", () => wishes.sit());
+    this.seatButton.addEventListener("click", () => wishes.sit());
     this.select.replaceChildren(
       ...ANIMATIONS.map((name, number) => new Option(number ? `${number} ${name}` : "Gesture …", String(number))),
     );
@@ -49,12 +51,9 @@ export class Controls {
       wishes.gesture(Number(this.select.value), false);
       this.select.blur();
     });
-    addEventListener("keydown", ({ key, repeat, target, ctrlKey, metaKey, altKey }) => {
-      const typing = target instanceof HTMLElement && target.closest("input, textarea, select");
-      const number = Number(key);
-      if (!typing && !repeat && !ctrlKey && !metaKey && !altKey && Number.isInteger(number) && number >= 0 && number < ANIMATIONS.length && key.trim()) {
-        wishes.gesture(number, true);
-      }
+    addEventListener("keydown", (event) => {
+      const number = /^\d$/.test(event.key) ? Number(event.key) : Infinity;
+      if (number < ANIMATIONS.length && !event.repeat && isMeant(event)) wishes.gesture(number, true);
     });
     byId("program").addEventListener("click", () => {
       const command = `track --to "room:${faceLink}"`; // cmd.exe knows no other quotes
@@ -73,7 +72,8 @@ export class Controls {
   }
 
   seat(seated: boolean): void {
-    byId("seat").textContent = seated ? "Stand up" : "Sit";
+    const word = seated ? "Stand up" : "Sit";
+    if (this.seatButton.textContent !== word) this.seatButton.textContent = word;
   }
 
   /** Show what the room allows, and what is known of who shares and who is recorded. */
@@ -98,6 +98,6 @@ export class Controls {
     const microphone = this.microphone?.gone ? undefined : this.microphone;
     this.mute.textContent = microphone ? (microphone.isOpen ? "Mute me" : "Unmute me") : "No microphone";
     this.mute.disabled = !microphone;
-    this.mute.setAttribute("aria-pressed", String(microphone ? !microphone.isOpen : false));
+    this.mute.classList.toggle("on", microphone?.isOpen === false);
   }
 }

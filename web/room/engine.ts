@@ -71,7 +71,7 @@ export class Engine implements Lines {
     const up = (this.up = this.line("up"));
     up.addTransceiver(track, { direction: "sendonly" });
     await up.setLocalDescription();
-    this.describe("up", up);
+    if (up === this.up) this.describe("up", up);
   }
 
   /** Answer what the engine offers, and hear what it now brings. */

@@ -8,6 +8,10 @@ const LOST_MS = 500;
 /** A detector that takes longer than that for a picture is waited for, as many of its pictures as this; else the avatar
  * of a slow machine would go to and fro between the camera's face and the voice's. */
 const WAITED_PICTURES = 3;
+/** A camera that begins takes a second or two. */
+const BEGINS_MS = 10_000;
+/** A picture of thirty a second. */
+const PICTURE_MS = 33;
 
 export class FaceCamera {
   private readonly worker = new Worker("/static/face.worker.js", { type: "module" });
@@ -18,8 +22,9 @@ export class FaceCamera {
   private foundAt = -Infinity;
   /** Whether the newest picture was without a face. */
   private missed = false;
-  /** What a person should know, for the page; empty while all is well. */
-  word = "loading the face detector (3 MB the first time) …";
+  private readonly begun = performance.now();
+  private fed = false;
+  private said = "loading the face detector (3 MB the first time) …";
   detectMs = 0;
 
   private constructor(private readonly stream: MediaStream) {
@@ -29,17 +34,25 @@ export class FaceCamera {
     for (const track of stream.getVideoTracks()) {
       track.addEventListener("ended", () => {
         this.gone = true;
-        this.word = "Your camera is gone; plug it in and load the page again.";
+        this.said = "Your camera is gone; plug it in and load the page again.";
       });
     }
     this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.hear(data);
-    this.worker.onerror = ({ message }) => (this.word = `The face detector does not start (${message}); the voice moves your lips.`);
-    void this.video.play().then(() => this.feed());
+    this.worker.onerror = ({ message }) => (this.said = `The face detector does not start (${message}); the voice moves your lips.`);
+    this.video.play().then(
+      () => this.feed(),
+      () => undefined, // the word says so
+    );
   }
 
-  static async ask(device?: string): Promise<FaceCamera> {
-    const size = { width: { ideal: 640 }, height: { ideal: 480 }, frameRate: { ideal: 30 } };
-    const video = { ...size, ...(device ? { deviceId: device } : { facingMode: "user" }) };
+  /** What a person should know, for the page; empty while all is well. */
+  get word(): string {
+    const silent = !this.fed && !this.gone && performance.now() - this.begun > BEGINS_MS;
+    return silent ? "Your camera gives no pictures; close what else uses it, and load the page again." : this.said;
+  }
+
+  static async ask(): Promise<FaceCamera> {
+    const video = { width: { ideal: 640 }, height: { ideal: 480 }, frameRate: { ideal: 30 }, facingMode: "user" };
     return new FaceCamera(await navigator.mediaDevices.getUserMedia({ video }));
   }
 
@@ -61,13 +74,17 @@ export class FaceCamera {
 
   private feed(): void {
     const next = (): void => {
-      this.video.requestVideoFrameCallback(() => void this.send().then(next));
+      if (!this.stream.active) return;
+      const send = (): void => void this.send().then(next);
+      if ("requestVideoFrameCallback" in this.video) this.video.requestVideoFrameCallback(send);
+      else setTimeout(send, PICTURE_MS); // Firefox before 132
     };
     next();
   }
 
   /** The newest picture, unless the worker still has one. */
   private async send(): Promise<void> {
+    this.fed = true;
     if (this.busy) return;
     this.busy = true;
     try {
@@ -87,18 +104,18 @@ export class FaceCamera {
     if (this.gone) return;
     switch (message.kind) {
       case "ready":
-        this.word = "";
+        this.said = "";
         break;
       case "failed":
-        this.word = `${message.text} The voice moves your lips instead.`;
+        this.said = `${message.text} The voice moves your lips instead.`;
         this.busy = true;
         break;
       case "nobody":
         this.missed = true;
-        this.word = performance.now() - this.foundAt < LOST_MS ? "" : "No face is seen by the camera.";
+        this.said = performance.now() - this.foundAt < LOST_MS ? "" : "No face is seen by the camera.";
         break;
       case "face":
-        this.word = message.calibrated ? "" : "Look straight ahead, relaxed, and press “This is my neutral face”.";
+        this.said = message.calibrated ? "" : "Look straight ahead, relaxed, and press “This is my neutral face”.";
         this.found = { ...message, tracked: true };
         this.missed = false;
         this.foundAt = performance.now();

@@ -8,7 +8,7 @@
 import { FaceLandmarker, FilesetResolver, type FaceLandmarkerResult, type NormalizedLandmark } from "@mediapipe/tasks-vision";
 
 import table from "../../track/detectors/data/mediapipe_points.json";
-import { SHAPE_INDEX } from "../avatar/shapes.js";
+import { FULL_PITCH_RAD, FULL_YAW_RAD, SHAPE_INDEX } from "../avatar/shapes.js";
 
 export type ToWorker = { kind: "picture"; picture: ImageBitmap; time: number } | { kind: "neutral" };
 export type FromWorker =
@@ -32,9 +32,6 @@ interface Networks {
 
 /** Of the neutral face, which is their median: a blink of a third of a second is less than half of them. */
 const NEUTRAL = { frames: 10, ms: 700 };
-/** Eye rotations at which an eyeLook weight reaches 1 (`regress.runtime.stages.gaze`). */
-const FULL_YAW_RAD = (30 * Math.PI) / 180;
-const FULL_PITCH_RAD = (25 * Math.PI) / 180;
 /** An eye's width over how far its iris lies from where it turns: 30 and 10.8 mm (`regress.runtime.heads.eyes`). */
 const REACHES_PER_WIDTH = 30 / 10.8;
 const MOST_EYE_RAD = 0.7;
@@ -108,20 +105,17 @@ function answer(data: ToWorker): void {
   const found = detect(picture, time);
   const [mesh] = found.faceLandmarks;
   const matrix = found.facialTransformationMatrixes[0]?.data;
-  if (!mesh || !matrix) {
-    smooth = undefined;
-    if (collecting) collecting = []; // somebody else may come back
-    tell({ kind: "nobody" });
-    return;
-  }
+  if (!mesh || !matrix) return nobody();
   const points = landmarks(mesh, width, height);
   const gaze = EYES.flatMap((eye) => gazeOf(mesh, eye, width, height));
   const place: Triple = [matrix[12]! / 100, matrix[13]! / 100, matrix[14]! / 100];
   const head = angles(matrix);
+  if (![...points, ...gaze, ...place, ...head].every(Number.isFinite)) return nobody(); // one would stay in all that follow
   rest.place ??= place;
   collect({ points, gaze, place, head, time });
   const weights = new Float32Array(order.length);
   predict(points).forEach((weight, index) => (weights[order[index]!] = Math.min(1, Math.max(0, weight))));
+  if (!weights.every(Number.isFinite)) return nobody();
   const turned = gaze.map((angle, index) => angle - rest.gaze[index]!) as [number, number, number, number];
   look(weights, turned);
   tell({
@@ -133,6 +127,13 @@ function answer(data: ToWorker): void {
     calibrated,
     ms: performance.now() - begun,
   });
+}
+
+/** No face is in this picture, or none that can be shown. */
+function nobody(): void {
+  smooth = undefined;
+  if (collecting) collecting = []; // somebody else may come back
+  tell({ kind: "nobody" });
 }
 
 function detect(picture: ImageBitmap, time: number): FaceLandmarkerResult {

@@ -1,6 +1,6 @@
 /** One person as others see them: avatar and body where they stand, a name, and a sign while they speak. */
 
-import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3, type Object3D, type SkinnedMesh } from "three";
+import { CanvasTexture, Euler, Group, Mesh, MeshBasicMaterial, Quaternion, RingGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3, type SkinnedMesh } from "three";
 
 import { release, type Avatar } from "../avatar/index.js";
 import { EYES_M, makeBody, SEATED_M } from "./body.js";
@@ -19,6 +19,9 @@ const FACE_SHARE = 0.4;
 /** Taller than a head with hair and neck, it has shoulders, and hangs in the air as busts do. */
 const BUST_M = 0.36;
 
+/** So far a head goes from a simple body's neck; then the body comes along. */
+const NECK_M = 0.08;
+
 /** Faster than a run is a jump to another place. */
 const MOST_PACE = 4;
 
@@ -27,7 +30,6 @@ export class Figure {
   readonly root = new Group();
   private readonly upper = new Group();
   private readonly limbs: Limbs;
-  private right: Object3D | undefined;
   private lowered = 0;
   private readonly before = new Vector3();
   private readonly label = new Sprite(new SpriteMaterial({ transparent: true, depthWrite: false }));
@@ -56,9 +58,6 @@ export class Figure {
     this.standing = whole ? 0 : EYES_M;
     const joint = avatar.headJoint_m;
     this.face_m = !whole ? EYES_M : joint === undefined ? EYES_SHARE * height : joint + FACE_SHARE * (height - joint);
-    body.traverse((node) => {
-      if (/^(mixamorig:?)?RightHand$/.test(node.name)) this.right = node;
-    });
     this.upper.add(avatar.root, body);
     avatar.root.traverse((node) => void (node.castShadow = true));
     const top = whole ? height + NAME_M / 2 : NAME_M;
@@ -124,7 +123,7 @@ export class Figure {
     const seated = (message.flags & FLAG.seated) !== 0;
     this.lowered += ((seated ? EYES_M - SEATED_M : 0) - this.lowered) * (1 - Math.exp(-8 * seconds));
     this.upper.position.y = this.standing - this.lowered;
-    if (this.standing) this.avatar.root.position.fromArray(message.head_m); // a head on the simple body moves by itself
+    if (this.standing) this.lean(message.head_m);
     this.turn.set(message.rotation[0]!, message.rotation[1]!, message.rotation[2]!, message.rotation[3]!).normalize();
     this.angles.setFromQuaternion(this.turn, "YXZ");
     const gesture = headGesture(message.animation, this.time);
@@ -148,15 +147,24 @@ export class Figure {
 
   /** Put where the right hand is into `at`; of a body without hands, before its chest. */
   hand(at: Vector3): void {
-    if (this.right) this.right.getWorldPosition(at);
+    const { rightHand } = this.limbs;
+    if (rightHand) rightHand.getWorldPosition(at);
     else this.root.localToWorld(at.set(-0.15, EYES_M - 0.35 - this.lowered, 0.25));
+  }
+
+  /** Put the head where it is, and what is below it so near that a neck reaches. */
+  private lean(head_m: ArrayLike<number>): void {
+    const head = this.avatar.root.position.fromArray(Array.from(head_m));
+    this.made?.position.copy(head).clampLength(0, NECK_M).negate().add(head);
   }
 
   /** A hand of a message in the frame of the body that hangs on `upper`. */
   private reached(hand: Message["left_hand"]): Hand | undefined {
     if (!hand) return undefined;
     const [x, y, z, ...turn] = Array.from(hand) as [number, number, number, number, number, number, number];
-    return { at: new Vector3(x, y - this.upper.position.y, z), turn: new Quaternion(...turn).normalize() };
+    const at = new Vector3(x, y - this.upper.position.y, z);
+    if (this.made) at.sub(this.made.position);
+    return { at, turn: new Quaternion(...turn).normalize() };
   }
 
   /** How fast the body walks forward, in metres a second. */

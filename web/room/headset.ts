@@ -4,7 +4,7 @@ import { Matrix4, Quaternion, Vector3, type Group, type WebGLRenderer } from "th
 
 import { wristOf } from "./hands.js";
 import type { Message } from "./protocol.js";
-import type { Place } from "./sound.js";
+import type { Position } from "./sound.js";
 import type { Walk } from "./walk.js";
 
 /** A turn by a stick: at once, as slow turns make many people sick. */
@@ -27,6 +27,8 @@ type Worn = Pick<Message, "floor_m" | "heading" | "rotation" | "head_m" | "left_
 export class Headset {
   private session: XRSession | undefined;
   private over = false;
+  /** Whether the browser asks. */
+  private entering = false;
   /** Turn of the body in the room that the headset knows, whose zero is where it looked first. */
   private body = 0;
   private rest: number | undefined;
@@ -46,6 +48,8 @@ export class Headset {
     private readonly walk: Walk,
     private readonly button: HTMLButtonElement,
     private readonly tell: (text: string) => void,
+    /** Called as one begins to look through the headset. */
+    private readonly begun: () => void,
   ) {
     button.addEventListener("click", () => void (this.session ? this.session.end() : this.enter()));
     // the button is there only where a headset is
@@ -64,7 +68,7 @@ export class Headset {
   }
 
   /** Where the ears are, and where they point; undefined without a headset. */
-  ears(): { at: Place; heading: number } | undefined {
+  ears(): { at: Position; heading: number } | undefined {
     if (!this.session) return undefined;
     const [x, z] = this.floor();
     return { at: { x, y: this.head.y, z }, heading: this.walk.heading + this.yaw() };
@@ -125,17 +129,24 @@ export class Headset {
   }
 
   private async enter(): Promise<void> {
+    if (this.entering) return;
+    this.entering = true;
+    let session: XRSession | undefined;
     try {
-      const session = await navigator.xr!.requestSession("immersive-vr", { optionalFeatures: ["local-floor", "hand-tracking"] });
-      session.addEventListener("end", () => this.end());
+      session = await navigator.xr!.requestSession("immersive-vr", { optionalFeatures: ["local-floor", "hand-tracking"] });
       this.renderer.xr.setReferenceSpaceType("local-floor");
       await this.renderer.xr.setSession(session);
+      session.addEventListener("end", () => this.end());
       [this.session, this.rest, this.body] = [session, undefined, 0];
       this.button.textContent = "Take the headset off";
+      this.begun();
       this.carry();
       if (this.over) void session.end(); // while the browser asked
     } catch (error) {
+      void session?.end().catch(() => undefined); // or the headset waits for pictures that never come
       this.tell(`The headset cannot be used (${error instanceof Error ? error.message : error}).`);
+    } finally {
+      this.entering = false;
     }
   }
 

@@ -31,23 +31,6 @@ export function readLink(): Link | undefined {
   return room && key ? { room, key } : undefined;
 }
 
-/** So many random bytes as base64url; a multiple of three. */
-export function randomText(bytes: number): string {
-  const text = btoa(String.fromCharCode(...crypto.getRandomValues(new Uint8Array(bytes))));
-  return text.replaceAll("+", "-").replaceAll("/", "_");
-}
-
-/** This person's secret in this room: one for each tab, so that two tabs are two people, and the same after a reload. */
-export function secretOf({ room }: Link): string {
-  const place = `secret of ${room}`;
-  let secret = sessionStorage.getItem(place);
-  if (!secret) {
-    secret = randomText(18);
-    sessionStorage.setItem(place, secret);
-  }
-  return secret;
-}
-
 /** What the room says to whoever is still outside; a server that says nothing is tried for by the line itself. */
 export async function about({ room }: Link): Promise<About> {
   const answer = await fetch(`/room/${room}/about.json`, { cache: "no-store" }).catch(() => undefined);
@@ -73,6 +56,13 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   name.value ||= localStorage.getItem("name") ?? ""; // a quick hand has typed already
   let microphone: Microphone | undefined;
 
+  /** Which there are, and which one is in use. */
+  const list = async (): Promise<void> => {
+    const found = (await navigator.mediaDevices.enumerateDevices()).filter(({ kind }) => kind === "audioinput");
+    devices.replaceChildren(...found.map(({ label, deviceId }) => new Option(label || "microphone", deviceId)));
+    const used = microphone?.stream.getAudioTracks()[0]?.getSettings().deviceId;
+    if (used) devices.value = used;
+  };
   let newest = 0;
   const listen = async (): Promise<void> => {
     const choice = ++newest;
@@ -84,11 +74,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
       const given = await Microphone.ask(devices.value || undefined);
       if (choice !== newest) return given.close(); // something else was chosen while the browser asked
       microphone = given;
-      void given.resume();
-      const found = (await navigator.mediaDevices.enumerateDevices()).filter(({ kind }) => kind === "audioinput");
-      const chosen = devices.value;
-      devices.replaceChildren(...found.map(({ label, deviceId }) => new Option(label || "microphone", deviceId)));
-      if (chosen) devices.value = chosen;
+      await list();
     } catch (error) {
       if (choice !== newest) return;
       voice.checked = false;
@@ -97,9 +83,8 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   };
   let listening = listen();
   for (const each of [voice, devices]) each.addEventListener("change", () => (listening = listen()));
-  // a browser plays, and measures, nothing before its person has touched the page
-  const touched = (): void => void microphone?.resume();
-  for (const each of ["pointerdown", "keydown"]) addEventListener(each, touched);
+  const plugged = (): void => void (microphone?.gone ? (listening = listen()) : list());
+  navigator.mediaDevices?.addEventListener("devicechange", plugged);
   const shown = setInterval(() => {
     const db = 20 * Math.log10(Math.max(microphone?.level ?? 0, 1e-6));
     level.value = Math.max(0, 1 - db / SILENT_DB);
@@ -107,7 +92,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   const submitted = new Promise<void>((resolve) => {
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      if (name.value.trim()) resolve();
+      resolve();
     });
   });
   await submitted;
@@ -115,10 +100,9 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   // another one may be chosen meanwhile, or none: that answers for the one that the browser still asks about
   for (let last; last !== listening; ) await Promise.race([(last = listening), once([voice, devices], "change")]);
   clearInterval(shown);
-  for (const each of ["pointerdown", "keydown"]) removeEventListener(each, touched);
+  navigator.mediaDevices?.removeEventListener("devicechange", plugged);
   localStorage.setItem("name", name.value.trim());
   form.hidden = true;
-  await microphone?.resume();
   const echoes = !!microphone && !headphones.checked && "userAgentData" in navigator; // only Chromium has that
   const recorded = recording && consent.value === "yes";
   return { name: name.value.trim(), avatar: avatar.value, own: field<HTMLInputElement>("own").files?.[0], microphone, camera: camera.checked, echoes, recorded };
@@ -128,10 +112,16 @@ function once(elements: readonly HTMLElement[], event: string): Promise<unknown>
   return new Promise((resolve) => elements.forEach((each) => each.addEventListener(event, resolve, { once: true })));
 }
 
+/** Whether it was the operating system that refused, which Chromium's browsers say; a person can change it there alone. */
+export function isOfSystem(error: unknown): boolean {
+  return error instanceof DOMException && error.name === "NotAllowedError" && /by system/i.test(error.message);
+}
+
 /** What a browser's refusal of a device means; `then` is what to do once it is allowed. */
 export function sentence(error: unknown, then = "tick again"): string {
   const name = error instanceof DOMException ? error.name : "";
   if (!isSecureContext) return "Browsers give devices to https pages alone; you can still listen and write.";
+  if (isOfSystem(error)) return `The system keeps the device from the browser; allow it in the system's privacy settings, then ${then}.`;
   if (name === "NotAllowedError") return `The browser was told not to give the device; allow it beside the address, then ${then}.`;
   if (name === "NotFoundError") return "No such device was found; you can still listen and write.";
   return `The device cannot be used (${error instanceof Error ? error.message : error}).`;

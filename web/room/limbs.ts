@@ -158,6 +158,8 @@ function skeleton(root: Object3D, vrm: VRM | undefined): Map<string, Object3D> {
 }
 
 export class Limbs {
+  /** Its bone; undefined where the body has none. */
+  readonly rightHand: Object3D | undefined;
   private readonly arms: [Limb | undefined, Limb | undefined];
   private readonly legs: [Limb | undefined, Limb | undefined];
   private walked = 0;
@@ -167,6 +169,7 @@ export class Limbs {
   constructor(root: Object3D, vrm?: VRM) {
     root.updateMatrixWorld(true);
     const bones = skeleton(root, vrm);
+    this.rightHand = bones.get("RightHand");
     const limb = (names: readonly string[], prefix: string, side: 1 | -1): Limb | undefined => {
       const [upper, lower, end] = names.map((name) => bones.get(prefix + name));
       const finger = (name: string): Object3D | undefined => bones.get(`${prefix}Hand${name}1`);

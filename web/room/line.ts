@@ -6,6 +6,9 @@ import type { Answer, Said, Welcome } from "./texts.js";
 /** A server that starts again is back in a second: short waits first, and never so long that people miss three seconds of it. */
 const WAITS_MS = [200, 400, 800, 1000, 2000];
 
+/** A try that brought no welcome by then is given up: no network that carries a voice takes so long. */
+const PATIENCE_MS = 4000;
+
 /**
  * Milliseconds without a word from the server, which gives each state back within a tick, until the line counts as broken. Of
  * a network that is gone a socket says nothing for minutes. Behind `online` a second is enough.
@@ -18,7 +21,7 @@ export interface Handlers {
   welcome(welcome: Welcome): void;
   answer(answer: Answer): void;
   state(number: number, message: Message): void;
-  /** The connection ended and is tried again. */
+  /** The connection ended, or did not come about; it is tried again. */
   broken(): void;
   /** The room has closed the door; the sentence says why. */
   ended(text: string): void;
@@ -28,6 +31,8 @@ export class Line {
   private socket: WebSocket | undefined;
   private open = false;
   private ended = false;
+  /** Whether the room has said why the newest socket ends. */
+  private refused = false;
   private tries = 0;
   private sequence = 0;
   private unanswered = 0;
@@ -43,7 +48,10 @@ export class Line {
     this.connect();
     // a laptop that wakes up, or changes networks, need not wait for the next try
     addEventListener("online", () => {
-      if (!this.open) return this.connect();
+      if (!this.open) {
+        this.drop(); // begun on a network that is gone
+        return this.connect();
+      }
       const [back, socket] = [performance.now(), this.socket];
       setTimeout(() => this.socket === socket && this.heardAt <= back && this.abandon(0), SILENT_MS.online);
     });
@@ -74,6 +82,8 @@ export class Line {
     if (this.ended || (this.socket && this.socket.readyState <= WebSocket.OPEN)) return;
     const socket = new WebSocket(this.address);
     this.socket = socket;
+    this.refused = false;
+    this.limit(socket);
     socket.binaryType = "arraybuffer";
     socket.addEventListener("open", () => socket.send(JSON.stringify({ ...this.join, at_ms: Date.now() })));
     socket.addEventListener("message", ({ data }) => {
@@ -92,6 +102,7 @@ export class Line {
       this.handlers.welcome(answer);
     } else if (answer.kind === "refused") {
       this.ended = !answer.again;
+      this.refused = true;
       if (this.ended) this.handlers.ended(answer.text);
       else this.handlers.answer(answer);
     } else {
@@ -110,22 +121,37 @@ export class Line {
     }
   }
 
+  /** Give a try up that takes too long. A page that was halted meanwhile hears first what has come: it gets a second more. */
+  private limit(socket: WebSocket): void {
+    const waits = (): boolean => this.socket === socket && !this.open;
+    const late = (): void => {
+      if (!waits()) return;
+      this.drop();
+      this.closed();
+    };
+    setTimeout(() => waits() && setTimeout(late, SILENT_MS.online), PATIENCE_MS);
+  }
+
   /** Give a socket up that states went into for so long without a word back; whether it was. */
   private abandon(silentMs: number): boolean {
     if (this.unanswered < FEWEST_UNANSWERED || performance.now() - this.askedAt < silentMs) return false;
-    const dead = this.socket;
-    this.socket = undefined;
-    dead?.close();
+    this.drop();
     this.closed();
     return true;
   }
 
+  /** Let go of a socket, whatever it still says. */
+  private drop(): void {
+    const dead = this.socket;
+    this.socket = undefined;
+    dead?.close();
+  }
+
   private closed(): void {
-    const was = this.open;
     this.open = false;
     this.unanswered = 0;
     if (this.ended) return;
-    if (was) this.handlers.broken();
+    if (!this.refused) this.handlers.broken();
     const wait = WAITS_MS[Math.min(this.tries++, WAITS_MS.length - 1)]!;
     setTimeout(() => this.connect(), wait);
   }

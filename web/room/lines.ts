@@ -1,4 +1,4 @@
-/** What the ways that voices travel have in common (mesh.ts, engine.ts); voice.ts takes either. */
+/** What the ways of voices (mesh.ts, engine.ts) and of a screen (sharing.ts) have in common; voice.ts takes either of the first two. */
 
 import type { Candidate, Description, Person } from "./texts.js";
 
@@ -16,6 +16,14 @@ export interface Lines {
   hear(sender: string, signal: Description | Candidate): Promise<void>;
   state(id: string): RTCPeerConnectionState;
   close(): void;
+}
+
+/** From a call until it is given up for another one: slow networks take half of that, and a word that was lost never comes. */
+export const PATIENCE_MS = 30_000;
+
+/** Whether a connection has not come about yet. */
+export function begins({ connectionState }: RTCPeerConnection): boolean {
+  return connectionState === "new" || connectionState === "connecting";
 }
 
 /** An address of this browser, as a text to somebody. */

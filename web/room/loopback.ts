@@ -7,12 +7,15 @@
 
 /** Sound passes Opus once more: in stereo and at this rate nothing of the places is lost. */
 const OPUS = "stereo=1;sprop-stereo=1;maxaveragebitrate=256000;usedtx=0";
-/** Until the connections stand sound takes the short way, and again if they fail. */
+/** From a pair that failed to the next one: without any network each fails at once. */
+const AGAIN_MS = 2000;
+
+/** Until the connections stand, and while they are cut, as by a change of networks, sound takes the short way. */
 export class Loopback {
   /** What is played; its source is the far connection. */
   readonly element = new Audio();
-  private readonly near = new RTCPeerConnection();
-  private readonly far = new RTCPeerConnection();
+  private near!: RTCPeerConnection;
+  private far!: RTCPeerConnection;
   private readonly entry: MediaStreamAudioDestinationNode;
 
   constructor(
@@ -21,14 +24,7 @@ export class Loopback {
   ) {
     this.entry = new MediaStreamAudioDestinationNode(context, { channelCount: 2 });
     mix.connect(context.destination);
-    this.near.onicecandidate = ({ candidate }) => void this.far.addIceCandidate(candidate ?? undefined).catch(() => undefined);
-    this.far.onicecandidate = ({ candidate }) => void this.near.addIceCandidate(candidate ?? undefined).catch(() => undefined);
-    this.far.ontrack = ({ track }) => {
-      this.element.srcObject = new MediaStream([track]);
-    };
-    this.far.onconnectionstatechange = () => void this.turn();
-    this.near.addTrack(this.entry.stream.getAudioTracks()[0]!, this.entry.stream);
-    void this.connect();
+    this.begin();
   }
 
   /** Whether sound goes this way now. */
@@ -42,28 +38,50 @@ export class Loopback {
     this.element.srcObject = null;
   }
 
-  private async connect(): Promise<void> {
-    try {
-      await this.near.setLocalDescription();
-      await this.far.setRemoteDescription(stereo(this.near.localDescription!));
-      await this.far.setLocalDescription(stereo(await this.far.createAnswer()));
-      await this.near.setRemoteDescription(stereo(this.far.localDescription!));
-    } catch (error) {
-      console.warn("voice: no loopback, so wear headphones:", error);
-    }
+  private begin(): void {
+    if (this.context.state === "closed") return;
+    const [near, far] = ([this.near, this.far] = [new RTCPeerConnection(), new RTCPeerConnection()]);
+    near.onicecandidate = ({ candidate }) => void far.addIceCandidate(candidate ?? undefined).catch(() => undefined);
+    far.onicecandidate = ({ candidate }) => void near.addIceCandidate(candidate ?? undefined).catch(() => undefined);
+    far.ontrack = ({ track }) => {
+      this.element.srcObject = new MediaStream([track]);
+    };
+    far.onconnectionstatechange = () => far === this.far && void this.turn();
+    near.addTrack(this.entry.stream.getAudioTracks()[0]!, this.entry.stream);
+    void connect(near, far).catch((error: unknown) => {
+      if (this.context.state !== "closed") console.warn("voice: no loopback, so wear headphones:", error);
+    });
   }
 
   private async turn(): Promise<void> {
+    const { far } = this;
     if (this.context.state === "closed") return;
-    if (this.far.connectionState === "connected") {
-      await this.element.play();
-      this.mix.disconnect();
-      this.mix.connect(this.entry);
-    } else if (this.far.connectionState === "failed") {
-      this.mix.disconnect();
-      this.mix.connect(this.context.destination);
+    if (far.connectionState === "connected") {
+      const plays = await this.element.play().then(
+        () => true,
+        () => false, // the short way stays
+      );
+      if (plays && far === this.far && far.connectionState === "connected") this.lead(this.entry);
+    } else if (far.connectionState === "disconnected") {
+      this.lead(this.context.destination);
+    } else if (far.connectionState === "failed") {
+      this.lead(this.context.destination);
+      this.close();
+      setTimeout(() => this.begin(), AGAIN_MS); // the addresses of these may be of a network that is gone
     }
   }
+
+  private lead(way: AudioNode): void {
+    this.mix.disconnect();
+    this.mix.connect(way);
+  }
+}
+
+async function connect(near: RTCPeerConnection, far: RTCPeerConnection): Promise<void> {
+  await near.setLocalDescription();
+  await far.setRemoteDescription(stereo(near.localDescription!));
+  await far.setLocalDescription(stereo(await far.createAnswer()));
+  await near.setRemoteDescription(stereo(far.localDescription!));
 }
 
 function stereo({ type, sdp = "" }: RTCSessionDescriptionInit): { type: RTCSdpType; sdp: string } {

@@ -1,20 +1,18 @@
 /** A meeting: ties the line, the people, their voices and the picture together. */
 
 import { byId } from "../elements.js";
-import { Board } from "./board.js";
 import { Brought } from "./brought.js";
 import { Controls } from "./controls.js";
 import { sentence } from "./join.js";
 import { Line } from "./line.js";
 import { newsOf } from "./news.js";
 import type { Microphone } from "./microphone.js";
-import { Offering } from "./offering.js";
 import { People, type Known } from "./people.js";
 import { Place } from "./place.js";
 import { Presence } from "./presence.js";
 import { FLAG, type Message } from "./protocol.js";
 import { Replaying } from "./replaying.js";
-import { Sharing } from "./sharing.js";
+import { Screen } from "./screen.js";
 import { Sidebar } from "./sidebar.js";
 import { Stage } from "./stage.js";
 import { Status } from "./status.js";
@@ -26,12 +24,10 @@ const HERTZ = 30;
 export class Meeting {
   readonly voice: Voice;
   own: Welcome | undefined;
-  readonly board: Board;
-  readonly sharing: Sharing;
+  readonly screen: Screen;
   readonly stage: Stage;
   readonly presence: Presence;
-  private readonly offering: Offering;
-  private readonly brought: Brought;
+  readonly brought: Brought;
   private readonly people: People;
   private readonly controls: Controls;
   private readonly replaying = new Replaying((said) => this.line.say(said));
@@ -44,7 +40,7 @@ export class Meeting {
     this.presence.camera?.word ?? "",
     this.cameraWord,
   ]);
-  private lineWord = "";
+  private lineWord = "Connecting …";
   private cameraWord = "";
   private locked = false;
 
@@ -58,21 +54,11 @@ export class Meeting {
   ) {
     this.stage = new Stage(byId("view"), byId("mirror"), meetingPlace);
     this.presence = new Presence(byId("view"), byId("headset"), this.stage.view, meetingPlace, microphone, (text) => this.tell(text));
-    this.board = new Board(meetingPlace.screens);
-    this.sharing = new Sharing(
-      (signal) => this.line.say(signal),
-      (stream) => this.board.show(stream),
-      () => this.offering.end(),
-    );
-    this.offering = new Offering(
-      this.sharing,
-      {
-        muted: () => this.people.self?.muted ?? false,
-        sharer: () => this.people.others.find(({ person }) => person.shares)?.person.name,
-        say: (on) => this.line.say({ kind: "share", on }),
-        tell: (text) => this.tell(text),
-      },
-      meetingPlace.screens.length > 0,
+    this.screen = new Screen(
+      meetingPlace.screens,
+      () => this.people,
+      (said) => this.line.say(said),
+      (text) => this.tell(text),
     );
     this.voice = new Voice((signal) => this.line.say(signal), { echoes });
     this.voice.speakInto(microphone?.stream);
@@ -85,7 +71,7 @@ export class Meeting {
       welcome: (welcome) => this.welcome(welcome),
       answer: (answer) => this.hear(answer),
       state: (number, message) => this.see(number, message),
-      broken: () => (this.lineWord = "The connection broke; coming back …"),
+      broken: () => (this.lineWord = this.own ? "The connection broke; coming back …" : "The room cannot be reached; trying again …"),
       ended: (text) => this.end(text),
     });
     this.brought = new Brought(`${location.pathname}/avatar`, join.key, join.secret, () => this.line.say({ kind: "undress" }));
@@ -93,11 +79,14 @@ export class Meeting {
     this.controls = new Controls(microphone, faceLink, {
       say: (said) => this.line.say(said),
       neutral: () => this.presence.camera?.neutral(),
-      sit: () => this.sit(),
+      sit: () => this.tell(this.presence.sit(this.people.taken())),
       gesture: (number, again) => this.gesture(again && number === this.presence.stance.animation ? 0 : number),
       lock: () => this.line.say({ kind: "moderate", action: this.locked ? "unlock" : "lock" }),
       consent: () => this.consent(),
-      leave: () => this.leave(),
+      leave: () => {
+        this.line.leave();
+        this.end("You have left. Load the page again to come back.");
+      },
     });
     byId("meeting").hidden = false;
     this.stage.begin(() => {
@@ -121,16 +110,10 @@ export class Meeting {
     }
   }
 
-  /** Wear a file of one's own. */
-  bring(file: File): Promise<void> {
-    return this.brought.wear(file);
-  }
-
   private welcome(welcome: Welcome): void {
     this.own = welcome;
     this.presence.arrive(performance.now());
     this.voice.configure(welcome.ice, welcome.engine);
-    this.sharing.configure(welcome.ice);
     this.people.clear();
     this.stage.pointers.clear();
     this.people.own = welcome.number;
@@ -139,9 +122,7 @@ export class Meeting {
     this.locked = welcome.locked;
     this.lineWord = "";
     if (this.meetingPlace.word) this.tell(this.meetingPlace.word);
-    // a server that started anew forgot it, and one that did not may not have heard that it ended
-    const { shares } = this.sharing;
-    if (shares || this.people.self?.shares) this.line.say({ kind: "share", on: shares });
+    this.screen.configure(welcome.ice);
     this.line.say({ kind: "voice", open: this.microphone?.isOpen ?? false });
     this.show();
   }
@@ -151,7 +132,7 @@ export class Meeting {
       case "person": {
         const before = this.people.self;
         this.people.meet(answer.person);
-        const wants = { shares: this.sharing.shares, wears: this.brought.wanted };
+        const wants = { shares: this.screen.sharing.shares, wears: this.brought.wanted };
         if (!answer.person.present || !answer.person.voice) this.speak(answer.person.number, false); // in mid-word, perhaps
         const news = answer.person.id === before?.id ? newsOf(before, answer.person, wants) : "";
         if (news) this.tell(news);
@@ -172,7 +153,7 @@ export class Meeting {
         const { sender, signal } = answer;
         const person = typeof sender === "string" ? undefined : this.known.get(sender)?.person;
         const from = typeof sender === "string" ? sender : person?.id;
-        if (signal.plane === "screen") person && void this.sharing.hear(person, signal);
+        if (signal.plane === "screen") person && this.screen.hear(person, signal);
         else if (from) void this.voice.hear(from, signal);
         return;
       }
@@ -186,11 +167,9 @@ export class Meeting {
       case "notice":
       case "refused":
         if (answer.kind === "refused") return void (this.lineWord = answer.text);
-        if (answer.about === "share") this.offering.end(); // nobody sees what was taken already
+        if (answer.about === "share") this.screen.refuse();
         if (answer.about === "chat") this.sidebar.unsaid();
         this.tell(answer.text);
-        return;
-      default:
         return;
     }
     this.show();
@@ -216,6 +195,7 @@ export class Meeting {
     this.status.show(now);
     if (!this.own || !this.presence.stand(now, this.people.taken(), this.own.replay)) return;
     if (this.presence.stance.isOver(now / 1000)) this.gesture(0);
+    this.controls.seat(this.presence.stance.seated);
     this.line.move(this.presence.move(now));
     this.presence.listen(this.voice, this.people.others, now);
   }
@@ -225,8 +205,7 @@ export class Meeting {
     const people = this.people.all;
     this.sidebar.list(people, this.own.number, this.own.moderator);
     this.voice.meet(people, this.own.id);
-    this.sharing.meet(people, this.own.id);
-    this.offering.follow();
+    this.screen.meet(people, this.own.id);
     this.controls.show(this.own, people, this.locked);
   }
 
@@ -243,17 +222,6 @@ export class Meeting {
     return sent;
   }
 
-  private leave(): void {
-    this.line.leave();
-    this.end("You have left. Load the page again to come back.");
-  }
-
-  private sit(): void {
-    if (!this.presence.stance.sit(this.people.taken())) return this.tell("No free seat is near; walk to one.");
-    this.controls.seat(this.presence.stance.seated);
-    this.tell("");
-  }
-
   private gesture(number: number): void {
     this.presence.stance.gesture(number, performance.now() / 1000);
     this.controls.gesture(number);
@@ -265,8 +233,7 @@ export class Meeting {
 
   private end(text: string): void {
     this.voice.close();
-    this.sharing.close();
-    this.offering.follow();
+    this.screen.close();
     this.microphone?.close();
     this.presence.end();
     this.own = undefined;

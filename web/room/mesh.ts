@@ -5,17 +5,16 @@
  * break one side may have let go of a connection which the other still keeps: a description of another session tells.
  */
 
-import { candidateOf, saidOf, sessionOf, type Lines, type Send } from "./lines.js";
+import { begins, candidateOf, PATIENCE_MS, saidOf, sessionOf, type Lines, type Send } from "./lines.js";
 import type { Candidate, Description, Person } from "./texts.js";
-
-/** From a call until it is given up for another one: slow networks take half of that, and a word that was lost never comes. */
-const PATIENCE_MS = 30_000;
 
 interface Peer {
   readonly connection: RTCPeerConnection;
   readonly polite: boolean;
   readonly visit: string;
   offering: boolean;
+  /** Whether an answer is being taken: an offer that comes meanwhile collides with none. */
+  answering: boolean;
   ignoring: boolean;
   number: number;
 }
@@ -87,7 +86,8 @@ export class Mesh implements Lines {
         await connection.addIceCandidate(candidateOf(signal));
         return;
       }
-      await connection.setRemoteDescription(signal);
+      peer.answering = signal.type === "answer";
+      await connection.setRemoteDescription(signal).finally(() => (peer.answering = false));
       if (signal.type === "offer") {
         await connection.setLocalDescription();
         this.describe(peer);
@@ -111,7 +111,8 @@ export class Mesh implements Lines {
     const { connection, polite } = peer;
     const known = connection.remoteDescription?.sdp;
     const other = known !== undefined && sessionOf(sdp) !== sessionOf(known);
-    const collides = type === "offer" && (peer.offering || connection.signalingState !== "stable");
+    const ready = !peer.offering && (connection.signalingState === "stable" || peer.answering);
+    const collides = type === "offer" && !ready;
     peer.ignoring = !polite && collides;
     if (peer.ignoring) return undefined;
     if (type === "offer") return other || (collides && known === undefined) ? this.renew(id, peer, false) : peer;
@@ -128,7 +129,7 @@ export class Mesh implements Lines {
   /** `calls` where this side makes the first offer. */
   private call({ id, number, visit }: Pick<Person, "id" | "number" | "visit">, polite: boolean, calls: boolean): Peer {
     const connection = new RTCPeerConnection({ iceServers: this.ice });
-    const peer: Peer = { connection, polite, visit, offering: false, ignoring: false, number };
+    const peer: Peer = { connection, polite, visit, offering: false, answering: false, ignoring: false, number };
     this.peers.set(id, peer);
     if (!polite) setTimeout(() => this.callAgain(id, peer), PATIENCE_MS);
 
@@ -163,8 +164,7 @@ export class Mesh implements Lines {
 
   /** Give up a connection that never came about; one of the two does, and the other answers. */
   private callAgain(id: string, peer: Peer): void {
-    const begins = ["new", "connecting"].includes(peer.connection.connectionState);
-    if (this.peers.get(id) === peer && begins) this.renew(id, peer, true);
+    if (this.peers.get(id) === peer && begins(peer.connection)) this.renew(id, peer, true);
   }
 
   private describe({ connection, number }: Peer): void {

@@ -2,10 +2,14 @@
 
 import makeFvad from "@echogarden/fvad-wasm";
 
+import { Waker } from "./waker.js";
+
 /** Frames of 20 ms; voiced ones of the last five that turn the sign on, and how long it stays behind the last one. */
 const FRAMES = 5;
 const VOICED = 3;
 export const HANG_MS = 400;
+/** Frames that stay away for so long do not come for now: somebody's last word is over. */
+const SILENT_MS = 500;
 /** fvad's strictest: noise is a voice least often. */
 const MODE = 3;
 const FRAME_SAMPLES = 960;
@@ -27,20 +31,23 @@ export class SpeakingSign {
 export class Microphone {
   /** Of the last 20 ms, 0 to 1 (0 dB). */
   level = 0;
-  speaking = false;
   /** Whether it was unplugged, or taken away by the system. */
   gone = false;
   /** Called when it goes. */
   onGone = (): void => undefined;
   private readonly sign = new SpeakingSign();
+  private readonly waker: Waker;
+  private spoke = false;
+  private heardAt = -Infinity;
   private open = true;
 
   private constructor(
     readonly stream: MediaStream,
-    private readonly context: AudioContext,
+    context: AudioContext,
     node: AudioWorkletNode,
     private readonly isVoice: (frame: Int16Array) => boolean,
   ) {
+    this.waker = new Waker(context);
     node.port.onmessage = ({ data }: MessageEvent<Int16Array>) => this.hear(data);
     for (const track of stream.getAudioTracks()) {
       track.addEventListener("ended", () => {
@@ -75,6 +82,10 @@ export class Microphone {
     }
   }
 
+  get speaking(): boolean {
+    return this.spoke && performance.now() - this.heardAt < SILENT_MS;
+  }
+
   get isOpen(): boolean {
     return this.open;
   }
@@ -82,23 +93,20 @@ export class Microphone {
   set isOpen(open: boolean) {
     this.open = open;
     for (const track of this.stream.getAudioTracks()) track.enabled = open;
-    if (!open) this.speaking = false;
-  }
-
-  resume(): Promise<void> {
-    return this.context.resume();
+    if (!open) this.spoke = false;
   }
 
   close(): void {
     for (const track of this.stream.getTracks()) track.stop();
-    void this.context.close();
+    this.waker.close();
   }
 
   private hear(frame: Int16Array): void {
+    this.heardAt = performance.now();
     const energy = frame.reduce((sum, sample) => sum + sample * sample, 0) / frame.length;
     this.level = Math.sqrt(energy) / 32768;
     if (!this.open) return;
-    this.speaking = this.sign.hear(this.isVoice(frame), performance.now());
+    this.spoke = this.sign.hear(this.isVoice(frame), this.heardAt);
   }
 }
 

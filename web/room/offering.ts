@@ -1,6 +1,8 @@
 /** The list and buttons by which somebody shares: a window, a picture, or a PDF page by page. */
 
 import { byId } from "../elements.js";
+import { isOfSystem } from "./join.js";
+import { isMeant } from "./keys.js";
 import { openByKeys } from "./lists.js";
 import type { Paper } from "./paper.js";
 import type { Sharing } from "./sharing.js";
@@ -48,10 +50,10 @@ export class Offering {
     this.chosen(paper, (file) => this.begin(() => this.open(file), true));
     byId("before").addEventListener("click", () => void this.turn(this.page - 1));
     byId("next").addEventListener("click", () => void this.turn(this.page + 1));
-    addEventListener("keydown", ({ key, target }) => {
-      if (!this.paper || (target instanceof HTMLElement && target.closest("input, textarea, select"))) return;
-      if (key === "PageUp") void this.turn(this.page - 1);
-      if (key === "PageDown") void this.turn(this.page + 1);
+    addEventListener("keydown", (event) => {
+      if (!this.paper || !isMeant(event)) return;
+      if (event.key === "PageUp") void this.turn(this.page - 1);
+      if (event.key === "PageDown") void this.turn(this.page + 1);
     });
   }
 
@@ -89,7 +91,8 @@ export class Offering {
     } catch (error) {
       const refused = error instanceof DOMException && error.name === "NotAllowedError";
       const why = error instanceof Error ? error.message.replace(/\.$/, "") : error;
-      this.meeting.tell(refused ? "" : `Nothing is shared: ${why}.`);
+      const system = "Nothing is shared: the system keeps the screen from the browser; allow it in the system's privacy settings.";
+      this.meeting.tell(isOfSystem(error) ? system : refused ? "" : `Nothing is shared: ${why}.`);
     }
   }
 

@@ -44,7 +44,7 @@ export class Presence {
   ) {
     this.walk = new Walk(canvas, place.layout);
     this.stance = new Stance(this.walk);
-    this.headset = new Headset(view.renderer, view.rig, this.walk, button, tell);
+    this.headset = new Headset(view.renderer, view.rig, this.walk, button, tell, () => this.stance.stand());
   }
 
   /** Let a camera see one's face, and say whether it does; throws where there is none. */
@@ -82,6 +82,12 @@ export class Presence {
       this.placed = true;
     }
     return this.placed;
+  }
+
+  /** Sit down on a seat that is near, or stand up; says why not. */
+  sit(taken: [number, number][]): string {
+    if (this.headset.worn) return "Take the headset off to sit on a seat of the room.";
+    return this.stance.sit(taken) ? "" : "No free seat is near; walk to one.";
   }
 
   /** How one looks and where one stands by now, for the others. */
@@ -123,6 +129,6 @@ export class Presence {
     const seconds = Math.max(0, Math.min(0.2, (now - this.strolled) / 1000));
     this.strolled = now;
     if (this.headset.worn) this.headset.steer(seconds);
-    else this.walk.update(this.stance.seated ? 0 : seconds);
+    else this.walk.update(seconds, this.stance.seated);
   }
 }

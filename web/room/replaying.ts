@@ -1,6 +1,8 @@
 /** The bar of a replay: where it is, halt and go on, a jump, a pace; by mouse and by keys. All who look see the same. */
 
 import { byId } from "../elements.js";
+import { isMeant } from "./keys.js";
+import { openByKeys } from "./lists.js";
 import type { Said } from "./texts.js";
 
 export type Playing = { kind: "playing"; time_s: number; length_s: number; paused: boolean; speed: number };
@@ -9,14 +11,20 @@ type Ask = Omit<Extract<Said, { kind: "play" }>, "kind">;
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
 /** A key jumps so far. */
 const JUMP_S = 5;
-/** While the slider is dragged, so often a second; the server takes five. */
-const DRAG_MS = 250;
+/** While the slider is dragged, or a key is held, so often; the server takes five a second. */
+const OFTEN_MS = 250;
+/** So long the slider waits where it was moved to until the room is there. */
+const WAITS_MS = 1000;
 
 export class Replaying {
   private playing: Playing | undefined;
   private heardAt = 0;
-  private draggedAt = -Infinity;
+  private askedAt = -Infinity;
+  /** Where it was moved to. */
+  private wanted: number | undefined;
+  private later = 0;
   private dragging = false;
+  private pointed = false;
   private readonly bar = byId("replay");
   private readonly halt = byId<HTMLButtonElement>("halt");
   private readonly slider = byId<HTMLInputElement>("moment");
@@ -25,18 +33,18 @@ export class Replaying {
   constructor(private readonly say: (said: Extract<Said, { kind: "play" }>) => void) {
     this.pace.replaceChildren(...SPEEDS.map((speed) => new Option(`${speed} ×`, String(speed))));
     this.halt.addEventListener("click", () => this.toggle());
+    this.slider.addEventListener("pointerdown", () => (this.pointed = true));
+    this.slider.addEventListener("keydown", () => (this.pointed = false));
     this.slider.addEventListener("input", () => {
       this.dragging = true;
-      const now = performance.now();
-      if (now - this.draggedAt < DRAG_MS) return;
-      this.draggedAt = now;
-      this.ask({ time_s: this.slider.valueAsNumber });
+      this.seek(this.slider.valueAsNumber);
     });
     this.slider.addEventListener("change", () => {
       this.dragging = false;
-      this.ask({ time_s: this.slider.valueAsNumber });
-      this.slider.blur(); // arrows walk again
+      this.seek(this.slider.valueAsNumber);
+      if (this.pointed) this.slider.blur(); // arrows walk again; who came by keys goes on by keys
     });
+    openByKeys(this.pace);
     this.pace.addEventListener("change", () => {
       this.ask({ speed: Number(this.pace.value) });
       this.pace.blur();
@@ -48,6 +56,7 @@ export class Replaying {
   hear(playing: Playing): void {
     this.playing = playing;
     this.heardAt = performance.now();
+    if (!this.later) this.wanted = undefined;
     this.bar.hidden = false;
     this.halt.textContent = playing.paused ? "Play" : "Pause";
     this.slider.max = String(playing.length_s);
@@ -65,8 +74,9 @@ export class Replaying {
   /** Once a picture. */
   show(): void {
     if (!this.playing) return;
-    if (!this.dragging) this.slider.value = String(this.time);
-    const text = `${clock(this.dragging ? this.slider.valueAsNumber : this.time)} / ${clock(this.playing.length_s)}`;
+    const waits = this.later !== 0 || performance.now() - this.askedAt < WAITS_MS;
+    if (!this.dragging) this.slider.value = String((waits ? this.wanted : undefined) ?? this.time);
+    const text = `${clock(this.slider.valueAsNumber)} / ${clock(this.playing.length_s)}`;
     const shown = byId("clock");
     if (shown.textContent !== text) {
       shown.textContent = text;
@@ -79,9 +89,10 @@ export class Replaying {
   }
 
   private key(event: KeyboardEvent): void {
-    const { key, repeat, target, ctrlKey, metaKey, altKey } = event;
-    const typing = target instanceof HTMLElement && target.closest("input, textarea, select, button");
-    if (!this.playing || typing || ctrlKey || metaKey || altKey) return;
+    const { key, repeat, target } = event;
+    if (!this.playing || !isMeant(event)) return;
+    if (repeat && performance.now() - this.askedAt < OFTEN_MS) return;
+    if (key === " " && target instanceof HTMLButtonElement) return; // it presses that one
     const faster = SPEEDS.find((speed) => speed > this.playing!.speed);
     const slower = SPEEDS.filter((speed) => speed < this.playing!.speed).at(-1);
     if (key === " " || key === "k") {
@@ -95,7 +106,17 @@ export class Replaying {
     event.preventDefault();
   }
 
+  /** Ask for a moment as often as the server takes it: of many it is the last one that counts. */
+  private seek(time_s: number): void {
+    clearTimeout(this.later);
+    this.wanted = time_s;
+    const wait = this.askedAt + OFTEN_MS - performance.now();
+    this.later = wait > 0 ? window.setTimeout(() => this.seek(time_s), wait) : 0;
+    if (!this.later) this.ask({ time_s });
+  }
+
   private ask(said: Ask): void {
+    this.askedAt = performance.now();
     this.say({ kind: "play", ...said });
   }
 }

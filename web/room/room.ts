@@ -2,9 +2,10 @@
 
 import { byId } from "../elements.js";
 import { Wardrobe } from "./avatars.js";
-import { about, ask, randomText, readLink, secretOf } from "./join.js";
+import { about, ask, readLink } from "./join.js";
 import { Meeting } from "./meeting.js";
 import { Place } from "./place.js";
+import { randomText, secretOf } from "./secret.js";
 
 /** Whether there is WebGL 2, which the picture is drawn with. */
 function drawsPictures(): boolean {
@@ -13,7 +14,10 @@ function drawsPictures(): boolean {
   return context !== null;
 }
 
+/** Say why nobody comes in, also where the form has gone already. */
 function refuse(text: string): void {
+  byId("meeting").hidden = true;
+  byId("join").hidden = false;
   byId("word").textContent = text;
   byId("join").querySelector("button")!.disabled = true;
 }
@@ -29,7 +33,7 @@ async function main(): Promise<void> {
   }
   const place = Place.load(link.room); // while the person fills in the form
   const choice = await ask(await Wardrobe.names(), await about(link));
-  const secret = secretOf(link);
+  const secret = await secretOf(link);
   const visit = randomText(9);
   const { protocol, host, origin } = location;
   const meeting = new Meeting(
@@ -40,8 +44,8 @@ async function main(): Promise<void> {
     choice.echoes,
     await place,
   );
+  if (choice.own) void meeting.brought.wear(choice.own);
   if (choice.camera) await meeting.watch();
-  if (choice.own) void meeting.bring(choice.own);
   Object.assign(globalThis, { meeting }); // for tests, and for who looks into the page
 }
 

@@ -33,7 +33,10 @@ export class Row {
     for (const [action, title] of ACTS) {
       const button = document.createElement("button");
       Object.assign(button, { type: "button", textContent: title });
-      button.addEventListener("click", () => moderate(action));
+      button.addEventListener("click", () => {
+        const asks = action === "remove" && !confirm(`Remove ${this.name.textContent} from the room for good?`);
+        if (!asks) moderate(action);
+      });
       this.buttons.set(action, button);
       this.small.append(button);
     }

@@ -4,12 +4,18 @@
  * Who shares calls, and the others answer; the room's server says who may. Voices go their own way.
  */
 
-import { candidateOf, saidOf, sessionOf, type Send } from "./lines.js";
+import { begins, candidateOf, PATIENCE_MS, saidOf, sessionOf, type Send } from "./lines.js";
 import { Still, type Picture } from "./still.js";
 import type { Candidate, Description, Person } from "./texts.js";
 
 /** Of a shared window: text stays sharp, and a film stutters a little. */
 const WINDOW_HERTZ = 12;
+
+interface Viewer {
+  readonly connection: RTCPeerConnection;
+  readonly visit: string;
+  number: number;
+}
 
 export class Sharing {
   private own: MediaStream | undefined;
@@ -17,7 +23,7 @@ export class Sharing {
   /** Whether the room knows that this page shares. */
   private granted = false;
   private closed = false;
-  private readonly viewers = new Map<string, { connection: RTCPeerConnection; visit: string; number: number }>();
+  private readonly viewers = new Map<string, Viewer>();
   private sharer: { id: string; visit: string; connection?: RTCPeerConnection } | undefined;
   private ice: RTCIceServer[] = [];
 
@@ -52,14 +58,15 @@ export class Sharing {
   /** Show a picture, in place of the one that is shown. */
   still(picture: Picture): void {
     if (this.shown && this.own === this.shown.stream) return this.shown.turn(picture);
-    this.shown = new Still(picture);
-    this.take(this.shown.stream);
+    const still = new Still(picture);
+    this.take(still.stream);
+    this.shown = still;
   }
 
   /** Show nothing more. */
   end(): void {
     for (const track of this.own?.getTracks() ?? []) track.stop();
-    this.own = undefined;
+    this.own = this.shown = undefined;
     this.granted = false;
     for (const id of [...this.viewers.keys()]) this.hangUp(id);
     this.show(undefined);
@@ -117,6 +124,7 @@ export class Sharing {
     track!.contentHint = "detail";
     track!.addEventListener("ended", () => this.own === stream && this.ended());
     for (const before of this.own?.getTracks() ?? []) before.stop();
+    this.shown = undefined;
     for (const { connection } of this.viewers.values()) void connection.getSenders()[0]?.replaceTrack(track!);
     this.own = stream;
     this.show(stream);
@@ -126,14 +134,23 @@ export class Sharing {
     return this.viewers.get(id)?.connection ?? (this.sharer?.id === id ? this.sharer.connection : undefined);
   }
 
-  private call({ id, number, visit }: Person): void {
-    const connection = this.connect(() => this.viewers.get(id)?.number ?? number);
-    this.viewers.set(id, { connection, visit, number });
+  private call({ id, number, visit }: Pick<Person, "id" | "number" | "visit">): void {
+    const connection = this.connect(() => viewer.number);
+    const viewer: Viewer = { connection, visit, number };
+    this.viewers.set(id, viewer);
+    setTimeout(() => this.callAgain(id, viewer), PATIENCE_MS);
     connection.onnegotiationneeded = async () => {
       await connection.setLocalDescription();
-      this.describe(connection, this.viewers.get(id)?.number ?? number);
+      this.describe(connection, viewer.number);
     };
     connection.addTransceiver(this.own!.getVideoTracks()[0]!, { direction: "sendonly", streams: [this.own!] });
+  }
+
+  /** Give up a call that was not answered. */
+  private callAgain(id: string, viewer: Viewer): void {
+    if (this.viewers.get(id) !== viewer || !begins(viewer.connection)) return;
+    this.hangUp(id);
+    this.call({ id, ...viewer });
   }
 
   /** The connection by which the one who shares is seen; nobody else may show anything. */

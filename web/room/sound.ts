@@ -7,7 +7,7 @@ const ROLLOFF = 1;
 const GLIDE_S = 0.05;
 
 /** Metres in the room. */
-export interface Place {
+export interface Position {
   x: number;
   y: number;
   z: number;
@@ -57,7 +57,7 @@ export class Sound {
   }
 
   /** Put the voice where a head is. */
-  place(at: Place): void {
+  place(at: Position): void {
     glide(this.context, [
       [this.panner.positionX, at.x],
       [this.panner.positionY, at.y],

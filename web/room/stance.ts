@@ -45,6 +45,11 @@ export class Stance {
     return true;
   }
 
+  /** A headset's own room has no seats of this one: who puts it on stands. */
+  stand(): void {
+    this.seated = false;
+  }
+
   /** Let the eyes rise or sink, as long as a picture takes. */
   rise(seconds: number): void {
     this.eyes_m += ((this.seated ? SEATED_M : EYES_M) - this.eyes_m) * (1 - Math.exp(-RISES * seconds));

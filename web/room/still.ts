@@ -16,17 +16,27 @@ export class Still {
   constructor(private picture: Picture) {
     this.turn(picture);
     this.stream = this.canvas.captureStream(STILL_HERTZ);
-    const timer = setInterval(() => (this.stream.active ? this.draw() : clearInterval(timer)), 1000 / STILL_HERTZ);
+    const timer = setInterval(() => {
+      if (this.stream.active) return this.draw();
+      clearInterval(timer);
+      this.free();
+    }, 1000 / STILL_HERTZ);
   }
 
   /** Show another one. */
   turn(picture: Picture): void {
+    if (picture !== this.picture) this.free();
     this.picture = picture;
     const scale = Math.min(1, MOST_PIXELS / Math.max(picture.width, picture.height));
     // codecs want even numbers
     const [width, height] = [picture.width, picture.height].map((side) => 2 * Math.ceil((side * scale) / 2)) as [number, number];
     if (this.canvas.width !== width || this.canvas.height !== height) [this.canvas.width, this.canvas.height] = [width, height];
     this.draw();
+  }
+
+  /** A picture of a file holds tens of MB until it is closed. */
+  private free(): void {
+    if (!(this.picture instanceof HTMLCanvasElement)) this.picture.close();
   }
 
   private draw(): void {

@@ -84,7 +84,8 @@ export class View {
       return;
     }
     const ratio = Math.min(devicePixelRatio, MOST_PIXEL_RATIO);
-    const [width, height] = [Math.round(innerWidth * ratio), Math.round(innerHeight * ratio)];
+    const { clientWidth, clientHeight } = this.canvas; // what is seen of a window, of which a telephone's bars take a part
+    const [width, height] = [clientWidth, clientHeight].map((side) => Math.max(1, Math.round(side * ratio))) as [number, number];
     if (!this.glass.hidden) this.reflect();
     if (this.canvas.width !== width || this.canvas.height !== height) {
       this.renderer.setSize(width, height, false);

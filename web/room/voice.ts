@@ -7,8 +7,9 @@ import { Engine } from "./engine.js";
 import type { Lines, Send } from "./lines.js";
 import { Loopback } from "./loopback.js";
 import { Mesh } from "./mesh.js";
-import { glide, Sound, type Place } from "./sound.js";
+import { glide, Sound, type Position } from "./sound.js";
 import type { Answer, Candidate, Description, Person } from "./texts.js";
+import { Waker } from "./waker.js";
 
 export class Voice {
   /** Made when the person joins: browsers play nothing before a click. */
@@ -18,11 +19,11 @@ export class Voice {
   readonly sounds = new Map<string, Sound>();
   readonly loopback: Loopback | undefined;
   lines: Lines | undefined;
-  /** What the person should know of voices; empty while all is well. */
-  word = "";
   private readonly volumes = new Map<string, number>();
   private readonly muted = new Set<string>();
   private track: MediaStreamTrack | null = null;
+  private readonly waker = new Waker(this.context);
+  private engineWord = "";
 
   /** `echoes` where a microphone hears the loudspeakers: then the browser's echo cancellation has to see what is played. */
   constructor(
@@ -31,6 +32,11 @@ export class Voice {
   ) {
     if (echoes) this.loopback = new Loopback(this.context, this.mix);
     else this.mix.connect(this.context.destination);
+  }
+
+  /** What the person should know of voices; empty while all is well. */
+  get word(): string {
+    return this.engineWord || this.waker.word;
   }
 
   /** What the room says on coming in, again after each break; lines that are there go on. */
@@ -67,7 +73,7 @@ export class Voice {
     if (!(this.lines instanceof Engine)) return;
     if (answer.kind === "heard") this.lines.voices = answer.voices;
     else {
-      this.word = answer.state === "away" ? "Voices are interrupted; they come back by themselves …" : "";
+      this.engineWord = answer.state === "away" ? "Voices are interrupted; they come back by themselves …" : "";
       this.lines.begin(answer.state === "ready");
     }
   }
@@ -86,20 +92,26 @@ export class Voice {
   }
 
   /** Put a voice where a head is. */
-  place(id: string, at: Place): void {
+  place(id: string, at: Position): void {
     this.sounds.get(id)?.place(at);
   }
 
   /** Put the ears where the own head is, turned by its heading in radians (0 looks along z, to the left is positive). */
-  listen(at: Place, heading: number): void {
+  listen(at: Position, heading: number): void {
     const { listener } = this.context;
-    if (!listener.positionX) return; // Firefox before 2025 has only the old calls
+    const [x, z] = [Math.sin(heading), Math.cos(heading)];
+    if (!listener.positionX) {
+      // Firefox has the old calls alone, which do not glide
+      listener.setPosition(at.x, at.y, at.z);
+      listener.setOrientation(x, 0, z, 0, 1, 0);
+      return;
+    }
     glide(this.context, [
       [listener.positionX, at.x],
       [listener.positionY, at.y],
       [listener.positionZ, at.z],
-      [listener.forwardX, Math.sin(heading)],
-      [listener.forwardZ, Math.cos(heading)],
+      [listener.forwardX, x],
+      [listener.forwardZ, z],
     ]);
   }
 
@@ -138,7 +150,7 @@ export class Voice {
     this.lines?.close();
     for (const id of [...this.sounds.keys()]) this.stop(id);
     this.loopback?.close();
-    void this.context.close();
+    this.waker.close();
   }
 
   private use(lines: Lines): void {

@@ -50,14 +50,14 @@ export class Recorder {
       this.playing(false);
       this.take.begin(performance.now());
     }
-    this.record.ariaPressed = `${recording}`;
+    this.record.classList.toggle("on", recording);
     this.play.disabled = recording || this.take.length === 0;
     this.record.querySelector("span")!.textContent = recording ? "Stop 0:00" : "Record";
   }
 
   private playing(on: boolean): void {
     this.playedFrom = on ? performance.now() : undefined;
-    this.play.ariaPressed = `${on}`;
+    this.play.classList.toggle("on", on);
     this.play.querySelector("span")!.textContent = on ? "Back to live" : "Play back";
     this.moment.hidden = !on;
     this.slider.max = this.take.length.toFixed(2);

@@ -1,6 +1,6 @@
 /** The avatar on its stage, and the ways to bring another one. */
 
-import { AvatarError, fetchAvatar, loadAvatar, Portrait, type Avatar, type Face } from "../avatar/index.js";
+import { AvatarError, fetchAvatar, openAvatar, Portrait, type Avatar, type Face } from "../avatar/index.js";
 import { byId } from "../elements.js";
 
 /** Springs of hair and clothes come to rest in about that time, behind the last change. */
@@ -33,12 +33,12 @@ export class Stage {
   }
 
   async wearOurs(): Promise<void> {
-    const found = await this.tryOn(() => fetchAvatar(`avatar${location.search}`, "The avatar of track"));
+    const found = await this.tryOn("The avatar of track", (name) => fetchAvatar(`avatar${location.search}`, name));
     if (found) byId("ours").hidden = true;
   }
 
   async wear(file: File): Promise<void> {
-    const found = await this.tryOn(async () => loadAvatar(await file.arrayBuffer(), file.name));
+    const found = await this.tryOn(file.name, () => openAvatar(file));
     if (found) byId("ours").hidden = false;
   }
 
@@ -62,15 +62,15 @@ export class Stage {
   }
 
   /** Put an avatar on, or say why not and keep the last one; of two at once the later one counts. */
-  private async tryOn(load: () => Promise<Avatar>): Promise<boolean> {
+  private async tryOn(name: string, load: (name: string) => Promise<Avatar>): Promise<boolean> {
     if (!this.portrait) return false;
     const turn = ++this.newest;
     let avatar: Avatar;
     try {
-      avatar = await load();
+      avatar = await load(name);
     } catch (error) {
-      if (!(error instanceof AvatarError)) throw error;
-      this.say(error.message);
+      if (!(error instanceof AvatarError)) console.warn(`${name}:`, error);
+      this.say(error instanceof AvatarError ? error.message : `${name} cannot be shown: it seems damaged. Export it again.`);
       return false;
     }
     if (turn !== this.newest) {

@@ -204,6 +204,23 @@ def test_a_broken_avatar_is_one_sentence_and_the_last_one_stays(loop, browser, e
     assert [each for each in complaints if "Uncaught" in each] == []
 
 
+def test_a_folder_and_what_no_browser_reads_are_one_sentence(loop, stand, tmp_path):
+    (tmp_path / "folder.glb").mkdir()
+    with (tmp_path / "large.glb").open("wb") as file:
+        file.truncate(2**32)  # of a file that takes no room
+
+    async def look(name: str) -> str:
+        await stand.tab.ask("said.textContent = ''")
+        await stand.drop(tmp_path / name)
+        await stand.tab.until("said.textContent")
+        return await stand.tab.ask("said.textContent")
+
+    assert loop.run_until_complete(look("folder.glb")).startswith(
+        "folder.glb cannot be read, as it is a folder"
+    )
+    assert loop.run_until_complete(look("large.glb")).startswith("large.glb is larger than 512 MiB")
+
+
 def test_damaged_avatars_of_the_corpus_never_end_the_page(loop, browser, egg, tmp_path):
     assert CORPUS
 

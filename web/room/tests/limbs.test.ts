@@ -5,6 +5,7 @@ import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { test } from "node:test";
 
+import type { VRM } from "@pixiv/three-vrm";
 import { Object3D, Vector3 } from "three";
 
 import { Limbs } from "../limbs.js";
@@ -102,3 +103,16 @@ for (const name of ["nora", "omar"]) {
     assert.ok(most > 0.14, `${most} m apart`);
   });
 }
+
+test("the right hand is found by Mixamo's name with and without what stands before it, and by VRM's", async () => {
+  const hand = new Object3D();
+  const root = new Object3D().add(hand);
+  for (const name of ["RightHand", "mixamorig:RightHand", "mixamorigRightHand"]) {
+    hand.name = name;
+    assert.equal(new Limbs(root).rightHand, hand);
+  }
+  hand.name = "J_Bip_R_Hand";
+  assert.equal(new Limbs(root).rightHand, undefined);
+  const humanoid = { getNormalizedBoneNode: (name: string) => (name === "rightHand" ? hand : null) };
+  assert.equal(new Limbs(root, { humanoid } as unknown as VRM).rightHand, hand);
+});

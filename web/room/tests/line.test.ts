@@ -26,16 +26,20 @@ class Socket extends EventTarget {
     this.readyState = 3;
   }
 
+  end(): void {
+    this.readyState = 3;
+    this.dispatchEvent(new Event("close"));
+  }
+
   say(answer: object): void {
     this.dispatchEvent(Object.assign(new Event("message"), { data: JSON.stringify(answer) }));
   }
 }
 
-const listeners = new EventTarget();
-Object.assign(globalThis, { WebSocket: Socket, addEventListener: listeners.addEventListener.bind(listeners) });
+let listeners: EventTarget;
+Object.assign(globalThis, { WebSocket: Socket, addEventListener: (name: string, listener: () => void) => listeners.addEventListener(name, listener) });
 let now = 0;
 performance.now = () => now;
-mock.timers.enable({ apis: ["setTimeout"] });
 const { Line } = await import("../line.js");
 
 /** Time goes on, and a state goes out each 33 ms of it. */
@@ -47,7 +51,12 @@ function move(line: InstanceType<typeof Line>, ms: number): void {
   }
 }
 
-function comeIn(): { line: InstanceType<typeof Line>; heard: string[] } {
+/** Time goes on, and timers may begin others meanwhile. */
+function wait(ms: number): void {
+  for (let passed = 0; passed < ms; passed += 100) mock.timers.tick(100);
+}
+
+function open(): { line: InstanceType<typeof Line>; heard: string[] } {
   const heard: string[] = [];
   const line = new Line("wss://room", { kind: "join" } as never, {
     welcome: () => heard.push("welcome"),
@@ -56,11 +65,21 @@ function comeIn(): { line: InstanceType<typeof Line>; heard: string[] } {
     broken: () => heard.push("broken"),
     ended: () => heard.push("ended"),
   });
-  Socket.made.at(-1)!.say({ kind: "welcome" });
   return { line, heard };
 }
 
-beforeEach(() => void (Socket.made = []));
+function comeIn(): ReturnType<typeof open> {
+  const opened = open();
+  Socket.made.at(-1)!.say({ kind: "welcome" });
+  return opened;
+}
+
+beforeEach(() => {
+  Socket.made = [];
+  listeners = new EventTarget();
+  mock.timers.reset();
+  mock.timers.enable({ apis: ["setTimeout"] });
+});
 
 test("ten seconds without a word end the line, and it comes back", () => {
   const { line, heard } = comeIn();
@@ -111,4 +130,45 @@ test("behind another network a second of silence ends a line, and a word keeps i
   assert.deepEqual(heard, ["welcome", "answer"]);
   move(line, 200);
   assert.deepEqual(heard, ["welcome", "answer", "broken"]);
+});
+
+test("each try that fails is told, from the first one on", () => {
+  const { heard } = open();
+  Socket.made[0]!.end();
+  assert.deepEqual(heard, ["broken"]);
+  mock.timers.tick(200);
+  Socket.made[1]!.end();
+  assert.deepEqual(heard, ["broken", "broken"]);
+});
+
+test("what the room says of a try that it refuses is the last word of it", () => {
+  const { heard } = open();
+  Socket.made[0]!.say({ kind: "refused", text: "wait a moment", again: true });
+  Socket.made[0]!.end();
+  assert.deepEqual(heard, ["answer"]);
+  mock.timers.tick(200);
+  Socket.made[1]!.end();
+  assert.deepEqual(heard, ["answer", "broken"]);
+});
+
+test("a try without a welcome is given up after five seconds", () => {
+  const { line, heard } = open();
+  wait(4900);
+  assert.deepEqual(heard, []);
+  wait(200);
+  assert.deepEqual([heard, Socket.made[0]!.readyState], [["broken"], 3]);
+  mock.timers.tick(200);
+  assert.equal(Socket.made.length, 2);
+  Socket.made[1]!.say({ kind: "welcome" });
+  move(line, 6000);
+  assert.deepEqual(heard, ["broken", "welcome"]);
+});
+
+test("behind another network a try that was begun before is made anew at once", () => {
+  const { heard } = open();
+  listeners.dispatchEvent(new Event("online"));
+  assert.deepEqual([Socket.made.length, Socket.made[0]!.readyState], [2, 3]);
+  Socket.made[0]!.end(); // late, and of no matter
+  Socket.made[1]!.say({ kind: "welcome" });
+  assert.deepEqual(heard, ["welcome"]);
 });

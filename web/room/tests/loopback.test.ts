@@ -1,7 +1,7 @@
-/** Which way the room's sound goes: by the loopback once that stands, and straight before, after it fails, and with headphones. */
+/** Which way the room's sound goes: by the loopback while that stands, and straight before, while it is cut, and with headphones. */
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
+import { mock, test } from "node:test";
 
 const ways: string[] = [];
 
@@ -19,6 +19,7 @@ class Node {
 class Context {
   readonly destination = new Node("straight");
   readonly state: string = "running";
+  addEventListener(): void {}
 }
 const connections: Connection[] = [];
 class Connection {
@@ -57,8 +58,10 @@ Object.assign(globalThis, {
   },
 });
 
+Object.assign(globalThis, { addEventListener: () => undefined });
 const { Voice } = await import("../voice.js");
-const settled = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 5));
+const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
+mock.timers.enable({ apis: ["setTimeout"] });
 
 test("with headphones sound goes straight, and no connection is made", () => {
   ways.length = 0;
@@ -77,7 +80,30 @@ test("without, it goes by the loopback as soon and as long as that stands, in st
   far.become("connected");
   await settled();
   assert.deepEqual(ways, ["loopback"]);
+  far.become("disconnected");
+  await settled();
+  assert.deepEqual(ways, ["straight"]);
+  far.become("connected");
+  await settled();
+  assert.deepEqual(ways, ["loopback"]);
   far.become("failed");
+  await settled();
+  assert.deepEqual(ways, ["straight"]);
+  mock.timers.tick(2000);
+  assert.equal(connections.length, 4, "another pair takes its place");
+  far.become("connected"); // late, and of no matter
+  await settled();
+  assert.deepEqual(ways, ["straight"]);
+  connections[3]!.become("connected");
+  await settled();
+  assert.deepEqual(ways, ["loopback"]);
+});
+
+test("what the browser does not play goes straight", async () => {
+  ways.length = 0;
+  const { loopback } = new Voice(() => undefined, { echoes: true });
+  Object.assign(loopback!.element, { play: () => Promise.reject(new Error("not allowed")) });
+  connections.at(-1)!.become("connected");
   await settled();
   assert.deepEqual(ways, ["straight"]);
 });

@@ -1,4 +1,4 @@
-/** How loud somebody is: what a moderator has muted stays so, whatever the slider beside the name says. */
+/** How loud somebody is, whatever the slider beside the name says of whom a moderator has muted; and where the ears are. */
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -8,7 +8,9 @@ import type { Person } from "../texts.js";
 /** Takes every call and every property of what a browser has and Node has not. */
 class Anything {
   readonly gain: { value: number };
+  readonly listener: Record<string, unknown> = {};
   connectionState = "connected";
+  state = "running";
   constructor(_context?: unknown, options?: { gain?: number }) {
     this.gain = { value: options?.gain ?? 1 };
   }
@@ -38,6 +40,7 @@ class Gain extends Anything {
 }
 Object.assign(globalThis, { GainNode: Gain });
 
+Object.assign(globalThis, { addEventListener: () => undefined });
 const { Voice } = await import("../voice.js");
 
 const person = (muted: boolean): Person => ({
@@ -66,4 +69,14 @@ test("a slider makes nobody heard whom a moderator has muted", () => {
   assert.equal(loudness.value, 0);
   voice.meet([person(false)], "a");
   assert.equal(loudness.value, 1.5);
+});
+
+test("ears are where the head is, also in a browser that has the old calls alone", () => {
+  const voice = new Voice(() => undefined);
+  const said: number[][] = [];
+  const say = (...numbers: number[]): void => void said.push(numbers);
+  Object.assign(voice.context.listener, { setPosition: say, setOrientation: say });
+  voice.listen({ x: 1, y: 1.6, z: -2 }, Math.PI / 2);
+  assert.deepEqual(said[0], [1, 1.6, -2]);
+  assert.deepEqual(said[1]!.map(Math.round), [1, 0, 0, 0, 1, 0]);
 });
