@@ -1,5 +1,6 @@
 """Begins the folder of a dataset: its spec and what that names, what it is, and its card."""
 
+import filecmp
 import importlib.metadata
 import os
 import shutil
@@ -37,7 +38,8 @@ def check_folder_is_free(dataset: Dataset) -> None:
     Raises
     ------
     InputError
-        If the folder holds a dataset of another spec, or other files.
+        If the folder holds a dataset of another spec, or other files, or a spec, headset or recording that is none of
+        this dataset's.
     OutputError
         If the folder cannot be looked into.
     """
@@ -54,6 +56,36 @@ def check_folder_is_free(dataset: Dataset) -> None:
             )
     elif others:
         raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
+    else:
+        with output_errors(folder.path):
+            _check_first_files(dataset)
+
+
+def _check_first_files(dataset: Dataset) -> None:
+    """See that nothing of a person's is replaced: the very spec that is read may lie in the folder."""
+    spec_toml = dataset.folder.spec_toml
+    if os.path.lexists(spec_toml):
+        check_replaceable(
+            spec_toml, spec_toml.is_file() and spec_toml.read_bytes() == _spec_text(dataset).encode()
+        )
+    for path, source in _named(dataset).items():
+        if os.path.lexists(path):
+            check_replaceable(path, path.is_file() and filecmp.cmp(path, source, shallow=False))
+
+
+def check_replaceable(path: Path, is_equal: bool) -> None:
+    """Refuse to replace a file that stands where a dataset begins and is not what a stopped beginning left.
+
+    Raises
+    ------
+    InputError
+        If it is not equal to what would be written.
+    """
+    if not is_equal:
+        raise InputError(
+            f"{path}: is another {path.name} than this dataset's, which would replace it; choose another folder, or "
+            "delete the file if a stopped run has left it"
+        )
 
 
 def holds_dataset(dataset: Dataset) -> bool:

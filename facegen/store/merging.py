@@ -11,7 +11,7 @@ from facegen.errors import InputError, InvalidData
 from facegen.files import output_errors
 from facegen.formats.litter import is_litter
 from facegen.number_ranges import format_ranges
-from facegen.store.beginning import begin
+from facegen.store.beginning import begin, check_replaceable
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder, commit_file, commit_folder
@@ -76,6 +76,8 @@ def merge(
         entry.name not in _FIRST_THINGS and not is_litter(entry.name) for entry in target.path.iterdir()
     ):
         raise InputError(f"{target.path}: is not empty and holds no facegen dataset; choose another folder")
+    else:
+        _check_first_files(first.folder, target)
     origins, doubles = _origins(datasets)
     for name, one, other in doubles:
         if not _equal(one.path / name, other.path / name):
@@ -103,6 +105,20 @@ def _ask_for_all(datasets: Sequence[Dataset], target: DatasetFolder) -> None:
     wanted = sorted(set().union(*(dataset.samples_to_render() for dataset in datasets)))
     spec = datasets[0].spec
     begin(resolve(replace(spec, render=replace(spec.render, samples=format_ranges(wanted))), target.path))
+
+
+def _check_first_files(source: DatasetFolder, target: DatasetFolder) -> None:
+    """See that nothing of a person's is replaced where no dataset is begun yet."""
+    with output_errors(target.path):
+        for path in _first_files(source):
+            there = target.path / path.name
+            if path.is_file() and os.path.lexists(there):
+                check_replaceable(there, there.is_file() and _same(path, there))
+
+
+def _first_files(folder: DatasetFolder) -> tuple[Path, ...]:
+    """What a dataset is made of, in the order in which it appears."""
+    return folder.recording_csv, folder.headset_toml, folder.spec_toml
 
 
 def _check_spec(first: Dataset, folder: DatasetFolder, found: str) -> None:
@@ -175,7 +191,7 @@ def _link(source: Path, target: Path, *, copy: bool) -> None:
 
 def _take_description(source: DatasetFolder, target: DatasetFolder) -> None:
     """The first dataset's description; the versions in it stay those that made the data, and a card stays as it is."""
-    first = (source.recording_csv, source.headset_toml, source.spec_toml, source.dataset_json)
+    first = (*_first_files(source), source.dataset_json)
     cards = tuple(
         path for path in (source.card, source.croissant_json) if not (target.path / path.name).exists()
     )

@@ -135,4 +135,9 @@ def test_a_merge_that_was_killed_at_its_start_goes_on(tmp_path):
     one = keypoints(tmp_path / "one")
     (tmp_path / "all" / "tmp").mkdir(parents=True)
     shutil.copy(one / "spec.toml", tmp_path / "all")
+    (tmp_path / "all" / "headset.toml").write_text("mine")
+    with pytest.raises(InputError, match=r"headset\.toml: is another"):
+        merge([one], tmp_path / "all")
+    assert (tmp_path / "all" / "headset.toml").read_text() == "mine"
+    (tmp_path / "all" / "headset.toml").unlink()
     assert merge([one], tmp_path / "all").taken == 1
