@@ -66,7 +66,7 @@ def _check_first_files(dataset: Dataset) -> None:
     spec_toml = dataset.folder.spec_toml
     if os.path.lexists(spec_toml):
         check_replaceable(
-            spec_toml, spec_toml.is_file() and spec_toml.read_bytes() == _spec_text(dataset).encode()
+            spec_toml, spec_toml.is_file() and spec_toml.read_bytes() == spec_text(dataset).encode()
         )
     for path, source in _named(dataset).items():
         if os.path.lexists(path):
@@ -116,7 +116,7 @@ def begin(dataset: Dataset) -> None:
     with output_errors(folder.path):
         folder.path.mkdir(parents=True, exist_ok=True)
     # before anything lies there: it imports modules, and a stop during imports ends the program at once
-    text, description = _spec_text(dataset), _description(dataset)
+    text, description = spec_text(dataset), _description(dataset)
     with staging(folder, "begin") as stage:
         _copy(_named(dataset), stage)
         (stage / "spec.toml").write_bytes(text.encode())
@@ -126,13 +126,25 @@ def begin(dataset: Dataset) -> None:
     _write_cards(dataset)
 
 
-def _spec_text(dataset: Dataset) -> str:
-    """The resolved spec as TOML; what it names lies beside it in the folder."""
+def spec_text(dataset: Dataset) -> str:
+    """The resolved spec as TOML; what it names lies beside it in the folder.
+
+    Raises
+    ------
+    InputError
+        If it is longer than what is read.
+    """
     folder, table = dataset.folder, spec_table(dataset.spec)
     if dataset.spec.playback is not None:
         table["playback"]["recording"] = folder.recording_csv.name
     table["render"]["headset"] = folder.headset_toml.name
-    return tomli_w.dumps(_without_none(table))
+    text = tomli_w.dumps(_without_none(table))
+    if len(text.encode()) > MOST_TOML_BYTES:
+        raise InputError(
+            f"{folder.spec_toml}: would have {len(text.encode()):,} bytes, of which at most {MOST_TOML_BYTES:,} are "
+            "read; write render.samples as few ranges, such as 0-99999:10"
+        )
+    return text
 
 
 def _named(dataset: Dataset) -> dict[Path, str | Path]:
@@ -151,7 +163,7 @@ def _copy(named: dict[Path, str | Path], stage: Path) -> None:
 
 def _renew(dataset: Dataset) -> None:
     """Write what is missing or stale; a folder that has all of it may be read-only."""
-    folder, text = dataset.folder, _spec_text(dataset)
+    folder, text = dataset.folder, spec_text(dataset)
     missing = {path: source for path, source in _named(dataset).items() if not os.path.lexists(path)}
     fresh = (
         os.path.lexists(folder.spec_toml)

@@ -5,13 +5,14 @@ import os
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 
 from facegen.errors import InputError, InvalidData
 from facegen.files import output_errors
 from facegen.formats.litter import is_litter
 from facegen.number_ranges import format_ranges
-from facegen.store.beginning import begin, check_replaceable
+from facegen.store.beginning import begin, check_replaceable, spec_text
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder, commit_file, commit_folder
@@ -57,7 +58,8 @@ def merge(
     Raises
     ------
     InputError
-        If there is no dataset, or one of another spec.
+        If there is no dataset, or one of another spec, or together they ask for samples in more ranges than a
+        spec takes.
     InvalidData
         If two datasets hold different bytes under one name.
     OutputError
@@ -78,6 +80,7 @@ def merge(
         raise InputError(f"{target.path}: is not empty and holds no facegen dataset; choose another folder")
     else:
         _check_first_files(first.folder, target)
+    joined = _asking_for_all(datasets, target)
     origins, doubles = _origins(datasets)
     for name, one, other in doubles:
         if not _equal(one.path / name, other.path / name):
@@ -88,7 +91,8 @@ def merge(
         target.path.mkdir(parents=True, exist_ok=True)
     sweep(target)
     _take_description(first.folder, target)
-    _ask_for_all(datasets, target)
+    if joined is not None:
+        begin(joined)
     taken = 0
     for done, (name, origin) in enumerate(origins.items()):
         if origin.path != target.path:
@@ -98,13 +102,20 @@ def merge(
     return Merged(taken=taken, found=len(origins) - taken)
 
 
-def _ask_for_all(datasets: Sequence[Dataset], target: DatasetFolder) -> None:
-    """Let the joined spec ask for what any of them asks for, or runs of which one stopped early would pass as whole."""
+def _asking_for_all(datasets: Sequence[Dataset], target: DatasetFolder) -> Dataset | None:
+    """The dataset that asks for what any of them asks for; None where all ask for the same.
+
+    Otherwise runs of which one stopped early would pass as whole.
+    """
     if len({format_ranges(dataset.samples_to_render()) for dataset in datasets}) == 1:
-        return
+        return None
+    spec, asked = datasets[0].spec, [dataset.spec.render.samples.split(",") for dataset in datasets]
     wanted = sorted(set().union(*(dataset.samples_to_render() for dataset in datasets)))
-    spec = datasets[0].spec
-    begin(resolve(replace(spec, render=replace(spec.render, samples=format_ranges(wanted))), target.path))
+    # every tenth number and every tenth beside it are two short ranges, and many numbers
+    samples = min(format_ranges(wanted), ",".join(dict.fromkeys(chain.from_iterable(asked))), key=len)
+    joined = resolve(replace(spec, render=replace(spec.render, samples=samples)), target.path)
+    spec_text(joined)  # refused before anything is written where it gets too long
+    return joined
 
 
 def _check_first_files(source: DatasetFolder, target: DatasetFolder) -> None:

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from facegen.cli import app
 from facegen.errors import InputError, InvalidData
 from facegen.spec import parse_spec
-from facegen.store import merge, open_dataset, resolve, write_shard
+from facegen.store import begin, merge, open_dataset, resolve, write_shard
 from facegen.work import generate
 
 pytestmark = pytest.mark.usefixtures("anny")
@@ -96,6 +96,24 @@ def test_a_joined_spec_asks_for_what_any_run_was_asked_for(tmp_path):
     alike = merge(runs[:1], tmp_path / "alone")
     assert alike.taken == 1
     assert (tmp_path / "alone/spec.toml").read_bytes() == (runs[0] / "spec.toml").read_bytes()
+
+
+def test_a_joined_spec_can_be_opened_and_one_that_could_not_is_refused(tmp_path):
+    """Numbers written one by one would be longer than what is read of a spec."""
+    texts = {"one": "0-17999:10", "two": "3-17999:10"}
+    few = {name: ",".join(map(str, range(first, 18_000, 3))) for name, first in (("three", 0), ("four", 1))}
+    for name, samples in (texts | few).items():
+        table = SPEC | {"people": 6000, "render": {"samples": samples}}
+        begin(resolve(parse_spec(table, where="test"), tmp_path / name))
+    merge([tmp_path / name for name in texts], tmp_path / "all")
+    joined = sorted([*range(0, 18_000, 10), *range(3, 18_000, 10)])
+    assert list(open_dataset(tmp_path / "all").samples_to_render()) == joined
+    assert open_dataset(tmp_path / "all").spec.render.samples == ",".join(texts.values())
+    with pytest.raises(
+        InputError, match=r"spec\.toml: would have .* bytes, of which at most 65,536 are read"
+    ):
+        merge([tmp_path / name for name in few], tmp_path / "more")
+    assert not (tmp_path / "more").exists()
 
 
 def test_other_keypoints_are_a_conflict(tmp_path):
