@@ -13,6 +13,7 @@ from facegen.errors import InputError
 from facegen.farm import Chunk, Job, Resources, Submission, cut_chunks
 from facegen.farm.openjd import deadline_values, job_template, path_mapping
 from facegen.farm.slurm import read_squeue, sbatch_script
+from facegen.number_ranges import sample_numbers
 
 GOLDEN = Path(__file__).with_name("golden")
 
@@ -54,6 +55,27 @@ def test_batch_scripts_are_as_read_over(step, request):
 
 def test_the_template_is_as_read_over(request):
     check_golden("template.json", json.dumps(job_template(JOB), indent=2) + "\n", request)
+
+
+@pytest.mark.openjd
+def test_scattered_samples_are_as_few_tasks_as_others():
+    """OpenJD's own reader makes the tasks; each hole began another one."""
+    model = pytest.importorskip("openjd.model")
+    numbers = [number**2 for number in range(300)]
+    job = dataclasses.replace(JOB, chunks=cut_chunks([0], numbers, chunk=100), resources=Resources())
+    template = model.decode_job_template(template=job_template(job), supported_extensions=["TASK_CHUNKING"])
+    values = {
+        parameter.name: model.ParameterValue(
+            type=model.ParameterValueType(parameter.type.value),
+            value="/any" if parameter.default is None else str(parameter.default),
+        )
+        for parameter in template.parameterDefinitions
+    }
+    made = model.create_job(job_template=template, job_parameter_values=values)
+    [pictures] = [step for step in made.steps if step.name == "Pictures"]
+    tasks = [task["Ids"].value for task in model.StepParameterSpaceIterator(space=pictures.parameterSpace)]
+    assert len(tasks) == 3
+    assert [number for task in tasks for number in sample_numbers(task, total=10**6, where="task")] == numbers
 
 
 @pytest.mark.parametrize("step", JOB.steps)
