@@ -89,6 +89,23 @@ def test_without_a_setup_no_line_stands_for_one():
     assert "export PYTHONUNBUFFERED=1\nmodule load python/3.11\nrc=75\n" in sbatch_script(JOB, "validate")
 
 
+@pytest.mark.parametrize(
+    "argument",
+    ["--job-name=mine", "--job-name", "--job", "-Jmine", "--clusters=a,b", "-M", "--array=0-3", "-a0-3"],
+)
+def test_arguments_that_hide_tasks_are_refused(argument):
+    hidden = dataclasses.replace(JOB, resources=Resources(sbatch_args=("--partition=cpu", argument)))
+    with pytest.raises(InputError, match=rf"--sbatch-arg={argument}: .* would not be found again"):
+        sbatch_script(hidden, "generate")
+
+
+@pytest.mark.parametrize(
+    "argument", ["--account=mine", "-Amine", "--mail-type=END", "mine", "--comment=--array"]
+)
+def test_other_arguments_are_passed_on(argument):
+    sbatch_script(dataclasses.replace(JOB, resources=Resources(sbatch_args=(argument,))), "generate")
+
+
 def test_names_with_blanks_and_percents_survive():
     job = dataclasses.replace(JOB, out="/shared/my faces 50%", resources=Resources(python="/opt/my python"))
     script = sbatch_script(job, "generate")
