@@ -26,6 +26,9 @@ STALE_AFTER_S = 24 * 3600.0
 takes a day, and a maker that loses its half only makes it again."""
 
 _OWN_HANDLE = re.compile(r"/dev/fd/(\d+)|/proc/(?:self|thread-self|\d+)/fd/(\d+)")
+_NO_FLUSH = (errno.EINVAL, errno.ENOTSUP, errno.EBADF)
+"""What systems say of a folder that they cannot flush."""
+
 _MOST_LINKS = 40
 """Links to links that Linux follows, too."""
 
@@ -274,12 +277,18 @@ def swap_folders(first: Path, second: Path) -> bool:
 
 
 def sync(path: Path) -> None:
-    """Flush a file or folder to the disk, so that a rename after it never shows an empty file."""
+    """Flush a file or folder to the disk, so that a rename after it never shows an empty file.
+
+    A folder of a file system that flushes none (many a network's) is left to it.
+    """
     if os.name == "nt" and path.is_dir():
         return  # Windows opens no folders
     # Windows flushes only what is open for writing
     handle = os.open(path, os.O_RDWR if os.name == "nt" else os.O_RDONLY)
     try:
         os.fsync(handle)
+    except OSError as error:
+        if error.errno not in _NO_FLUSH or not path.is_dir():
+            raise
     finally:
         os.close(handle)

@@ -154,7 +154,7 @@ def _chunked_step(job: Job, name: str, kind: str) -> dict[str, Any]:
         "name": "Ids",
         "type": "CHUNK[INT]",
         "range": format_ranges(_numbers(ranges)),
-        "chunks": sizes | {"rangeConstraint": "CONTIGUOUS"},
+        "chunks": sizes | {"rangeConstraint": "NONCONTIGUOUS"},
     }
     return {
         "name": name,

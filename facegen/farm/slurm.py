@@ -27,6 +27,9 @@ MAX_RESTARTS = 20
 
 _ASK_TIMEOUT_S = 60
 
+_OURS = {"--job-name": "-J", "--array": "-a", "--clusters": "-M"}
+"""Options of sbatch by which tasks are found again, and their short forms."""
+
 _AT_WORK = ("RUNNING", "COMPLETING", "CONFIGURING")
 """States in which squeue lists a task that has its processors; all others wait for some."""
 
@@ -74,9 +77,15 @@ def sbatch_script(job: Job, step: str) -> str:
         The job; its paths appear as the farm's machines see them.
     step
         One of ``job.steps``.
+
+    Raises
+    ------
+    InputError
+        If a setup is none, or an argument for sbatch hides the tasks.
     """
     resources, on_farm = job.resources, job.resources.on_farm
     check_setup(resources)
+    _check_arguments(resources.sbatch_args)
     folder, out = on_farm(job.folder), on_farm(job.out)
     if step == "generate":
         command = shlex.join(generate_command(job, spec=f"{out}/spec.toml", out=out, what=())) + " $what"
@@ -97,6 +106,18 @@ def sbatch_script(job: Job, step: str) -> str:
         restarts=MAX_RESTARTS,
         finish=finish,
     )
+
+
+def _check_arguments(arguments: tuple[str, ...]) -> None:
+    """See that tasks keep the names and numbers by which they are asked for; sbatch takes shortened names as well."""
+    for argument in arguments:
+        name = argument.partition("=")[0]
+        for long, short in _OURS.items():
+            if (len(name) > 2 and long.startswith(name)) or argument[:2] == short:
+                raise InputError(
+                    f"--sbatch-arg={argument}: tasks of another name, array or cluster ({long}) would not be found "
+                    "again and be submitted twice; leave it out"
+                )
 
 
 def _directives(job: Job, step: str, folder: str) -> list[str]:

@@ -1,5 +1,6 @@
 """Begins the folder of a dataset: its spec and what that names, what it is, and its card."""
 
+import filecmp
 import importlib.metadata
 import os
 import shutil
@@ -37,7 +38,8 @@ def check_folder_is_free(dataset: Dataset) -> None:
     Raises
     ------
     InputError
-        If the folder holds a dataset of another spec, or other files.
+        If the folder holds a dataset of another spec, or other files, or a spec, headset or recording that is none of
+        this dataset's.
     OutputError
         If the folder cannot be looked into.
     """
@@ -54,6 +56,36 @@ def check_folder_is_free(dataset: Dataset) -> None:
             )
     elif others:
         raise InputError(f"{folder.path}: is not empty and holds no facegen dataset; choose another folder")
+    else:
+        with output_errors(folder.path):
+            _check_first_files(dataset)
+
+
+def _check_first_files(dataset: Dataset) -> None:
+    """See that nothing of a person's is replaced: the very spec that is read may lie in the folder."""
+    spec_toml = dataset.folder.spec_toml
+    if os.path.lexists(spec_toml):
+        check_replaceable(
+            spec_toml, spec_toml.is_file() and spec_toml.read_bytes() == spec_text(dataset).encode()
+        )
+    for path, source in _named(dataset).items():
+        if os.path.lexists(path):
+            check_replaceable(path, path.is_file() and filecmp.cmp(path, source, shallow=False))
+
+
+def check_replaceable(path: Path, is_equal: bool) -> None:
+    """Refuse to replace a file that stands where a dataset begins and is not what a stopped beginning left.
+
+    Raises
+    ------
+    InputError
+        If it is not equal to what would be written.
+    """
+    if not is_equal:
+        raise InputError(
+            f"{path}: is another {path.name} than this dataset's, which would replace it; choose another folder, or "
+            "delete the file if a stopped run has left it"
+        )
 
 
 def holds_dataset(dataset: Dataset) -> bool:
@@ -84,7 +116,7 @@ def begin(dataset: Dataset) -> None:
     with output_errors(folder.path):
         folder.path.mkdir(parents=True, exist_ok=True)
     # before anything lies there: it imports modules, and a stop during imports ends the program at once
-    text, description = _spec_text(dataset), _description(dataset)
+    text, description = spec_text(dataset), _description(dataset)
     with staging(folder, "begin") as stage:
         _copy(_named(dataset), stage)
         (stage / "spec.toml").write_bytes(text.encode())
@@ -94,13 +126,25 @@ def begin(dataset: Dataset) -> None:
     _write_cards(dataset)
 
 
-def _spec_text(dataset: Dataset) -> str:
-    """The resolved spec as TOML; what it names lies beside it in the folder."""
+def spec_text(dataset: Dataset) -> str:
+    """The resolved spec as TOML; what it names lies beside it in the folder.
+
+    Raises
+    ------
+    InputError
+        If it is longer than what is read.
+    """
     folder, table = dataset.folder, spec_table(dataset.spec)
     if dataset.spec.playback is not None:
         table["playback"]["recording"] = folder.recording_csv.name
     table["render"]["headset"] = folder.headset_toml.name
-    return tomli_w.dumps(_without_none(table))
+    text = tomli_w.dumps(_without_none(table))
+    if len(text.encode()) > MOST_TOML_BYTES:
+        raise InputError(
+            f"{folder.spec_toml}: would have {len(text.encode()):,} bytes, of which at most {MOST_TOML_BYTES:,} are "
+            "read; write render.samples as few ranges, such as 0-99999:10"
+        )
+    return text
 
 
 def _named(dataset: Dataset) -> dict[Path, str | Path]:
@@ -119,7 +163,7 @@ def _copy(named: dict[Path, str | Path], stage: Path) -> None:
 
 def _renew(dataset: Dataset) -> None:
     """Write what is missing or stale; a folder that has all of it may be read-only."""
-    folder, text = dataset.folder, _spec_text(dataset)
+    folder, text = dataset.folder, spec_text(dataset)
     missing = {path: source for path, source in _named(dataset).items() if not os.path.lexists(path)}
     fresh = (
         os.path.lexists(folder.spec_toml)

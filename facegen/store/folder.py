@@ -4,7 +4,7 @@ import errno
 import json
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -110,7 +110,7 @@ def commit_file(source: Path, target: Path) -> None:
     """Let a finished file appear under its name, at once and whole; an existing file is replaced by its equal."""
     sync(source)
     target.parent.mkdir(parents=True, exist_ok=True)
-    os.replace(source, target)
+    _move(os.replace, source, target)
     sync(target.parent)
 
 
@@ -121,13 +121,27 @@ def commit_folder(source: Path, target: Path) -> bool:
     sync(source)
     target.parent.mkdir(parents=True, exist_ok=True)
     try:
-        os.rename(source, target)
+        _move(os.rename, source, target)
     except OSError as error:
         if error.errno in (errno.ENOTEMPTY, errno.EEXIST) and target.is_dir():
             return False
         raise
     sync(target.parent)
     return True
+
+
+def _move(move: Callable[[Path, Path], None], source: Path, target: Path) -> None:
+    """Rename; a file server whose answer got lost has done it, and refuses when it is asked again."""
+    made = os.stat(source)
+    try:
+        move(source, target)
+    except OSError:
+        if (
+            os.path.lexists(source)
+            or not os.path.lexists(target)
+            or not os.path.samestat(os.stat(target), made)
+        ):
+            raise
 
 
 def write_json(path: Path, content: object) -> None:

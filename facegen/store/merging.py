@@ -5,13 +5,14 @@ import os
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 
 from facegen.errors import InputError, InvalidData
 from facegen.files import output_errors
 from facegen.formats.litter import is_litter
 from facegen.number_ranges import format_ranges
-from facegen.store.beginning import begin
+from facegen.store.beginning import begin, check_replaceable, spec_text
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder, commit_file, commit_folder
@@ -57,7 +58,8 @@ def merge(
     Raises
     ------
     InputError
-        If there is no dataset, or one of another spec.
+        If there is no dataset, or one of another spec, or together they ask for samples in more ranges than a
+        spec takes.
     InvalidData
         If two datasets hold different bytes under one name.
     OutputError
@@ -76,6 +78,9 @@ def merge(
         entry.name not in _FIRST_THINGS and not is_litter(entry.name) for entry in target.path.iterdir()
     ):
         raise InputError(f"{target.path}: is not empty and holds no facegen dataset; choose another folder")
+    else:
+        _check_first_files(first.folder, target)
+    joined = _asking_for_all(datasets, target)
     origins, doubles = _origins(datasets)
     for name, one, other in doubles:
         if not _equal(one.path / name, other.path / name):
@@ -86,7 +91,8 @@ def merge(
         target.path.mkdir(parents=True, exist_ok=True)
     sweep(target)
     _take_description(first.folder, target)
-    _ask_for_all(datasets, target)
+    if joined is not None:
+        begin(joined)
     taken = 0
     for done, (name, origin) in enumerate(origins.items()):
         if origin.path != target.path:
@@ -96,13 +102,34 @@ def merge(
     return Merged(taken=taken, found=len(origins) - taken)
 
 
-def _ask_for_all(datasets: Sequence[Dataset], target: DatasetFolder) -> None:
-    """Let the joined spec ask for what any of them asks for, or runs of which one stopped early would pass as whole."""
+def _asking_for_all(datasets: Sequence[Dataset], target: DatasetFolder) -> Dataset | None:
+    """The dataset that asks for what any of them asks for; None where all ask for the same.
+
+    Otherwise runs of which one stopped early would pass as whole.
+    """
     if len({format_ranges(dataset.samples_to_render()) for dataset in datasets}) == 1:
-        return
+        return None
+    spec, asked = datasets[0].spec, [dataset.spec.render.samples.split(",") for dataset in datasets]
     wanted = sorted(set().union(*(dataset.samples_to_render() for dataset in datasets)))
-    spec = datasets[0].spec
-    begin(resolve(replace(spec, render=replace(spec.render, samples=format_ranges(wanted))), target.path))
+    # every tenth number and every tenth beside it are two short ranges, and many numbers
+    samples = min(format_ranges(wanted), ",".join(dict.fromkeys(chain.from_iterable(asked))), key=len)
+    joined = resolve(replace(spec, render=replace(spec.render, samples=samples)), target.path)
+    spec_text(joined)  # refused before anything is written where it gets too long
+    return joined
+
+
+def _check_first_files(source: DatasetFolder, target: DatasetFolder) -> None:
+    """See that nothing of a person's is replaced where no dataset is begun yet."""
+    with output_errors(target.path):
+        for path in _first_files(source):
+            there = target.path / path.name
+            if path.is_file() and os.path.lexists(there):
+                check_replaceable(there, there.is_file() and _same(path, there))
+
+
+def _first_files(folder: DatasetFolder) -> tuple[Path, ...]:
+    """What a dataset is made of, in the order in which it appears."""
+    return folder.recording_csv, folder.headset_toml, folder.spec_toml
 
 
 def _check_spec(first: Dataset, folder: DatasetFolder, found: str) -> None:
@@ -175,7 +202,7 @@ def _link(source: Path, target: Path, *, copy: bool) -> None:
 
 def _take_description(source: DatasetFolder, target: DatasetFolder) -> None:
     """The first dataset's description; the versions in it stay those that made the data, and a card stays as it is."""
-    first = (source.recording_csv, source.headset_toml, source.spec_toml, source.dataset_json)
+    first = (*_first_files(source), source.dataset_json)
     cards = tuple(
         path for path in (source.card, source.croissant_json) if not (target.path / path.name).exists()
     )

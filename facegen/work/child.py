@@ -26,8 +26,8 @@ _PR_SET_PDEATHSIG = 1
 _NO_ROOM_BYTES = 65536
 """A file system with less than this free is full: the least sample.json alone has more."""
 
-_PLACE_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ESTALE)
-"""The system's errors that are the fault of the place, wherever in a task they come up."""
+_PLACE_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.ESTALE)
+"""The system's errors that are the fault of the place, wherever in a task they come up; others may pass."""
 
 
 @dataclass(frozen=True)
@@ -145,8 +145,6 @@ def _attempt(maker: Maker, assignment: Assignment, pipe: Connection, out: Path) 
         size = maker.make(task, on_phase)
     except BrokenPipeError:
         raise
-    except OutputError as error:
-        return Report(task, "unwritable", str(error))
     except Exception as error:
         reason = place_at_fault(error, out)
         if reason is not None:
@@ -160,16 +158,29 @@ def _attempt(maker: Maker, assignment: Assignment, pipe: Connection, out: Path) 
 def place_at_fault(error: BaseException, out: Path) -> str | None:
     """Why the place is to blame for an error and not the sample; None where it is not.
 
-    Libraries in C++ report a full disk as an error of their own kind, so the disk itself is asked too.
+    A file server that hiccups is not: the task has more tries. Libraries in C++ report a full disk as an error of their
+    own kind, so the disk itself is asked too.
     """
-    cause: BaseException | None = error
-    while cause is not None:
+    causes = list(_causes(error))
+    for cause in causes:
         if isinstance(cause, OSError) and cause.errno in _PLACE_ERRORS:
-            return f"{cause.filename or out}: {os.strerror(cause.errno)}"
-        cause = cause.__cause__ or cause.__context__
-    if shutil.disk_usage(out).free < _NO_ROOM_BYTES:
-        return f"{out}: no space left; free some and run the same command again"
-    return None
+            told = isinstance(error, OutputError)
+            return str(error) if told else f"{cause.filename or out}: {os.strerror(cause.errno)}"
+    if isinstance(error, OutputError) and not any(isinstance(cause, OSError) for cause in causes):
+        return str(error)
+    try:
+        free = shutil.disk_usage(out).free
+    except OSError as gone:
+        return f"{out}: {os.strerror(gone.errno)}"
+    return (
+        f"{out}: no space left; free some and run the same command again" if free < _NO_ROOM_BYTES else None
+    )
+
+
+def _causes(error: BaseException | None) -> Iterator[BaseException]:
+    while error is not None:
+        yield error
+        error = error.__cause__ or error.__context__
 
 
 def _say(line: str) -> None:

@@ -1,5 +1,6 @@
 """A file's name never stands for half of it, and the system's refusal is one sentence."""
 
+import errno
 import os
 import shutil
 import signal
@@ -12,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from facegen.errors import InputError, OutputError
-from facegen.files import output_errors, refuse_ending, staging, swap_folders, whole_file, write_whole
+from facegen.files import output_errors, refuse_ending, staging, swap_folders, sync, whole_file, write_whole
 
 
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
@@ -26,6 +27,18 @@ def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monke
         write_whole(path, "new, and half of it\n")
     assert path.read_bytes() == b"old\n"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_folder_that_no_system_flushes_is_no_obstacle_and_a_file_is(tmp_path, monkeypatch):
+    path = write_whole(tmp_path / "face.json", "old\n")
+
+    def unknown(_):
+        raise OSError(errno.EINVAL, "Invalid argument")
+
+    monkeypatch.setattr(os, "fsync", unknown)
+    sync(tmp_path)
+    with pytest.raises(OSError, match="Invalid argument"):
+        sync(path)
 
 
 def test_a_name_ends_as_what_is_written_does(tmp_path):

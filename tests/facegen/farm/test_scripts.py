@@ -13,6 +13,7 @@ from facegen.errors import InputError
 from facegen.farm import Chunk, Job, Resources, Submission, cut_chunks
 from facegen.farm.openjd import deadline_values, job_template, path_mapping
 from facegen.farm.slurm import read_squeue, sbatch_script
+from facegen.number_ranges import sample_numbers
 
 GOLDEN = Path(__file__).with_name("golden")
 
@@ -56,6 +57,27 @@ def test_the_template_is_as_read_over(request):
     check_golden("template.json", json.dumps(job_template(JOB), indent=2) + "\n", request)
 
 
+@pytest.mark.openjd
+def test_scattered_samples_are_as_few_tasks_as_others():
+    """OpenJD's own reader makes the tasks; each hole began another one."""
+    model = pytest.importorskip("openjd.model")
+    numbers = [number**2 for number in range(300)]
+    job = dataclasses.replace(JOB, chunks=cut_chunks([0], numbers, chunk=100), resources=Resources())
+    template = model.decode_job_template(template=job_template(job), supported_extensions=["TASK_CHUNKING"])
+    values = {
+        parameter.name: model.ParameterValue(
+            type=model.ParameterValueType(parameter.type.value),
+            value="/any" if parameter.default is None else str(parameter.default),
+        )
+        for parameter in template.parameterDefinitions
+    }
+    made = model.create_job(job_template=template, job_parameter_values=values)
+    [pictures] = [step for step in made.steps if step.name == "Pictures"]
+    tasks = [task["Ids"].value for task in model.StepParameterSpaceIterator(space=pictures.parameterSpace)]
+    assert len(tasks) == 3
+    assert [number for task in tasks for number in sample_numbers(task, total=10**6, where="task")] == numbers
+
+
 @pytest.mark.parametrize("step", JOB.steps)
 def test_bash_reads_the_scripts(step):
     assert subprocess.run(["bash", "-n"], input=sbatch_script(JOB, step), text=True).returncode == 0
@@ -65,6 +87,23 @@ def test_without_a_setup_no_line_stands_for_one():
     bare = sbatch_script(dataclasses.replace(JOB, resources=Resources()), "validate")
     assert "export PYTHONUNBUFFERED=1\nrc=75\n" in bare
     assert "export PYTHONUNBUFFERED=1\nmodule load python/3.11\nrc=75\n" in sbatch_script(JOB, "validate")
+
+
+@pytest.mark.parametrize(
+    "argument",
+    ["--job-name=mine", "--job-name", "--job", "-Jmine", "--clusters=a,b", "-M", "--array=0-3", "-a0-3"],
+)
+def test_arguments_that_hide_tasks_are_refused(argument):
+    hidden = dataclasses.replace(JOB, resources=Resources(sbatch_args=("--partition=cpu", argument)))
+    with pytest.raises(InputError, match=rf"--sbatch-arg={argument}: .* would not be found again"):
+        sbatch_script(hidden, "generate")
+
+
+@pytest.mark.parametrize(
+    "argument", ["--account=mine", "-Amine", "--mail-type=END", "mine", "--comment=--array"]
+)
+def test_other_arguments_are_passed_on(argument):
+    sbatch_script(dataclasses.replace(JOB, resources=Resources(sbatch_args=(argument,))), "generate")
 
 
 def test_names_with_blanks_and_percents_survive():

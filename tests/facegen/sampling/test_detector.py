@@ -1,5 +1,7 @@
 """The detector's errors: what stays on a person, what comes and goes."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -67,6 +69,15 @@ def test_dropped_frames_are_drawn_for_any_share(share, run, size, seed):
     assert draw_dropped(np.random.Generator(np.random.PCG64(seed)), size, share=share, run=run).shape == (
         size,
     )
+
+
+def test_a_small_share_takes_no_memory_of_its_own():
+    tracemalloc.start()
+    dropped = draw_dropped(np.random.Generator(np.random.PCG64(1)), BLOCK, share=1e-6, run=6.0)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert not dropped.any()
+    assert most < 16e6  # it was 6 GB
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5])

@@ -174,12 +174,30 @@ def test_what_a_spec_names_is_copied_again_where_it_is_missing(folder):
     assert open_dataset(folder / "out").hash == made.hash
 
 
-def test_a_headset_that_a_stopped_beginning_left_is_replaced(folder):
+def test_what_a_stopped_beginning_left_is_no_obstacle_and_what_is_another_stays(folder):
     made = resolve(load_spec(folder / "spec.toml"), folder / "out")
-    made.folder.path.mkdir()
-    made.folder.headset_toml.write_text("of another spec")
+    begin(made)
+    texts = {path: path.read_bytes() for path in (made.folder.headset_toml, made.folder.spec_toml)}
+    for path in (made.folder.dataset_json, made.folder.card, made.folder.croissant_json):
+        path.unlink()
+    for path, text in texts.items():
+        path.write_bytes(b"# mine\n" + text)
+        with pytest.raises(InputError, match=f"{path.name}: is another {path.name} than this dataset's"):
+            begin(made)
+        assert path.read_bytes() == b"# mine\n" + text
+        path.write_bytes(text)
     begin(made)
     assert open_dataset(folder / "out").hash == made.hash
+
+
+def test_a_spec_is_not_replaced_by_what_it_resolves_to(folder):
+    before = (folder / "spec.toml").read_bytes()
+    (folder / "mine.toml").rename(folder / "headset.toml")
+    (folder / "spec.toml").write_bytes(before.replace(b"mine.toml", b"headset.toml"))
+    mine = {path: path.read_bytes() for path in folder.iterdir()}
+    with pytest.raises(InputError, match=r"spec\.toml: is another"):
+        begin(resolve(load_spec(folder / "spec.toml"), folder))
+    assert {path: path.read_bytes() for path in folder.iterdir()} == mine
 
 
 def test_a_whole_folder_is_not_written_to(folder, monkeypatch):

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from facegen.cli import app
 from facegen.errors import InputError, InvalidData
 from facegen.spec import parse_spec
-from facegen.store import merge, open_dataset, resolve, write_shard
+from facegen.store import begin, merge, open_dataset, resolve, write_shard
 from facegen.work import generate
 
 pytestmark = pytest.mark.usefixtures("anny")
@@ -98,6 +98,24 @@ def test_a_joined_spec_asks_for_what_any_run_was_asked_for(tmp_path):
     assert (tmp_path / "alone/spec.toml").read_bytes() == (runs[0] / "spec.toml").read_bytes()
 
 
+def test_a_joined_spec_can_be_opened_and_one_that_could_not_is_refused(tmp_path):
+    """Numbers written one by one would be longer than what is read of a spec."""
+    texts = {"one": "0-17999:10", "two": "3-17999:10"}
+    few = {name: ",".join(map(str, range(first, 18_000, 3))) for name, first in (("three", 0), ("four", 1))}
+    for name, samples in (texts | few).items():
+        table = SPEC | {"people": 6000, "render": {"samples": samples}}
+        begin(resolve(parse_spec(table, where="test"), tmp_path / name))
+    merge([tmp_path / name for name in texts], tmp_path / "all")
+    joined = sorted([*range(0, 18_000, 10), *range(3, 18_000, 10)])
+    assert list(open_dataset(tmp_path / "all").samples_to_render()) == joined
+    assert open_dataset(tmp_path / "all").spec.render.samples == ",".join(texts.values())
+    with pytest.raises(
+        InputError, match=r"spec\.toml: would have .* bytes, of which at most 65,536 are read"
+    ):
+        merge([tmp_path / name for name in few], tmp_path / "more")
+    assert not (tmp_path / "more").exists()
+
+
 def test_other_keypoints_are_a_conflict(tmp_path):
     one, two = keypoints(tmp_path / "one"), keypoints(tmp_path / "two")
     merge([one, two], tmp_path / "all")
@@ -135,4 +153,9 @@ def test_a_merge_that_was_killed_at_its_start_goes_on(tmp_path):
     one = keypoints(tmp_path / "one")
     (tmp_path / "all" / "tmp").mkdir(parents=True)
     shutil.copy(one / "spec.toml", tmp_path / "all")
+    (tmp_path / "all" / "headset.toml").write_text("mine")
+    with pytest.raises(InputError, match=r"headset\.toml: is another"):
+        merge([one], tmp_path / "all")
+    assert (tmp_path / "all" / "headset.toml").read_text() == "mine"
+    (tmp_path / "all" / "headset.toml").unlink()
     assert merge([one], tmp_path / "all").taken == 1

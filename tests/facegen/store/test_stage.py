@@ -5,8 +5,10 @@ import subprocess
 import sys
 import time
 
+import pytest
+
 from facegen.machine import is_alive, machine_name
-from facegen.store import DatasetFolder, staging, sweep
+from facegen.store import DatasetFolder, commit_file, commit_folder, staging, sweep
 
 
 def leftover(folder: DatasetFolder, name: str, *, age_s: float = 0.0):
@@ -47,3 +49,33 @@ def test_a_zombie_is_dead(tmp_path):
     assert not is_alive(process.pid)
     process.wait()
     assert is_alive(os.getpid(), since_ns=time.time_ns())
+
+
+@pytest.mark.parametrize(("name", "commit"), [("rename", commit_folder), ("replace", commit_file)])
+def test_a_rename_whose_answer_is_lost_is_done_and_one_that_is_refused_is_not(
+    tmp_path, monkeypatch, name, commit
+):
+    rename, out = getattr(os, name), tmp_path / "out"
+
+    def done(source, target):
+        rename(source, target)
+        raise FileNotFoundError("the answer")
+
+    def swept(source, target):
+        rename(source, tmp_path / "elsewhere")
+        raise FileNotFoundError("the source")
+
+    def refused(source, target):
+        raise OSError("the server")
+
+    for answer in (done, swept, refused):
+        made, there = tmp_path / answer.__name__, out / answer.__name__
+        made.mkdir() if commit is commit_folder else made.write_bytes(b"whole")
+        monkeypatch.setattr(os, name, answer)
+        if answer is done:
+            assert commit(made, there) is not False
+            assert there.exists()
+            continue
+        there.mkdir()
+        with pytest.raises(OSError, match=r"the (source|server)"):
+            commit(made, there)

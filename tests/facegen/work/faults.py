@@ -1,5 +1,6 @@
 """Workers that misbehave in known ways, for the supervisor's tests; each is what a spawned child runs."""
 
+import errno
 import os
 import signal
 import sys
@@ -78,6 +79,21 @@ class Grows(Maker):
         self.kept = b"x" * 200_000_000
 
 
+class HiccupsOnce(Maker):
+    """As behind a file server that answers late: something fails, and works the next time."""
+
+    def misbehave(self, task):
+        with staging(self.folder, "hiccup"):
+            if self.first_time(task):
+                raise OSError((errno.EIO, errno.ETIMEDOUT, errno.ENOENT)[task.number], "hiccup")
+
+
+class MayNotWrite(Maker):
+    def misbehave(self, task):
+        with staging(self.folder, "refused"):
+            raise OSError(errno.EACCES, "refused")
+
+
 class FindsNoRoom(Maker):
     def misbehave(self, task):
         if task.number == 1:
@@ -101,6 +117,14 @@ def fails_at_odd(pipe, out, log, threads, parent):
 
 def fails_always(pipe, out, log, threads, parent):
     _run(FailsAlways, pipe, out, log, parent)
+
+
+def hiccups_once(pipe, out, log, threads, parent):
+    _run(HiccupsOnce, pipe, out, log, parent)
+
+
+def may_not_write(pipe, out, log, threads, parent):
+    _run(MayNotWrite, pipe, out, log, parent)
 
 
 def stops_once(pipe, out, log, threads, parent):

@@ -122,6 +122,14 @@ def test_no_room_is_nobodys_fault_and_running_work_ends_first(make):
     assert not list((dataset.folder.path / "tmp").iterdir())
 
 
+def test_what_a_file_server_fails_at_once_is_tried_again_and_what_it_forbids_ends_the_run(make):
+    dataset, summary = make(faults.hiccups_once, "0-2")
+    assert (summary.made, summary.quarantined) == (3, ())
+    assert outcomes(dataset) == ["done"] * 3 + ["failed"] * 3
+    with pytest.raises(OutputError, match="cannot be written"):
+        make(faults.may_not_write, "3")
+
+
 def test_workers_that_cannot_start_blame_no_sample(make):
     with pytest.raises(WorkersFailed, match=r"exit code 3; it said:\nlibGL.so.1 is missing"):
         make(faults.cannot_start, "0-5")
