@@ -19,7 +19,7 @@ import numpy as np
 from facegen.errors import FormatError
 from facegen.formats.gltf_additions import Additions, records
 from facegen.formats.gltf_container import glb_bytes, open_glb
-from facegen.formats.gltf_expressions import read_expressions
+from facegen.formats.gltf_expressions import look_expressions, read_expressions
 from facegen.formats.gltf_eyes import eye_bones, hides_eyes
 from facegen.formats.gltf_head import head_bone, listed, record
 from facegen.formats.gltf_targets import target_names
@@ -82,7 +82,7 @@ def animate_avatar(
         Yaw, pitch and roll of the head, which turn its bone (`gltf_head`); 0 where a row has weights and no pose.
     gaze_rad : (n, 4) float, optional
         Yaw and pitch of the left eye, then of the right eye, in the head; they turn the eyes' bones, unless morph
-        targets do so (`gltf_eyes`); 0 where a row has weights and no gaze.
+        targets do so (`gltf_eyes`), or expressions of a VRM that says so; 0 where a row has weights and no gaze.
 
     Raises
     ------
@@ -124,7 +124,8 @@ def animate_avatar(
         )
     bone = None if head_rad is None else head_bone(document)
     turns = [] if bone is None else [(bone, head_rad[known])]
-    if gaze_rad is not None:
+    looking = gaze_rad is not None and matched.isdisjoint(map(_key, look_expressions(document)))
+    if looking:
         straight = np.zeros((len(times), 1))
         turns += [
             (eye, np.concatenate([gaze_rad[known, 2 * side : 2 * side + 2], straight], axis=1))
@@ -145,7 +146,7 @@ def animate_avatar(
         content=glb_bytes(document, chunks, path),
         missing=tuple(name for name in names if _key(name) not in matched),
         headless=head_rad is not None and bone is None,
-        compressed=gaze_rad is not None and hides_eyes(document),
+        compressed=looking and hides_eyes(document),
     )
 
 

@@ -6,9 +6,9 @@ is left out. A record that is damaged is no expression.
 References
 ----------
 .. [1] VRM Consortium, "VRMC_vrm 1.0", expressions: ``preset`` and ``custom`` with ``morphTargetBinds`` of nodes,
-   weights from 0 to 1; one that is binary is whole from beyond one half.
+   weights from 0 to 1; one that is binary is whole from beyond one half. ``lookAt.type`` is bone or expression.
 .. [2] VRM Consortium, "VRM 0.x": ``blendShapeMaster.blendShapeGroups`` with ``binds`` of meshes, weights from 0 to
-   100.
+   100. ``firstPerson.lookAtTypeName`` is Bone or BlendShape.
 """
 
 from collections.abc import Iterator
@@ -18,6 +18,9 @@ from typing import Any
 from facegen.formats.gltf_head import listed, record
 
 _VRM_0_WHOLE = 100
+
+_LOOKS = ("lookup", "lookdown", "lookleft", "lookright")
+"""Presets of either VRM, in small letters; ``eyeLookUpLeft`` and others of ARKit's are custom ones."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,6 +64,17 @@ def read_expressions(document: dict[str, Any]) -> list[Expression]:
     extensions = record(document.get("extensions"))
     found = _of_vrm_1(extensions) if "VRMC_vrm" in extensions else _of_vrm_0(extensions, document)
     return [expression for expression in found if expression.binds]
+
+
+def look_expressions(document: dict[str, Any]) -> list[str]:
+    """Names of the expressions that turn the eyes, of a VRM that says that expressions do so and not bones."""
+    extensions = record(document.get("extensions"))
+    one = record(record(extensions.get("VRMC_vrm")).get("lookAt")).get("type") == "expression"
+    other = record(record(extensions.get("VRM")).get("firstPerson")).get("lookAtTypeName") == "BlendShape"
+    if not (one if "VRMC_vrm" in extensions else other):
+        return []
+    names = [expression.name for expression in read_expressions(document)]
+    return [name for name in names if name.lower() in _LOOKS or name.lower().startswith("eyelook")]
 
 
 def _of_vrm_1(extensions: dict[str, Any]) -> Iterator[Expression]:

@@ -165,6 +165,55 @@ def test_a_second_buffer_has_no_part_of_the_binary_chunk(tmp_path: Path):
         read_gltf(path)
 
 
+LOOK_BINDS = {
+    "VRMC_vrm": lambda name, binds: {
+        "expressions": {
+            "preset": {name: {"morphTargetBinds": [{"node": 3, "index": 0, "weight": 1}] * binds}}
+        }
+    },
+    "VRM": lambda name, binds: {
+        "blendShapeMaster": {
+            "blendShapeGroups": [
+                {"presetName": name.lower(), "binds": [{"mesh": 0, "index": 0, "weight": 100}] * binds}
+            ]
+        }
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("extension", "looks_by", "bones"),
+    [
+        ("VRMC_vrm", {"lookAt": {"type": "expression"}}, 0),
+        ("VRMC_vrm", {"lookAt": {"type": "bone"}}, 2),
+        ("VRMC_vrm", {}, 2),
+        ("VRM", {"firstPerson": {"lookAtTypeName": "BlendShape"}}, 0),
+        ("VRM", {"firstPerson": {"lookAtTypeName": "Bone"}}, 2),
+        ("VRM", {"firstPerson": 3}, 2),
+    ],
+)
+@pytest.mark.parametrize("name", ["lookLeft", "eyeLookOutLeft"])
+def test_eyes_that_a_vrm_turns_by_expressions_are_turned_by_them_alone(
+    extension: str, looks_by: dict, bones: int, name: str, tmp_path: Path
+):
+    """As far as they are driven, and move something."""
+
+    def turned(columns: tuple[str, ...], binds: int) -> int:
+        path = avatar(tmp_path / "a.vrm", names=("Fcl_EYE_L", "jawOpen"))
+        document, chunks = open_glb(path)
+        document["extensions"] = {extension: looks_by | LOOK_BINDS[extension](name, binds)}
+        path.write_bytes(glb_bytes(document, chunks, path))
+        weights, gaze = np.zeros((1, len(columns))), np.zeros((1, 4))
+        made = animate_avatar(path, columns, weights, np.zeros(1), title="take", gaze_rad=gaze)
+        path.write_bytes(made.content)
+        channels = open_glb(path)[0]["animations"][-1]["channels"]
+        return sum(channel["target"]["path"] == "rotation" for channel in channels)
+
+    assert turned((name, "jawOpen"), 1) == bones
+    assert turned(("jawOpen",), 1) == 2  # nothing drives the expression
+    assert turned((name, "jawOpen"), 0) == 2  # it moves nothing
+
+
 def test_an_animation_turns_head_and_eyes(tmp_path: Path):
     gaze = np.array([[0.0, 0, 0, 0], [0.2, 0.1, 0.3, -0.1], [np.nan] * 4])
     made = animate_avatar(
