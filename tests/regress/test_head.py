@@ -200,6 +200,17 @@ def test_units_and_signs_of_the_tables():
     assert {float(row[name]) for name in ROTATIONS[3:]} == {0}
 
 
+@given(start_s=st.floats(0, 1e5))
+def test_timecodes_begin_at_0_whenever_a_recording_did(start_s: float):
+    def codes(begin_s: float) -> list[str]:
+        samples = [Sample(time_s=begin_s + number / 30, weights=np.zeros(52)) for number in range(40)]
+        text = live_link_text(Prediction(samples=samples, source="here"))
+        return [row["Timecode"] for row in csv.DictReader(io.StringIO(text))]
+
+    assert codes(start_s)[0] == "00:00:00:00.000"
+    assert codes(round(start_s)) == codes(0.0)
+
+
 def test_a_mirror_and_smoothing():
     answers = _with_heads(_samples())
     mirrored = Mirror().run(answers)

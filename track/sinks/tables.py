@@ -17,7 +17,7 @@ from regress.runtime.sample import Sample
 from regress.runtime.stages.retargeting.matrix import Retargeting
 from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.writers.csv_table import csv_lines
-from regress.runtime.writers.live_link import live_link_text
+from regress.runtime.writers.live_link import live_link_at
 from track.sinks.recording import Clock, Recording
 from track.sinks.sink import Sink, Tell, has_face
 from track.sinks.targets import Target
@@ -99,7 +99,8 @@ def _weights_csv(sample: Sample, to: Retargeting | None) -> str:
 
 
 def _live_link_csv(sample: Sample) -> str:
-    return live_link_text(Prediction(samples=(sample,)))
+    row = Prediction(samples=(sample,))
+    return live_link_at(row, row.known_times_s)
 
 
 def _whole(sample: Sample, number: int, time_s: float) -> Sample:

@@ -14,13 +14,21 @@ _HEAD_SIGNS = np.array([1, 1, -1])
 def live_link_text(prediction: Prediction) -> str:
     """The app's 63 columns: weights, and of its nine angles those of the eyes where there is a gaze, and of the head.
 
+    Timecodes count from the first frame.
+
     Raises
     ------
     InputError
         Where no frame has a time.
     """
+    time_s = prediction.known_times_s
+    return live_link_at(prediction, time_s - time_s[:1])
+
+
+def live_link_at(prediction: Prediction, time_s: np.ndarray) -> str:
+    """The same with timecodes of these times (n,), as of a row of a longer take."""
     rotations = app_angles(len(prediction.samples), prediction.head, prediction.gaze)
-    return live_link_csv(prediction.weights, prediction.known_times_s, rotations=rotations)
+    return live_link_csv(prediction.weights, time_s, rotations=rotations)
 
 
 def app_angles(count: int, head: np.ndarray | None, gaze: np.ndarray | None) -> np.ndarray:
