@@ -16,15 +16,20 @@ from facegen.geometry import direction_from_angles, rotation_from_angles
 from facegen.rigs import Rig
 from facegen.rigs.eyes import eye_geometry
 from facegen.sampling.gaze import axes_from_weights, weights_from_axes
+from regress.errors import InputError
 from regress.runtime.features.reference_shape import load_reference_shape
 from regress.runtime.heads.camera import CameraSettings, FaceCamera
 from regress.runtime.heads.eyes import CORNERS, MEAN_EYES, REACH_M, gaze_angles, own_eyes
 from regress.runtime.heads.fit import FACING, HeadPoses
 from regress.runtime.inputs import read_frames, read_lines
 from regress.runtime.model import Model
+from regress.runtime.predict import landmark_chain
 from regress.runtime.sample import Sample
+from regress.runtime.stages.filters import FILTERS
 from regress.runtime.stages.gaze import LOOKS, Looks, gaze_of, look_weights, yaw_of
 from regress.runtime.stages.head import HeadPose, HeadSettings
+from regress.runtime.stages.output import Output
+from regress.runtime.writers.csv_table import csv_lines
 from tests.facegen.formats.test_gltf_eyes import compressed
 
 MEAN = load_reference_shape().points
@@ -194,6 +199,36 @@ def test_a_frame_without_irises_in_a_take_with_them_is_guessed():
         np.testing.assert_allclose(np.degrees(answer.gaze), [12, 0, 12, 0])
     nowhere = replace(sample, weights=np.full(52, np.nan))
     assert Looks(fade=True).step(nowhere) is nowhere
+
+
+@pytest.mark.parametrize("name", [None, *FILTERS])
+@pytest.mark.parametrize("at_once", [True, False])
+def test_no_irises_are_irises_that_are_not_seen(name: str | None, at_once: bool, quick_model: Model):
+    """In Python a frame may lack them: it is guessed by every filter, and in the table's columns."""
+    take = _take()
+    samples = [
+        Sample(
+            label=str(row),
+            time_s=row / 30,
+            points=face[:68],
+            irises=None if row in (2, 3) else face[[69, 68]],
+        )
+        for row, face in enumerate(take)
+    ]
+
+    def table(samples: list[Sample]) -> list[list[str]]:
+        chain = landmark_chain(quick_model, Output(filter=name), head=HeadSettings(camera=PICTURE))
+        answers = chain.run(samples) if at_once else list(chain.stream(samples))
+        return list(csv.reader(csv_lines(answers, BLENDSHAPES)))
+
+    unseen = [
+        replace(sample, irises=np.full((2, 2), np.nan)) if sample.irises is None else sample
+        for sample in samples
+    ]
+    assert table(samples) == table(unseen)
+    assert {len(row) for row in table(samples)} == {2 + 52 + 4 + 6}
+    with pytest.raises(InputError, match="frame 4 has irises and the take's first frame has none"):
+        table(samples[2:])
 
 
 def test_an_eye_whose_iris_is_not_known_goes_with_the_other_one():

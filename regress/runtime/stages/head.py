@@ -44,12 +44,14 @@ class HeadSettings:
 class HeadPose(BatchStage):
     """Finds the pose of each frame's head, and the gaze where the irises are seen.
 
-    What is not known of the camera is taken from the take's first whole face, so a stage serves one take.
+    What is not known of the camera is taken from the take's first whole face, so a stage serves one take. Its first
+    frame says whether frames have irises: in later ones without them they are not seen.
     """
 
     def __init__(self, settings: HeadSettings) -> None:
         self._settings = settings
         self._camera: FaceCamera | None = None
+        self._has_irises: bool | None = None
         self._shape, self._eyes = load_head_shape(), MEAN_EYES
         if settings.neutral is not None:
             whole = np.isfinite(settings.neutral).all(axis=(1, 2))
@@ -69,9 +71,21 @@ class HeadPose(BatchStage):
         self._eyes = replace(self._eyes, ahead=gaze.reshape(2, 2))
 
     def batch(self, samples: Sequence[Sample]) -> list[Sample]:
-        """Samples with head (6,), and gaze (4,) where irises are given; NaN where a point is missing."""
-        seeing = [sample.irises is not None for sample in samples]
-        if not self._settings.wanted and not any(seeing):
+        """Samples with head (6,), and gaze (4,) where irises are given; NaN where a point is missing.
+
+        Raises
+        ------
+        InputError
+            Where a frame has irises and the first one had none: filters and tables want a gaze in all or in none.
+        """
+        if self._has_irises is None:
+            self._has_irises = samples[0].irises is not None
+        late = None if self._has_irises else next((each for each in samples if each.irises is not None), None)
+        if late is not None:
+            raise InputError(
+                f"frame {late.label} has irises and the take's first frame has none; give NaN where they are not seen"
+            )
+        if not self._settings.wanted and not self._has_irises:
             return list(samples)
         heads, gazes = np.full((len(samples), 6), np.nan), np.full((len(samples), 4), np.nan)
         irises = np.array(
@@ -92,9 +106,9 @@ class HeadPose(BatchStage):
             replace(
                 sample,
                 head=head if self._settings.wanted else sample.head,
-                gaze=gaze if seen else sample.gaze,
+                gaze=gaze if self._has_irises else sample.gaze,
             )
-            for sample, head, gaze, seen in zip(samples, heads, gazes, seeing, strict=True)
+            for sample, head, gaze in zip(samples, heads, gazes, strict=True)
         ]
 
 
