@@ -200,6 +200,26 @@ def test_units_and_signs_of_the_tables():
     assert {float(row[name]) for name in ROTATIONS[3:]} == {0}
 
 
+@given(
+    start=st.lists(st.floats(-np.pi, np.pi), min_size=3, max_size=3),
+    turn=st.lists(st.floats(-0.3, 0.3), min_size=3, max_size=3),
+)
+def test_smoothing_goes_on_over_half_a_turn(start: list[float], turn: list[float]):
+    """As where the camera hangs upside down: smoothed angles are those of the same head elsewhere, turned there."""
+
+    def smoothed(begin: np.ndarray) -> np.ndarray:
+        angles = begin + np.outer(np.sin(np.arange(30) / 3), turn)
+        wrapped = (angles + np.pi) % (2 * np.pi) - np.pi
+        samples = [
+            Sample(time_s=row / 30, head=np.array([0, 0, 0.6, *each])) for row, each in enumerate(wrapped)
+        ]
+        return np.array([sample.head[3:] for sample in HeadSmoothing(OneEuro(cutoff_hz=1.0)).run(samples)])
+
+    found, expected = smoothed(np.array(start)), smoothed(np.zeros(3)) + start
+    assert np.abs(found).max() <= np.pi + 1e-9
+    np.testing.assert_allclose(np.exp(1j * found), np.exp(1j * expected), atol=1e-9)
+
+
 @given(start_s=st.floats(0, 1e5))
 def test_timecodes_begin_at_0_whenever_a_recording_did(start_s: float):
     def codes(begin_s: float) -> list[str]:

@@ -123,12 +123,23 @@ class HeadSmoothing(Stage):
 
     def __init__(self, settings: OneEuro) -> None:
         self._filter = OneEuroFilter(settings, np.full(6, settings.cutoff_hz))
+        self._angles = np.zeros(3)
 
     def step(self, sample: Sample) -> Sample:
         """The sample with its head smoothed; one without a head or a time as it is."""
         if sample.head is None or sample.time_s is None or np.isnan(sample.head).any():
             return sample
-        return replace(sample, head=self._filter.step(sample.time_s, sample.head))
+        head = sample.head.copy()
+        head[3:] -= _whole_turns(head[3:] - self._angles)  # half a turn to either side is one and the same
+        head = self._filter.step(sample.time_s, head).copy()
+        self._angles = head[3:].copy()
+        head[3:] -= _whole_turns(head[3:])
+        return replace(sample, head=head)
+
+
+def _whole_turns(angles: np.ndarray) -> np.ndarray:
+    """Radians of the whole turns that angles are nearest to."""
+    return 2 * np.pi * np.round(angles / (2 * np.pi))
 
 
 def angles_of(camera_from_head: np.ndarray) -> np.ndarray:
