@@ -45,8 +45,8 @@ public class FaceWeights : MonoBehaviour
 
     int IndexOf(string name)
     {
-        var sides = name.EndsWith("Left") ? name[..^4] + "_L" : name.EndsWith("Right") ? name[..^5] + "_R" : name;
-        foreach (var spelling in new[] { name, char.ToUpper(name[0]) + name[1..], sides })
+        var sides = name.Replace("Left", "_L").Replace("Right", "_R");
+        foreach (var spelling in new[] { name, char.ToUpper(name[0]) + name.Substring(1), sides })
         {
             int index = avatar.sharedMesh.GetBlendShapeIndex(spelling);
             if (index >= 0)
@@ -55,24 +55,44 @@ public class FaceWeights : MonoBehaviour
         return -1;
     }
 
-    // Call it with a face at rest, mouth closed and eyes open. One with a missing point is not taken.
+    // Call it with a face at rest, mouth closed and eyes open. One with a missing point, or with all in one place, as
+    // some detectors write a lost face, is not taken: with it all weights would be NaN.
     public bool Calibrate(float[] points)
     {
         if (points.Length != 136 || System.Array.Exists(points, value => !float.IsFinite(value)))
+            return false;
+        if (Extent(points, 0) <= 0 || Extent(points, 1) <= 0)
             return false;
         neutral = (float[])points.Clone();
         return true;
     }
 
+    static float Extent(float[] points, int axis)
+    {
+        float least = points[axis], most = least;
+        for (int i = axis; i < points.Length; i += 2)
+        {
+            least = Mathf.Min(least, points[i]);
+            most = Mathf.Max(most, points[i]);
+        }
+        return most - least;
+    }
+
     // points: 136 numbers, x and y of each landmark, y down.
     public void Apply(float[] points)
     {
-        using var input = new Tensor<float>(new TensorShape(1, 68, 2), points);
-        using var rest = new Tensor<float>(new TensorShape(1, 68, 2), neutral);
-        worker.SetInput("points", input);
-        worker.SetInput("neutral", rest);
-        worker.Schedule();
-        var weights = (worker.PeekOutput() as Tensor<float>).DownloadToArray();
+        using (var input = new Tensor<float>(new TensorShape(1, 68, 2), points))
+        using (var rest = new Tensor<float>(new TensorShape(1, 68, 2), neutral))
+        {
+            worker.SetInput("points", input);
+            worker.SetInput("neutral", rest);
+            worker.Schedule();
+            Show((worker.PeekOutput() as Tensor<float>).DownloadToArray());
+        }
+    }
+
+    void Show(float[] weights)
+    {
         for (int i = 0; i < shapes.Length; i++)
             if (shapes[i] >= 0 && !float.IsNaN(weights[i]))
             {
