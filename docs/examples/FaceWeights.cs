@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using Unity.InferenceEngine;
 using UnityEngine;
 
@@ -6,10 +7,11 @@ using UnityEngine;
 public class FaceWeights : MonoBehaviour
 {
     public ModelAsset asset;
-    public SkinnedMeshRenderer avatar;
+    // The avatar's meshes with such shapes: face, teeth, tongue, lashes. Where none is named, all below this object.
+    public SkinnedMeshRenderer[] meshes = new SkinnedMeshRenderer[0];
 
-    // The export's order (tests/regress/exporters hold it), and the shapes' places in the avatar, which spells them as
-    // ARKit does, or with a capital as Perfect Sync does, or with _L and _R.
+    // The export's order (tests/regress/exporters hold it). Avatars spell the names as ARKit does, or with a capital as
+    // Perfect Sync does, or with _L and _R.
     static readonly string[] Names =
     {
         "eyeBlinkLeft", "eyeLookDownLeft", "eyeLookInLeft", "eyeLookOutLeft", "eyeLookUpLeft",
@@ -27,8 +29,14 @@ public class FaceWeights : MonoBehaviour
     [Range(.05f, 1f)] public float newest = .5f;
     float[] shown;
     Worker worker;
-    int[] shapes;
-    float[] whole; // 100 in an FBX file, 1 in a glTF file that glTFast has read
+    readonly List<Shape> shapes = new List<Shape>();
+
+    class Shape
+    {
+        public SkinnedMeshRenderer Mesh;
+        public int Index, Weight;
+        public float Whole; // 100 in an FBX file, 1 in a glTF file that glTFast has read
+    }
 
     // The person's neutral face, 136 numbers as points; zeros where it is not known. One component for each player.
     // Models of the paper's recipe, and exports with --neutral, have no such input.
@@ -37,18 +45,27 @@ public class FaceWeights : MonoBehaviour
     void Start()
     {
         worker = new Worker(ModelLoader.Load(asset), BackendType.CPU);
-        shapes = System.Array.ConvertAll(Names, IndexOf);
-        whole = System.Array.ConvertAll(shapes, index => index < 0 ? 0f : avatar.sharedMesh.GetBlendShapeFrameWeight(
-            index, avatar.sharedMesh.GetBlendShapeFrameCount(index) - 1));
         shown = new float[Names.Length];
+        foreach (var mesh in meshes.Length > 0 ? meshes : GetComponentsInChildren<SkinnedMeshRenderer>())
+            for (int i = 0; i < Names.Length; i++)
+                Find(mesh, i);
     }
 
-    int IndexOf(string name)
+    void Find(SkinnedMeshRenderer mesh, int weight)
+    {
+        int index = mesh.sharedMesh == null ? -1 : IndexOf(mesh.sharedMesh, Names[weight]);
+        if (index < 0)
+            return;
+        float whole = mesh.sharedMesh.GetBlendShapeFrameWeight(index, mesh.sharedMesh.GetBlendShapeFrameCount(index) - 1);
+        shapes.Add(new Shape { Mesh = mesh, Index = index, Weight = weight, Whole = whole });
+    }
+
+    static int IndexOf(Mesh mesh, string name)
     {
         var sides = name.Replace("Left", "_L").Replace("Right", "_R");
         foreach (var spelling in new[] { name, char.ToUpper(name[0]) + name.Substring(1), sides })
         {
-            int index = avatar.sharedMesh.GetBlendShapeIndex(spelling);
+            int index = mesh.GetBlendShapeIndex(spelling);
             if (index >= 0)
                 return index;
         }
@@ -93,12 +110,11 @@ public class FaceWeights : MonoBehaviour
 
     void Show(float[] weights)
     {
-        for (int i = 0; i < shapes.Length; i++)
-            if (shapes[i] >= 0 && !float.IsNaN(weights[i]))
-            {
+        for (int i = 0; i < shown.Length; i++)
+            if (!float.IsNaN(weights[i]))
                 shown[i] += newest * (weights[i] - shown[i]);
-                avatar.SetBlendShapeWeight(shapes[i], whole[i] * shown[i]);
-            }
+        foreach (var shape in shapes)
+            shape.Mesh.SetBlendShapeWeight(shape.Index, shape.Whole * shown[shape.Weight]);
     }
 
     void OnDestroy() => worker?.Dispose();

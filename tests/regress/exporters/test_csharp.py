@@ -16,7 +16,10 @@ UNITY = """
 using System.Collections.Generic;
 using System.Linq;
 namespace UnityEngine {
-    public class MonoBehaviour { }
+    public class MonoBehaviour {
+        public static SkinnedMeshRenderer[] Below = { };
+        public T[] GetComponentsInChildren<T>() => (T[])(object)Below;
+    }
     public class RangeAttribute : System.Attribute { public RangeAttribute(float least, float most) { } }
     public static class Mathf {
         public static float Min(float a, float b) => System.Math.Min(a, b);
@@ -57,13 +60,10 @@ namespace Unity.InferenceEngine {
 
 
 def answer_of(example: str, stand_in: str, program: str, folder: Path) -> list[str]:
-    """Lines that a program writes, which is the body of ``Main`` in a class that derives from the example's."""
+    """Lines that a program writes, of which the body of ``Main`` is given."""
+    using = "".join(f"using {name};" for name in ("System", "System.Collections.Generic", "System.Linq"))
     (folder / "standin.cs").write_text(stand_in)
-    base = "" if "sealed" in (EXAMPLES / example).read_text() else f" : {example.removesuffix('.cs')}"
-    head = "using System; using System.Collections.Generic; using System.Linq; using UnityEngine;"
-    if "UnityEngine" not in stand_in:
-        head = head.removesuffix(" using UnityEngine;")
-    (folder / "main.cs").write_text(f"{head}\nclass Program{base} {{ static void Main() {{ {program} }} }}")
+    (folder / "main.cs").write_text(f"{using} class Program {{ static void Main() {{ {program} }} }}")
     files = [EXAMPLES / example, folder / "standin.cs", folder / "main.cs"]
     built = folder / "main.exe"
     for command in (["mcs", "-nologo", "-r:System.Core.dll", f"-out:{built}", *files], ["mono", built]):
@@ -84,3 +84,27 @@ CALIBRATING = """
 def test_a_neutral_face_without_extent_is_not_taken(tmp_path: Path):
     """As detectors write a lost one: with it all weights would be NaN from then on."""
     assert answer_of("FaceWeights.cs", UNITY, CALIBRATING, tmp_path) == ["True", *["False"] * 5]
+
+
+MOVING = """
+    var names = new[] { "jawOpen EyeBlinkLeft other", "JawOpen", "eyeBlink_L", "" };
+    var all = names.Select(text => new UnityEngine.SkinnedMeshRenderer
+        { sharedMesh = new UnityEngine.Mesh { Names = text.Split(' ') } }).ToArray();
+    UnityEngine.MonoBehaviour.Below = all;
+    var start = typeof(FaceWeights).GetMethod(
+        "Start", System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance);
+    foreach (var named in new[] { all.Take(0), all.Skip(1).Take(1) }) {
+        foreach (var each in all) each.Shown.Clear();
+        var face = new FaceWeights { newest = 1, meshes = named.ToArray() };
+        start.Invoke(face, null);
+        face.Apply(new float[136]);
+        Console.WriteLine(string.Join(" ", all.SelectMany(each => each.Shown).Select(
+            each => each.Key + " " + Math.Round(each.Value))));
+    }
+"""
+
+
+def test_all_meshes_of_an_avatar_move_that_have_a_shape(tmp_path: Path):
+    """Teeth and lashes are meshes of their own; jawOpen is weight 17 of the stand-in's, eyeBlinkLeft weight 0."""
+    lines = answer_of("FaceWeights.cs", UNITY, MOVING, tmp_path)
+    assert lines == ["EyeBlinkLeft 0 jawOpen 17 JawOpen 17 eyeBlink_L 0", "JawOpen 17"]
