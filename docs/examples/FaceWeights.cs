@@ -56,7 +56,8 @@ public class FaceWeights : MonoBehaviour
         int index = mesh.sharedMesh == null ? -1 : IndexOf(mesh.sharedMesh, Names[weight]);
         if (index < 0)
             return;
-        float whole = mesh.sharedMesh.GetBlendShapeFrameWeight(index, mesh.sharedMesh.GetBlendShapeFrameCount(index) - 1);
+        int last = mesh.sharedMesh.GetBlendShapeFrameCount(index) - 1;
+        float whole = mesh.sharedMesh.GetBlendShapeFrameWeight(index, last);
         shapes.Add(new Shape { Mesh = mesh, Index = index, Weight = weight, Whole = whole });
     }
 

@@ -38,13 +38,18 @@ public sealed class HeadsetWeights : IDisposable
     public HeadsetWeights(string graph, params Camera[] cameras)
     {
         this.cameras = cameras;
-        session = new InferenceSession(graph, new SessionOptions { IntraOpNumThreads = 1 });
+        using (var options = new SessionOptions { IntraOpNumThreads = 1 })
+            session = new InferenceSession(graph, options);
     }
 
-    // Grey pictures by camera, rows from the top; a camera that is missing is left out. Neutral pictures may be null.
+    // Grey pictures by camera, rows from the top; a camera that is missing is left out, but one is needed. Neutral
+    // pictures may be null.
     public Answer Predict(
         IReadOnlyDictionary<string, byte[]> pictures, IReadOnlyDictionary<string, byte[]> neutral = null)
     {
+        if (pictures.Count == 0)
+            throw new ArgumentException(
+                "no picture is given of " + string.Join(", ", cameras.Select(camera => camera.Name)));
         foreach (var name in pictures.Keys)
             if (cameras.All(camera => camera.Name != name) || (neutral != null && !neutral.ContainsKey(name)))
                 throw new ArgumentException(name + " is no camera of the headset, or has no neutral picture");

@@ -108,3 +108,65 @@ def test_all_meshes_of_an_avatar_move_that_have_a_shape(tmp_path: Path):
     """Teeth and lashes are meshes of their own; jawOpen is weight 17 of the stand-in's, eyeBlinkLeft weight 0."""
     lines = answer_of("FaceWeights.cs", UNITY, MOVING, tmp_path)
     assert lines == ["EyeBlinkLeft 0 jawOpen 17 JawOpen 17 eyeBlink_L 0", "JawOpen 17"]
+
+
+ONNXRUNTIME = """
+using System;
+using System.Collections.Generic;
+using System.Linq;
+namespace Microsoft.ML.OnnxRuntime.Tensors {
+    public class DenseTensor<T> {
+        public readonly T[] Values;
+        public DenseTensor(T[] values, int[] sizes) { Values = values; }
+    }
+}
+namespace Microsoft.ML.OnnxRuntime {
+    public class SessionOptions : IDisposable {
+        public static int Alive;
+        public int IntraOpNumThreads;
+        public SessionOptions() { Alive++; }
+        public void Dispose() { Alive--; }
+    }
+    public class NamedOnnxValue : IDisposable {
+        public string Name;
+        public object Values;
+        public static NamedOnnxValue CreateFromTensor<T>(string name, Tensors.DenseTensor<T> tensor) =>
+            new NamedOnnxValue { Name = name, Values = tensor.Values };
+        public IEnumerable<T> AsEnumerable<T>() => (T[])Values;
+        public void Dispose() { }
+    }
+    public class Results : List<NamedOnnxValue>, IDisposable { public void Dispose() { } }
+    public class InferenceSession : IDisposable {
+        public InferenceSession(string graph, SessionOptions options) { }
+        public Results Run(IEnumerable<NamedOnnxValue> inputs, IEnumerable<string> outputs) {
+            var present = (float[])inputs.First(one => one.Name == "present").Values;
+            var found = new Results();
+            foreach (var name in outputs) found.Add(new NamedOnnxValue { Name = name, Values = present });
+            return found;
+        }
+        public void Dispose() { }
+    }
+}
+"""
+
+ANSWERING = """
+    using (var weights = new HeadsetWeights("headset.onnx",
+            new HeadsetWeights.Camera("mouth", 2, 2), new HeadsetWeights.Camera("left_eye", 2, 2))) {
+        Console.WriteLine(Microsoft.ML.OnnxRuntime.SessionOptions.Alive);
+        foreach (var names in new[] { "mouth", "", "right_eye" })
+            try {
+                var shown = names.Split(' ').Where(name => name != "");
+                var pictures = shown.ToDictionary(name => name, name => new byte[4]);
+                Console.WriteLine(string.Join(" ", weights.Predict(pictures).Weights));
+            } catch (ArgumentException error) { Console.WriteLine(error.Message); }
+    }
+"""
+
+
+def test_a_headset_without_any_picture_has_no_answer(tmp_path: Path):
+    assert answer_of("HeadsetWeights.cs", ONNXRUNTIME, ANSWERING, tmp_path) == [
+        "0",  # options that nobody let go
+        "1 0",
+        "no picture is given of mouth, left_eye",
+        "right_eye is no camera of the headset, or has no neutral picture",
+    ]
