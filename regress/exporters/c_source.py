@@ -5,6 +5,7 @@ are put together, once for each set of networks, and the numbers are put in. Geo
 networks in float.
 """
 
+import math
 import re
 from importlib.resources import files
 from string import Template
@@ -25,6 +26,9 @@ _TAKEN = frozenset(
     "stdbool stddef stdint stdio stdlib string tgmath time wchar wctype features".split()
 )
 """The file has static functions of the first two; a header of the others hides C's own from ``#include <math.h>``."""
+
+_OF_CALLS = 2048
+"""Bytes of stack of the functions that measure a face, and take noise off, while an answer is computed."""
 
 _PREDICT = "void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
 _ALONE = "static void alone_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
@@ -69,6 +73,7 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
         functions, player = "predict.h", ""
     else:
         words["neutral_count"] = formula.calibrated.measures.count
+        words["stack_kb"] = max(map(_stack_kb, (formula.alone, formula.calibrated)))
         sets = [
             _set_of(formula.alone, _ALONE, words, of="alone_"),
             _set_of(formula.calibrated, _CALIBRATED, words, of="calibrated_", neutral="neutral[i] - "),
@@ -119,6 +124,16 @@ def _set_of(
         "measuring": "".join(_filled(template, words) for template in measuring),
         "answering": _filled("answer.c", words),
     }
+
+
+def _stack_kb(answering: Answering) -> int:
+    """Of what one answer holds while it is computed: points or features in double, and all layers in float."""
+    halves = halves_of(answering)
+    layers = answering.stacked() if halves is None else halves
+    hidden = len(layers.hidden_bias) * (1 if halves is None else 2)  # sums of both halves beside them
+    features = answering.measures.count
+    numbers = 2 * max(features, 2 * LANDMARK_COUNT) + features + layers.hidden_weights.shape[1] + hidden
+    return math.ceil((4 * numbers + _OF_CALLS) / 1024)
 
 
 def _filled(template: str, words: dict[str, object]) -> str:

@@ -177,6 +177,35 @@ def test_several_players_in_one_c_program(calibratable, files, faces):
     np.testing.assert_allclose(written, weights, atol=AGREEMENT, rtol=0)
 
 
+@pytest.mark.compiler
+def test_c_says_the_stack_that_it_needs(files: Path, tmp_path: Path):
+    """By GCC's own sums, without optimisation: an answer, and the largest of what it calls."""
+    skip_without_tool("c")
+    flags = ["-std=c99", "-O0", "-fstack-usage"]
+    subprocess.run(
+        ["cc", *flags, "-c", files / "face.c", "-o", tmp_path / "face.o"], cwd=tmp_path, check=True
+    )
+    sums = next(tmp_path.glob("*.su"), None)
+    if sums is None:
+        pytest.skip("the compiler sums up no stack")
+    rows = [line.split() for line in sums.read_text().splitlines()]
+    used = {row[0].rpartition(":")[2]: int(row[1]) for row in rows}
+    answers = [used.pop("alone_predict"), used.pop("calibrated_predict")]
+    within = max(answers) + max(used.values()) + used["face_predict"]
+    (told,) = re.findall(r"needs (\d+) kB of stack", (files / "face.h").read_text())
+    assert within / 1024 <= int(told) <= within / 1024 + 2
+
+
+@pytest.mark.compiler
+@pytest.mark.parametrize("flag", ["-ffast-math", "-Ofast", "-ffinite-math-only"])
+def test_c_refuses_flags_that_lose_nan(flag: str, files: Path, tmp_path: Path):
+    skip_without_tool("c")
+    command = ["cc", "-std=c99", flag, "-c", files / "face.c", "-o", tmp_path / "face.o"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert "compile this file without -ffast-math" in done.stderr
+
+
 JAVASCRIPT_PROGRAM = """
 import { player, predict } from "./face.js";
 import { readFileSync } from "node:fs";

@@ -1,4 +1,8 @@
 
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "compile this file without -ffast-math, -Ofast or /fp:fast: they leave out how a missing point gives NaN"
+#endif
+
 int ${name}_neutral(${name}_player *player, const float points[${GUARD}_POINTS][2])
 {
     double feature[CALIBRATED_FEATURES], missing = 0;

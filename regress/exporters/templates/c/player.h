@@ -20,8 +20,9 @@ int ${name}_neutral(${name}_player *player, const float points[${GUARD}_POINTS][
  *     the picture. A row is (x, y). All must be finite; a face without width gives NaN.
  * weights: filled in, in the order of ${name}_names.
  *
- * Keeps no state but the player's and allocates nothing, so threads may call it at once. C before C23 warns with
- * -pedantic when an array that is not const is passed: cast it, (const float (*)[2])points.
+ * Keeps no state but the player's and allocates nothing, so threads may call it at once. Each needs $stack_kb kB of stack,
+ * more than tasks of small systems often have. C before C23 warns with -pedantic when an array that is not const is
+ * passed: cast it, (const float (*)[2])points.
  */
 void ${name}_predict(const ${name}_player *player, const float points[${GUARD}_POINTS][2],
                      float weights[${GUARD}_WEIGHTS]);
