@@ -30,6 +30,8 @@ _TAKEN = frozenset(
 _OF_CALLS = 2048
 """Bytes of stack of the functions that measure a face, and take noise off, while an answer is computed."""
 
+_MOST_OF_SHORT = 65_535
+
 _PREDICT = "void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
 _ALONE = "static void alone_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
 _CALIBRATED = """\
@@ -147,6 +149,7 @@ def _numbers(answering: Answering, halves: Halves | None) -> dict[str, object]:
     layers = answering.stacked() if halves is None else halves
     runs = runs_of(layers.output_weights, sides=1 if halves is None else 2)
     fold = None if halves is None else halves.fold
+    hidden, connections = len(layers.hidden_bias), sum(weights.size for _, weights in runs)
     return {
         "depth": _wrapped(f"{value:.17g}" for value in measures.depth),
         "turn": _wrapped(f"{value:.17g}" for value in measures.turn),
@@ -164,8 +167,9 @@ def _numbers(answering: Answering, halves: Halves | None) -> dict[str, object]:
         "fold_first": "" if fold is None else _wrapped(map(str, fold.first)),
         "fold_second": "" if fold is None else _wrapped(map(str, fold.second)),
         "fold_share": "" if fold is None else _floats(fold.share),
-        "hidden_count": len(layers.hidden_bias),
-        "connection_count": sum(weights.size for _, weights in runs),
+        "hidden_count": hidden,
+        "connection_count": connections,
+        "place": "unsigned short" if max(hidden, connections) <= _MOST_OF_SHORT else "int",
         "anchors": _wrapped(map(str, measures.anchors)),
         "reference": _wrapped(f"{{{x:.17g}, {y:.17g}}}" for x, y in measures.reference),
         "edges": _wrapped(f"{{{i}, {j}}}" for i, j in [*measures.edges, measures.width_landmarks]),

@@ -3,6 +3,8 @@
 import hashlib
 import shutil
 import subprocess
+from dataclasses import replace
+from pathlib import Path
 
 import hypothesis
 import hypothesis.strategies as st
@@ -199,6 +201,35 @@ def tiny_formula() -> Formula:
         "program": "regress",
     }
     return Formula(alone=alone, calibrated=None, about=about)
+
+
+@pytest.mark.compiler
+def test_c_has_places_of_more_connections_than_16_bits_count(tmp_path: Path):
+    """The one network gives what it gave, with idle units before its own, and a first one that makes runs long."""
+    skip_without_tool("c")
+    formula, idle = tiny_formula(), 66_000
+    (network,) = formula.alone.networks
+    weights = np.zeros((2, idle + 3))
+    weights[:, idle:] = network.output_weights
+    weights[0, 0] = 1.0  # of a unit that is 0
+    wide = replace(
+        network,
+        hidden_weights=np.concatenate([np.zeros((idle, 2)), network.hidden_weights]),
+        hidden_bias=np.concatenate([np.zeros(idle), network.hidden_bias]),
+        output_weights=weights,
+    )
+    answers = []
+    for name, used in (("narrow", network), ("wide", wide)):
+        paths = []
+        for file, content in export_c(
+            replace(formula, alone=replace(formula.alone, networks=(used,))), name
+        ).items():
+            (tmp_path / file).write_bytes(content)
+            paths.append(tmp_path / file)
+        predict, _ = READERS["c"](tuple(paths))
+        answers.append(predict(drawn_faces(np.random.default_rng(3), 5)))
+    assert np.isfinite(answers[0]).all()
+    np.testing.assert_allclose(answers[1], answers[0], atol=1e-6)
 
 
 PAPER = {

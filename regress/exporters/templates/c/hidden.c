@@ -8,10 +8,10 @@ $hidden_bias
 };
 
 /* Weight i reads ${of}first_connection[i + 1] - ${of}first_connection[i] hidden units from ${of}first_hidden[i] on. */
-static const unsigned short ${of}first_hidden[${GUARD}_WEIGHTS] = {
+static const $place ${of}first_hidden[${GUARD}_WEIGHTS] = {
 $first_hidden
 };
-static const unsigned short ${of}first_connection[${GUARD}_WEIGHTS + 1] = {
+static const $place ${of}first_connection[${GUARD}_WEIGHTS + 1] = {
 $first_connection
 };
 static const float ${of}output_weight[${OF}CONNECTIONS] = {

@@ -12,10 +12,10 @@ $hidden_bias
 
 /* Weight i reads two runs of hidden units, from first_hidden[i] on and from UNITS + first_hidden[i] on; each is half as
  * long as first_connection[i + 1] - first_connection[i]. */
-static const unsigned short ${of}first_hidden[${GUARD}_WEIGHTS] = {
+static const $place ${of}first_hidden[${GUARD}_WEIGHTS] = {
 $first_hidden
 };
-static const unsigned short ${of}first_connection[${GUARD}_WEIGHTS + 1] = {
+static const $place ${of}first_connection[${GUARD}_WEIGHTS + 1] = {
 $first_connection
 };
 static const float ${of}output_weight[${OF}CONNECTIONS] = {
