@@ -8,6 +8,10 @@ from regress.exporters.answering import Answering
 from regress.exporters.measures import Measures
 from regress.runtime.networks import Denoising
 
+_FLAT = 1e-5
+"""Determinant of anchors' squares over their trace squared, up to which float32 knows no line from a face: real faces
+have 0.1 and more."""
+
 
 class Nodes:
     """Nodes and constants in the order they were asked for, so that equal models are equal bytes."""
@@ -115,8 +119,10 @@ def _alignment(part: Part, measures: Measures, points: str) -> None:
     """Append the nodes from points (their name) to ``map`` (n, 2, 2) and ``spread`` (n, 1, 1).
 
     With anchors P and reference R, both about their means, the best linear map is inverse(P'P) P'R. Lengths
-    are divided by another length, so adjugate(P'P) P'R does as well, and no determinant is divided by.
+    are divided by another length, so adjugate(P'P) P'R does as well. Anchors on one line have no such map: 0 / 0
+    makes it NaN.
     """
+    trace = 2 * len(measures.anchors)  # of P'P, as anchors are divided by their spread
     part.constant("anchors", measures.anchors, dtype=np.int64)
     part.constant("reference", measures.reference)
     part.constant("quarter_turn", [[0.0, 1.0], [-1.0, 0.0]])  # J: adjugate(M) = J M J' for symmetric M
@@ -127,7 +133,16 @@ def _alignment(part: Part, measures: Measures, points: str) -> None:
     part.node("MatMul", ["anchors_unit_t", "reference"], "cross")
     part.node("MatMul", ["quarter_turn", "moment"], "moment_turned")
     part.node("MatMul", ["moment_turned", "quarter_turn_back"], "adjugate")
-    part.node("MatMul", ["adjugate", "cross"], "map")
+    part.node("MatMul", ["adjugate", "cross"], "map_of_any")
+    part.constant("both_axes", [1, 2], dtype=np.int64)
+    part.constant("flat", 2 * _FLAT * trace**2)
+    part.constant("none", 0.0)
+    part.node("Mul", ["moment", "adjugate"], "determinant_parts")
+    part.node("ReduceSum", ["determinant_parts", "both_axes"], "determinant_twice", keepdims=1)
+    part.node("Sub", ["determinant_twice", "flat"], "determinant_beyond")
+    part.node("Clip", ["determinant_beyond", "none"], "width")
+    part.node("Div", ["width", "width"], "has_width")
+    part.node("Mul", ["map_of_any", "has_width"], "map")
 
 
 def _laid(part: Part, measures: Measures, points: str, mean: np.ndarray | None) -> str:

@@ -117,6 +117,25 @@ def test_a_face_in_one_point_gives_nan(chosen, exported):
     assert np.isnan(predict(np.zeros((1, 68, 2), dtype=np.float32))).all()
 
 
+@pytest.mark.parametrize(
+    "chosen", [param for param in FORMATS if param.values[0] in ("onnx", "c", "javascript")]
+)
+@hypothesis.settings(deadline=None, max_examples=20)
+@hypothesis.given(
+    line=st.sampled_from([(1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (2.0, -1.0)]),
+    place=st.integers(-300, 300),
+    log2_size=st.integers(-4, 10),
+)
+def test_a_face_on_one_line_gives_nan_where_predict_does(chosen, model, exported, line, place, log2_size):
+    """Numbers that float32 has exactly: a line by rounding alone is one for none."""
+    predict, _ = exported(chosen)
+    along = np.arange(68) * 7 % 31 + place
+    face = (2.0**log2_size * along[:, None] * line)[None].astype(np.float32)
+    expected = model.predict(face)
+    np.testing.assert_allclose(predict(face), expected, atol=AGREEMENT, rtol=0)
+    assert np.isnan(expected).all() == (formula_of(model).alone.measures.alignment == "affine")
+
+
 @pytest.mark.parametrize("chosen", list(EXPORTERS))
 def test_equal_models_give_equal_bytes_and_no_leavings(chosen, tmp_path):
     def export(folder):
