@@ -61,7 +61,7 @@ def landmark_chain(
     if output.one_euro is not None:
         before.append(HeadSmoothing(output.one_euro))
     if confident:
-        before.append(LandmarkConfidence(model))
+        before.append(LandmarkConfidence(networks))
     if output.smooth_landmarks_hz is not None:
         before.append(LandmarkSmoothing(output.smooth_landmarks_hz, model.features.mean_shape))
     return Chain([*before, networks, Looks(fade=fade), *output.stages()])

@@ -14,10 +14,12 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHA
 from regress.errors import InputError
 from regress.runtime.inputs import Frames, read_lines
 from regress.runtime.model import Model
-from regress.runtime.predict import predict_frames, predict_stream
+from regress.runtime.predict import landmark_chain, predict_frames, predict_stream
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
 from regress.runtime.stages.adjustment_file import read_adjustments
+from regress.runtime.stages.confidence import confidence
+from regress.runtime.stages.networks import LandmarkNetworks
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
 from regress.runtime.stages.smoothing import OneEuroFilter, OneEuroSmoothing, by_region
@@ -265,6 +267,20 @@ def test_a_pipe_finds_the_neutral_face_while_it_runs(quick_model: Model):
     assert np.allclose(last, quick_model.calibrate(frames).predict(frames)[-1], atol=1e-4)
     first = np.array(rows[1].split(",")[2:], dtype=float)
     assert np.allclose(first, quick_model.predict(frames)[0], atol=1e-4)
+
+
+def test_the_trust_is_in_the_networks_that_answer(quick_model: Model):
+    """Those that were calibrated on the way, from the frame on of which it is told."""
+    faces = in_pictures(np.random.default_rng(5), np.stack([drawn_face()] * 70))
+    said: list[str] = []
+    chain = landmark_chain(quick_model, confident=True, auto=True, say=said.append)
+    samples = [Sample(label=str(row), time_s=row / 30, points=face) for row, face in enumerate(faces)]
+    found = [answer.confidence for answer in chain.stream(samples)]
+    (networks,) = (stage for stage in chain.stages if isinstance(stage, LandmarkNetworks))
+    began = int(said[0].split()[1].rstrip(":"))
+    np.testing.assert_allclose(found[:began], confidence(quick_model, faces[:began]), rtol=1e-12)
+    np.testing.assert_allclose(found[began:], confidence(networks.model, faces[began:]), rtol=1e-12)
+    assert not np.allclose(found[began:], confidence(quick_model, faces[began:]))
 
 
 def test_fps_goes_before_times_of_lines(quick_model: Model):

@@ -58,16 +58,16 @@ class LandmarkConfidence(BatchStage):
 
     Parameters
     ----------
-    model
-        The one that predicts.
+    networks
+        Those that predict, by the model that they have at each frame: it may be calibrated on the way.
     """
 
-    def __init__(self, model: Model) -> None:
-        self.model = model
+    def __init__(self, networks: LandmarkNetworks) -> None:
+        self._networks = networks
 
     def batch(self, samples: Sequence[Sample]) -> list[Sample]:
         """Samples with confidence (52,)."""
-        trust = confidence(self.model, np.stack([sample.points for sample in samples]))
+        trust = confidence(self._networks.model, np.stack([sample.points for sample in samples]))
         return [replace(sample, confidence=row) for sample, row in zip(samples, trust, strict=True)]
 
 
