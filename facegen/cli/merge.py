@@ -16,7 +16,7 @@ def merge(
     copy: Annotated[bool, typer.Option("--copy", help="Copy files instead of linking them.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """Join runs of one spec that were made apart: what lies in several must be equal, byte for byte.
+    """Join runs of one spec that were made apart: pictures in several must be equal byte for byte, keypoints by value.
 
     Files become hard links where the file system allows it, and take no space twice.
 

@@ -21,6 +21,7 @@ from facegen.store.keypoint_table import (
     read_shard,
     write_shard,
 )
+from facegen.store.likeness import differing_rows
 from facegen.store.merging import Merged, merge
 from facegen.store.opening import open_dataset, resolve
 from facegen.store.record import sample_record
@@ -36,6 +37,7 @@ __all__ = [
     "column_array",
     "commit_file",
     "commit_folder",
+    "differing_rows",
     "draw_block",
     "exr_bytes",
     "keypoint_schema",

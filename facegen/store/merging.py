@@ -16,6 +16,7 @@ from facegen.store.beginning import begin, check_replaceable, spec_text
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder, commit_file, commit_folder
+from facegen.store.likeness import same_labels
 from facegen.store.opening import open_dataset, resolve
 from facegen.store.stage import staging, sweep
 
@@ -40,8 +41,9 @@ def merge(
 ) -> Merged:
     """Join datasets of one spec; run it again after a stop and it goes on.
 
-    All that lies in several of them is compared first, byte by byte; only then is anything taken over. Logs
-    and quarantines stay where they are: what failed in one run may be whole in another.
+    All that lies in several of them is compared first, pictures byte by byte and keypoints by their values, whose last
+    bits processors make; only then is anything taken over. Logs and quarantines stay where they are: what failed in one
+    run may be whole in another.
 
     Parameters
     ----------
@@ -61,7 +63,7 @@ def merge(
         If there is no dataset, or one of another spec, or together they ask for samples in more ranges than a
         spec takes.
     InvalidData
-        If two datasets hold different bytes under one name.
+        If two datasets hold different keypoints or pictures under one name, or keypoints cannot be read.
     OutputError
         If the folder cannot be written.
     """
@@ -85,7 +87,8 @@ def merge(
     for name, one, other in doubles:
         if not _equal(one.path / name, other.path / name):
             raise InvalidData(
-                f"{name}: {one.path} and {other.path} hold different bytes; facegen validate says more"
+                f"{name}: {one.path} and {other.path} hold different {_kind(one.path / name)}; facegen validate says "
+                "whether one is damaged, and pictures may differ where processors or versions of Blender do: remove one"
             )
     with output_errors(target.path):
         target.path.mkdir(parents=True, exist_ok=True)
@@ -163,9 +166,13 @@ def _names(folder: DatasetFolder) -> Iterator[str]:
 
 def _equal(one: Path, other: Path) -> bool:
     if one.is_file() or other.is_file():
-        return one.is_file() and other.is_file() and _same(one, other)
+        return one.is_file() and other.is_file() and (_same(one, other) or same_labels(one, other))
     names, others = (sorted(entry.name for entry in _own(folder)) for folder in (one, other))
     return names == others and all(_same(one / name, other / name) for name in names)
+
+
+def _kind(path: Path) -> str:
+    return "keypoints" if path.is_file() else "bytes"
 
 
 def _same(one: Path, other: Path) -> bool:

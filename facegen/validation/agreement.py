@@ -5,27 +5,10 @@ from math import isfinite
 
 import numpy as np
 
-TOLERANCE = 1e-6
-"""Stored numbers may differ by this much of their size (or of 1, if they are smaller).
-
-Labels are float32: their last bit is 6e-8 of their size, and another processor's sine may move it; 1e-6 m is
-0.001 mm, 1e-6 of 640 px is 0.0006 px.
-"""
+from facegen.store import differing_rows
 
 MOST_DIMENSIONS = 4
 """Of a label's numbers; the deepest are matrices."""
-
-
-def differing_rows(stored: np.ndarray, made: np.ndarray) -> np.ndarray:
-    """(n,) bool: rows of two arrays (n, ...) that differ by more than `TOLERANCE`; NaN equals NaN."""
-    if stored.dtype.kind not in "fiub" or made.dtype.kind not in "fiub":
-        differs = stored != made
-    else:
-        stored, made = stored.astype(np.float64), made.astype(np.float64)
-        with np.errstate(invalid="ignore"):
-            near = np.abs(stored - made) <= TOLERANCE * np.maximum(1.0, np.abs(made))
-        differs = ~(near | (stored == made) | (np.isnan(stored) & np.isnan(made)))
-    return differs.reshape(len(differs), -1).any(axis=1)
 
 
 def disagreements(stored: object, made: object, name: str = "") -> Iterator[tuple[str, str]]:

@@ -8,9 +8,16 @@ import pyarrow as pa
 from facegen.conventions import BLOCK
 from facegen.errors import InvalidData
 from facegen.geometry import apply_transform, project_pinhole
-from facegen.store import Dataset, column_array, draw_block, label_block, read_shard, shard_samples
+from facegen.store import (
+    Dataset,
+    column_array,
+    differing_rows,
+    draw_block,
+    label_block,
+    read_shard,
+    shard_samples,
+)
 from facegen.store.keypoint_table import has_columns
-from facegen.validation.agreement import differing_rows
 from facegen.validation.finding import Finding
 from facegen.validation.ranges import impossible
 
