@@ -5,8 +5,9 @@
 Film a (30 frames of a self-built headset) has its pupils marked by eye, to about 2 % of the picture's width; film b (60
 frames of another one) has none, so that its traced points are looked at, frame by frame: `--sheets` draws all of them.
 Each network sees the films as `regress headset predict` would show them: at the placement that `regress headset check`
-finds from the frames alone, with levels of their own; and as they come, squeezed into the network's square, for a row
-of what is lost without. A network's right eye is its left one in a mirror, so each film goes in as either.
+finds from the frames alone, with levels of their own; and, for what is lost without, all of the picture, its middle,
+and the picture squeezed into the network's square. A network's right eye is its left one in a mirror, so each film goes
+in as either.
 
 The pupil's errors are median distances to the marks: as traced, after an affine fit (six numbers for 28 frames), and
 after a fit to all frames but the judged one. r is the correlation of x and of y with the marks, as traced and fitted.
@@ -18,7 +19,7 @@ Markdown, which stands in docs/your-camera.md.
 import argparse
 import csv
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -29,7 +30,7 @@ from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.levels import level_table
 from regress.runtime.headset.looks import levels_of
-from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.placement import CameraPlacement, whole_view
 from regress.runtime.headset.placement_search import find_placement
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 
@@ -81,8 +82,19 @@ def main() -> None:
         for film in films.values():
             placed = find_placement(predictor, CAMERA, film.pictures).placement
             print(network_row(f"{model}, placed", predictor, film, placed))
-            whole = CameraPlacement(mirror=placed.mirror)
-            print(network_row(f"{model}, whole picture", predictor, film, whole, squeezed=True))
+            for what, unplaced in without_placement(
+                film, predictor.sizes[CAMERA], mirror=placed.mirror
+            ).items():
+                print(network_row(f"{model}, {what}", predictor, film, unplaced))
+            print(
+                network_row(
+                    f"{model}, squeezed",
+                    predictor,
+                    film,
+                    CameraPlacement(mirror=placed.mirror),
+                    squeezed=True,
+                )
+            )
             if arguments.sheets and number == 0:
                 arguments.sheets.mkdir(parents=True, exist_ok=True)
                 cv2.imwrite(str(arguments.sheets / f"{film.name}.png"), sheet(predictor, film, placed))
@@ -90,6 +102,13 @@ def main() -> None:
         for film in films.values():
             found = np.array([find(picture) for picture in film.pictures])
             print(row(film, what, "", found, None, None))
+
+
+def without_placement(film: Film, view: tuple[int, int], *, mirror: bool) -> dict[str, CameraPlacement]:
+    """What nobody looked for: all of the picture, as `regress headset predict` sees it, and its middle."""
+    picture = (film.pictures.shape[2], film.pictures.shape[1])
+    whole = replace(whole_view(picture, view), mirror=mirror)
+    return {"all of it": whole, "its middle": replace(whole, size=min(1.0, picture[1] / picture[0]))}
 
 
 def read_film(folder: Path) -> Film:

@@ -96,9 +96,8 @@ def draw_dropped(rng: np.random.Generator, size: int, *, share: float, run: floa
     # runs without and with a face in turn, of geometric lengths; as many as are surely enough
     gaps = rng.geometric(share / (run * (1 - share)), size)
     runs = rng.geometric(1 / run, size)
-    lengths = np.minimum(
-        np.stack([gaps, runs], axis=-1).ravel(), 2 * size
-    )  # of a gap without end, what is seen
+    # of a gap without end what is seen
+    lengths = np.minimum(np.stack([gaps, runs], axis=-1).ravel(), 2 * size)
     begin = rng.integers(0, size)  # anywhere in the middle: the first frame is no beginning
     # counted, not listed frame by frame: a small share's gaps would not fit into memory
     return np.searchsorted(np.cumsum(lengths), np.arange(begin, begin + size), side="right") % 2 == 1

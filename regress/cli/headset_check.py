@@ -41,7 +41,7 @@ def check(
     Give 100 to 300 frames in which the person looks around and blinks. Levels, focus, flicker, a lens's rim, exchanged
     and mirrored cameras are judged by the pictures; where the eye lies by the points that the network traces.
 
-    Example: regress headset check headset-tracking3 --left-eye take/left --right-eye take/right --out placement.toml
+    Example: regress headset check --left-eye take/left_eye --right-eye take/right_eye --out placement.toml
     """
     import numpy as np
 
@@ -68,7 +68,9 @@ def check(
         predictor, camera or [], {name: path for name, path in short.items() if path is not None}
     )
     if not paths:
-        raise InputError(f"give the cameras' paths ({', '.join(predictor.sizes)}), as --left-eye take/left")
+        raise InputError(
+            f"give the cameras' paths ({', '.join(predictor.sizes)}), as --left-eye take/left_eye"
+        )
     _refuse_recorded(paths.values(), {"--sheet": sheet, "--out": out})
     footage = {}
     for name, path in paths.items():

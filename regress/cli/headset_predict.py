@@ -152,7 +152,7 @@ def predict(
     empty cells. A neutral frame makes weights far better as long as the headset stays where it sits; the network sees
     when it does not, and goes on without.
 
-    Example: regress headset predict --left-eye take/left --right-eye take/right --mouth take/mouth
+    Example: regress headset predict --left-eye take/left_eye --right-eye take/right_eye --mouth take/mouth
     --neutral 0 --out weights.csv
     """
     from facegen.console import say

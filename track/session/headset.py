@@ -10,7 +10,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES
 from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.eye_reader import EyeReader
-from regress.runtime.headset.faults import Fault
+from regress.runtime.headset.faults import RESHAPE, Fault
 from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, kept_openness, unpacked_picture
@@ -149,11 +149,14 @@ class HeadsetPipeline(Pipeline):
     def sentences(self, sample: Sample) -> dict[str, str]:
         """Faults by camera, eyes that are not upright, and a seat that changed."""
         found = {**self.stages["upright"].told, **super().sentences(sample)}
+        for name, (width, height) in self.stages["soundness"].whole.items():
+            if name in (sample.pictures or {}) and name not in found:
+                found[name] = (
+                    f"{name}: {width}x{height} is another shape than the network's; all of each picture is seen, and "
+                    f"`regress headset check` finds a better --placement"
+                )
         for name in (name for name, fault in sample.faults.items() if fault is Fault.SHAPE):
-            width, height = self._predictor.sizes[name]
-            found[name] += (
-                f" (the model's is {width}x{height}); `regress headset check` finds a --placement for it"
-            )
+            found[name] += f"; {RESHAPE}"
         if self._networks.reseated:
             found["seat"] = "the headset has moved since it was calibrated; a new neutral face sets it right"
         return found

@@ -37,7 +37,11 @@ a file is judged as it would be live, so the repeats before count as pictures.
 _TOLD_RUNS = 8
 """Runs of frames that a sentence lists; the count in front of them is of all."""
 
-_RESHAPE = "`regress headset check` finds a placement for pictures of any shape"
+RESHAPE = (
+    "`regress headset check` finds a placement for pictures of any shape, and a camera that shows both eyes is named "
+    "by its halves (left_eye=0#left)"
+)
+"""What helps against `Fault.SHAPE`."""
 
 
 class Fault(Enum):
@@ -103,7 +107,8 @@ class FrozenWatch:
                     self._still_s[name] += self._held_s[name]
                     self._held_s[name] = 0.0
             else:
-                self._first[name], self._still_s[name], self._held_s[name] = picture, 0.0, 0.0
+                # a copy: programs fill one buffer again and again
+                self._first[name], self._still_s[name], self._held_s[name] = picture.copy(), 0.0, 0.0
                 self._moved.discard(name)
                 changed.add(name)
         self._moved |= {name for name in pictures if name not in changed and changed}
@@ -119,7 +124,7 @@ def fault_sentences(camera: str, numbers: Sequence[int], faults: Sequence[Fault 
             if len(frames) < len(faults):
                 said = f"{len(frames)} of {len(faults)} frames have {fault.value}: {_listed(frames)}"
             else:
-                cure = f"; {_RESHAPE}" if fault is Fault.SHAPE else ""
+                cure = f"; {RESHAPE}" if fault is Fault.SHAPE else ""
                 said = f"all of its {len(faults)} frames have {fault.value}{cure}"
             lines.append(f"{camera}: {said}")
     return lines

@@ -193,7 +193,7 @@ def _mark_frozen(pictures: dict[str, np.ndarray], faults: Mapping[str, np.ndarra
 
 
 def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) -> list[str]:
-    if recording.scaled_from is None or recording.placement is not None:
+    if recording.scaled_from is None or (recording.placement is not None and not recording.whole):
         return []
     wanted, *found = (
         f"{width} x {height}"
@@ -201,4 +201,9 @@ def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) ->
             [sizes[recording.camera], *map(tuple, recording.scaled_from.tolist())]
         )
     )
+    if recording.whole:
+        return [
+            f"{recording.camera}: pictures of {', '.join(found)} have another shape than the network's {wanted}; all "
+            f"of each is seen, and `regress headset check` finds a better --placement"
+        ]
     return [f"{recording.camera}: pictures of {', '.join(found)} are scaled to {wanted}"]

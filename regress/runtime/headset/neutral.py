@@ -11,6 +11,7 @@ from regress.runtime.calm import calm_frames
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.pictures import PICTURES, read_picture
 from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.recorded_paths import whole_of
 
 _AGREEMENT = 0.15
 """Mean difference of weights, over the shapes that move, by which early and late calm frames may differ."""
@@ -120,7 +121,7 @@ def read_neutral(
         path = next((file for file in files if file.is_file()), None)
         if path is None:
             raise InputError(f"{folder} has no neutral picture of {name}; {files[0].name} is looked for")
-        placed = (placement or {}).get(name)
+        placed = (placement or {}).get(name) or whole_of(path, (width, height))
         fitted = read_picture(path, width=width, height=height, bits=bits, placement=placed)
         if fitted.fault is not None:
             raise InputError(f"{path} cannot be the neutral picture of {name}: it is {fitted.fault.value}")

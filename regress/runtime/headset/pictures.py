@@ -12,12 +12,16 @@ from facegen.formats.picture_size import MOST_PIXELS, picture_size
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault, picture_fault
 from regress.runtime.headset.halves import half_of
-from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.placement import CameraPlacement, whole_view
 
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
 
 ASPECT = 0.02
 """Relative difference of aspect ratios up to which a picture is only scaled: 400 x 400 for 96 x 96, not 640 x 400."""
+
+STRANGE_ASPECT = 1.9
+"""Ratio of aspect ratios above which a picture is no view of one eye or a mouth: 1280 x 640 show two eyes side by side,
+and 640 x 360 are 1.78."""
 
 MOST_PICTURE_BYTES = 256 * 1024**2
 """Of a picture's file: the most pixels that are read, with 16 bits and two channels, not compressed."""
@@ -123,25 +127,35 @@ def has_shape_of(picture: tuple[int, int], view: tuple[float, float]) -> bool:
     return abs(picture[0] * view[1] / (picture[1] * view[0]) - 1) <= ASPECT
 
 
+def whole_of_shape(picture: tuple[int, int], view: tuple[int, int]) -> CameraPlacement | None:
+    """What nobody placed: all of pictures of another shape than a view's; both are (width, height).
+
+    None for pictures that only need scaling, and for those that are so much wider or higher than the view that they
+    show something else.
+    """
+    ratio = picture[0] * view[1] / (picture[1] * view[0])
+    if has_shape_of(picture, view) or max(ratio, 1 / ratio) > STRANGE_ASPECT:
+        return None
+    return whole_view(picture, view)
+
+
 def fit_picture(
     grey: np.ndarray, *, width: int, height: int, placement: CameraPlacement | None = None
 ) -> FittedPicture:
     """Bring a grey picture to a size: what a placement says of it, or all of it if only the size differs."""
-    scaled_from, fault = None, None
+    view, size = (width, height), (grey.shape[1], grey.shape[0])
+    shape = view if placement is None else (placement.aspect or size[0] / size[1], 1)
+    if not has_shape_of(size, shape):
+        return FittedPicture(
+            picture=np.zeros(view[::-1], dtype=np.uint8), fault=Fault.SHAPE, scaled_from=None
+        )
+    scaled_from = size
     if placement is not None:
-        scaled_from = grey.shape[1], grey.shape[0]
-        if placement.aspect is None or has_shape_of(scaled_from, (placement.aspect, 1)):
-            grey = placement.view(grey, width=width, height=height)
-        else:
-            fault = Fault.SHAPE
-    elif grey.shape != (height, width):
-        scaled_from = grey.shape[1], grey.shape[0]
-        if has_shape_of(scaled_from, (width, height)):
-            grey = cv2.resize(grey, (width, height), interpolation=cv2.INTER_AREA)
-        else:
-            fault = Fault.SHAPE
-    fault = fault or picture_fault(grey)
-    picture = np.zeros((height, width), dtype=np.uint8) if fault else grey
-    return FittedPicture(
-        picture=picture, fault=fault, scaled_from=None if fault is Fault.SHAPE else scaled_from
-    )
+        grey = placement.view(grey, width=width, height=height)
+    elif size == view:
+        scaled_from = None
+    else:
+        grey = cv2.resize(grey, view, interpolation=cv2.INTER_AREA)
+    fault = picture_fault(grey)
+    picture = np.zeros(view[::-1], dtype=np.uint8) if fault else grey
+    return FittedPicture(picture=picture, fault=fault, scaled_from=scaled_from)

@@ -93,6 +93,16 @@ class CameraPlacement:
         return seen if shares is None else _faded(seen, shares)
 
 
+def whole_view(picture: tuple[int, int], view: tuple[int, int]) -> CameraPlacement:
+    """All of pictures of another shape than the view's; both are (width, height).
+
+    On films of real eyes it costs less than the middle of the picture, or the picture squeezed into the view
+    (docs/measurements/headset-networks.md).
+    """
+    size = max(1.0, picture[1] * view[0] / (picture[0] * view[1]))
+    return CameraPlacement(size=size, aspect=picture[0] / picture[1])
+
+
 @lru_cache(maxsize=64)
 def _shares(
     picture_from_view: tuple[float, ...], picture: tuple[int, int], view: tuple[int, int]

@@ -10,7 +10,8 @@ from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.film_frames import Film
 from regress.runtime.headset.halves import half_size, split_half
-from regress.runtime.headset.pictures import PICTURES, decoded
+from regress.runtime.headset.pictures import PICTURES, decoded, whole_of_shape
+from regress.runtime.headset.placement import CameraPlacement
 
 _LOOKED_AT = 12
 """Pictures of a folder, all over it, whose commonest size is the folder's."""
@@ -64,6 +65,15 @@ def recorded_size(path: Path) -> tuple[int, int]:
     if width < 1 or height < 1:
         raise InputError(f"{path} cannot be read as a film")
     return half_size((width, height), half)
+
+
+def whole_of(path: Path, view: tuple[int, int]) -> CameraPlacement | None:
+    """All of the pictures of a folder, a film or a file, where most have another shape than a view (width, height)."""
+    try:
+        size = _size_of(path) if path.suffix.lower() in PICTURES else recorded_size(path)
+    except InputError:  # not one can be read, which is told of each
+        return None
+    return None if size is None else whole_of_shape(size, view)
 
 
 def _size_of(file: Path) -> tuple[int, int] | None:

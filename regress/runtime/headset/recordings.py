@@ -2,7 +2,7 @@
 
 import stat
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -14,14 +14,14 @@ from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.film_frames import Film
 from regress.runtime.headset.frame_names import frame_names
 from regress.runtime.headset.halves import half_of
+from regress.runtime.headset.picture_stack import PictureStack
 from regress.runtime.headset.pictures import (
     PICTURES,
-    FittedPicture,
     fit_picture,
     read_picture,
 )
 from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.recorded_paths import of_address, pictures_in, without_half
+from regress.runtime.headset.recorded_paths import of_address, pictures_in, whole_of, without_half
 
 MOST_FRAMES = 500_000
 """Of one camera's recording, which is held in memory: 92 minutes at 90 a second, 4.6 GB at 96 x 96."""
@@ -60,7 +60,9 @@ class Recording:
     scaled_from : (n, 2) int64 or None
         Width and height of each picture before it was scaled; None where none was.
     placement
-        What of the recorded pictures these are; None where they are all of them.
+        What of the recorded pictures these are; None where they are only scaled.
+    whole
+        Whether that is all of pictures of another shape than the network's, as nobody placed them.
     """
 
     camera: str
@@ -75,6 +77,7 @@ class Recording:
     note: str = ""
     scaled_from: np.ndarray | None = None
     placement: CameraPlacement | None = None
+    whole: bool = False
 
 
 def read_recording(
@@ -106,6 +109,7 @@ def read_recording(
     InputError
         Where the path is missing, is no folder or film, holds no pictures or too many; see ``read_picture``.
     """
+    named = path
     path, half = without_half(path)
     try:
         kind = path.stat().st_mode
@@ -115,11 +119,15 @@ def read_recording(
         ) from None
     except OSError as error:
         raise unreadable(path, error) from None
-    if stat.S_ISDIR(kind):
-        return _read_folder(path, camera, (width, height), bits, placement, choose, half)
-    if not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS:
+    if not stat.S_ISDIR(kind) and (not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS):
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
-    return _read_film(path, camera, (width, height), placement, choose, half)
+    size = width, height
+    whole = None if placement is not None else whole_of(named, size)
+    if stat.S_ISDIR(kind):
+        recording = _read_folder(path, camera, size, bits, placement or whole, choose, half)
+    else:
+        recording = _read_film(path, camera, size, placement or whole, choose, half)
+    return recording if whole is None else replace(recording, whole=True)
 
 
 def _read_folder(
@@ -138,19 +146,20 @@ def _read_folder(
     rows = np.arange(len(files)) if choose is None else choose(len(files))
     _check_count(len(rows), path)
     width, height = size
-    stack = _Stack(len(rows), size)
+    stack = PictureStack(len(rows), size)
     for row in rows:
         file = names.files[row]
         stack.add(read_picture(file, width=width, height=height, bits=bits, placement=placement, half=half))
-    note = f"names do not count frames ({names.odd.name} among them); counted from 0" if names.odd else ""
-    return stack.recording(
-        camera,
-        path,
-        rows if names.numbers is None else np.array(names.numbers, dtype=np.int64)[rows],
+    odd = f"names do not count frames ({names.odd.name} among them); counted from 0" if names.odd else ""
+    return Recording(
+        camera=camera,
+        source=str(path),
+        numbers=rows if names.numbers is None else np.array(names.numbers, dtype=np.int64)[rows],
         numbered=names.numbers is not None,
         time_s=None if names.time_s is None else np.array(names.time_s)[rows],
-        note=f"{camera}: {note}" if note else "",
+        note=f"{camera}: {odd}" if odd else "",
         placement=placement,
+        **stack.fields,
     )
 
 
@@ -167,10 +176,10 @@ def _read_film(
     with Film(path) as film:
         # of a film that does not say how long it is as much as of one that is just long enough
         chosen = None if choose is None else set(choose(film.length or MOST_FRAMES).tolist())
-        stack = _Stack(min(film.length, _EXPECTED) if choose is None else len(chosen), size)
+        stack = PictureStack(min(film.length, _EXPECTED) if choose is None else len(chosen), size)
         for frame in film.frames(chosen):
             stack.add(fit_picture(half_of(frame.grey, half), width=width, height=height, placement=placement))
-            _check_count(len(stack.faults), path)
+            _check_count(len(stack), path)
             numbers.append(frame.number)
             times.append(frame.time_s)
         fps = film.fps
@@ -178,15 +187,16 @@ def _read_film(
         raise InputError(f"{path} cannot be read as a film: it has no frames, or a codec that OpenCV lacks")
     time_s = np.array(times)
     rises = np.isfinite(time_s).all() and (np.diff(time_s) > 0).all() and len(time_s) > 1
-    return stack.recording(
-        camera,
-        path,
-        np.array(numbers),
+    return Recording(
+        camera=camera,
+        source=str(path),
+        numbers=np.array(numbers),
         numbered=False,
         film=True,
         fps=fps,
         time_s=time_s if rises else None if fps is None else np.array(numbers) / fps,
         placement=placement,
+        **stack.fields,
     )
 
 
@@ -206,52 +216,18 @@ def read_rendered(dataset: Path, camera: str, *, width: int, height: int) -> Rec
     if not files:
         raise InputError(f"{dataset} has no rendered pictures of {camera} (renders/000/000000/{camera}.png)")
     _check_count(len(files), dataset)
-    stack = _Stack(len(files), (width, height))
+    stack = PictureStack(len(files), (width, height))
     for number in sorted(files):
         stack.add(read_picture(files[number], width=width, height=height))
-    return stack.recording(camera, dataset, np.array(sorted(files), dtype=np.int64), numbered=True)
+    return Recording(
+        camera=camera,
+        source=str(dataset),
+        numbers=np.array(sorted(files), dtype=np.int64),
+        numbered=True,
+        **stack.fields,
+    )
 
 
 def _check_count(frames: int, path: Path) -> None:
     if frames > MOST_FRAMES:
         raise InputError(f"{path} has more than {MOST_FRAMES:,} frames of a camera; give it in parts")
-
-
-class _Stack:
-    """Pictures of one size, one after the other, in memory that is taken once.
-
-    Parameters
-    ----------
-    count
-        How many are expected; there may be fewer or more.
-    size
-        Width and height.
-    """
-
-    def __init__(self, count: int, size: tuple[int, int]) -> None:
-        width, height = size
-        self._size = size
-        self._pictures = np.empty((max(1, count), height, width), dtype=np.uint8)
-        self._scaled_from: list[tuple[int, int] | None] = []
-        self.faults: list[Fault | None] = []
-
-    def add(self, one: FittedPicture) -> None:
-        """Put a picture behind the others."""
-        if len(self.faults) == len(self._pictures):
-            self._pictures = np.concatenate([self._pictures, np.empty_like(self._pictures)])
-        self._pictures[len(self.faults)] = one.picture
-        self.faults.append(one.fault)
-        self._scaled_from.append(one.scaled_from)
-
-    def recording(self, camera: str, source: Path, numbers: np.ndarray, **known: object) -> Recording:
-        """All of them, with what else a `Recording` has."""
-        scaled = any(self._scaled_from)
-        return Recording(
-            camera=camera,
-            source=str(source),
-            numbers=numbers,
-            pictures=self._pictures[: len(self.faults)],
-            faults=tuple(self.faults),
-            scaled_from=np.array([one or self._size for one in self._scaled_from]) if scaled else None,
-            **known,
-        )

@@ -7,7 +7,7 @@ import numpy as np
 
 from regress.errors import InputError
 from regress.runtime.headset.faults import Fault, FrozenWatch
-from regress.runtime.headset.pictures import FittedPicture, fit_picture
+from regress.runtime.headset.pictures import FittedPicture, fit_picture, whole_of_shape
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.sample import Sample
 from regress.runtime.stages.frame_clock import USUAL_FPS, FrameClock
@@ -25,6 +25,12 @@ class PictureSoundness(Stage):
         What of a camera's pictures the network is to see; all, of cameras that are left out.
     fps
         Frames a second of samples without times.
+
+    Attributes
+    ----------
+    whole
+        Width and height of the first pictures, of cameras that nobody placed and whose shape is not the network's: all
+        of their pictures is seen.
     """
 
     def __init__(
@@ -34,9 +40,11 @@ class PictureSoundness(Stage):
         *,
         fps: float = USUAL_FPS,
     ) -> None:
-        self._sizes, self._placement = sizes, placement or {}
+        self._sizes = sizes
+        self._placement: dict[str, CameraPlacement | None] = dict(placement or {})
         self._watch, self._clock = FrozenWatch(), FrameClock(fps)
         self._last: dict[str, np.ndarray] = {}
+        self.whole: dict[str, tuple[int, int]] = {}
 
     def step(self, sample: Sample) -> Sample:
         """The sample with sound pictures alone; ``faults`` says what the other cameras have.
@@ -80,9 +88,15 @@ class PictureSoundness(Stage):
             found = self._fit(name, picture)
             if found.fault is not None:
                 raise InputError(f"the neutral picture of {name} cannot be one: it is {found.fault.value}")
-            fitted[name] = found.picture
+            fitted[name] = found.picture.copy()  # programs fill one buffer again and again
         return fitted
 
     def _fit(self, name: str, picture: np.ndarray) -> FittedPicture:
         width, height = self._sizes[name]
-        return fit_picture(picture, width=width, height=height, placement=self._placement.get(name))
+        size = picture.shape[1], picture.shape[0]
+        if name not in self._placement:
+            # the first picture settles the shape: later ones of another one show another part of what the camera sees
+            self._placement[name] = whole_of_shape(size, (width, height))
+            if self._placement[name] is not None:
+                self.whole[name] = size
+        return fit_picture(picture, width=width, height=height, placement=self._placement[name])

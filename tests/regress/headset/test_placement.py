@@ -218,8 +218,6 @@ def test_points_are_given_in_the_pixels_that_were_recorded(tmp_path: Path):
     random = np.random.default_rng(1)
     folder = write_pictures(tmp_path / "eye", random.integers(60, 200, (3, 90, 160), dtype=np.uint8))
     placement = CameraPlacement(x=0.6, y=0.4, size=0.5, mirror=True)
-    plain = read_recording(folder, "left_eye", width=64, height=64)
-    assert all(fault is not None for fault in plain.faults)  # of another shape
     recording = read_recording(folder, "left_eye", width=64, height=64, placement=placement)
     footage = line_up({"left_eye": recording}, {"left_eye": (64, 64)})
     assert footage.present.all()

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
+from regress.runtime.headset.faults import RESHAPE
 from regress.runtime.sample import Sample
 from tests.track.session.faces import SAMPLES, Kept, calibrated_profile, frames, new_session
 from track.detectors import FaceFault
@@ -235,8 +236,7 @@ CAMERAS: dict[str, tuple[Disturbance, set[str]]] = {
     "mouth of another shape": (
         _pictures(lambda pictures, _: {**pictures, "mouth": pictures["mouth"][:60]}),
         {
-            "mouth has a picture of another shape (the model's is 96x96); "
-            "`regress headset check` finds a --placement for it"
+            f"mouth has a picture of another shape; {RESHAPE}",
         },
     ),
     "mouth frozen": (frozen_camera, {"mouth has the picture of before again, while other cameras go on"}),

@@ -211,3 +211,21 @@ def test_a_slow_cameras_picture_stays_the_same_array_in_grey():
     assert grey[0].ndim == 2
     assert grey[0] is grey[1]
     assert grey[2] is not grey[1]
+
+
+def test_pictures_that_are_not_square_are_seen_whole_and_told_once():
+    """Most webcams give 4 : 3, and nobody has placed one at the first start."""
+    said = []
+    session = headset_session(said)
+    for sample in headset_frames()[:60]:
+        wide = {
+            name: np.pad(picture, ((0, 0), (16, 16)), mode="edge")
+            for name, picture in sample.pictures.items()
+        }
+        session.answer(replace(sample, pictures=wide))
+    assert all(sample.weights is not None for sample in session.sinks[0].samples)
+    for name in HEADSET:
+        (told,) = [line for line in said if line.startswith(f"{name}: ")]
+        assert told.startswith(
+            f"{name}: 128x96 is another shape than the network's; all of each picture is seen"
+        )
