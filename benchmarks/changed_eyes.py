@@ -142,6 +142,16 @@ def changes() -> dict[str, Change]:
         "gamma 2": grey(lambda picture: (255 * (picture / 255.0) ** 2).astype(np.uint8)),
         "gamma 0.5": grey(lambda picture: (255 * (picture / 255.0) ** 0.5).astype(np.uint8)),
         "a quarter of the contrast": grey(lambda picture: (90 + picture / 4).astype(np.uint8)),
+        "half of the light": (1.0, lambda film: lamped(film, np.full(len(film.pictures), 0.5))),
+        "a twentieth of the light": (1.0, lambda film: lamped(film, np.full(len(film.pictures), 0.05))),
+        "light that falls to a quarter": (
+            1.0,
+            lambda film: lamped(film, np.linspace(1, 0.25, len(film.pictures))),
+        ),
+        "light that comes and goes": (
+            1.0,
+            lambda film: lamped(film, 0.6 + 0.4 * np.sin(0.9 * np.arange(len(film.pictures)))),
+        ),
         "noise of 12 grey levels": grey(noisy),
         "blur of 1 % of the width": grey(
             lambda picture: cv2.GaussianBlur(picture, (0, 0), picture.shape[1] / 100)
@@ -153,6 +163,12 @@ def changes() -> dict[str, Change]:
 def lit(film: Film, change: Callable[[np.ndarray], np.ndarray]) -> Film:
     """Other grey levels."""
     return replace(film, pictures=np.stack([change(picture) for picture in film.pictures]))
+
+
+def lamped(film: Film, times: np.ndarray) -> Film:
+    """Each picture in so many times its light, as a lamp or the camera's exposure gives it."""
+    pictures = np.rint(film.pictures * times[:, None, None]).clip(0, 255).astype(np.uint8)
+    return replace(film, pictures=pictures)
 
 
 def moved(film: Film, scale: float, *, across: float = 0.0, down: float = 0.0, turn_deg: float = 0.0) -> Film:

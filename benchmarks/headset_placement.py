@@ -22,8 +22,7 @@ from benchmarks.any_headset import headset_of_rows
 from facegen.conventions import VIEW_POINTS
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.levels import level_table
-from regress.runtime.headset.looks import levels_of
+from regress.runtime.headset.levels import levels_in
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_search import find_placement
 from regress.runtime.headset.placement_steps import placement_of_points
@@ -142,7 +141,7 @@ def pupil_error(
     points = EyePoints.of(predictor, take.camera)
     width, height = predictor.sizes[take.camera]
     views = np.stack([placement.view(one, width=width, height=height) for one in pictures])
-    views = level_table(*levels_of(views), predictor.model.looks[take.camera])[views]
+    views = levels_in([views], predictor.model.looks[take.camera]).apply(views)
     traced = predictor.graph.trace({take.camera: views})[take.camera][:, points.pupil]
     back = placement.picture_from_view((pictures.shape[2], pictures.shape[1]), (width, height))
     at = traced @ back[:, :2].T + back[:, 2]

@@ -28,8 +28,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.levels import level_table
-from regress.runtime.headset.looks import levels_of
+from regress.runtime.headset.levels import levels_in
 from regress.runtime.headset.placement import CameraPlacement, whole_view
 from regress.runtime.headset.placement_search import find_placement
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
@@ -166,7 +165,7 @@ def answer_to(
         views = np.stack([placed.view(one, width=width, height=height, fades=fades) for one in film.pictures])
         matrix = placed.picture_from_view(picture, (width, height))
     if CAMERA in predictor.model.looks:
-        views = level_table(*levels_of(views), predictor.model.looks[CAMERA])[views]
+        views = levels_in([views], predictor.model.looks[CAMERA]).apply(views)
     traced = predictor.graph.trace({CAMERA: views})[CAMERA]
     return Answer(
         points=traced @ matrix[:, :2].T + matrix[:, 2], weights=predictor.predict({CAMERA: views}).weights

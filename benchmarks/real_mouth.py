@@ -22,8 +22,7 @@ from facegen.conventions import BLENDSHAPE_INDEX
 from regress.learning.headset.accuracy import r2_of
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.evaluation import Condition, estimate
-from regress.runtime.headset.levels import level_table
-from regress.runtime.headset.looks import levels_of
+from regress.runtime.headset.levels import levels_in
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 
@@ -169,7 +168,7 @@ def real_rows(name: str, predictor: HeadsetPredictor, file: Path) -> Iterator[st
         ("largest square", square.view(picture, width=width, height=height)),
     ):
         if CAMERA in predictor.model.looks:
-            seen = level_table(*levels_of(seen[None]), predictor.model.looks[CAMERA])[seen]
+            seen = levels_in([seen[None]], predictor.model.looks[CAMERA]).apply(seen)
         weights = predictor.predict({CAMERA: seen[None]}).weights[0]
         smile = weights[[BLENDSHAPE_INDEX[one] for one in SMILES]].mean()
         cells = [f"{weights[BLENDSHAPE_INDEX[one]]:.2f}" for one in SHOWN]

@@ -15,6 +15,7 @@ _FARTHEST_DEG = 60.0
 
 if TYPE_CHECKING:
     from regress.runtime.headset.footage import Footage
+    from regress.runtime.headset.levels import CameraLevels
     from regress.runtime.headset.neutral import Neutral
     from regress.runtime.headset.placement import CameraPlacement
     from regress.runtime.headset.predictor import HeadsetPredictor
@@ -186,7 +187,7 @@ def read_neutrals(
     still: bool,
     bits: int | None = None,
     placement: "Mapping[str, CameraPlacement] | None" = None,
-    tables: Mapping[str, np.ndarray] | None = None,
+    levels: "Mapping[str, CameraLevels] | None" = None,
 ) -> "list[Neutral]":
     """Neutral pictures as the options ask for them; none where frames are to be seen alone.
 
@@ -207,7 +208,7 @@ def read_neutrals(
             "each its own"
         )
     if len(named) == 1:
-        return _one_neutral(predictor, footage, named[0], bits, placement or {}, tables or {})
+        return _one_neutral(predictor, footage, named[0], bits, placement or {}, levels or {})
     rows = [_row(footage, name) for name in named]
     if rows != sorted(set(rows)):
         raise InputError(f"--neutral frames {', '.join(named)} are not in the order of time")
@@ -235,7 +236,7 @@ def _one_neutral(
     named: str,
     bits: int | None,
     placement: "Mapping[str, CameraPlacement]",
-    tables: Mapping[str, np.ndarray],
+    levels: "Mapping[str, CameraLevels]",
 ) -> "list[Neutral]":
     """A frame, a folder's pictures or the calmest frame; nothing where none can be relied on."""
     from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
@@ -257,7 +258,8 @@ def _one_neutral(
         needed = {name: size for (name, size), there in sizes if there}
         pictures = read_neutral(Path(named), needed, bits=bits, placement=placement)
         pictures = {
-            name: tables[name][picture] if name in tables else picture for name, picture in pictures.items()
+            name: levels[name].apply(picture) if name in levels else picture
+            for name, picture in pictures.items()
         }
         return [Neutral(row=0, pictures=pictures)]
     first, last = footage.numbers[[0, -1]]

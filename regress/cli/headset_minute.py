@@ -90,8 +90,7 @@ def read_minute(
     """
     from regress.cli.headset_input import camera_paths, read_footage, targets_of
     from regress.runtime.headset.guided import FACES, LOOK, REST, GuidedTake
-    from regress.runtime.headset.levels import level_table
-    from regress.runtime.headset.looks import levels_of
+    from regress.runtime.headset.levels import levels_in
     from regress.runtime.headset.placement_file import read_placement
 
     named = {face: text for face, text in zip(FACES, given, strict=False) if text is not None}
@@ -131,14 +130,11 @@ def read_minute(
             )
         rows, known = _labels(labels, whole)
         pictures[_LABELLED] = {name: frames[rows] for name, frames in _given(whole).items()}
-    tables = {}
+    levels = {}
     for name, looks in predictor.model.looks.items():
         seen = [frames[name] for frames in pictures.values() if name in frames]
-        place = places.get(name)
-        if place is not None and place.low is not None:
-            tables[name] = level_table(place.low, place.high, looks, fixed=True)
-        elif seen:
-            tables[name] = level_table(*levels_of(np.concatenate(seen)), looks)
+        if seen:
+            levels[name] = levels_in(seen, looks, places.get(name))
     lost = [frame for frame in targets if frame not in numbers[LOOK]]
     if lost:
         raise InputError(
@@ -147,7 +143,8 @@ def read_minute(
     takes = {
         face: GuidedTake(
             pictures={
-                name: tables[name][frames] if name in tables else frames for name, frames in shown.items()
+                name: levels[name].apply(frames) if name in levels else frames
+                for name, frames in shown.items()
             },
             targets_deg={numbers[LOOK][frame]: angles for frame, angles in targets.items()}
             if face == LOOK

@@ -1,21 +1,17 @@
 """What `regress headset predict` refuses or says of a model, its footage and how the answers came about."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-
-import numpy as np
 
 from facegen.console import say
 from regress.errors import InputError
 from regress.runtime.headset.compass import eye_compass
 from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.looks import levels_of
 from regress.runtime.headset.orientation import told_by_compass, told_orientation
 from regress.runtime.headset.points import check_points
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.temporal import TAPS
-
-_SAME_LEVEL = 4
-"""Grey levels by which any may be moved without a word."""
 
 _SAME_RATE = 0.05
 """Relative difference of frame rates that --temporal does not speak of: 29.97 are 30."""
@@ -42,13 +38,17 @@ def tell_of(footage: Footage, predictor: HeadsetPredictor, *, strict: bool) -> N
         say(note)
 
 
-def level_notes(tables: Mapping[str, np.ndarray]) -> Iterator[str]:
-    """A sentence for each camera whose grey levels are not left as they are."""
-    for name, table in tables.items():
-        if np.abs(table - np.arange(256.0)).max() > _SAME_LEVEL:
+def level_notes(footage: Footage, predictor: HeadsetPredictor) -> Iterator[str]:
+    """A sentence for each camera whose grey levels are none that people had in training."""
+    there = dict(zip(footage.cameras, footage.present.T, strict=True))
+    for name, known in predictor.model.looks.items():
+        if name not in there or not there[name].any():
+            continue
+        low, high = levels_of(footage.pictures[name][there[name]])
+        if not (known.low[0] <= low <= known.low[2] and known.high[0] <= high <= known.high[2]):
             yield (
-                f"{name}: its grey levels are not those of training and are stretched to them (64 becomes {table[64]}, "
-                f"192 {table[192]})"
+                f"{name}: its grey levels are {low:.0f} to {high:.0f}, and become {known.low[1]:.0f} to "
+                f"{known.high[1]:.0f}, as in training"
             )
 
 

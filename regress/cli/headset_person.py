@@ -4,13 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from facegen.console import say
 from regress.errors import InputError
 
 if TYPE_CHECKING:
     from regress.runtime.headset.footage import Footage
+    from regress.runtime.headset.levels import CameraLevels
     from regress.runtime.headset.neutral import Neutral
     from regress.runtime.headset.person import Person
     from regress.runtime.headset.placement import CameraPlacement
@@ -64,7 +63,7 @@ def neutrals_of(
     person: "Person | None",
     predictor: "HeadsetPredictor",
     footage: "Footage",
-    tables: Mapping[str, np.ndarray],
+    levels: "Mapping[str, CameraLevels]",
 ) -> "list[Neutral]":
     """The neutral pictures of a person's file; none without one, or where a camera in use has none there."""
     if person is None or not person.neutral:
@@ -81,5 +80,5 @@ def neutrals_of(
     for name in used:
         width, height = predictor.sizes[name]
         picture = unpacked_picture(person.neutral[name], width=width, height=height, of=f"{name} of --person")
-        pictures[name] = tables[name][picture] if name in tables else picture
+        pictures[name] = levels[name].apply(picture) if name in levels else picture
     return [Neutral(row=0, pictures=pictures)]

@@ -173,7 +173,7 @@ def predict(
     from regress.errors import InputError
     from regress.runtime.headset.film import check_film_name, write_film
     from regress.runtime.headset.halves import whole_of
-    from regress.runtime.headset.levels import levelled, tables_of
+    from regress.runtime.headset.levels import levelled, levels_of_cameras
     from regress.runtime.headset.placement_file import read_placement
     from regress.runtime.headset.points import points_csv
     from regress.runtime.headset.predict import predict_footage
@@ -237,10 +237,10 @@ def predict(
         raise InputError(f"{footage.source} does not say when its frames were taken; give --fps")
     tell_of(footage, predictor, strict=strict)
     # pictures of a dataset are of many people, each with levels of their own
-    tables = {} if dataset is not None else tables_of(footage, predictor.model.looks, placed)
-    for note in level_notes(tables):
+    levels = {} if dataset is not None else levels_of_cameras(footage, predictor.model.looks, placed)
+    for note in level_notes(footage, predictor):
         say(note)
-    footage = levelled(footage, tables)
+    footage = levelled(footage, levels)
     neutrals = read_neutrals(
         predictor,
         footage,
@@ -248,9 +248,9 @@ def predict(
         still=dataset is not None,
         bits=bits,
         placement=placed,
-        tables=tables,
+        levels=levels,
     )
-    neutrals = neutrals if neutral else neutrals_of(own, predictor, footage, tables)
+    neutrals = neutrals if neutral else neutrals_of(own, predictor, footage, levels)
     # whose file it is needs no proof, and another seat's neutral picture is worth more than none
     keep_neutral = keep_neutral or own is not None
     # first, as it knows whether frames that were looked at are there

@@ -12,14 +12,26 @@ DARK = 24
 """Grey level that the brightest fiftieth of a black picture stays below.
 
 Rendered views have 124 and more there (41 samples of `tracking3`, black level 8); a lens cap and sensor noise have less
-than 20.
+than 20. An eye in a twentieth of its light has less as well, so that a dark picture is looked at again.
 """
 
 _BRIGHT_SHARE = 0.02
 """Of a picture's pixels; counting them takes a twentieth of the time of a percentile."""
 
 FLAT = 4.0
-"""Standard deviation in grey levels below which a picture shows nothing; rendered views have 32 and more."""
+"""Standard deviation in grey levels below which a picture may show nothing; rendered views have 32 and more."""
+
+_SHAPES = 4.0
+"""How many times a picture's coarse range is that of its grain, if it shows something.
+
+A lens cap with a sensor's noise has 0.8 to 0.9, whatever the noise; a real eye's film in a twentieth of its light 10.
+"""
+
+_LEAST_SHAPES = 5.0
+"""Grey levels of coarse range at least: less is a sensor's own pattern."""
+
+_GRAIN_PX = 1.5
+"""Blur that leaves no grain."""
 
 STILL = 0.1
 """Mean difference in grey levels up to which two pictures are the same one.
@@ -57,8 +69,9 @@ class Fault(Enum):
 
 
 def is_black(picture: np.ndarray) -> bool:
-    """Whether no fiftieth of a picture's numbers (...) uint8 reaches `DARK`."""
-    return np.count_nonzero(picture >= DARK) < _BRIGHT_SHARE * picture.size
+    """Whether no fiftieth of a picture's numbers (h, w, ...) uint8 reaches `DARK`, and nothing shows in it."""
+    dark = np.count_nonzero(picture >= DARK) < _BRIGHT_SHARE * picture.size
+    return dark and not _shows_shapes(picture)
 
 
 def picture_fault(picture: np.ndarray) -> Fault | None:
@@ -66,7 +79,15 @@ def picture_fault(picture: np.ndarray) -> Fault | None:
     if is_black(picture):
         return Fault.BLACK
     _, deviation = cv2.meanStdDev(picture)
-    return Fault.FLAT if deviation[0, 0] < FLAT else None
+    return Fault.FLAT if deviation[0, 0] < FLAT and not _shows_shapes(picture) else None
+
+
+def _shows_shapes(picture: np.ndarray) -> bool:
+    """Whether something coarser than grain is in a picture that is dark, or nearly of one grey."""
+    values = picture.astype(np.float32)
+    coarse = cv2.GaussianBlur(values, (0, 0), _GRAIN_PX)
+    low, high = np.percentile(coarse, [2, 98])
+    return high - low >= max(_LEAST_SHAPES, _SHAPES * float((values - coarse).std()))
 
 
 class FrozenWatch:

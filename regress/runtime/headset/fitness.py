@@ -120,8 +120,6 @@ def _judge_camera(
     if has_shape_of((pictures.shape[2], pictures.shape[1]), (width, height)) and not misplaced:
         # within what people of the training differ by: a network that knows them gains nothing by being moved
         placement = CameraPlacement()
-    if not (known.low[0] <= looks.low <= known.low[2] and known.high[0] <= looks.high <= known.high[2]):
-        placement = replace(placement, low=looks.low, high=max(looks.high, looks.low + 1))
     return CameraFitness(camera=name, looks=looks, found=found, placement=placement, findings=tuple(findings))
 
 

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from regress.runtime.headset.fitness import CameraFitness
-from regress.runtime.headset.levels import level_table
+from regress.runtime.headset.levels import levels_in
 from regress.runtime.headset.predictor import HeadsetPredictor
 
 _ACROSS, _SIDE, _GAP, _LINE = 6, 192, 4, 20
@@ -35,9 +35,7 @@ def _block(predictor: HeadsetPredictor, pictures: np.ndarray, one: CameraFitness
     width, height = predictor.sizes[one.camera]
     chosen = pictures[np.linspace(0, len(pictures) - 1, _ACROSS).round().astype(int)]
     views = np.stack([one.placement.view(picture, width=width, height=height) for picture in chosen])
-    low, high = one.placement.low, one.placement.high
-    levels = (one.looks.low, one.looks.high) if low is None or high is None else (low, high)
-    levelled = level_table(*levels, predictor.model.looks[one.camera], fixed=low is not None)[views]
+    levelled = levels_in([views], predictor.model.looks[one.camera]).apply(views)
     traced = predictor.graph.trace({one.camera: levelled}).get(one.camera)
     names = predictor.model.points.get(one.camera, ())
     above, below = [], []

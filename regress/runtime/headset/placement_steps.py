@@ -16,8 +16,7 @@ from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.compass import QUARTERS, eye_compass
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.found_placement import FoundPlacement
-from regress.runtime.headset.levels import level_table
-from regress.runtime.headset.looks import levels_of
+from regress.runtime.headset.levels import levels_in
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.typical import likeness, typical_picture
@@ -187,7 +186,7 @@ class Search:
         views = np.stack(
             [placement.view(one, width=width, height=height, fades=self.fades) for one in pictures]
         )
-        return level_table(*levels_of(views), self._predictor.model.looks[self._camera])[views]
+        return levels_in([views], self._predictor.model.looks[self._camera]).apply(views)
 
     def _look(self, placement: CameraPlacement, pictures: np.ndarray) -> tuple[np.ndarray, dict[str, float]]:
         """Points (n, P, 2) in the view, and how good it is."""

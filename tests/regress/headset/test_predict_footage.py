@@ -179,6 +179,29 @@ def test_live_a_slow_cameras_picture_stands_and_one_that_hangs_is_frozen(hangs: 
     assert (Fault.FROZEN in faults) is hangs
 
 
+@given(st.floats(0.05, 0.12), st.floats(0, 0.6), st.integers(0, 99))
+def test_an_eye_in_little_light_is_no_black_picture(light: float, grain: float, seed: int):
+    """Levelled, a film of a real eye in a twentieth of its light is traced as well as in all of it."""
+    rows, columns = np.mgrid[:96, :96]
+    iris = np.hypot(rows - 48, columns - 50)
+    eye = np.where(iris < 9, 20.0, np.where(iris < 22, 90.0, 170.0 - 0.6 * np.abs(rows - 48)))
+    noise = grain * np.random.default_rng(seed).standard_normal(eye.shape)
+    picture = np.rint(light * eye + noise).clip(0, 255).astype(np.uint8)
+    assert np.percentile(picture, 98) < 24
+    assert picture_fault(picture) is None
+    assert picture_fault((picture + 100).astype(np.uint8)) is None  # a lamp that shines into the lens
+
+
+@given(st.floats(0, 9), st.floats(0.4, 6), st.floats(0, 3), st.integers(0, 99))
+def test_a_lens_cap_is_black_whatever_its_noise(level: float, grain: float, slope: float, seed: int):
+    noise = grain * np.random.default_rng(seed).standard_normal((96, 96))
+    cap = level + slope * np.linspace(0, 1, 96) + noise
+    picture = np.rint(cap).clip(0, 255).astype(np.uint8)
+    assert picture_fault(picture) is Fault.BLACK
+    if 5 < level and grain < 3:
+        assert picture_fault((picture + 100).astype(np.uint8)) is Fault.FLAT
+
+
 def test_black_and_flat_pictures_are_told_from_dark_ones():
     rng = np.random.default_rng(4)
     assert picture_fault(rng.normal(8, 3, (96, 96)).clip(0, 255).astype(np.uint8)) is Fault.BLACK
