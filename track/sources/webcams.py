@@ -11,7 +11,10 @@ import cv2
 
 from facegen.formats.film import FILMS
 from track.errors import CameraError
+from track.sources.camera_memory import CameraMemory
+from track.sources.camera_mode import ask_for
 from track.sources.opencv import grabbed, opened
+from track.sources.picture_rate import RateWatch
 from track.sources.source import Picture, Source
 
 FOLDER = Path("/sys/class/video4linux")
@@ -19,6 +22,9 @@ FOLDER = Path("/sys/class/video4linux")
 
 TRIED = 8
 """Numbers that are tried where the system gives no list."""
+
+_SLOW = 0.8
+"""Share of the rate that was asked, below which it is told."""
 
 _DEVICE = re.compile(r"/dev/video(\d+)")
 
@@ -68,6 +74,8 @@ class WebcamSource(Source):
     wanted
         Its number, a part of its name, or on Linux its device, as /dev/video2 or /dev/v4l/by-path/…, which tells two
         cameras of one make apart. One of several nodes of one name is the first that gives a picture.
+    memory
+        Of this camera, where it may be opened again.
 
     Raises
     ------
@@ -75,7 +83,8 @@ class WebcamSource(Source):
         Where there is no such camera, the name fits several, or it gives no picture.
     """
 
-    def __init__(self, wanted: str, *, folder: Path = FOLDER) -> None:
+    def __init__(self, wanted: str, *, folder: Path = FOLDER, memory: CameraMemory | None = None) -> None:
+        self._memory, self._rate = memory or CameraMemory(), RateWatch()
         # a list is asked for only where it is needed: elsewhere than on Linux all cameras are opened for it
         if wanted.isdecimal():
             numbers, self.title = [int(wanted)], f"camera {int(wanted)}"
@@ -87,8 +96,10 @@ class WebcamSource(Source):
             self._capture = opened(number, cv2.CAP_ANY)
             if self._capture is None:
                 continue
+            refused = ask_for(self._memory.mode, self._capture)
             self._first = grabbed(self._capture)
             if self._first is not None:
+                self._tell_mode(refused)
                 return
             self._capture.release()
         raise CameraError(_why_not(wanted, folder))
@@ -96,11 +107,49 @@ class WebcamSource(Source):
     def read(self) -> Picture | None:
         """The next picture; None where the camera has gone."""
         pixels, self._first = (grabbed(self._capture) if self._first is None else self._first), None
-        return None if pixels is None else Picture(time_s=time.perf_counter(), pixels=pixels)
+        if pixels is None:
+            return None
+        time_s = time.perf_counter()
+        if self._memory.mode.fps is not None:
+            self._tell_rate(self._rate.step(time_s))
+        return Picture(time_s=time_s, pixels=pixels)
 
     def close(self) -> None:
         """Let others have the camera."""
         self._capture.release()
+
+    def _tell_mode(self, refused: list[str]) -> None:
+        """What of the mode the camera does not do, by its first picture: what drivers answer is often only asked."""
+        size = self._memory.mode.size
+        if refused:
+            self._memory.tell(
+                "mode", f"{self.title} does not take {' and '.join(refused)}; it goes on without"
+            )
+        height, width = self._first.shape[:2]
+        if size is not None and size != (width, height):
+            self._memory.tell(
+                "size",
+                f"{self.title} gives {width}x{height} where {size[0]}x{size[1]} was asked; ask for a size that it has, "
+                "which may need another format",
+            )
+
+    def _tell_rate(self, fps: float | None) -> None:
+        asked_fps = self._memory.mode.fps
+        if fps is not None and fps < _SLOW * asked_fps:
+            self._memory.tell(
+                "rate",
+                f"{self.title} gives {fps:.0f} pictures a second where {asked_fps:g} were asked; a shorter exposure, "
+                "more light, format=MJPG or a smaller size may help",
+            )
+
+
+def same_camera(one: str, other: str) -> bool:
+    """Whether two texts mean one webcam, as far as their letters tell: 0 is /dev/video0."""
+    return one == other or (_number_of(one) is not None and _number_of(one) == _number_of(other))
+
+
+def _number_of(wanted: str) -> int | None:
+    return int(wanted) if wanted.isdecimal() else _device_number(wanted)
 
 
 def _device_number(wanted: str) -> int | None:
