@@ -102,7 +102,7 @@ def test_on_linux_a_camera_is_named_by_its_device_too(
 ):
     """Two cameras of one make have one name; the socket's path tells them apart."""
     by_path = {"/dev/v4l/by-path/usb-0:1:1.0-video-index0": "/dev/video0"}
-    monkeypatch.setattr("track.sources.webcams.os.path.realpath", lambda path: by_path.get(path, path))
+    monkeypatch.setattr("track.sources.video_nodes.os.path.realpath", lambda path: by_path.get(path, path))
     for wanted in ("/dev/video0", *by_path):
         camera = open_source(wanted)
         try:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from track.sources.camera_mode import CameraMode
+from track.sources.video_nodes import Identity
 
 
 @dataclass(kw_only=True)
@@ -18,11 +19,17 @@ class CameraMemory:
         Takes sentences for a person; nothing is said without.
     opened
         Whether it was open before.
+    identity
+        Which camera that was, where the system tells.
+    twins
+        Whether another camera had the same name.
     """
 
     mode: CameraMode = field(default_factory=CameraMode)
     say: Callable[[str], None] | None = None
     opened: bool = False
+    identity: Identity | None = None
+    twins: bool = False
     _told: set[str] = field(default_factory=set)
 
     def tell(self, kind: str, sentence: str) -> None:

@@ -1,13 +1,12 @@
 """Webcams: which this machine has, as Linux names them and elsewhere by their numbers; and the pictures of one."""
 
-import os
-import re
 import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
 import cv2
+import numpy as np
 
 from facegen.formats.film import FILMS
 from track.errors import CameraError
@@ -16,9 +15,7 @@ from track.sources.camera_mode import ask_for
 from track.sources.opencv import grabbed, opened
 from track.sources.picture_rate import RateWatch
 from track.sources.source import Picture, Source
-
-FOLDER = Path("/sys/class/video4linux")
-"""Where Linux lists them."""
+from track.sources.video_nodes import FOLDER, device_number, identity_of, is_numbered, numbers_of
 
 TRIED = 8
 """Numbers that are tried where the system gives no list."""
@@ -26,7 +23,14 @@ TRIED = 8
 _SLOW = 0.8
 """Share of the rate that was asked, below which it is told."""
 
-_DEVICE = re.compile(r"/dev/video(\d+)")
+AGAIN_S = 0.5
+"""Reads that give nothing are repeated for so long before a camera counts as gone: drivers lose a picture."""
+
+OPENING_S = 3.0
+"""The same of a camera that was just opened: some need seconds to their first picture."""
+
+_PAUSE_S = 0.02
+"""Between two such reads."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,35 +88,89 @@ class WebcamSource(Source):
     """
 
     def __init__(self, wanted: str, *, folder: Path = FOLDER, memory: CameraMemory | None = None) -> None:
-        self._memory, self._rate = memory or CameraMemory(), RateWatch()
+        self._memory, self._rate, self._stopped = memory or CameraMemory(), RateWatch(), False
         # a list is asked for only where it is needed: elsewhere than on Linux all cameras are opened for it
-        if wanted.isdecimal():
-            numbers, self.title = [int(wanted)], f"camera {int(wanted)}"
-        elif (number := _device_number(wanted)) is not None:
-            numbers, self.title = [number], wanted
+        if (number := _number_of(wanted)) is not None:
+            numbers = [number]
+            self.title = f"camera {number}" if wanted.isdecimal() else wanted
         else:
             numbers, self.title = _numbers(wanted, list_webcams(folder))
-        for number in numbers:
-            self._capture = opened(number, cv2.CAP_ANY)
-            if self._capture is None:
-                continue
-            refused = ask_for(self._memory.mode, self._capture)
-            self._first = grabbed(self._capture)
-            if self._first is not None:
-                self._tell_mode(refused)
+        for number in self._same(numbers, wanted, folder):
+            if self._open(number):
+                self._remember(number, folder)
                 return
-            self._capture.release()
         raise CameraError(_why_not(wanted, folder))
 
     def read(self) -> Picture | None:
         """The next picture; None where the camera has gone."""
-        pixels, self._first = (grabbed(self._capture) if self._first is None else self._first), None
+        pixels, self._first = (self._grabbed(AGAIN_S) if self._first is None else self._first), None
         if pixels is None:
             return None
         time_s = time.perf_counter()
         if self._memory.mode.fps is not None:
             self._tell_rate(self._rate.step(time_s))
         return Picture(time_s=time_s, pixels=pixels)
+
+    def stop(self) -> None:
+        """Let a `read` give up."""
+        self._stopped = True
+
+    def _same(self, numbers: list[int], wanted: str, folder: Path) -> list[int]:
+        """Of a camera that was open before: the numbers at which it is now, and not those of another camera."""
+        known = self._memory.identity
+        identities = [identity_of(number, folder) for number in numbers]
+        sockets = {identity.socket for identity in identities if identity is not None}
+        if not self._memory.opened:
+            self._memory.twins = len(sockets) > 1
+        if known is None or (not is_numbered(wanted) and device_number(wanted) is not None):
+            return numbers  # a name of the system's own, as by-path, follows the camera or the socket that it names
+        found = numbers_of(known, folder)
+        if found:
+            return found
+        if not is_numbered(wanted) and len(sockets) < 2 and not self._memory.twins:
+            return numbers  # the only camera of this name, at another socket
+        if sockets:
+            self._memory.tell(
+                "identity",
+                f"{self.title} was {known.name!r}, and another camera or another socket has its place now; plug it in "
+                "where it was, or end track and start it again",
+            )
+        return []
+
+    def _open(self, number: int) -> bool:
+        """Open a camera in its mode and wait for its first picture; it is let go where none comes."""
+        self._capture = opened(number, cv2.CAP_ANY)
+        if self._capture is None:
+            return False
+        refused = ask_for(self._memory.mode, self._capture)
+        self._first = self._grabbed(OPENING_S)
+        if self._first is None:
+            self._capture.release()
+            return False
+        self._tell_mode(refused)
+        return True
+
+    def _remember(self, number: int, folder: Path) -> None:
+        """Which camera it is, so that no other takes its place when it comes back."""
+        memory = self._memory
+        if sys.platform.startswith("linux"):
+            memory.identity = memory.identity or identity_of(number, folder)
+        elif memory.opened:
+            memory.tell(
+                "number",
+                f"{self.title} is back by its number, and this system does not tell whether it is the same camera; "
+                "look at its picture",
+            )
+        memory.opened = True
+
+    def _grabbed(self, within_s: float) -> np.ndarray | None:
+        """The next picture; None where none came for so long."""
+        until_s = time.perf_counter() + within_s
+        while True:
+            pixels = grabbed(self._capture)
+            if pixels is not None or self._stopped or time.perf_counter() >= until_s:
+                return pixels
+            time.sleep(_PAUSE_S)
 
     def close(self) -> None:
         """Let others have the camera."""
@@ -149,13 +207,7 @@ def same_camera(one: str, other: str) -> bool:
 
 
 def _number_of(wanted: str) -> int | None:
-    return int(wanted) if wanted.isdecimal() else _device_number(wanted)
-
-
-def _device_number(wanted: str) -> int | None:
-    """The number of a device's file on Linux, by whatever name; None of anything else."""
-    found = _DEVICE.fullmatch(os.path.realpath(wanted)) if wanted.startswith("/dev/") else None
-    return None if found is None else int(found[1])
+    return int(wanted) if wanted.isdecimal() else device_number(wanted)
 
 
 def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
@@ -173,7 +225,7 @@ def _why_not(wanted: str, folder: Path) -> str:
     if wanted.isdecimal() and not sys.platform.startswith("linux"):
         return f"camera {wanted} gives no picture, or there is none of this number; `track devices` lists those that do"
     webcams = list_webcams(folder)
-    number = wanted if (device := _device_number(wanted)) is None else str(device)
+    number = wanted if (device := device_number(wanted)) is None else str(device)
     known = any(number == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams)
     if not known and device is None and (Path(wanted).suffix.lower() in FILMS or len(Path(wanted).parts) > 1):
         return f"there is no file {wanted}; give a film or a folder of pictures that is there, or a webcam's number"
