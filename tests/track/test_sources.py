@@ -58,6 +58,12 @@ def test_what_is_written_finds_its_kind(text: str, kind: str, tmp_path: Path):
         ("97", "there is no camera 97"),
         ("no such thing", "there is no camera no such thing"),
         (
+            "/dev/ttyACM0",
+            "/dev/ttyACM0 is a serial port, and pictures of serial boards are not read; give the board",
+        ),
+        ("/dev/cu.usbserial-10", "is a serial port"),
+        ("COM4", "COM4 is a serial port"),
+        (
             "ftp://me:secret@camera.local/live",
             "ftp://camera.local/live is no camera's address; these begin with http",
         ),

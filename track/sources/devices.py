@@ -7,6 +7,7 @@ import cv2
 
 from facegen.files import output_errors, write_whole
 from track.errors import CameraError
+from track.sources.node_faults import refusal
 from track.sources.picture_rate import rate_of
 from track.sources.webcams import FOLDER, Webcam, WebcamSource, list_webcams
 
@@ -77,7 +78,9 @@ def _look(webcam: Webcam, pictures: Path | None, folder: Path) -> Seen:
     try:
         camera = WebcamSource(str(webcam.number), folder=folder)
     except CameraError:
-        return Seen(number=webcam.number, name=webcam.name, fault=NO_PICTURE)
+        reason = refusal(webcam.number)
+        fault = NO_PICTURE if reason is None else f"gives no picture: {reason}"
+        return Seen(number=webcam.number, name=webcam.name, fault=fault)
     try:
         pixels, times_s = None, []
         for number in range(_SETTLING + _TIMED):

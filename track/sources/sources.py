@@ -15,7 +15,8 @@ from track.sources.folders import Folder
 from track.sources.lines import Lines
 from track.sources.numbering import shared_numbers
 from track.sources.source import Source
-from track.sources.webcams import WebcamSource, same_camera
+from track.sources.video_nodes import same_camera
+from track.sources.webcams import WebcamSource
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -58,3 +58,13 @@ def device_number(wanted: str) -> int | None:
 def is_numbered(wanted: str) -> bool:
     """Whether a text names a camera by nothing but its number, which another one may have tomorrow."""
     return wanted.isdecimal() or _DEVICE.fullmatch(wanted) is not None
+
+
+def number_of(wanted: str) -> int | None:
+    """The number that a text is, or whose device it names; None of a part of a camera's name."""
+    return int(wanted) if wanted.isdecimal() else device_number(wanted)
+
+
+def same_camera(one: str, other: str) -> bool:
+    """Whether two texts mean one webcam, as far as their letters tell: 0 is /dev/video0."""
+    return one == other or (number_of(one) is not None and number_of(one) == number_of(other))

@@ -1,5 +1,6 @@
 """Webcams: which this machine has, as Linux names them and elsewhere by their numbers; and the pictures of one."""
 
+import re
 import sys
 import time
 from dataclasses import dataclass
@@ -12,10 +13,11 @@ from facegen.formats.film import FILMS
 from track.errors import CameraError
 from track.sources.camera_memory import CameraMemory
 from track.sources.camera_mode import ask_for
+from track.sources.node_faults import is_mute, refusal
 from track.sources.opencv import grabbed, opened
 from track.sources.picture_rate import RateWatch
 from track.sources.source import Picture, Source
-from track.sources.video_nodes import FOLDER, device_number, identity_of, is_numbered, numbers_of
+from track.sources.video_nodes import FOLDER, device_number, identity_of, is_numbered, number_of, numbers_of
 
 TRIED = 8
 """Numbers that are tried where the system gives no list."""
@@ -28,6 +30,9 @@ AGAIN_S = 0.5
 
 OPENING_S = 3.0
 """The same of a camera that was just opened: some need seconds to their first picture."""
+
+_SERIAL = re.compile(r"/dev/(?:tty|cu\.).*|COM\d+", re.IGNORECASE)
+"""Serial ports, as boards have them that send pictures by their programming cable."""
 
 _PAUSE_S = 0.02
 """Between two such reads."""
@@ -57,17 +62,24 @@ def list_webcams(folder: Path = FOLDER) -> list[Webcam]:
     for entry in folder.glob("video*"):
         try:
             name = (entry / "name").read_text(encoding="utf-8", errors="replace").strip()
-            webcams.append(Webcam(number=int(entry.name[5:]), name=name))
+            webcam = Webcam(number=int(entry.name[5:]), name=name)
         except (OSError, ValueError):  # unplugged just now, or no camera
             continue
+        if not is_mute(webcam.number):
+            webcams.append(webcam)
     return sorted(webcams, key=lambda webcam: webcam.number)
 
 
 def _opens(number: int) -> bool:
-    capture = opened(number, cv2.CAP_ANY)
+    capture = opened(number, _backend(number))
     if capture is not None:
         capture.release()
     return capture is not None
+
+
+def _backend(number: int) -> int:
+    """OpenCV takes the hundreds of a number for a backend, where none is named."""
+    return cv2.CAP_V4L2 if sys.platform.startswith("linux") and number >= 100 else cv2.CAP_ANY
 
 
 class WebcamSource(Source):
@@ -89,8 +101,13 @@ class WebcamSource(Source):
 
     def __init__(self, wanted: str, *, folder: Path = FOLDER, memory: CameraMemory | None = None) -> None:
         self._memory, self._rate, self._stopped = memory or CameraMemory(), RateWatch(), False
+        if _SERIAL.fullmatch(wanted):
+            raise CameraError(
+                f"{wanted} is a serial port, and pictures of serial boards are not read; give the board a program that "
+                "sends MJPEG over Wi-Fi (--camera http://ADDRESS:81/stream) or makes it a USB webcam"
+            )
         # a list is asked for only where it is needed: elsewhere than on Linux all cameras are opened for it
-        if (number := _number_of(wanted)) is not None:
+        if (number := number_of(wanted)) is not None:
             numbers = [number]
             self.title = f"camera {number}" if wanted.isdecimal() else wanted
         else:
@@ -139,7 +156,7 @@ class WebcamSource(Source):
 
     def _open(self, number: int) -> bool:
         """Open a camera in its mode and wait for its first picture; it is let go where none comes."""
-        self._capture = opened(number, cv2.CAP_ANY)
+        self._capture = opened(number, _backend(number))
         if self._capture is None:
             return False
         refused = ask_for(self._memory.mode, self._capture)
@@ -201,15 +218,6 @@ class WebcamSource(Source):
             )
 
 
-def same_camera(one: str, other: str) -> bool:
-    """Whether two texts mean one webcam, as far as their letters tell: 0 is /dev/video0."""
-    return one == other or (_number_of(one) is not None and _number_of(one) == _number_of(other))
-
-
-def _number_of(wanted: str) -> int | None:
-    return int(wanted) if wanted.isdecimal() else device_number(wanted)
-
-
 def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
     """Numbers to try for a part of a name, and a title."""
     fitting = [webcam for webcam in webcams if wanted.lower() in webcam.name.lower()]
@@ -225,6 +233,8 @@ def _why_not(wanted: str, folder: Path) -> str:
     if wanted.isdecimal() and not sys.platform.startswith("linux"):
         return f"camera {wanted} gives no picture, or there is none of this number; `track devices` lists those that do"
     webcams = list_webcams(folder)
+    if (asked := number_of(wanted)) is not None and (reason := refusal(asked)):
+        return f"camera {wanted} gives no picture: {reason}"
     number = wanted if (device := device_number(wanted)) is None else str(device)
     known = any(number == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams)
     if not known and device is None and (Path(wanted).suffix.lower() in FILMS or len(Path(wanted).parts) > 1):
@@ -233,5 +243,7 @@ def _why_not(wanted: str, folder: Path) -> str:
         return f"there is no camera {wanted} here, nor a file of this name; plug one in, or say --camera FILM"
     listed = ", ".join(f"{webcam.number} ({webcam.name})" for webcam in webcams)
     if known:
-        return f"camera {wanted} gives no picture: another program may be using it; cameras here: {listed}"
+        fitting = [each.number for each in webcams if wanted.lower() in each.name.lower()]
+        reason = next(filter(None, map(refusal, fitting)), "another program may be using it")
+        return f"camera {wanted} gives no picture: {reason}; cameras here: {listed}"
     return f"there is no camera {wanted}, nor a file of this name; cameras here: {listed}"
