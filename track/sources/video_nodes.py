@@ -12,6 +12,22 @@ _DEVICE = re.compile(r"/dev/video(\d+)")
 
 
 @dataclass(frozen=True, kw_only=True)
+class Webcam:
+    """A camera.
+
+    Parameters
+    ----------
+    number
+        As OpenCV opens it.
+    name
+        As its driver calls it; ``"camera N"`` where the system does not tell.
+    """
+
+    number: int
+    name: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class Identity:
     """What stays of a camera that is unplugged and plugged into the same socket, while its number may change.
 

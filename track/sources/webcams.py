@@ -3,21 +3,31 @@
 import re
 import sys
 import time
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import cv2
 import numpy as np
 
-from facegen.formats.film import FILMS
 from track.errors import CameraError
 from track.sources.camera_memory import CameraMemory
 from track.sources.camera_mode import ask_for
-from track.sources.node_faults import is_mute, refusal
+from track.sources.grey_depth import grey_depth
+from track.sources.mac_permission import opened_with_permission
+from track.sources.node_faults import is_mute
 from track.sources.opencv import grabbed, opened
 from track.sources.picture_rate import RateWatch
 from track.sources.source import Picture, Source
-from track.sources.video_nodes import FOLDER, device_number, identity_of, is_numbered, number_of, numbers_of
+from track.sources.video_nodes import (
+    FOLDER,
+    Webcam,
+    device_number,
+    identity_of,
+    is_numbered,
+    number_of,
+    numbers_of,
+)
+from track.sources.webcam_refusals import why_not
 
 TRIED = 8
 """Numbers that are tried where the system gives no list."""
@@ -36,22 +46,6 @@ _SERIAL = re.compile(r"/dev/(?:tty|cu\.).*|COM\d+", re.IGNORECASE)
 
 _PAUSE_S = 0.02
 """Between two such reads."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Webcam:
-    """A camera.
-
-    Parameters
-    ----------
-    number
-        As OpenCV opens it.
-    name
-        As its driver calls it; ``"camera N"`` where the system does not tell.
-    """
-
-    number: int
-    name: str
 
 
 def list_webcams(folder: Path = FOLDER) -> list[Webcam]:
@@ -113,10 +107,10 @@ class WebcamSource(Source):
         else:
             numbers, self.title = _numbers(wanted, list_webcams(folder))
         for number in self._same(numbers, wanted, folder):
-            if self._open(number):
+            if opened_with_permission(partial(self._open, number), self.title, self._memory):
                 self._remember(number, folder)
                 return
-        raise CameraError(_why_not(wanted, folder))
+        raise CameraError(why_not(wanted, partial(list_webcams, folder)))
 
     def read(self) -> Picture | None:
         """The next picture; None where the camera has gone."""
@@ -160,6 +154,7 @@ class WebcamSource(Source):
         if self._capture is None:
             return False
         refused = ask_for(self._memory.mode, self._capture)
+        self._grey = grey_depth(self._capture)
         self._first = self._grabbed(OPENING_S)
         if self._first is None:
             self._capture.release()
@@ -185,6 +180,8 @@ class WebcamSource(Source):
         until_s = time.perf_counter() + within_s
         while True:
             pixels = grabbed(self._capture)
+            if self._grey is not None and pixels is not None:
+                pixels = self._grey.step(pixels)
             if pixels is not None or self._stopped or time.perf_counter() >= until_s:
                 return pixels
             time.sleep(_PAUSE_S)
@@ -227,23 +224,3 @@ def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
             f"{wanted!r} is in the names of several cameras: {', '.join(names)}; give more of one"
         )
     return [webcam.number for webcam in fitting], names[0] if names else wanted
-
-
-def _why_not(wanted: str, folder: Path) -> str:
-    if wanted.isdecimal() and not sys.platform.startswith("linux"):
-        return f"camera {wanted} gives no picture, or there is none of this number; `track devices` lists those that do"
-    webcams = list_webcams(folder)
-    if (asked := number_of(wanted)) is not None and (reason := refusal(asked)):
-        return f"camera {wanted} gives no picture: {reason}"
-    number = wanted if (device := device_number(wanted)) is None else str(device)
-    known = any(number == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams)
-    if not known and device is None and (Path(wanted).suffix.lower() in FILMS or len(Path(wanted).parts) > 1):
-        return f"there is no file {wanted}; give a film or a folder of pictures that is there, or a webcam's number"
-    if not webcams:
-        return f"there is no camera {wanted} here, nor a file of this name; plug one in, or say --camera FILM"
-    listed = ", ".join(f"{webcam.number} ({webcam.name})" for webcam in webcams)
-    if known:
-        fitting = [each.number for each in webcams if wanted.lower() in each.name.lower()]
-        reason = next(filter(None, map(refusal, fitting)), "another program may be using it")
-        return f"camera {wanted} gives no picture: {reason}; cameras here: {listed}"
-    return f"there is no camera {wanted}, nor a file of this name; cameras here: {listed}"
