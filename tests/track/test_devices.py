@@ -1,6 +1,7 @@
 """``track devices``: every webcam with a picture, as text and as JSON."""
 
 import json
+import re
 from pathlib import Path
 
 import cv2
@@ -9,6 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from tests.track.faces import film_of, seen
+from tests.track.fake_webcams import FakeCapture
 from track.cli import app
 from track.errors import CameraError
 from track.sources import open_source
@@ -64,7 +66,17 @@ def test_a_program_reads_the_list(webcams: Path, tmp_path: Path):
 def test_a_person_reads_a_line_each(webcams: Path):
     done = CliRunner().invoke(app, ["devices"])
     lines = done.stdout.splitlines()
-    assert lines == [" 0  HD Webcam  320 x 240", f" 4  Mouth Tracker  {NO_PICTURE}"]
+    assert re.fullmatch(r" 0  HD Webcam  320 x 240  \d+ a second", lines[0])
+    assert lines[1:] == [f" 4  Mouth Tracker  {NO_PICTURE}"]
+
+
+def test_the_rate_is_that_of_the_pictures_that_came(webcams: Path, monkeypatch: pytest.MonkeyPatch):
+    """Whatever rate the driver tells of."""
+    cameras = {0: FakeCapture(gap_s=0.05), 4: FakeCapture(fails=lambda number: number > 6)}
+    monkeypatch.setattr("track.sources.webcams.opened", lambda number, _: cameras[number])
+    first, second = look_at_webcams(folder=webcams)
+    assert 5 < first.fps <= 20
+    assert (second.width, second.fps) == (640, None)
 
 
 def test_a_camera_s_name_is_text_alone(webcams: Path):
@@ -90,7 +102,7 @@ def test_on_linux_a_camera_is_named_by_its_device_too(
 ):
     """Two cameras of one make have one name; the socket's path tells them apart."""
     by_path = {"/dev/v4l/by-path/usb-0:1:1.0-video-index0": "/dev/video0"}
-    monkeypatch.setattr("track.sources.webcams.os.path.realpath", lambda path: by_path.get(path, path))
+    monkeypatch.setattr("track.sources.video_nodes.os.path.realpath", lambda path: by_path.get(path, path))
     for wanted in ("/dev/video0", *by_path):
         camera = open_source(wanted)
         try:

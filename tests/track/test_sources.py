@@ -24,7 +24,7 @@ from tests.track.pictures import folder_of, numbered, read_all
 from tests.track.virtual import noise, told
 from track.errors import CameraError
 from track.sources import SOURCES, Pace, open_capture, open_source
-from track.sources.addresses import SCHEMES, is_address, without_secrets
+from track.sources.addresses import SCHEMES, is_address, is_local, without_secrets
 from track.sources.lines import Lines
 from track.sources.webcams import WebcamSource, list_webcams
 
@@ -57,6 +57,12 @@ def test_what_is_written_finds_its_kind(text: str, kind: str, tmp_path: Path):
         ("", "a camera has no name; give - for lines"),
         ("97", "there is no camera 97"),
         ("no such thing", "there is no camera no such thing"),
+        (
+            "/dev/ttyACM0",
+            "/dev/ttyACM0 is a serial port, and pictures of serial boards are not read; give the board",
+        ),
+        ("/dev/cu.usbserial-10", "is a serial port"),
+        ("COM4", "COM4 is a serial port"),
         (
             "ftp://me:secret@camera.local/live",
             "ftp://camera.local/live is no camera's address; these begin with http",
@@ -138,6 +144,67 @@ def test_servers_of_any_manners_are_read(manners: str):
     assert all(picture.pixels.shape == (48, 64, 3) for picture in pictures)
     assert (np.diff([picture.time_s for picture in pictures]) >= 0).all()
     assert all(not np.array_equal(one.pixels, other.pixels) for one, other in pairwise(pictures))
+
+
+def test_an_address_of_one_s_own_network_goes_through_no_proxy(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("http_proxy", "http://127.0.0.1:9")
+    monkeypatch.setenv("no_proxy", "")
+    with mjpeg_server(MjpegServer(picture=noise, fps=100)) as server:
+        source = open_source(f"http://127.0.0.1:{server.port}/stream")
+        assert source.read() is not None
+        source.close()
+
+
+@pytest.mark.parametrize(
+    ("host", "local"),
+    [
+        ("192.168.0.20", True),
+        ("10.0.0.7", True),
+        ("127.0.0.1", True),
+        ("169.254.3.4", True),
+        ("fe80::1", True),
+        ("esp32", True),
+        ("esp32.local", True),
+        ("8.8.8.8", False),
+        ("camera.example.org", False),
+    ],
+)
+def test_which_addresses_are_of_one_s_own_network(host: str, local: bool):
+    assert is_local(host) is local
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the backend is Linux's")
+@pytest.mark.parametrize(("number", "backend"), [(7, cv2.CAP_ANY), (100, cv2.CAP_V4L2), (142, cv2.CAP_V4L2)])
+def test_the_hundreds_of_a_number_are_no_backend(monkeypatch: pytest.MonkeyPatch, number: int, backend: int):
+    """OpenCV takes camera 142 for camera 42 of a backend 100."""
+    asked = []
+    monkeypatch.setattr("track.sources.webcams.opened", lambda *each: asked.append(each))
+    with pytest.raises(CameraError):
+        WebcamSource(str(number))
+    assert asked == [(number, backend)]
+
+
+def test_opencv_is_told_how_long_to_wait_before_it_loads():
+    program = """
+        import os, sys
+        from track.__main__ import main
+
+        sys.argv = ["track", "--version"]
+        try:
+            main()
+        except SystemExit:
+            pass
+        assert "cv2" not in sys.modules
+        assert os.environ["OPENCV_VIDEOIO_MSMF_ENABLE_HW_TRANSFORMS"] == "0"
+
+        from track.sources import open_source
+        try:
+            open_source("97")
+        except Exception:
+            pass
+        assert os.environ["OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT"] == "2"
+    """
+    subprocess.run([sys.executable, "-c", textwrap.dedent(program)], check=True, capture_output=True)
 
 
 @pytest.mark.parametrize("make", SERVERS)

@@ -15,7 +15,7 @@ def devices(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print a JSON list")] = False,
 ) -> None:
-    """List the cameras of this machine, with the size of their pictures, and a picture of each where asked.
+    """List the cameras of this machine with the size and rate of their pictures, and a picture of each where asked.
 
     Example: track devices --pictures cameras
     """
@@ -31,12 +31,14 @@ def devices(
         return
     for each in seen:
         size = f"{each.width} x {each.height}" if each.fault is None else each.fault
+        rate = "" if each.fps is None else f"{each.fps:.0f} a second"
         print(
             "  ".join(
                 [
                     f"{each.number:2}",
                     one_line(each.name),
                     size,
+                    *([rate] if rate else []),
                     *([str(each.picture)] if each.picture else []),
                 ]
             )

@@ -140,8 +140,8 @@ def open_pipeline(wishes: Wishes, texts: dict[str, str], say: Callable[[str], No
         return pipeline
 
 
-def open_cameras(wishes: Wishes, texts: dict[str, str]) -> "Capture":
-    """Begin to read the cameras.
+def open_cameras(wishes: Wishes, texts: dict[str, str], say: Callable[[str], None]) -> "Capture":
+    """Begin to read the cameras; what they do otherwise than asked is said.
 
     Raises
     ------
@@ -150,4 +150,4 @@ def open_cameras(wishes: Wishes, texts: dict[str, str]) -> "Capture":
     """
     from track.sources import Pace, open_capture
 
-    return open_capture(texts, Pace(fast=wishes.fast, fps=wishes.fps, again=wishes.loop))
+    return open_capture(texts, Pace(fast=wishes.fast, fps=wishes.fps, again=wishes.loop), say=say)

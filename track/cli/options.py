@@ -12,7 +12,8 @@ CameraOption = Annotated[
         metavar="[NAME=]SOURCE",
         help="A webcam's number or name, a film, a folder of pictures, an address (http://, rtsp://), or - for lines "
         "of 68 points. Of a headset one for each camera, with the camera's name: left_eye=0, or 0#left where one "
-        "camera shows both eyes. Camera 0 without.",
+        "camera shows both eyes. Behind a webcam its mode: 0,size=640x480,fps=60 (format, exposure, gain as well). "
+        "Camera 0 without.",
     ),
 ]
 

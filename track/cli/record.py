@@ -42,7 +42,7 @@ def record(
         raise InputError("--camera -: lines of points have no pictures to record")
     check_new_folder(folder, what="the take")
     telling, first_s = FaultTelling(say), None
-    with open_cameras(wishes, texts) as capture, FootageWriter(folder, list(texts)) as writer:
+    with open_cameras(wishes, texts, say) as capture, FootageWriter(folder, list(texts)) as writer:
         with ended_by_signals(capture), progress(unit="s") as told:
             for sample in capture:
                 telling.step(

@@ -115,7 +115,7 @@ def open_session(
 
     pipeline = open_pipeline(wishes, texts, say)
     closing.callback(pipeline.close)
-    capture = open_cameras(wishes, texts)
+    capture = open_cameras(wishes, texts, say)
     closing.callback(capture.close)
     profile, stored, path = open_profile(wishes, pipeline, capture.titles, say)
     if must_keep:

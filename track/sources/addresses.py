@@ -1,5 +1,7 @@
 """Pictures from an address: MJPEG over HTTP, as self-built trackers and ESP32 boards send it, and RTSP."""
 
+import ipaddress
+import os
 import re
 import time
 from urllib.parse import urlsplit
@@ -47,11 +49,12 @@ class AddressSource(Source):
         self.title = without_secrets(address)
         if self.title.partition("://")[0].lower() not in SCHEMES or not _has_host(address):
             raise CameraError(f"{self.title} is no camera's address; these begin with {', '.join(SCHEMES)}")
+        _go_past_proxies(urlsplit(address).hostname)
         self._capture = opened(address, cv2.CAP_FFMPEG)
         if self._capture is None:
             raise CameraError(
-                f"{self.title} cannot be reached, wants another password, or sends no pictures; "
-                "open it in a browser to see which"
+                f"{self.title} cannot be reached, wants another password, or sends no pictures; close other programs "
+                "that show it, as many cameras send to one alone"
             )
 
     def read(self) -> Picture | None:
@@ -62,6 +65,22 @@ class AddressSource(Source):
     def close(self) -> None:
         """End the connection."""
         self._capture.release()
+
+
+def is_local(host: str) -> bool:
+    """Whether a host is of one's own network, which no proxy outside of it can reach."""
+    try:
+        place = ipaddress.ip_address(host)
+    except ValueError:
+        return "." not in host or host.endswith((".local", ".lan", ".home.arpa", ".internal"))
+    return place.is_private or place.is_loopback or place.is_link_local
+
+
+def _go_past_proxies(host: str) -> None:
+    """FFmpeg sends all addresses through the proxy of ``http_proxy`` but those of ``no_proxy``."""
+    spared = os.environ.get("no_proxy", "")
+    if is_local(host) and os.environ.get("http_proxy") and host not in spared.split(","):
+        os.environ["no_proxy"] = ",".join(filter(None, (spared, host)))
 
 
 def _has_host(address: str) -> bool:

@@ -92,12 +92,16 @@ class Camera:
         silent = self.endless and time.perf_counter() - self.came_s > SILENT_S
         return CameraFault.SILENT if self.fault is None and silent else self.fault
 
-    def close(self) -> None:
-        """Let the source go; the thread has ended when this returns."""
+    def stop(self) -> None:
+        """Let the thread end soon, without waiting for it: of several cameras all are told before one is waited for."""
         self._stop.set()
         with self._news:
             self._news.notify_all()
         self._source.stop()
+
+    def close(self) -> None:
+        """Let the source go; the thread has ended when this returns."""
+        self.stop()
         if self._thread.is_alive():
             self._thread.join(self._source.ends_within_s)
         else:

@@ -7,10 +7,15 @@ import cv2
 
 from facegen.files import output_errors, write_whole
 from track.errors import CameraError
+from track.sources.node_faults import refusal
+from track.sources.picture_rate import rate_of
 from track.sources.webcams import FOLDER, Webcam, WebcamSource, list_webcams
 
 _SETTLING = 5
 """Pictures until a camera's exposure has found the room's light; the first ones are often black."""
+
+_TIMED = 12
+"""Pictures behind them by which the rate is measured: 0.4 s of most cameras."""
 
 
 NO_PICTURE = (
@@ -28,6 +33,8 @@ class Seen:
         As in `Webcam`.
     width, height
         Of its pictures; None where it gives none.
+    fps
+        Pictures a second that came, to a tenth; None where too few did.
     picture
         File of the one that was kept.
     fault
@@ -38,6 +45,7 @@ class Seen:
     name: str
     width: int | None = None
     height: int | None = None
+    fps: float | None = None
     picture: Path | None = None
     fault: str | None = None
 
@@ -70,12 +78,18 @@ def _look(webcam: Webcam, pictures: Path | None, folder: Path) -> Seen:
     try:
         camera = WebcamSource(str(webcam.number), folder=folder)
     except CameraError:
-        return Seen(number=webcam.number, name=webcam.name, fault=NO_PICTURE)
+        reason = refusal(webcam.number)
+        fault = NO_PICTURE if reason is None else f"gives no picture: {reason}"
+        return Seen(number=webcam.number, name=webcam.name, fault=fault)
     try:
-        pixels = None
-        for _ in range(_SETTLING):
+        pixels, times_s = None, []
+        for number in range(_SETTLING + _TIMED):
             picture = camera.read()
-            pixels = pixels if picture is None else picture.pixels
+            if picture is None:
+                break
+            pixels = picture.pixels
+            if number >= _SETTLING:
+                times_s.append(picture.time_s)
     finally:
         camera.close()
     file = None
@@ -84,4 +98,12 @@ def _look(webcam: Webcam, pictures: Path | None, folder: Path) -> Seen:
             pictures / f"camera-{webcam.number}.jpg", cv2.imencode(".jpg", pixels)[1].tobytes()
         )
     height, width = pixels.shape[:2]
-    return Seen(number=webcam.number, name=webcam.name, width=width, height=height, picture=file)
+    fps = rate_of(times_s)
+    return Seen(
+        number=webcam.number,
+        name=webcam.name,
+        width=width,
+        height=height,
+        fps=None if fps is None else round(fps, 1),
+        picture=file,
+    )

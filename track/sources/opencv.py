@@ -22,7 +22,9 @@ def opened(place: str | int, backend: int) -> cv2.VideoCapture | None:
         One of OpenCV's ``CAP_``.
     """
     _silence()
-    os.environ["OPENCV_FFMPEG_LOGLEVEL"] = "-8"  # AV_LOG_QUIET; asked for once, at the first opening
+    # both are asked for once, at the first opening: AV_LOG_QUIET, and seconds until a silent camera lets Ctrl-C through
+    os.environ["OPENCV_FFMPEG_LOGLEVEL"] = "-8"
+    os.environ.setdefault("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2")
     waits = [cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, _WAIT_MS, cv2.CAP_PROP_READ_TIMEOUT_MSEC, _WAIT_MS]
     try:
         capture = cv2.VideoCapture(place, backend, waits if backend == cv2.CAP_FFMPEG else [])

@@ -6,13 +6,16 @@ from pathlib import Path
 
 from regress.runtime.headset.halves import split_half
 from track.errors import CameraError
-from track.sources.addresses import AddressSource, is_address
+from track.sources.addresses import AddressSource, is_address, without_secrets
+from track.sources.camera_memory import CameraMemory
+from track.sources.camera_mode import CameraMode, split_mode
 from track.sources.capture import Capture
 from track.sources.films import Film
 from track.sources.folders import Folder
 from track.sources.lines import Lines
 from track.sources.numbering import shared_numbers
 from track.sources.source import Source
+from track.sources.video_nodes import same_camera
 from track.sources.webcams import WebcamSource
 
 
@@ -49,88 +52,151 @@ class SourceKind:
     matches
         Whether a text means it.
     open
-        Opens it.
+        Opens it; the memory is of the camera that this text means, from one opening to the next.
     """
 
     description: str
     matches: Callable[[str], bool]
-    open: Callable[[str, Pace], Source]
+    open: Callable[[str, Pace, CameraMemory], Source]
 
 
 SOURCES: dict[str, SourceKind] = {
     "lines": SourceKind(
         description="- for lines of 68 points on standard input",
         matches=lambda text: text == "-",
-        open=lambda text, pace: Lines(fast=pace.fast, fps=pace.fps),
+        open=lambda text, pace, memory: Lines(fast=pace.fast, fps=pace.fps),
     ),
     "address": SourceKind(
         description="an address of MJPEG over HTTP, or RTSP",
         matches=is_address,
-        open=lambda text, pace: AddressSource(text),
+        open=lambda text, pace, memory: AddressSource(text),
     ),
     "folder": SourceKind(
         description="a folder of pictures",
         matches=lambda text: _there(text, Path.is_dir),
-        open=lambda text, pace: Folder(
+        open=lambda text, pace, memory: Folder(
             Path(text), fast=pace.fast, fps=pace.fps, again=pace.again, numbers=pace.numbers
         ),
     ),
     "film": SourceKind(
         description="a film's file",
         matches=lambda text: _there(text, Path.is_file),
-        open=lambda text, pace: Film(Path(text), fast=pace.fast, again=pace.again),
+        open=lambda text, pace, memory: Film(Path(text), fast=pace.fast, again=pace.again),
     ),
     "webcam": SourceKind(
         description="a webcam's number, or a part of its name",
         matches=lambda text: True,
-        open=lambda text, pace: WebcamSource(text),
+        open=lambda text, pace, memory: WebcamSource(text, memory=memory),
     ),
 }
 """Tried in this order."""
 
 
-def open_source(text: str, pace: Pace | None = None) -> Source:
+def open_source(text: str, pace: Pace | None = None, *, say: Callable[[str], None] | None = None) -> Source:
     """Open what a text names.
+
+    Parameters
+    ----------
+    text
+        As a person wrote it; a webcam's mode may stand behind it (`track.sources.camera_mode`).
+    pace
+        Of kept pictures.
+    say
+        Takes sentences about a camera that gives something else than was asked.
 
     Raises
     ------
     CameraError
         Where it cannot be opened; a sentence says what can be done.
     """
-    if text.strip() == "":
-        raise CameraError(
-            f"a camera has no name; give {', or '.join(each.description for each in SOURCES.values())}"
-        )
-    return _kind_of(text).open(text, pace or Pace())
+    source, mode = (text, CameraMode()) if _there(text, Path.exists) else _with_mode(text)
+    return _open(source, pace or Pace(), CameraMemory(mode=mode, say=say))
 
 
-def open_capture(texts: Mapping[str, str], pace: Pace | None = None) -> Capture:
+def open_capture(
+    texts: Mapping[str, str], pace: Pace | None = None, *, say: Callable[[str], None] | None = None
+) -> Capture:
     """Open several cameras by their names, each from what a text names, and begin to read them.
 
-    ``0#left`` is the left half of camera 0's pictures.
+    ``0#left`` is the left half of camera 0's pictures, ``0,fps=120#left`` of its pictures in a mode.
 
     Raises
     ------
     CameraError
-        Where one cannot be opened.
+        Where one cannot be opened, or is asked for in two modes.
     """
+    parts = {name: _parts(text) for name, text in texts.items()}
     # two cameras may be halves of one source, which is opened once
-    halves = {
-        name: (text, "") if _there(text, Path.exists) else split_half(text) for name, text in texts.items()
-    }
-    folders = [Path(text) for text, _ in halves.values() if _kind_of(text) is SOURCES["folder"]]
+    halves = {name: (source, half) for name, (source, half, _) in parts.items()}
+    folders = [Path(source) for source, _ in halves.values() if _kind_of(source) is SOURCES["folder"]]
     pace = replace(pace or Pace(), numbers=shared_numbers(folders))
+    modes = _modes({name: (source, mode) for name, (source, _, mode) in parts.items()})
+
+    def opener(name: str) -> Callable[[], Source]:
+        source, memory = halves[name][0], CameraMemory(mode=modes[name], say=say)
+        return lambda: _open(source, pace, memory)
+
     if not any(half for _, half in halves.values()):
-        return Capture({name: _opener(text, pace) for name, text in texts.items()})
-    return Capture({text: _opener(text, pace) for text, _ in halves.values()}, halves=halves)
+        return Capture({name: opener(name) for name in texts})
+    return Capture({source: opener(name) for name, (source, _) in halves.items()}, halves=halves)
+
+
+def _open(source: str, pace: Pace, memory: CameraMemory) -> Source:
+    if source.strip() == "":
+        raise CameraError(
+            f"a camera has no name; give {', '.join(each.description for each in SOURCES.values())}"
+        )
+    return _kind_of(source).open(source, pace, memory)
+
+
+def _parts(text: str) -> tuple[str, str, CameraMode]:
+    """A source, the half of its pictures that is meant, and its mode; what is a file's name is one as it stands."""
+    if _there(text, Path.exists):
+        return text, "", CameraMode()
+    source, half = split_half(text)
+    if _there(source, Path.exists):
+        return source, half, CameraMode()
+    source, mode = _with_mode(source)
+    return source, half, mode
+
+
+def _with_mode(text: str) -> tuple[str, CameraMode]:
+    """A source, and the mode behind it, which webcams alone can have."""
+    source, mode = split_mode(text)
+    if not mode:
+        return source, mode
+    if _kind_of(source) is not SOURCES["webcam"]:
+        raise CameraError(
+            f"{without_secrets(source) if is_address(source) else source} is no webcam, and webcams alone have a mode: "
+            "leave out what stands behind the comma, or write %2C for an address' own"
+        )
+    whole, half = split_half(source)
+    if half:
+        raise CameraError(
+            f"the half {half!r} stands before the mode of camera {whole}; put it last: 0,fps=60#{half}"
+        )
+    return source, mode
+
+
+def _modes(asked: Mapping[str, tuple[str, CameraMode]]) -> dict[str, CameraMode]:
+    """Each camera's mode; one that asks for none has that of the other name for the same webcam."""
+    modes = {}
+    for name, (source, mode) in asked.items():
+        same = {
+            other: theirs for other, (its, theirs) in asked.items() if theirs and same_camera(source, its)
+        }
+        others = [other for other in same if mode and same[other] != mode]
+        if others:
+            raise CameraError(
+                f"{name} and {others[0]} ask for camera {source} in two modes, and it has one at a time; "
+                "give both the same"
+            )
+        modes[name] = next(iter(same.values()), mode)
+    return modes
 
 
 def _kind_of(text: str) -> SourceKind:
     return next(kind for kind in SOURCES.values() if kind.matches(text))
-
-
-def _opener(text: str, pace: Pace) -> Callable[[], Source]:
-    return lambda: open_source(text, pace)
 
 
 def _there(text: str, test: Callable[[Path], bool]) -> bool:

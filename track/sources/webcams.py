@@ -1,42 +1,51 @@
 """Webcams: which this machine has, as Linux names them and elsewhere by their numbers; and the pictures of one."""
 
-import os
 import re
 import sys
 import time
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import cv2
+import numpy as np
 
-from facegen.formats.film import FILMS
 from track.errors import CameraError
+from track.sources.camera_memory import CameraMemory
+from track.sources.camera_mode import ask_for
+from track.sources.grey_depth import grey_depth
+from track.sources.mac_permission import opened_with_permission
+from track.sources.node_faults import is_mute
 from track.sources.opencv import grabbed, opened
+from track.sources.picture_rate import RateWatch
 from track.sources.source import Picture, Source
-
-FOLDER = Path("/sys/class/video4linux")
-"""Where Linux lists them."""
+from track.sources.video_nodes import (
+    FOLDER,
+    Webcam,
+    device_number,
+    identity_of,
+    is_numbered,
+    number_of,
+    numbers_of,
+)
+from track.sources.webcam_refusals import why_not
 
 TRIED = 8
 """Numbers that are tried where the system gives no list."""
 
-_DEVICE = re.compile(r"/dev/video(\d+)")
+_SLOW = 0.8
+"""Share of the rate that was asked, below which it is told."""
 
+AGAIN_S = 0.5
+"""Reads that give nothing are repeated for so long before a camera counts as gone: drivers lose a picture."""
 
-@dataclass(frozen=True, kw_only=True)
-class Webcam:
-    """A camera.
+OPENING_S = 3.0
+"""The same of a camera that was just opened: some need seconds to their first picture."""
 
-    Parameters
-    ----------
-    number
-        As OpenCV opens it.
-    name
-        As its driver calls it; ``"camera N"`` where the system does not tell.
-    """
+_SERIAL = re.compile(r"/dev/(?:tty|cu\.).*|COM\d+", re.IGNORECASE)
+"""Serial ports, as boards have them that send pictures by their programming cable."""
 
-    number: int
-    name: str
+_PAUSE_S = 0.02
+"""Between two such reads."""
 
 
 def list_webcams(folder: Path = FOLDER) -> list[Webcam]:
@@ -47,17 +56,24 @@ def list_webcams(folder: Path = FOLDER) -> list[Webcam]:
     for entry in folder.glob("video*"):
         try:
             name = (entry / "name").read_text(encoding="utf-8", errors="replace").strip()
-            webcams.append(Webcam(number=int(entry.name[5:]), name=name))
+            webcam = Webcam(number=int(entry.name[5:]), name=name)
         except (OSError, ValueError):  # unplugged just now, or no camera
             continue
+        if not is_mute(webcam.number):
+            webcams.append(webcam)
     return sorted(webcams, key=lambda webcam: webcam.number)
 
 
 def _opens(number: int) -> bool:
-    capture = opened(number, cv2.CAP_ANY)
+    capture = opened(number, _backend(number))
     if capture is not None:
         capture.release()
     return capture is not None
+
+
+def _backend(number: int) -> int:
+    """OpenCV takes the hundreds of a number for a backend, where none is named."""
+    return cv2.CAP_V4L2 if sys.platform.startswith("linux") and number >= 100 else cv2.CAP_ANY
 
 
 class WebcamSource(Source):
@@ -68,6 +84,8 @@ class WebcamSource(Source):
     wanted
         Its number, a part of its name, or on Linux its device, as /dev/video2 or /dev/v4l/by-path/…, which tells two
         cameras of one make apart. One of several nodes of one name is the first that gives a picture.
+    memory
+        Of this camera, where it may be opened again.
 
     Raises
     ------
@@ -75,38 +93,126 @@ class WebcamSource(Source):
         Where there is no such camera, the name fits several, or it gives no picture.
     """
 
-    def __init__(self, wanted: str, *, folder: Path = FOLDER) -> None:
+    def __init__(self, wanted: str, *, folder: Path = FOLDER, memory: CameraMemory | None = None) -> None:
+        self._memory, self._rate, self._stopped = memory or CameraMemory(), RateWatch(), False
+        if _SERIAL.fullmatch(wanted):
+            raise CameraError(
+                f"{wanted} is a serial port, and pictures of serial boards are not read; give the board a program that "
+                "sends MJPEG over Wi-Fi (--camera http://ADDRESS:81/stream) or makes it a USB webcam"
+            )
         # a list is asked for only where it is needed: elsewhere than on Linux all cameras are opened for it
-        if wanted.isdecimal():
-            numbers, self.title = [int(wanted)], f"camera {int(wanted)}"
-        elif (number := _device_number(wanted)) is not None:
-            numbers, self.title = [number], wanted
+        if (number := number_of(wanted)) is not None:
+            numbers = [number]
+            self.title = f"camera {number}" if wanted.isdecimal() else wanted
         else:
             numbers, self.title = _numbers(wanted, list_webcams(folder))
-        for number in numbers:
-            self._capture = opened(number, cv2.CAP_ANY)
-            if self._capture is None:
-                continue
-            self._first = grabbed(self._capture)
-            if self._first is not None:
+        for number in self._same(numbers, wanted, folder):
+            if opened_with_permission(partial(self._open, number), self.title, self._memory):
+                self._remember(number, folder)
                 return
-            self._capture.release()
-        raise CameraError(_why_not(wanted, folder))
+        raise CameraError(why_not(wanted, partial(list_webcams, folder)))
 
     def read(self) -> Picture | None:
         """The next picture; None where the camera has gone."""
-        pixels, self._first = (grabbed(self._capture) if self._first is None else self._first), None
-        return None if pixels is None else Picture(time_s=time.perf_counter(), pixels=pixels)
+        pixels, self._first = (self._grabbed(AGAIN_S) if self._first is None else self._first), None
+        if pixels is None:
+            return None
+        time_s = time.perf_counter()
+        if self._memory.mode.fps is not None:
+            self._tell_rate(self._rate.step(time_s))
+        return Picture(time_s=time_s, pixels=pixels)
+
+    def stop(self) -> None:
+        """Let a `read` give up."""
+        self._stopped = True
+
+    def _same(self, numbers: list[int], wanted: str, folder: Path) -> list[int]:
+        """Of a camera that was open before: the numbers at which it is now, and not those of another camera."""
+        known = self._memory.identity
+        identities = [identity_of(number, folder) for number in numbers]
+        sockets = {identity.socket for identity in identities if identity is not None}
+        if not self._memory.opened:
+            self._memory.twins = len(sockets) > 1
+        if known is None or (not is_numbered(wanted) and device_number(wanted) is not None):
+            return numbers  # a name of the system's own, as by-path, follows the camera or the socket that it names
+        found = numbers_of(known, folder)
+        if found:
+            return found
+        if not is_numbered(wanted) and len(sockets) < 2 and not self._memory.twins:
+            return numbers  # the only camera of this name, at another socket
+        if sockets:
+            self._memory.tell(
+                "identity",
+                f"{self.title} was {known.name!r}, and another camera or another socket has its place now; plug it in "
+                "where it was, or end track and start it again",
+            )
+        return []
+
+    def _open(self, number: int) -> bool:
+        """Open a camera in its mode and wait for its first picture; it is let go where none comes."""
+        self._capture = opened(number, _backend(number))
+        if self._capture is None:
+            return False
+        refused = ask_for(self._memory.mode, self._capture)
+        self._grey = grey_depth(self._capture)
+        self._first = self._grabbed(OPENING_S)
+        if self._first is None:
+            self._capture.release()
+            return False
+        self._tell_mode(refused)
+        return True
+
+    def _remember(self, number: int, folder: Path) -> None:
+        """Which camera it is, so that no other takes its place when it comes back."""
+        memory = self._memory
+        if sys.platform.startswith("linux"):
+            memory.identity = memory.identity or identity_of(number, folder)
+        elif memory.opened:
+            memory.tell(
+                "number",
+                f"{self.title} is back by its number, and this system does not tell whether it is the same camera; "
+                "look at its picture",
+            )
+        memory.opened = True
+
+    def _grabbed(self, within_s: float) -> np.ndarray | None:
+        """The next picture; None where none came for so long."""
+        until_s = time.perf_counter() + within_s
+        while True:
+            pixels = grabbed(self._capture)
+            if self._grey is not None and pixels is not None:
+                pixels = self._grey.step(pixels)
+            if pixels is not None or self._stopped or time.perf_counter() >= until_s:
+                return pixels
+            time.sleep(_PAUSE_S)
 
     def close(self) -> None:
         """Let others have the camera."""
         self._capture.release()
 
+    def _tell_mode(self, refused: list[str]) -> None:
+        """What of the mode the camera does not do, by its first picture: what drivers answer is often only asked."""
+        size = self._memory.mode.size
+        if refused:
+            self._memory.tell(
+                "mode", f"{self.title} does not take {' and '.join(refused)}; it goes on without"
+            )
+        height, width = self._first.shape[:2]
+        if size is not None and size != (width, height):
+            self._memory.tell(
+                "size",
+                f"{self.title} gives {width}x{height} where {size[0]}x{size[1]} was asked; ask for a size that it has, "
+                "which may need another format",
+            )
 
-def _device_number(wanted: str) -> int | None:
-    """The number of a device's file on Linux, by whatever name; None of anything else."""
-    found = _DEVICE.fullmatch(os.path.realpath(wanted)) if wanted.startswith("/dev/") else None
-    return None if found is None else int(found[1])
+    def _tell_rate(self, fps: float | None) -> None:
+        asked_fps = self._memory.mode.fps
+        if fps is not None and fps < _SLOW * asked_fps:
+            self._memory.tell(
+                "rate",
+                f"{self.title} gives {fps:.0f} pictures a second where {asked_fps:g} were asked; a shorter exposure, "
+                "more light, format=MJPG or a smaller size may help",
+            )
 
 
 def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
@@ -118,19 +224,3 @@ def _numbers(wanted: str, webcams: list[Webcam]) -> tuple[list[int], str]:
             f"{wanted!r} is in the names of several cameras: {', '.join(names)}; give more of one"
         )
     return [webcam.number for webcam in fitting], names[0] if names else wanted
-
-
-def _why_not(wanted: str, folder: Path) -> str:
-    if wanted.isdecimal() and not sys.platform.startswith("linux"):
-        return f"camera {wanted} gives no picture, or there is none of this number; `track devices` lists those that do"
-    webcams = list_webcams(folder)
-    number = wanted if (device := _device_number(wanted)) is None else str(device)
-    known = any(number == str(webcam.number) or wanted.lower() in webcam.name.lower() for webcam in webcams)
-    if not known and device is None and (Path(wanted).suffix.lower() in FILMS or len(Path(wanted).parts) > 1):
-        return f"there is no file {wanted}; give a film or a folder of pictures that is there, or a webcam's number"
-    if not webcams:
-        return f"there is no camera {wanted} here, nor a file of this name; plug one in, or say --camera FILM"
-    listed = ", ".join(f"{webcam.number} ({webcam.name})" for webcam in webcams)
-    if known:
-        return f"camera {wanted} gives no picture: another program may be using it; cameras here: {listed}"
-    return f"there is no camera {wanted}, nor a file of this name; cameras here: {listed}"

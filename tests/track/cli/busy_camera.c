@@ -1,8 +1,9 @@
-/* Loaded before the C library, gives a program a camera /dev/video42 that another program streams from.
+/* Loaded before the C library, gives a program a camera that gives no pictures: /dev/video42, or what CAMERA_DEVICE names.
  *
- * It answers as Linux' drivers do (kernel documentation, "Multiple Opens"): anyone may open the device and ask what it can,
- * but who sets a format or asks for buffers gets EBUSY, which is also said on standard error, so that a test knows.
- * Everything else goes on to the C library.
+ * It answers as Linux' drivers do (kernel documentation, "Multiple Opens"), by CAMERA_SAYS: without, or with EBUSY, anyone
+ * may open the device and ask what it can, but who sets a format or asks for buffers gets EBUSY. With EACCES nobody may open
+ * it, with ENOSPC its pictures do not fit through the USB port, and METADATA makes it a node without pictures. What it
+ * answers is also said on standard error, so that a test knows. Everything else goes on to the C library.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -11,17 +12,35 @@
 #include <linux/videodev2.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-static const char *const DEVICE = "/dev/video42";
 static int device = -1;
+
+static const char *environment(const char *name, const char *usual)
+{
+    const char *value = getenv(name);
+    return value ? value : usual;
+}
+
+static int says(const char *word)
+{
+    return strcmp(environment("CAMERA_SAYS", "EBUSY"), word) == 0;
+}
+
+static int refuse(int error, const char *word)
+{
+    dprintf(2, "the camera says %s\n", word);
+    errno = error;
+    return -1;
+}
 
 static int real_open(const char *symbol, const char *path, int flags, mode_t mode)
 {
     int (*next)(const char *, int, ...) = dlsym(RTLD_NEXT, symbol);
-    if (strcmp(path, DEVICE) == 0)
-        return device = next("/dev/null", O_RDWR);
+    if (strcmp(path, environment("CAMERA_DEVICE", "/dev/video42")) == 0)
+        return says("EACCES") ? refuse(EACCES, "EACCES") : (device = next("/dev/null", O_RDWR));
     return next(path, flags, mode);
 }
 
@@ -54,7 +73,7 @@ int ioctl(int file, unsigned long request, ...)
         strcpy((char *)capability->driver, "uvcvideo");
         strcpy((char *)capability->card, "Mouth Tracker");
         capability->capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING | V4L2_CAP_DEVICE_CAPS;
-        capability->device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+        capability->device_caps = says("METADATA") ? V4L2_CAP_META_CAPTURE : V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
         return 0;
     }
     case VIDIOC_G_INPUT:
@@ -66,10 +85,11 @@ int ioctl(int file, unsigned long request, ...)
         return 0;
     case VIDIOC_S_FMT:
     case VIDIOC_REQBUFS:
+        return says("EBUSY") ? refuse(EBUSY, "EBUSY") : 0;
+    case VIDIOC_STREAMOFF:
+        return 0;
     case VIDIOC_STREAMON:
-        dprintf(2, "the camera says EBUSY\n");
-        errno = EBUSY;
-        return -1;
+        return says("EBUSY") ? refuse(EBUSY, "EBUSY") : refuse(ENOSPC, "ENOSPC");
     default:
         errno = ENOTTY;
         return -1;
