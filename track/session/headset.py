@@ -13,6 +13,7 @@ from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.faults import RESHAPE, Fault
 from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
+from regress.runtime.headset.parts import is_of_one_eye, side_of
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, kept_openness, unpacked_picture
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import Placement, read_placement
@@ -23,7 +24,7 @@ from regress.runtime.stages.stage import Stage
 from track.errors import InputError
 from track.profile.neutral import NeutralFace, base64_of
 from track.profile.profile import ModelMark
-from track.session.exchange import ExchangeWatch
+from track.session.exchange import ExchangeWatch, counted_pictures
 from track.session.faces import FACES
 from track.session.pipeline import Pipeline, filter_of
 from track.session.upright import UprightWatch
@@ -81,6 +82,18 @@ class HeadsetPipeline(Pipeline):
         """The weights (52,), where every camera that is there has a picture."""
         whole = sample.pictures is not None and set(sample.pictures) == set(self._opened)
         return sample.weights if whole and not np.isnan(sample.weights).any() else None
+
+    def unseen_eyes(self, sample: Sample) -> tuple[bool, bool]:
+        """Eyes whose cameras all count for nothing; of both, where no camera's name says a side, there is none."""
+        counted = counted_pictures(sample)
+        left, right = (
+            any(of_side) and not any(name in counted for name in of_side)
+            for of_side in (
+                [name for name in self.cameras if is_of_one_eye(name) and side_of(name) == side]
+                for side in ("left", "right")
+            )
+        )
+        return left, right
 
     def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
         """The frame that is nearest to the median of all: a mean of pictures would be blurred."""

@@ -61,6 +61,10 @@ class Pipeline:
         """What of a frame a calibration has to keep for seconds."""
         return sample
 
+    def unseen_eyes(self, sample: Sample) -> tuple[bool, bool]:
+        """Which eyes no camera sees in a frame, the left one first: what is said of them is guessed."""
+        return False, False
+
     def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
         """The neutral face of frames that show it."""
         raise NotImplementedError
