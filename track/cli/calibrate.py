@@ -49,7 +49,7 @@ def calibrate(
     from track.cli.running import RunOptions, ended_by_signals, open_session
     from track.errors import InputError
     from track.messages import Command, Moment
-    from track.profile.places import profile_path
+    from track.profile.places import known_path
     from track.session.faces import faces_of
 
     wishes = Wishes(
@@ -106,4 +106,4 @@ def calibrate(
             raise InputError(step.text)
         if not session.adjusting.has_kept:
             raise InputError("nothing was kept, as the neutral face is another one; calibrate neutral first")
-        say(f"kept in {profile_path(profile, ' '.join(capture.titles.values()))}")
+        say(f"kept in {known_path(profile, capture.titles)}")

@@ -13,7 +13,15 @@ from track.cli import app
 from track.errors import InputError
 from track.profile import places
 from track.profile.neutral import NeutralFace, lines_of
-from track.profile.places import disposable_path, person_of, profile_path, stored_path, stored_profiles
+from track.profile.places import (
+    camera_key,
+    disposable_path,
+    known_path,
+    person_of,
+    profile_path,
+    stored_path,
+    stored_profiles,
+)
 from track.profile.profile import (
     FULL_GAIN,
     LARGEST_GAIN,
@@ -148,6 +156,61 @@ def test_each_person_and_camera_has_a_file(folder):
     assert len({profile_path(None, title) for title in titles}) == len(titles)
     with pytest.raises(InputError, match="neither a file"):
         profile_path("../anna", "camera 0")
+
+
+NAMES = ("left_eye", "right_eye", "mouth")
+SOURCES = st.one_of(
+    st.integers(0, 9).map("camera {}".format),
+    st.text("abc/.:-", min_size=1, max_size=120).map("http://{}".format),
+)
+
+
+@given(st.dictionaries(st.sampled_from(NAMES), SOURCES, min_size=1), st.randoms(use_true_random=False))
+def test_a_profile_hangs_on_no_order_of_the_cameras(titles, random):
+    names = list(titles)
+    random.shuffle(names)
+    assert profile_path("a", camera_key({name: titles[name] for name in names})) == profile_path(
+        "a", camera_key(titles)
+    )
+
+
+@pytest.mark.parametrize("half", ["", "#left"])
+def test_a_webcam_is_the_same_by_its_number_and_its_device(half):
+    spelled = [{"mouth": f"{title}{half}"} for title in ("camera 2", "/dev/video2")]
+    assert camera_key(spelled[0]) == camera_key(spelled[1])
+    assert camera_key({"camera": f"/dev/video2{half}"}) == f"camera 2{half}"
+
+
+def test_other_cameras_are_other_profiles():
+    left, mouth = "http://10.0.0.2:81/" + "a" * 80, "camera 1"
+    found = [
+        {"left_eye": left, "mouth": mouth},
+        {"left_eye": mouth, "mouth": left},
+        {"left_eye": left, "right_eye": mouth},
+        {"left_eye": left + "b", "mouth": mouth},
+    ]
+    assert len({profile_path("a", camera_key(titles)) for titles in found}) == len(found)
+    assert all(len(profile_path("a", camera_key(titles)).name) < 110 for titles in found)
+
+
+@pytest.mark.parametrize(
+    ("titles", "former"),
+    [
+        ({"right_eye": "camera 1", "left_eye": "camera 0"}, "anna.camera-1-camera-0.toml"),
+        ({"camera": "http://h/" + "a" * 99}, f"anna.http-h-{'a' * 73}.toml"),
+        ({"camera": "/dev/video2"}, "anna.dev-video2.toml"),
+        ({"camera": "USB摄像头"}, None),
+    ],
+)
+def test_a_profile_of_before_is_found_until_there_is_a_new_one(folder, titles, former):
+    new = profile_path("anna", camera_key(titles))
+    assert known_path("anna", titles) == new
+    if former is not None:
+        write_profile(folder / former, Profile(person="anna", camera="x"))
+        assert known_path("anna", titles) == folder / former
+    write_profile(new, Profile(person="anna", camera="x"))
+    assert known_path("anna", titles) == new
+    assert known_path("here/p.toml", titles).name == "p.toml"
 
 
 @pytest.mark.parametrize("command", [["list"], ["show", "eve"]])
