@@ -127,14 +127,19 @@ class Pipeline:
 
     def sentences(self, sample: Sample) -> dict[str, str]:
         """What is wrong with a frame, for the person, by what it concerns."""
-        return {name: f"{name} has {words(fault)}" for name, fault in sample.faults.items()}
+        return sentences_of(sample.faults)
 
     def close(self) -> None:
         """Let go what the stages hold."""
 
 
+def sentences_of(faults: Mapping[str, Enum]) -> dict[str, str]:
+    """A sentence of each fault, by what has it; none of those that nobody needs to know."""
+    return {name: f"{name} has {words(fault)}" for name, fault in faults.items() if words(fault)}
+
+
 def words(fault: Enum) -> str:
-    """A fault's value, as part of a sentence."""
+    """A fault's value, as part of a sentence; empty where there is nothing to tell."""
     return str(fault.value)
 
 
