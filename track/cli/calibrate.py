@@ -45,6 +45,7 @@ def calibrate(
     Example: track calibrate --camera 0 --profile anna
     """
     from facegen.console import say
+    from facegen.errors import Drained
     from track.cli.opening import Wishes, camera_texts, is_headset
     from track.cli.running import RunOptions, ended_by_signals, open_session
     from track.errors import InputError
@@ -100,6 +101,8 @@ def calibrate(
                 if prompt.good
                 else "nothing was found before it"
             )
+            if not capture.over:
+                raise Drained(f"calibration was stopped; {found}")
             raise InputError(f"the pictures ended before calibration did; {found}")
         step = session.adjusting.step
         if step is not None and step.state in ("failed", "cancelled"):
