@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from regress.runtime.headset.person import HIGHEST_REST, OwnEye
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES
+from regress.runtime.headset.person import HIGHEST_REST, LEAST_SPAN, OwnEnds, OwnEye
 from regress.runtime.stages.own_blinks import Ends
 from track.cli import app
 from track.errors import InputError
@@ -82,9 +82,27 @@ def test_a_full_movement_reads_one_unless_the_gain_ends(profile):
     plain = profile.model_copy(update={"gains": {}})
     for name, reading in plain.ranges.items():
         full = reading * plain.factors()[BLENDSHAPE_INDEX[name]]
-        assert full == pytest.approx(min(1.0, FULL_GAIN * reading))
+        assert full == pytest.approx(min(1.0, plain.most_gain(name) * reading))
     unnamed = [index for name, index in BLENDSHAPE_INDEX.items() if name not in plain.ranges]
     assert np.all(plain.factors()[unnamed] == 1)
+
+
+@given(
+    rests=st.dictionaries(SHAPES, st.floats(0, HIGHEST_REST), max_size=5),
+    spans=st.dictionaries(SHAPES, st.floats(LEAST_SPAN, 0.5), max_size=5),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_a_headset_s_weights_are_stretched_live_as_by_a_guided_minute(rests, spans, seed):
+    """But for blinks: the minute measures how noisy they read, and nobody does so live."""
+    full = {name: min(1.0, rests.get(name, 0.0) + span) for name, span in spans.items()}
+    mark = ModelMark(kind="headset", sha256="ab" * 32)
+    profile = Profile(person="a", camera="b", model=mark, rests=rests, ranges=full)
+    read = np.random.default_rng(seed).uniform(size=52)
+    live = np.clip((read - profile.at_rest()) * profile.factors(), 0, 1)
+    kept = OwnEnds(rests, full, np.zeros(2)).apply(read, None)
+    others = np.setdiff1d(np.arange(52), BLINK_INDICES)
+    np.testing.assert_allclose(live[others], kept[others], atol=1e-9)
+    assert all(profile.most_gain(BLENDSHAPES[column]) == FULL_GAIN for column in BLINK_INDICES)
 
 
 @given(
