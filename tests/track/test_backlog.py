@@ -38,6 +38,7 @@ class Taken:
     numbers: dict[str, int]
     newest: dict[str, Coming]
     """What each camera gave last, at that time."""
+    faults: dict[str, object] = field(default_factory=dict)
 
 
 class _Cable(Source):
@@ -109,7 +110,7 @@ class Simulation:
                 new = {name: number for name, number in found.items() if number != last[name]}
                 last |= new
                 if new:
-                    taken.append(Taken(self.now_s, new, dict(self.newest)))
+                    taken.append(Taken(self.now_s, new, dict(self.newest), dict(sample.faults)))
                 self.work(works_s[len(taken) % len(works_s)])
             return taken
 
@@ -243,6 +244,39 @@ def test_one_camera_whose_thread_sleeps_costs_no_picture(step_s, jitter, at, pau
     assert all(len(set(each.numbers.values())) == 1 for each in taken)
     for name in NAMES:
         assert numbers_of(taken, name) == list(range(PICTURES))
+
+
+@settings(deadline=None)
+@given(
+    st.lists(st.integers(1, 25), min_size=1, max_size=5),
+    st.floats(0.11, 0.9),
+    st.floats(0.0, 0.004),
+    st.lists(st.floats(0.75, 1.0), min_size=1, max_size=5),
+)
+def test_pictures_that_come_in_bursts_are_not_late(counts, gap_s, within_s, shares):
+    """As over Wi-Fi: most steps are next to nothing, and say nothing of the wait for the next burst."""
+    bursts, begun_s = [], 0.0
+    for number in range(12):
+        begun_s += gap_s * shares[number % len(shares)]
+        for _ in range(counts[number % len(counts)]):
+            bursts.append(Coming(begun_s, "mouth", len(bursts), begun_s))
+            begun_s += within_s + 1e-5
+    eyes = [
+        Coming(0.02 * number, "left", number, 0.02 * number) for number in range(1, round(begun_s / 0.02))
+    ]
+    taken = Simulation(sorted(bursts + eyes, key=lambda each: each.came_s)).run([0.001])
+    since_s = 4 * (gap_s + 25 * within_s)  # a few bursts say how far they are apart
+    known = [each for each in taken if since_s < each.at_s < begun_s]
+    assert known
+    assert not any(each.faults for each in known)
+
+
+def test_one_pause_makes_nobody_wait_longer_for_a_camera():
+    backlog = Backlog()
+    times_s = np.cumsum([1 / 30] * 60 + [0.3] + [1 / 30] * 10)
+    for time_s in times_s:
+        backlog.add(Picture(time_s=time_s), time_s)
+    assert backlog.gap_s < 0.04
 
 
 def test_a_line_in_which_nobody_looks_holds_what_came_lately_alone():

@@ -15,10 +15,12 @@ from regress.runtime.sample import Sample
 from tests.track.faces import film_of
 from tests.track.virtual import Switches, VirtualCamera, noise, told
 from track.errors import CameraError, InputError
-from track.sources import CameraFault, Capture, Pace, open_capture
+from track.session.pipeline import sentences_of
+from track.sources import CameraFault, Capture, Pace, Picture, open_capture
 from track.sources.backlog import LONGEST_S
 from track.sources.camera import PAUSES_S, SILENT_S, RisingClock
 from track.sources.capture import LATE_S
+from track.sources.faults import PictureWatch
 from track.sources.webcams import WebcamSource
 
 PAUSES = (0.05, 0.1, 0.2)
@@ -167,6 +169,35 @@ def test_what_a_camera_does_wrong_is_told_once_and_its_pictures_do_not_count(
     assert all(sample.pictures == {} and sample.faults == {"eye": fault} for sample in wrong)
     assert _rises(samples)
     assert told(samples) == [f"eye: {fault.name}"]
+
+
+@pytest.mark.parametrize("dark_s", [0.3, 0.9])
+def test_a_camera_that_wakes_in_the_dark_is_told_only_where_it_stays_dark(dark_s: float):
+    """Its first pictures are black while the shutter opens; none of them counts, and each time that it is opened."""
+    watch, times_s = PictureWatch(moving=True), np.arange(60) / 30
+    faults = [
+        watch.step(Picture(time_s=time_s, pixels=noise(row) * np.uint8(time_s > dark_s)))
+        for row, time_s in enumerate(times_s)
+    ]
+    for time_s, fault in zip(times_s, faults, strict=True):
+        assert fault is (
+            None if time_s > dark_s else CameraFault.BLACK if time_s > 0.5 + 1e-9 else CameraFault.WAKING
+        )
+    assert watch.step(Picture(time_s=3.0, pixels=noise(0) * np.uint8(0))) is CameraFault.BLACK
+    assert list(sentences_of({"eye": CameraFault.WAKING, "mouth": CameraFault.BLACK})) == ["mouth"]
+
+
+def test_a_camera_that_comes_back_in_the_dark_wakes_again():
+    switches = Switches()
+    with _capture(eye=switches) as capture:
+        _until(capture, _well)
+        switches.plugged = False
+        _until(capture, lambda sample: sample.faults.get("eye") is CameraFault.UNPLUGGED)
+        switches.dark = switches.plugged = True
+        samples = _until(capture, lambda sample: sample.faults.get("eye") is CameraFault.WAKING)
+        switches.dark = False
+        samples += _until(capture, _well)
+    assert not any(sample.pictures for sample in samples[:-1])
 
 
 def test_a_camera_that_stops_is_called_silent_after_its_time():

@@ -12,6 +12,7 @@ from regress.runtime.headset.halves import HALVES, half_of, half_size, split_hal
 from regress.runtime.headset.recorded_paths import recorded_size
 from regress.runtime.headset.recordings import read_recording
 from tests.track.virtual import Switches, VirtualCamera
+from track.errors import CameraError
 from track.sources import Capture, Pace, open_capture
 
 
@@ -39,6 +40,20 @@ def test_halves_are_of_one_size_and_share_nothing(width: int, height: int, half:
 )
 def test_a_half_stands_behind_a_source(source: str, parts: tuple[str, str]):
     assert split_half(source) == parts
+
+
+@pytest.mark.parametrize("first", ["0", "/dev/video0", "http://me:secret@10.0.0.2:81/stream", "HD Webcam"])
+@pytest.mark.parametrize("half", ["", "#left"])
+def test_one_camera_for_two_names_is_told_with_its_halves(first: str, half: str):
+    """It opens once: the second name found it busy, and no sentence said why."""
+    second = "00" if first in ("0", "/dev/video0") else first
+    with pytest.raises(CameraError) as refused:
+        open_capture({"left_eye": first + half, "mouth": "7", "right_eye": second + half})
+    said = str(refused.value)
+    assert said.startswith("left_eye and right_eye are the same, ")
+    shown = first.replace("me:secret@", "")
+    assert (f"left_eye={shown}#left" in said) == (half == "")
+    assert "secret" not in said
 
 
 def both_eyes(folder: Path) -> Path:

@@ -45,11 +45,12 @@ def calibrate(
     Example: track calibrate --camera 0 --profile anna
     """
     from facegen.console import say
+    from facegen.errors import Drained
     from track.cli.opening import Wishes, camera_texts, is_headset
     from track.cli.running import RunOptions, ended_by_signals, open_session
     from track.errors import InputError
     from track.messages import Command, Moment
-    from track.profile.places import profile_path
+    from track.profile.places import known_path
     from track.session.faces import faces_of
 
     wishes = Wishes(
@@ -100,10 +101,12 @@ def calibrate(
                 if prompt.good
                 else "nothing was found before it"
             )
+            if not capture.over:
+                raise Drained(f"calibration was stopped; {found}")
             raise InputError(f"the pictures ended before calibration did; {found}")
         step = session.adjusting.step
         if step is not None and step.state in ("failed", "cancelled"):
             raise InputError(step.text)
         if not session.adjusting.has_kept:
             raise InputError("nothing was kept, as the neutral face is another one; calibrate neutral first")
-        say(f"kept in {profile_path(profile, ' '.join(capture.titles.values()))}")
+        say(f"kept in {known_path(profile, capture.titles)}")

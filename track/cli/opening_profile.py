@@ -9,7 +9,7 @@ import numpy as np
 from track.cli.opening import Wishes
 from track.errors import InputError
 from track.profile.neutral import NeutralFace
-from track.profile.places import person_of, profile_path, read_stored
+from track.profile.places import camera_key, known_path, person_of, read_stored
 from track.profile.profile import Profile
 
 if TYPE_CHECKING:
@@ -32,8 +32,8 @@ def open_profile(
     InputError
         Where it is of another kind of model, or cannot be read.
     """
-    camera = " ".join(titles.values())
-    path = profile_path(wishes.profile, camera)
+    camera = camera_key(titles)
+    path = known_path(wishes.profile, titles)
     profile = Profile(person=person_of(path)[:64], camera=camera[:200])
     stored = profile
     if path.is_file():

@@ -33,7 +33,7 @@ def record(
     from track.errors import CameraError, InputError
     from track.footage import FootageWriter
     from track.session.fault_telling import FaultTelling
-    from track.session.pipeline import words
+    from track.session.pipeline import sentences_of
 
     wishes = Wishes(cameras=camera or (), fast=fast, fps=fps)
     # of several each needs a name, which its folder gets
@@ -45,10 +45,7 @@ def record(
     with open_cameras(wishes, texts, say) as capture, FootageWriter(folder, list(texts)) as writer:
         with ended_by_signals(capture), progress(unit="s") as told:
             for sample in capture:
-                telling.step(
-                    sample.time_s,
-                    {name: f"{name} has {words(fault)}" for name, fault in sample.faults.items()},
-                )
+                telling.step(sample.time_s, sentences_of(sample.faults))
                 first_s = sample.time_s if first_s is None else first_s
                 if sample.time_s - first_s > seconds - 1e-6:
                     break

@@ -46,7 +46,8 @@ class RunOptions:
 def run_session(wishes: Wishes, options: RunOptions, say: Callable[[str], None]) -> "Summary":
     """Run until the end, and say how it went."""
     texts = camera_texts(wishes.cameras, headset=is_headset(wishes))
-    with contextlib.ExitStack() as closing:
+    # the page goes last: until all recordings are written somebody waits there
+    with contextlib.ExitStack() as pages, contextlib.ExitStack() as closing:
         targets = named_targets(options.to, options.record, options.retarget)
         check_files(targets, wishes, texts, options.avatar)
         with contextlib.ExitStack() as opened:
@@ -55,7 +56,7 @@ def run_session(wishes: Wishes, options: RunOptions, say: Callable[[str], None])
                 wishes, texts, sinks, say, closing, options=options, must_keep=False
             )
             opened.pop_all()  # they are the session's now
-        screen = _open_page(options, session, texts, say, closing) if options.page else None
+        screen = _open_page(options, session, texts, say, pages) if options.page else None
         with ended_by_signals(session, capture), contextlib.ExitStack() as showing:
             if screen is None and wishes.fast and capture.length_s is not None:
                 screen = _Progress(capture, showing.enter_context(progress(unit="s")))

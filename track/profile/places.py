@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+from collections.abc import Mapping
 from pathlib import Path
 
 from track.errors import InputError
@@ -11,6 +12,12 @@ ENDING = ".toml"
 
 DEFAULT_PERSON = "me"
 """Whose profile is taken where nobody says."""
+
+_LONGEST = 80
+"""Characters of a camera's title in a file's name."""
+
+_DEVICE = re.compile(r"(?:/dev/video|camera )0*(\d+)(?=#|$)")
+"""One webcam, by its device or its number."""
 
 _PERSON = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 
@@ -22,6 +29,33 @@ def profile_folder() -> Path:
     return Path(platformdirs.user_config_dir("track", appauthor=False)) / "profiles"
 
 
+def camera_key(titles: Mapping[str, str]) -> str:
+    """What a profile's file is called after: what each camera is, whatever order and spelling they were given in.
+
+    Parameters
+    ----------
+    titles
+        By the camera's name: ``"camera"`` where it is the only one and has none.
+    """
+    sources = {name: _DEVICE.sub(r"camera \1", title) for name, title in sorted(titles.items())}
+    return " ".join(title if name == "camera" else f"{name}={title}" for name, title in sources.items())
+
+
+def known_path(named: str | None, titles: Mapping[str, str]) -> Path:
+    """`profile_path` of these cameras; the file of before names stood in it, where only that is there.
+
+    Raises
+    ------
+    InputError
+        As `profile_path`.
+    """
+    path = profile_path(named, camera_key(titles))
+    if path.parent != profile_folder() or path.is_file():
+        return path
+    former = path.with_name(f"{person_of(path)}.{_as_former_name(' '.join(titles.values()))}{ENDING}")
+    return former if former.is_file() else path
+
+
 def profile_path(named: str | None, camera: str) -> Path:
     """The file that ``--profile`` stands for: a name of a person, or a file by its ending.
 
@@ -30,7 +64,7 @@ def profile_path(named: str | None, camera: str) -> Path:
     named
         None for `DEFAULT_PERSON`.
     camera
-        Title of the camera, or of all of them.
+        What `camera_key` gives.
 
     Raises
     ------
@@ -132,6 +166,12 @@ def _names_itself(name: str) -> bool:
 
 
 def _as_name(camera: str) -> str:
-    """A camera's title as part of a file's name: in ASCII, and with a mark where other letters are lost."""
-    name = re.sub(r"[^A-Za-z0-9_-]+", "-", camera).strip("-")[:80].lower() or "camera"
-    return name if camera.isascii() else f"{name}-{hashlib.sha256(camera.encode()).hexdigest()[:8]}"
+    """A camera's title as part of a file's name: in ASCII, and with a mark where letters are lost."""
+    name = re.sub(r"[^A-Za-z0-9_-]+", "-", camera).strip("-").lower() or "camera"
+    whole = camera.isascii() and len(name) <= _LONGEST
+    return name if whole else f"{name[:_LONGEST]}-{hashlib.sha256(camera.encode()).hexdigest()[:8]}"
+
+
+def _as_former_name(camera: str) -> str:
+    """The same as it was before: without a mark where it was cut."""
+    return _as_name(camera) if not camera.isascii() else _as_name(camera)[:_LONGEST]

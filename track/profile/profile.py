@@ -28,7 +28,7 @@
 
 import os
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 import numpy as np
 from annotated_types import Len
@@ -38,6 +38,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, CAMERA_TERMS
 from facegen.documents import load_toml
 from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
+from regress.runtime.headset.person import FULL_GAIN as HEADSET_GAIN
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.stages.own_blinks import Ends
@@ -51,7 +52,8 @@ LARGEST_GAIN = 4.0
 """A person's own factor on a shape; beyond it noise of half a hundredth shows as movement."""
 
 FULL_GAIN = 2.0
-"""Most by which a range stretches a shape: beyond it what is stretched is noise (regress.learning.training.gain)."""
+"""Most by which a range stretches a shape: beyond it what is stretched is noise (regress.learning.training.gain). Of
+headset networks `regress.runtime.headset.person.FULL_GAIN` is, which was measured; blinks are held to it nowhere."""
 
 SMALLEST_RANGE = 0.05
 """Reading of a full movement below which the model does not see it."""
@@ -68,6 +70,7 @@ def _arkit_name(name: str) -> str:
 
 Shape = Annotated[str, AfterValidator(_arkit_name)]
 Blink = Literal["eyeBlinkLeft", "eyeBlinkRight"]
+_BLINKS = get_args(Blink)
 
 
 class ModelMark(Record):
@@ -145,10 +148,15 @@ class Profile(Record):
         for name, reading in self.ranges.items():
             column = BLENDSHAPE_INDEX[name]
             span = max(reading - rest[column], SMALLEST_RANGE)
-            factors[column] = np.clip(1 / span, factors[column], FULL_GAIN * factors[column])
+            factors[column] = np.clip(1 / span, factors[column], self.most_gain(name) * factors[column])
         for name, gain in self.gains.items():
             factors[BLENDSHAPE_INDEX[name]] *= gain
         return factors
+
+    def most_gain(self, shape: str) -> float:
+        """Most by which a shape's range stretches it."""
+        guessed = self.model is not None and self.model.kind == "headset" and shape not in _BLINKS
+        return HEADSET_GAIN if guessed else FULL_GAIN
 
     def at_rest(self) -> np.ndarray:
         """(52,) float64: what is taken from each weight before."""

@@ -8,12 +8,13 @@ from regress.runtime.sample import Sample
 from regress.runtime.stages.own_blinks import Ends, OwnBlinks
 from track.messages import Command, Step
 from track.profile.profile import LARGEST_GAIN, Profile
-from track.session.calibration import Calibration, Outcome
+from track.session.calibration import Calibration
 from track.session.faces import faces_of
 from track.session.outcomes import learnt, neutral_shown
 from track.session.person import Person, centre_of
 from track.session.pipeline import Pipeline
 from track.session.ranges import blinks_of, ends_of
+from track.session.showing import Outcome
 
 CENTRE_S = 0.5
 """Seconds of one look, whose median gaze is taken for straight ahead: a blink is shorter."""
@@ -121,7 +122,8 @@ class Adjusting:
         if self._calibration is not None:
             self._calibrate(sample)
         if self._looks is not None:
-            look = (_whole(sample.gaze, 4), _whole(None if sample.head is None else sample.head[3:], 3))
+            gaze = self._pipeline.calibrated_by(sample).gaze
+            look = (_whole(gaze, 4), _whole(None if sample.head is None else sample.head[3:], 3))
             if any(np.isfinite(part).all() for part in look):
                 self._looks_since_s = sample.time_s if not self._looks else self._looks_since_s
                 self._looks.append(look)
@@ -154,7 +156,7 @@ class Adjusting:
     def take(self, outcome: Outcome) -> None:
         """Use what calibration found from the next frame on, and keep it beside all that it was found with."""
         kept = outcome.ranges is None or self._neutral_is_kept
-        neutral = neutral_shown(outcome, self._pipeline)
+        neutral = neutral_shown(outcome, self.profile, self._pipeline)
         if neutral is not None:
             self._pipeline.use_neutral(neutral)
         self._use(learnt(outcome, self.profile, self._pipeline, neutral=neutral))

@@ -8,16 +8,14 @@
 Nothing here knows cameras, models or pages; the first second of anything is never taken for a neutral face.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPE_INDEX
 from regress.runtime.sample import Sample
 from track.messages import Step
 from track.session.faces import FACES
-from track.session.steadiness import steadiness
+from track.session.showing import FEWEST_FRAMES, LONGEST_S, SEEN_SHARE, Frame, Outcome, Showing
 
 FIRST_COUNTDOWN_S, COUNTDOWN_S = 3.0, 2.0
 """Before the first face, and before others: who has just read a sentence needs less."""
@@ -32,43 +30,6 @@ TOLD_S, TOLD_AGAIN_S = 0.7, 2.0
 
 TRIES = 3
 """Of one face."""
-
-SEEN_SHARE = 0.7
-"""Of a recording's frames that must have a face."""
-
-FEWEST_FRAMES = 12
-"""With a face: of fewer nothing can be judged. Below 8 a second a recording goes on until they are there."""
-
-LONGEST_S = 6.0
-"""Of a recording for which pictures come slowly: two a second are enough, and nobody holds a face for longer."""
-
-FAINT = 0.25
-"""Reading of a full movement below which it was not made, or the model does not see it: gains end at 2."""
-
-SHUT = 0.4
-"""Openness below which traced lids are shut; those of 60 rendered people read below .3."""
-
-_FULL = 0.6
-"""Quantile of a recording that is the full movement: people need a third of the time to get there."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Outcome:
-    """What a face gave.
-
-    Parameters
-    ----------
-    name
-        Of the face.
-    samples
-        The frames.
-    ranges
-        Of another face than the neutral one: readings of its shapes.
-    """
-
-    name: str
-    samples: tuple[Sample, ...] = ()
-    ranges: Mapping[str, float] | None = None
 
 
 class Calibration:
@@ -86,7 +47,7 @@ class Calibration:
         self._names, self._least = tuple(names), least
         self._number, self._tries, self._over = 0, 0, False
         self._state, self._until_s, self._text, self._last_reason = "", 0.0, "", ""
-        self._frames: list[tuple[Sample, np.ndarray]] = []
+        self._frames: list[Frame] = []
         self._missed, self._began_s, self._slow = 0, 0.0, False
         self._outcomes: list[Outcome] = []
         self.kept: list[str] = []
@@ -120,7 +81,8 @@ class Calibration:
         Parameters
         ----------
         sample
-            Before the person's ranges; without weights where no picture came, as slow cameras have it between two.
+            Before the person's ranges; without weights where no picture came, as slow cameras have it between two. NaN
+            are weights that no camera saw; ``faults`` names the cameras that gave nothing.
         signature : (k,) float64 or None
             What of the frame must keep still; None where there is no face.
         """
@@ -136,7 +98,7 @@ class Calibration:
         return Step(name=self.name, state=self._state, seconds_left=left, text=self._text)
 
     def _record(self, sample: Sample, signature: np.ndarray | None) -> None:
-        if signature is None or np.isnan(sample.weights).any():
+        if signature is None or np.isnan(sample.weights).all():
             self._missed += 1
         else:
             self._frames.append((sample, signature))
@@ -181,54 +143,16 @@ class Calibration:
 
     def _judge(self, time_s: float) -> None:
         self._tries += 1
-        reason = self._reason()
+        shown = Showing(self.name, self._frames, missed=self._missed)
+        reason = shown.reason(self._least)
         if reason is None:
             self._state, self._until_s = "done", time_s + TOLD_S
-            self._text = "Good"
-            self._outcomes.append(self._outcome())
+            self._text = f"Good, without {shown.missing}" if shown.missing else "Good"
+            self._outcomes.append(shown.outcome())
             self.kept.append(self.name)
             return
+        if shown.unseen:
+            self._tries = TRIES  # to show it again does not help
         self._state, self._until_s, self._last_reason = "again", time_s + TOLD_AGAIN_S, reason
         last = self._tries >= TRIES
         self._text = f"{reason}; it stays as it was" if last else f"{reason}; once more"
-
-    def _reason(self) -> str | None:
-        """Why the recording is of no use; None where it is."""
-        count = len(self._frames)
-        came = count + self._missed
-        if came < FEWEST_FRAMES:
-            if came == 0:
-                return f"No picture came in {LONGEST_S:g} seconds"
-            return (
-                f"Only {came} pictures came in {LONGEST_S:g} seconds, and {FEWEST_FRAMES} are needed: "
-                "camera or machine is too slow"
-            )
-        least = max(FEWEST_FRAMES, round(SEEN_SHARE * came))
-        if count < least:
-            return f"Your face was seen in {count} of {came} frames, and {least} are needed"
-        if self.name == "neutral":
-            seen = steadiness(np.array([signature for _, signature in self._frames]), least=self._least)
-            return (
-                None if seen.still else f"You moved, by {seen.moved / seen.allowed:.1f} times what is allowed"
-            )
-        faint = [name for name, reading in self._readings().items() if reading < FAINT]
-        if faint and len(faint) == len(FACES[self.name].shapes) and not self._lids_shut():
-            return f"Nothing was seen of it ({', '.join(faint)} {self._readings()[faint[0]]:.2f})"
-        return None
-
-    def _lids_shut(self) -> bool:
-        """Whether traced lids say that eyes were shut, of which the network's own weight says nothing."""
-        eyes = [sample.eyes.openness for sample, _ in self._frames if sample.eyes is not None]
-        return self.name == "eyes_shut" and bool(eyes) and bool((np.nanmedian(eyes, axis=0) < SHUT).all())
-
-    def _readings(self) -> dict[str, float]:
-        weights = np.array([sample.weights for sample, _ in self._frames])
-        full = np.quantile(weights, _FULL, axis=0)
-        return {name: float(full[BLENDSHAPE_INDEX[name]]) for name in FACES[self.name].shapes}
-
-    def _outcome(self) -> Outcome:
-        samples = tuple(sample for sample, _ in self._frames)
-        if self.name == "neutral":
-            return Outcome(name=self.name, samples=samples)
-        readings = {name: reading for name, reading in self._readings().items() if reading >= FAINT}
-        return Outcome(name=self.name, samples=samples, ranges=readings)

@@ -13,18 +13,19 @@ from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.faults import RESHAPE, Fault
 from regress.runtime.headset.levels import Levels
 from regress.runtime.headset.networks import HeadsetNetworks
+from regress.runtime.headset.partly import seen_shapes
+from regress.runtime.headset.parts import is_of_one_eye, part_of, side_of
 from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, kept_openness, unpacked_picture
 from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.placement_file import Placement, read_placement
 from regress.runtime.headset.predictor import load_headset_predictor
-from regress.runtime.headset.soundness import PictureSoundness
 from regress.runtime.sample import Sample
-from regress.runtime.stages.stage import Stage
 from track.errors import InputError
 from track.profile.neutral import NeutralFace, base64_of
 from track.profile.profile import ModelMark
-from track.session.exchange import ExchangeWatch
+from track.session.exchange import ExchangeWatch, counted_pictures
 from track.session.faces import FACES
+from track.session.pictures import Grey, Soundness
 from track.session.pipeline import Pipeline, filter_of
 from track.session.upright import UprightWatch
 
@@ -50,7 +51,6 @@ class HeadsetPipeline(Pipeline):
     """
 
     least_movement = LEAST_MOVEMENT
-    faces = tuple(FACES)
     measures_eyes = True
 
     def __init__(
@@ -60,7 +60,11 @@ class HeadsetPipeline(Pipeline):
         self._opened = [name for name in self.cameras if opened is None or name in opened]
         self.mark = ModelMark(kind="headset", sha256=self._predictor.model.network_sha256)
         self._reader = EyeReader(self._predictor)
-        self.stages = {"grey": _Grey()}
+        self._alone: tuple[str, ...] = ()
+        """Cameras that have no neutral picture while others have."""
+        seen = {name for camera in self._opened for name in part_of(camera)}
+        self.faces = tuple(name for name, face in FACES.items() if not face.shapes or seen & {*face.shapes})
+        self.stages = {"grey": Grey()}
         self.use_placement({})
         # what training's pictures looked like says nothing of pictures that are not levelled yet
         self.stages |= {
@@ -78,13 +82,45 @@ class HeadsetPipeline(Pipeline):
         return tuple(self._predictor.sizes)
 
     def signature(self, sample: Sample) -> np.ndarray | None:
-        """The weights (52,), where every camera that is there has a picture."""
-        whole = sample.pictures is not None and set(sample.pictures) == set(self._opened)
-        return sample.weights if whole and not np.isnan(sample.weights).any() else None
+        """The weights (k,) that the cameras see which have a picture and are in their place."""
+        counted = counted_pictures(sample)
+        if not counted or np.isnan(sample.weights).any():
+            return None
+        return sample.weights[seen_shapes(counted)]
+
+    def calibrated_by(self, sample: Sample) -> Sample:
+        """What the cameras see that count; NaN of the rest, and no word of cameras that were never there."""
+        counted, unseen = counted_pictures(sample), np.array(self.unseen_eyes(sample))
+        weights, eyes, gaze = sample.weights, sample.eyes, sample.gaze
+        if weights is not None:
+            weights = np.where(seen_shapes(counted), weights, np.nan)
+        if eyes is not None:
+            eyes = replace(
+                eyes,
+                openness_mm=np.where(unseen, np.nan, eyes.openness_mm),
+                openness=np.where(unseen, np.nan, eyes.openness),
+            )
+        if gaze is not None and unseen.all():
+            gaze = np.full(4, np.nan)
+        faults = {name: fault for name, fault in sample.faults.items() if name in self._opened}
+        return replace(sample, pictures=counted, weights=weights, eyes=eyes, gaze=gaze, faults=faults)
+
+    def unseen_eyes(self, sample: Sample) -> tuple[bool, bool]:
+        """Eyes whose cameras all count for nothing; of both, where no camera's name says a side, there is none."""
+        counted = counted_pictures(sample)
+        left, right = (
+            any(of_side) and not any(name in counted for name in of_side)
+            for of_side in (
+                [name for name in self.cameras if is_of_one_eye(name) and side_of(name) == side]
+                for side in ("left", "right")
+            )
+        )
+        return left, right
 
     def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
         """The frame that is nearest to the median of all: a mean of pictures would be blurred."""
         weights = np.array([each.weights for each in samples])
+        weights = weights[:, np.isfinite(weights).all(axis=0)]
         nearest = samples[int(np.argmin(np.abs(weights - np.median(weights, axis=0)).sum(axis=1)))]
         return NeutralFace(
             pictures={
@@ -96,12 +132,15 @@ class HeadsetPipeline(Pipeline):
     def rests_of(self, samples: Sequence[Sample]) -> dict[str, float]:
         """Medians of the weights, compared with the neutral pictures in use; gaze is centred by itself."""
         chosen = [samples[row] for row in even_rows(len(samples), RESTING_FRAMES)]
-        pictures = {name: np.array([sample.pictures[name] for sample in chosen]) for name in self._opened}
+        pictures = {
+            name: np.array([sample.pictures[name] for sample in chosen]) for name in chosen[0].pictures
+        }
+        seen = np.isfinite(chosen[0].weights)
         middle = np.median(self._networks.compared(pictures), axis=0)
         return {
             name: float(min(value, HIGHEST_REST))
-            for name, value in zip(BLENDSHAPES, middle, strict=True)
-            if value > 0 and not name.startswith("eyeLook")
+            for name, value, is_seen in zip(BLENDSHAPES, middle, seen, strict=True)
+            if is_seen and value > 0 and not name.startswith("eyeLook")
         }
 
     def use_eyes(self, eyes: Mapping[str, OwnEye]) -> None:
@@ -118,24 +157,29 @@ class HeadsetPipeline(Pipeline):
             return dict(eyes)
         found = {name: eyes.get(name, OwnEye()) for name in self._reader.sides}
         for name, side in self._reader.sides.items():
-            openness_mm = np.nanmedian([one[side] for one in seen])
-            if np.isfinite(openness_mm):
-                found[name] = replace(found[name], **{field: kept_openness(openness_mm)})
+            known_mm = [one[side] for one in seen if np.isfinite(one[side])]
+            if known_mm:
+                found[name] = replace(found[name], **{field: kept_openness(np.median(known_mm))})
         return found
 
     def use_neutral(self, neutral: NeutralFace) -> None:
-        """Compare pictures with these."""
+        """Compare pictures with these; those of cameras without one are seen alone."""
         if not neutral.pictures:
             raise InputError(
                 "the profile's neutral face is of points, and this model takes a headset's pictures"
             )
+        known = [name for name in self._opened if name in neutral.pictures]
+        if not known:
+            raise InputError(
+                f"the profile has no neutral picture of {', '.join(self._opened)}; calibrate again"
+            )
+        pictures = {name: self._picture(name, neutral) for name in known}
         self._networks.reseated.clear()
-        self._networks.use_neutral({name: self._picture(name, neutral) for name in self._opened})
+        self._networks.use_neutral(pictures)
+        self._alone = tuple(name for name in self._opened if name not in known)
 
     def _picture(self, name: str, neutral: NeutralFace) -> np.ndarray:
         width, height = self._predictor.sizes[name]
-        if name not in neutral.pictures:
-            raise InputError(f"the profile has no neutral picture of {name}; calibrate again")
         return unpacked_picture(
             neutral.pictures[name], width=width, height=height, of=f"{name} of the profile"
         )
@@ -154,6 +198,13 @@ class HeadsetPipeline(Pipeline):
                 found[name] = (
                     f"{name}: {width}x{height} is another shape than the network's; all of each picture is seen, and "
                     f"`regress headset check` finds a better --placement"
+                )
+        for name in self._alone:
+            if name in (sample.pictures or {}):
+                found.setdefault(
+                    name,
+                    f"{name}: it gave no picture when your neutral face was taken, so its movements are guessed; "
+                    f"calibrate neutral again",
                 )
         for name in (name for name, fault in sample.faults.items() if fault is Fault.SHAPE):
             found[name] += f"; {RESHAPE}"
@@ -179,7 +230,7 @@ class HeadsetPipeline(Pipeline):
         self._networks = HeadsetNetworks(
             self._predictor, levels=levels, keep_neutral=True, reader=self._reader
         )
-        self.stages["soundness"] = _Soundness(self._predictor.sizes, placement)
+        self.stages["soundness"] = Soundness(self._predictor.sizes, placement)
         if "networks" in self.stages:
             self.stages["networks"] = self._networks
             self.stages["upright"] = UprightWatch(self.cameras)
@@ -198,28 +249,4 @@ class HeadsetPipeline(Pipeline):
         """Take frames by themselves, and any seat for the right one."""
         self._networks.use_neutral(None)
         self._networks.reseated.clear()
-
-
-class _Soundness(PictureSoundness):
-    """Of a camera that gives nothing its source knows more than that its picture is missing."""
-
-    def step(self, sample: Sample) -> Sample:
-        found = super().step(sample)
-        known = {
-            name: fault for name, fault in sample.faults.items() if found.faults.get(name) is Fault.MISSING
-        }
-        return replace(found, faults={**found.faults, **known})
-
-
-class _Grey(Stage):
-    """One grey level a pixel, as infra-red cameras have it; of the same picture the same array."""
-
-    def __init__(self) -> None:
-        self._last: dict[str, tuple[np.ndarray, np.ndarray]] = {}
-
-    def step(self, sample: Sample) -> Sample:
-        for name, picture in (sample.pictures or {}).items():
-            if name not in self._last or self._last[name][0] is not picture:
-                grey = picture if picture.ndim == 2 else cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
-                self._last[name] = picture, grey
-        return replace(sample, pictures={name: self._last[name][1] for name in sample.pictures or {}})
+        self._alone = ()

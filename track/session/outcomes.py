@@ -2,16 +2,27 @@
 
 from collections.abc import Mapping
 
+import numpy as np
+
+from facegen.conventions import BLENDSHAPE_INDEX
 from track.profile.neutral import NeutralFace
 from track.profile.profile import SMALLEST_RANGE, Profile
-from track.session.calibration import Outcome
 from track.session.pipeline import Pipeline
 from track.session.ranges import middle_of
+from track.session.showing import Outcome
 
 
-def neutral_shown(outcome: Outcome, pipeline: Pipeline) -> NeutralFace | None:
-    """The neutral face that calibration took; None where it took another face."""
-    return pipeline.neutral_of(outcome.samples) if outcome.ranges is None else None
+def neutral_shown(outcome: Outcome, profile: Profile, pipeline: Pipeline) -> NeutralFace | None:
+    """The neutral face that calibration took; None where it took another face.
+
+    A camera that gave no picture keeps that of before, as another seat's is worth more than none.
+    """
+    if outcome.ranges is not None:
+        return None
+    neutral = pipeline.neutral_of(outcome.samples)
+    if neutral.pictures and profile.neutral and profile.model == pipeline.mark:
+        return neutral.model_copy(update={"pictures": {**profile.neutral.pictures, **neutral.pictures}})
+    return neutral
 
 
 def learnt(
@@ -40,11 +51,17 @@ def _by_neutral(
     outcome: Outcome, profile: Profile, pipeline: Pipeline, neutral: NeutralFace
 ) -> Mapping[str, object]:
     # beside another neutral face of the same person they are a little off, and without them movements are too small
-    kept = profile.ranges if profile.neutral and profile.model == pipeline.mark else {}
+    same = profile.neutral and profile.model == pipeline.mark
+    kept = profile.ranges if same else {}
+    rests = {
+        name: rest
+        for name, rest in profile.rests.items()
+        if same and np.isnan(outcome.samples[0].weights[BLENDSHAPE_INDEX[name]])  # no camera saw it
+    }
     return {
         "neutral": neutral,
         "ranges": kept,
-        "rests": pipeline.rests_of(outcome.samples),
+        "rests": {**rests, **pipeline.rests_of(outcome.samples)},
         "blinks": {},
         "eyes": pipeline.eyes_with(profile.eyes, outcome.name, outcome.samples),
         "model": pipeline.mark,

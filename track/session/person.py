@@ -59,10 +59,11 @@ class Person:
         """(52,) NaN: the weights of a frame without a face."""
         return np.full(len(self._ranges.factors), np.nan)
 
-    def step(self, sample: Sample) -> Sample:
-        """A frame behind the pipeline, as the person and the avatar want it."""
+    def step(self, sample: Sample, *, unseen: Sequence[bool] = (False, False)) -> Sample:
+        """A frame behind the pipeline, as the person and the avatar want it; ``unseen`` as `Pipeline.unseen_eyes`."""
         sample = self._ahead.step(self._centre.step(sample))
         if self._blinks is not None:
+            self._blinks.unseen = np.array(unseen)
             sample = self._blinks.step(sample)
         sample = self._ranges.step(sample)
         if self.mirrored:

@@ -61,6 +61,10 @@ class Pipeline:
         """What of a frame a calibration has to keep for seconds."""
         return sample
 
+    def unseen_eyes(self, sample: Sample) -> tuple[bool, bool]:
+        """Which eyes no camera sees in a frame, the left one first: what is said of them is guessed."""
+        return False, False
+
     def neutral_of(self, samples: Sequence[Sample]) -> NeutralFace:
         """The neutral face of frames that show it."""
         raise NotImplementedError
@@ -123,14 +127,19 @@ class Pipeline:
 
     def sentences(self, sample: Sample) -> dict[str, str]:
         """What is wrong with a frame, for the person, by what it concerns."""
-        return {name: f"{name} has {words(fault)}" for name, fault in sample.faults.items()}
+        return sentences_of(sample.faults)
 
     def close(self) -> None:
         """Let go what the stages hold."""
 
 
+def sentences_of(faults: Mapping[str, Enum]) -> dict[str, str]:
+    """A sentence of each fault, by what has it; none of those that nobody needs to know."""
+    return {name: f"{name} has {words(fault)}" for name, fault in faults.items() if words(fault)}
+
+
 def words(fault: Enum) -> str:
-    """A fault's value, as part of a sentence."""
+    """A fault's value, as part of a sentence; empty where there is nothing to tell."""
     return str(fault.value)
 
 

@@ -14,8 +14,8 @@ from regress.runtime.stages.head import angles_of
 from regress.runtime.stages.own_blinks import WHOLE, Ends
 from regress.runtime.stages.stage import Stage
 from track.profile.profile import Profile
-from track.session.calibration import SHUT
 from track.session.gaze import poses_of
+from track.session.showing import SHUT
 
 _BLINK_NAMES = ("eyeBlinkLeft", "eyeBlinkRight")
 

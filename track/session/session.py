@@ -221,7 +221,7 @@ class Session:
         self._faces += not np.isnan(sample.weights).any()
         self._telling.step(sample.time_s, self.pipeline.sentences(sample))
         with self.measures.stage("person"):
-            return person.step(sample)
+            return person.step(sample, unseen=self.pipeline.unseen_eyes(sample))
 
     def close(self) -> None:
         """Let sinks and stages go: recordings are written whole, each whether or not another one can be."""

@@ -2,6 +2,7 @@
 
 from collections import deque
 from collections.abc import Mapping
+from itertools import accumulate
 from statistics import median
 
 from track.sources.source import Picture
@@ -17,6 +18,13 @@ half: two cameras that are half a step apart would else make two samples of each
 _STEPS = 9
 """Whose median is a camera's: some are too long where a picture was lost, or too short behind a pause."""
 
+_GAPS_WITHIN_S, _MOST_GAPS = 3.0, 512
+"""Of the latest pictures, whose gaps say how long the next one may take: Wi-Fi holds bursts of them back for up to a
+second, and within a burst many come at once."""
+
+_GAP_SHARE = 0.8
+"""Of that time, which passed in gaps as long or shorter. By their number the long ones are few: one a burst."""
+
 
 class Backlog:
     """What one camera gave and nobody took, the oldest first; when it came is by ``time.perf_counter``.
@@ -30,6 +38,8 @@ class Backlog:
     def __init__(self, step_s: float | None = None) -> None:
         self._waiting: deque[tuple[float, Picture]] = deque()
         self._steps_s: deque[float] = deque([] if step_s is None else [step_s], maxlen=_STEPS)
+        self._gaps_s = deque(self._steps_s, maxlen=_MOST_GAPS)
+        self._gap_s: float | None = None
         self._last_s: float | None = None
         self._last_came_s: float | None = None
 
@@ -52,6 +62,19 @@ class Backlog:
         return median(self._steps_s) if self._steps_s else float("inf")
 
     @property
+    def gap_s(self) -> float:
+        """What it lets pass without a picture, lately: its step, or from burst to burst; infinite as `step_s`."""
+        if self._gap_s is None:
+            gaps_s = sorted(self._gaps_s)
+            enough_s = _GAP_SHARE * sum(gaps_s)
+            passed_s = accumulate(gaps_s)
+            self._gap_s = next(
+                (gap_s for gap_s, until_s in zip(gaps_s, passed_s, strict=True) if until_s >= enough_s),
+                float("inf"),
+            )
+        return self._gap_s
+
+    @property
     def together_s(self) -> float:
         """By how much a picture of another camera may differ that goes with one of this."""
         return _TOGETHER * self.step_s
@@ -67,6 +90,10 @@ class Backlog:
         """Put a picture at the end; those that came more than `LONGEST_S` before it go."""
         if self._last_s is not None:
             self._steps_s.append(picture.time_s - self._last_s)
+            self._gaps_s.append(self._steps_s[-1])
+            while len(self._gaps_s) > 1 and sum(self._gaps_s) > _GAPS_WITHIN_S:
+                self._gaps_s.popleft()
+            self._gap_s = None
         self._last_s, self._last_came_s = picture.time_s, came_s
         while self._waiting and self.came_s < came_s - LONGEST_S:
             self._waiting.popleft()

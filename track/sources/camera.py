@@ -153,6 +153,7 @@ class Camera:
         while not self._stop.wait(self._pauses_s[min(tries, len(self._pauses_s) - 1)]):
             try:
                 self._source = self._opener()
+                self._watch = PictureWatch(moving=self.endless)
                 return
             except InputError:
                 tries += 1

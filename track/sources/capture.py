@@ -28,7 +28,7 @@ together."""
 
 LATE_S = 0.1
 """Older pictures do not go with the newest one: eyes and mouth would be of two faces. Those of a slow camera do until
-its next one is due."""
+its next one is due, and of one whose pictures come in bursts until the next burst."""
 
 _LOOK_EVERY_S = 0.25
 """By which a wait sees that it was stopped; Windows gives a signal no other chance."""
@@ -159,7 +159,9 @@ class Capture:
         self._stopped = True
 
     def close(self) -> None:
-        """Let all cameras go."""
+        """Let all cameras go: they are told first, so that silent ones are waited for together."""
+        for camera in self._cameras.values():
+            camera.stop()
         for camera in self._cameras.values():
             camera.close()
 
@@ -180,7 +182,7 @@ class Capture:
     def _empty_after_s(self) -> float:
         """By the quickest camera that is well."""
         well = [each for each in self._cameras.values() if not each.ended and each.trouble() is None]
-        return _patience_s(min((each.waiting.step_s for each in well), default=np.inf), EMPTY_AFTER_S)
+        return _patience_s(min((each.waiting.gap_s for each in well), default=np.inf), EMPTY_AFTER_S)
 
     def _awaited(self) -> bool:
         """Whether a camera has no picture yet from which one is expected that goes with those that are there."""
@@ -225,7 +227,7 @@ class Capture:
         for name, (whole, half) in self._halves.items():
             camera, latest = self._cameras[whole], self._latest.get(whole)
             fault = taken[whole].fault if whole in taken else camera.trouble()
-            late_s = _patience_s(camera.waiting.step_s, LATE_S)
+            late_s = _patience_s(camera.waiting.gap_s, LATE_S)
             late = taken and latest and newest_s - latest.time_s > late_s
             if fault is None and late and not camera.ended:
                 fault = CameraFault.LATE
@@ -250,11 +252,11 @@ class Capture:
         return self._seen[name][1]
 
 
-def _patience_s(step_s: float, usual_s: float) -> float:
-    """How long a camera's next picture is waited for: longer than usual, where it gives few."""
-    if not np.isfinite(step_s):
+def _patience_s(gap_s: float, usual_s: float) -> float:
+    """How long a camera's next picture is waited for: longer than usual, where it gives few, or many at once."""
+    if not np.isfinite(gap_s):
         return usual_s
-    return float(np.clip(EMPTY_AFTER_STEPS * step_s, usual_s, EMPTY_WITHIN_S))
+    return float(np.clip(EMPTY_AFTER_STEPS * gap_s, usual_s, EMPTY_WITHIN_S))
 
 
 def _usable(fault: Enum | None) -> bool:

@@ -10,13 +10,17 @@ from track.sources.source import Picture
 FROZEN_S = 0.5
 """The same bytes for longer are no picture: a sensor's noise alone changes some byte of each."""
 
+WAKES_WITHIN_S = 0.5
+"""In which a camera that was opened opens its shutter and finds its exposure: until then dark pictures are no fault."""
+
 _STRIDE = 8
 """Of the rows and columns by which pictures are first compared, and by which they are called black."""
 
 
 class CameraFault(Enum):
-    """What is wrong with a camera; the value says what it has."""
+    """What is wrong with a camera; the value says what it has, and is empty where nobody needs to know."""
 
+    WAKING = ""
     UNPLUGGED = "no more pictures; it is tried again until they come back"
     SILENT = "no picture for a second"
     BLACK = "a black picture: a lens cap, a shutter, or no light"
@@ -38,13 +42,17 @@ class PictureWatch:
     def __init__(self, *, moving: bool) -> None:
         self._moving = moving
         self._first: Picture | None = None
+        self._wakes_until_s: float | None = None
 
     def step(self, picture: Picture) -> CameraFault | None:
         """What is wrong with the next picture."""
         if picture.pixels is None:
             return None
+        if self._wakes_until_s is None:
+            self._wakes_until_s = picture.time_s + WAKES_WITHIN_S if self._moving else -np.inf
         if is_black(picture.pixels[::_STRIDE, ::_STRIDE]):
-            return CameraFault.BLACK
+            return CameraFault.WAKING if picture.time_s <= self._wakes_until_s else CameraFault.BLACK
+        self._wakes_until_s = -np.inf
         if self._first is None or not _same(self._first.pixels, picture.pixels):
             self._first = picture
         frozen = self._moving and picture.time_s - self._first.time_s > FROZEN_S

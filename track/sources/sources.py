@@ -1,5 +1,6 @@
 """The table of sources, and the choice among them by what a person wrote; a new one is a module and a line here."""
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -53,11 +54,18 @@ class SourceKind:
         Whether a text means it.
     open
         Opens it; the memory is of the camera that this text means, from one opening to the next.
+    live
+        Whether what it shows is there once, for whoever opens it.
     """
 
     description: str
     matches: Callable[[str], bool]
     open: Callable[[str, Pace, CameraMemory], Source]
+    live: bool = False
+
+
+_NUMBER = re.compile(r"(?:/dev/video)?0*(\d+)")
+"""A webcam's number, or its device on Linux."""
 
 
 SOURCES: dict[str, SourceKind] = {
@@ -70,6 +78,7 @@ SOURCES: dict[str, SourceKind] = {
         description="an address of MJPEG over HTTP, or RTSP",
         matches=is_address,
         open=lambda text, pace, memory: AddressSource(text),
+        live=True,
     ),
     "folder": SourceKind(
         description="a folder of pictures",
@@ -87,6 +96,7 @@ SOURCES: dict[str, SourceKind] = {
         description="a webcam's number, or a part of its name",
         matches=lambda text: True,
         open=lambda text, pace, memory: WebcamSource(text, memory=memory),
+        live=True,
     ),
 }
 """Tried in this order."""
@@ -123,11 +133,12 @@ def open_capture(
     Raises
     ------
     CameraError
-        Where one cannot be opened, or is asked for in two modes.
+        Where one cannot be opened, is asked for in two modes, or two are the same camera.
     """
     parts = {name: _parts(text) for name, text in texts.items()}
     # two cameras may be halves of one source, which is opened once
     halves = {name: (source, half) for name, (source, half, _) in parts.items()}
+    _refuse_same(halves)
     folders = [Path(source) for source, _ in halves.values() if _kind_of(source) is SOURCES["folder"]]
     pace = replace(pace or Pace(), numbers=shared_numbers(folders))
     modes = _modes({name: (source, mode) for name, (source, _, mode) in parts.items()})
@@ -193,6 +204,29 @@ def _modes(asked: Mapping[str, tuple[str, CameraMode]]) -> dict[str, CameraMode]
             )
         modes[name] = next(iter(same.values()), mode)
     return modes
+
+
+def _refuse_same(halves: Mapping[str, tuple[str, str]]) -> None:
+    """Refuse two names of one live source, which opens once and shows the same to both; of films it may be wanted."""
+    named: dict[tuple[str, str], list[str]] = {}
+    for name, (text, half) in halves.items():
+        if _kind_of(text).live:
+            number = _NUMBER.fullmatch(text.strip())
+            named.setdefault((f"camera {number[1]}" if number else text, half), []).append(name)
+    for (text, half), names in named.items():
+        if len(names) > 1:
+            told = f"{', '.join(names[:-1])} and {names[-1]} are the same, {_shown(text)}"
+            left, right = (f"{name}={_shown(halves[name][0])}" for name in names[:2])
+            raise CameraError(
+                f"{told}#{half}; give each another half or camera"
+                if half
+                else f"{told}; give each another camera, or its half where one shows both eyes side by side: "
+                f"{left}#left {right}#right"
+            )
+
+
+def _shown(text: str) -> str:
+    return without_secrets(text) if is_address(text) else text
 
 
 def _kind_of(text: str) -> SourceKind:

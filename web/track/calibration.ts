@@ -52,7 +52,10 @@ export class CalibrationView {
   offer(steps: readonly string[]): void {
     const options = steps.map((step) => new Option(words(step), step));
     if (steps.length > 1) options.unshift(new Option("All faces", "all"));
-    byId<HTMLSelectElement>("step").replaceChildren(...options);
+    const select = byId<HTMLSelectElement>("step");
+    const chosen = select.value;
+    select.replaceChildren(...options);
+    if (options.some(({ value }) => value === chosen)) select.value = chosen; // the line comes and goes
   }
 
   /** Whose face is known. */

@@ -25,6 +25,8 @@ export class Connection {
   private socket: WebSocket | undefined;
   private tries = 0;
   private silence = 0;
+  private again = 0;
+  private resting = false;
 
   constructor(private readonly listener: Listener) {
     this.open();
@@ -34,13 +36,32 @@ export class Connection {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
   }
 
+  /** Let the line go while nobody looks: a session without a line makes neither frames nor pictures for it. */
+  rest(): void {
+    if (this.resting) return;
+    this.resting = true;
+    clearTimeout(this.silence);
+    clearTimeout(this.again);
+    const { socket } = this;
+    this.socket = undefined;
+    socket?.close();
+  }
+
+  /** Take it up again. */
+  goOn(): void {
+    if (!this.resting) return;
+    this.resting = false;
+    this.open();
+  }
+
   private open(): void {
     const address = new URL(`stream${location.search}`, location.href);
     address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
     const socket = new WebSocket(address);
     socket.binaryType = "arraybuffer";
-    socket.addEventListener("message", ({ data }) => this.hear(data));
-    socket.addEventListener("close", ({ code }) => this.closed(code));
+    // one that was let go has no more to say
+    socket.addEventListener("message", ({ data }) => void (socket === this.socket && this.hear(data)));
+    socket.addEventListener("close", ({ code }) => void (socket === this.socket && this.closed(code)));
     this.socket = socket;
   }
 
@@ -78,13 +99,13 @@ export class Connection {
     clearTimeout(this.silence);
     const pause = PAUSES_S[Math.min(this.tries++, PAUSES_S.length - 1)]!;
     void this.lost(code === GOING_AWAY ? "track has ended" : "track does not answer");
-    setTimeout(() => this.open(), 1000 * pause);
+    this.again = setTimeout(() => this.open(), 1000 * pause);
   }
 
   /** Say why; a socket does not tell that the link is of another run, and the page's own address does. */
   private async lost(why: string): Promise<void> {
     const answer = this.tries > 1 ? await fetch(location.href, { method: "HEAD" }).catch(() => undefined) : undefined;
-    if (this.socket?.readyState === WebSocket.OPEN) return;
+    if (this.resting || this.socket?.readyState === WebSocket.OPEN) return;
     const sentence =
       answer?.status === FORBIDDEN
         ? "track has another link by now: open the one that it printed last"

@@ -146,9 +146,20 @@ const connection: Connection = new Connection({
       cameras.mirror(settings.mirror);
     }
     if (settings.gains) weights.showGains(settings.gains);
+    restIfHidden();
   },
   picture: (camera, jpeg) => void (picture.on && cameras.show(camera, jpeg)),
   refused: say,
+});
+
+/** A page that nobody sees costs nothing, unless it records: browsers stop to draw it by themselves. */
+function restIfHidden(): void {
+  if (document.hidden && !recorder.recording) connection.rest();
+}
+
+document.addEventListener("visibilitychange", () => {
+  restIfHidden();
+  if (!document.hidden) connection.goOn();
 });
 
 function draw(): void {

@@ -13,7 +13,8 @@ export class Recorder {
   private readonly slider = this.moment.querySelector("input")!;
   private readonly output = this.moment.querySelector("output")!;
   private readonly held = new Held();
-  private recording = false;
+  /** Whether a take is under way, for which frames have to come. */
+  recording = false;
   private dragged = false;
   /** When the take's start would have been played; undefined while it is not. */
   private playedFrom: number | undefined;

@@ -1,7 +1,7 @@
 """From a headset's pictures to weights, gaze and confidence, frame by frame."""
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +12,7 @@ from regress.runtime.headset.confidence import HeadsetConfidence
 from regress.runtime.headset.estimates import Estimates
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.levels import Levels
+from regress.runtime.headset.partly import partly_compared
 from regress.runtime.headset.person import OwnEnds, Person
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.seats import SeatWatch
@@ -34,7 +35,7 @@ class HeadsetNetworks(Stage):
         Frames a second of samples without times.
     keep_neutral
         Stay calibrated after a change of seat: another seat's neutral picture of the same person is worth more than
-        none, another person's is not.
+        none, another person's is not. Cameras without a neutral picture then leave the others theirs.
     levels
         Levels pictures as they come, and neutral ones alike; None takes both as they are.
     reader
@@ -83,7 +84,8 @@ class HeadsetNetworks(Stage):
         Raises
         ------
         InputError
-            Where a camera is not the model's, or has no neutral picture while others have.
+            Where a camera is not the model's, or has no neutral picture while others have and ``keep_neutral`` is not
+            set.
         """
         if not sample.pictures:
             nothing = np.full(len(BLENDSHAPES), np.nan)
@@ -134,7 +136,13 @@ class HeadsetNetworks(Stage):
         if self._seat.changed and not self._keep:
             return self._see(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
         neutral = self._neutral if self._levels is None else self._levels.levelled(self._neutral)
-        estimates = self._see(pictures, neutral=neutral)
+        known = [name for name in pictures if name in neutral]
+        whole = len(known) == len(pictures) or not self._keep
+        if not (known or whole):
+            return self._see(pictures), False
+        estimates = (
+            self._see(pictures, neutral=neutral) if whole else self._see_partly(pictures, known, neutral)
+        )
         if not self._seat.changed:
             compared = self._seat.step(seconds, float(estimates.same_seat[0]))
             self._doubted_from = None if compared else self._doubted_from or sample.label
@@ -142,7 +150,15 @@ class HeadsetNetworks(Stage):
                 self.reseated.append(self._doubted_from)
             if not (compared or self._keep):
                 return self._see(pictures, neutral=self._neutral, calibrated=np.zeros(1)), False
-        return estimates, True
+        return estimates, whole
+
+    def _see_partly(
+        self, pictures: Mapping[str, np.ndarray], known: Sequence[str], neutral: Mapping[str, np.ndarray]
+    ) -> Estimates:
+        """Estimates where only the ``known`` cameras have neutral pictures."""
+        compared = self._predictor.predict({name: pictures[name] for name in known}, neutral=neutral)
+        lost = [name for name in pictures if name not in known]
+        return partly_compared(compared, self._see(pictures), known=known, lost=lost)
 
     def _see(self, pictures: Mapping[str, np.ndarray], **neutral: object) -> Estimates:
         """Estimates; what is traced is kept, where anybody measures by it."""

@@ -158,6 +158,8 @@ class OwnBlinks(Stage):
     known : (2,) bool
         Of which eyes a full blink's reading is known otherwise, the left one first: these stay as they are. May be
         changed between two frames.
+    unseen : (2,) bool
+        Which eyes no camera sees in the next frame: what is read of them is guessed, and no blink is learnt from it.
     """
 
     def __init__(
@@ -167,7 +169,7 @@ class OwnBlinks(Stage):
         before: tuple[Ends, Ends] = (WHOLE, WHOLE),
     ) -> None:
         self._say, self._told = say, False
-        self.known = np.zeros(2, dtype=bool)
+        self.known, self.unseen = np.zeros((2, 2), dtype=bool)
         self._eyes = tuple(BlinkWatch(ends) for ends in before)
 
     def forget(self) -> None:
@@ -183,7 +185,7 @@ class OwnBlinks(Stage):
         """The sample with stretched eyeBlinks; one without a time or weights as it is."""
         if sample.weights is None or sample.time_s is None or not np.isfinite(sample.time_s):
             return sample
-        read = sample.weights[BLINK_INDICES]
+        read = np.where(self.unseen, np.nan, sample.weights[BLINK_INDICES])
         ended = [eye.step(sample.time_s, float(blink)) for blink, eye in zip(read, self._eyes, strict=True)]
         ends = self.ends
         if any(ended) and not self._told and max(own.factor for own in ends) >= TOLD_FROM:

@@ -19,6 +19,7 @@ from track.cli.opening import Wishes, open_pipeline
 from track.cli.running import RunOptions, ended_by_signals, run_session
 from track.errors import InputError
 from track.messages import Command
+from track.page import Page
 from track.session.session import Session
 
 pytestmark = pytest.mark.slow
@@ -247,6 +248,39 @@ def test_pictures_that_end_too_soon_leave_what_was_found(seconds, found, home):
     ended = calibrated("all", seconds=seconds)
     assert ended.returncode == 2
     assert ended.stderr.endswith(f"track: the pictures ended before calibration did; {found}\n")
+
+
+def test_who_stops_a_calibration_is_not_told_that_the_pictures_ended(home, capsys, monkeypatch):
+    run = Session.run
+
+    def stopped(session, capture, screen, **options):
+        publish = screen.publish
+
+        def stop_later(moment):
+            publish(moment)
+            if moment.sample.time_s > 1:
+                signal.raise_signal(signal.SIGINT)
+
+        screen.publish = stop_later
+        return run(session, capture, screen, **options)
+
+    monkeypatch.setattr(Session, "run", stopped)
+    monkeypatch.setattr(sys, "argv", ["track", "calibrate", *CAMERAS, "--fast", "--loop"])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    told = capsys.readouterr().err
+    assert ended.value.code == 75
+    assert "calibration was stopped; nothing was found before it" in told
+    assert "pictures ended" not in told
+
+
+def test_the_page_stays_until_recordings_are_written(home, monkeypatch):
+    there = []
+    close = Page.close
+    monkeypatch.setattr(Page, "close", lambda page: (there.append(Path("take.csv").is_file()), close(page)))
+    wishes = Wishes(cameras=CAMERAS[1::2], fast=True)
+    run_session(wishes, RunOptions(record=[Path("take.csv")], browser=False, seconds=1.0), lambda line: None)
+    assert there == [True]
 
 
 def test_a_profile_that_cannot_be_kept_ends_no_session_but_calibration(home, capsys, monkeypatch):

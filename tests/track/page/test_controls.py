@@ -14,6 +14,62 @@ from track.page import Page
 pytestmark = [needs_chromium, pytest.mark.slow]
 
 
+HIDDEN = """(hidden => {
+    Object.defineProperty(document, 'hidden', { configurable: true, get: () => hidden });
+    document.dispatchEvent(new Event('visibilitychange'));
+})"""
+
+
+async def watched(stand, wanted: bool) -> None:
+    """Wait until the session has a tab to show anything to, or none."""
+    for _ in range(1200):
+        if stand.page.watched is wanted:
+            return
+        await asyncio.sleep(0.1)
+    pytest.fail(f"the page's server is {'not ' if wanted else ''}looked at")
+
+
+def test_a_page_that_nobody_sees_costs_the_session_nothing_and_goes_on_when_it_is_seen(loop, stand):
+    async def hide():
+        assert (await stand.asks(1))[0] == Command(verb="picture", value=True)
+        await stand.publish_until("connection.dataset.state === 'live'")
+        await stand.tab.ask("step.value = 'smile'")
+        for _ in range(2):
+            await stand.tab.ask(f"{HIDDEN}(true)")
+            await watched(stand, False)
+            assert await stand.asks(1) == [Command(verb="picture", value=False)]
+            await stand.tab.ask(f"{HIDDEN}(false)")
+            await watched(stand, True)
+            assert await stand.asks(1) == [Command(verb="picture", value=True)]
+            await stand.publish_until("connection.dataset.state === 'live'")
+            await stand.publish_until("document.querySelector('#cameras canvas')")
+        assert await stand.tab.ask("step.value") == "smile"
+        await stand.tab.ask(f"{HIDDEN}(true), {HIDDEN}(false)")  # before the line is closed
+        await stand.publish_until("connection.dataset.state === 'live'")
+        assert stand.page.watched
+
+    loop.run_until_complete(hide())
+
+
+def test_a_hidden_page_that_records_is_told_of_every_frame_until_it_stops(loop, stand):
+    async def record():
+        await stand.publish_until("connection.dataset.state === 'live'", settings={"recording": True})
+        await stand.publish_until("record.classList.contains('on')", settings={"recording": True})
+        await stand.tab.ask(f"{HIDDEN}(true)")
+        for _ in range(20):
+            stand.page.publish(moment_of(np.zeros(52), settings={"recording": True}))
+            await asyncio.sleep(0.05)
+        assert stand.page.watched
+        for _ in range(1200):
+            stand.page.publish(moment_of(np.zeros(52), settings={"recording": False}))
+            await asyncio.sleep(0.1)
+            if not stand.page.watched:
+                break
+        assert not stand.page.watched
+
+    loop.run_until_complete(record())
+
+
 def test_what_is_clicked_is_asked_for_and_what_holds_is_shown(loop, stand):
     async def click():
         assert (await stand.asks(1))[0] == Command(verb="picture", value=True)

@@ -6,14 +6,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from regress.runtime.headset.person import HIGHEST_REST, OwnEye
+from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES
+from regress.runtime.headset.person import HIGHEST_REST, LEAST_SPAN, OwnEnds, OwnEye
 from regress.runtime.stages.own_blinks import Ends
 from track.cli import app
 from track.errors import InputError
 from track.profile import places
 from track.profile.neutral import NeutralFace, lines_of
-from track.profile.places import disposable_path, person_of, profile_path, stored_path, stored_profiles
+from track.profile.places import (
+    camera_key,
+    disposable_path,
+    known_path,
+    person_of,
+    profile_path,
+    stored_path,
+    stored_profiles,
+)
 from track.profile.profile import (
     FULL_GAIN,
     LARGEST_GAIN,
@@ -74,9 +82,27 @@ def test_a_full_movement_reads_one_unless_the_gain_ends(profile):
     plain = profile.model_copy(update={"gains": {}})
     for name, reading in plain.ranges.items():
         full = reading * plain.factors()[BLENDSHAPE_INDEX[name]]
-        assert full == pytest.approx(min(1.0, FULL_GAIN * reading))
+        assert full == pytest.approx(min(1.0, plain.most_gain(name) * reading))
     unnamed = [index for name, index in BLENDSHAPE_INDEX.items() if name not in plain.ranges]
     assert np.all(plain.factors()[unnamed] == 1)
+
+
+@given(
+    rests=st.dictionaries(SHAPES, st.floats(0, HIGHEST_REST), max_size=5),
+    spans=st.dictionaries(SHAPES, st.floats(LEAST_SPAN, 0.5), max_size=5),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_a_headset_s_weights_are_stretched_live_as_by_a_guided_minute(rests, spans, seed):
+    """But for blinks: the minute measures how noisy they read, and nobody does so live."""
+    full = {name: min(1.0, rests.get(name, 0.0) + span) for name, span in spans.items()}
+    mark = ModelMark(kind="headset", sha256="ab" * 32)
+    profile = Profile(person="a", camera="b", model=mark, rests=rests, ranges=full)
+    read = np.random.default_rng(seed).uniform(size=52)
+    live = np.clip((read - profile.at_rest()) * profile.factors(), 0, 1)
+    kept = OwnEnds(rests, full, np.zeros(2)).apply(read, None)
+    others = np.setdiff1d(np.arange(52), BLINK_INDICES)
+    np.testing.assert_allclose(live[others], kept[others], atol=1e-9)
+    assert all(profile.most_gain(BLENDSHAPES[column]) == FULL_GAIN for column in BLINK_INDICES)
 
 
 @given(
@@ -148,6 +174,61 @@ def test_each_person_and_camera_has_a_file(folder):
     assert len({profile_path(None, title) for title in titles}) == len(titles)
     with pytest.raises(InputError, match="neither a file"):
         profile_path("../anna", "camera 0")
+
+
+NAMES = ("left_eye", "right_eye", "mouth")
+SOURCES = st.one_of(
+    st.integers(0, 9).map("camera {}".format),
+    st.text("abc/.:-", min_size=1, max_size=120).map("http://{}".format),
+)
+
+
+@given(st.dictionaries(st.sampled_from(NAMES), SOURCES, min_size=1), st.randoms(use_true_random=False))
+def test_a_profile_hangs_on_no_order_of_the_cameras(titles, random):
+    names = list(titles)
+    random.shuffle(names)
+    assert profile_path("a", camera_key({name: titles[name] for name in names})) == profile_path(
+        "a", camera_key(titles)
+    )
+
+
+@pytest.mark.parametrize("half", ["", "#left"])
+def test_a_webcam_is_the_same_by_its_number_and_its_device(half):
+    spelled = [{"mouth": f"{title}{half}"} for title in ("camera 2", "/dev/video2")]
+    assert camera_key(spelled[0]) == camera_key(spelled[1])
+    assert camera_key({"camera": f"/dev/video2{half}"}) == f"camera 2{half}"
+
+
+def test_other_cameras_are_other_profiles():
+    left, mouth = "http://10.0.0.2:81/" + "a" * 80, "camera 1"
+    found = [
+        {"left_eye": left, "mouth": mouth},
+        {"left_eye": mouth, "mouth": left},
+        {"left_eye": left, "right_eye": mouth},
+        {"left_eye": left + "b", "mouth": mouth},
+    ]
+    assert len({profile_path("a", camera_key(titles)) for titles in found}) == len(found)
+    assert all(len(profile_path("a", camera_key(titles)).name) < 110 for titles in found)
+
+
+@pytest.mark.parametrize(
+    ("titles", "former"),
+    [
+        ({"right_eye": "camera 1", "left_eye": "camera 0"}, "anna.camera-1-camera-0.toml"),
+        ({"camera": "http://h/" + "a" * 99}, f"anna.http-h-{'a' * 73}.toml"),
+        ({"camera": "/dev/video2"}, "anna.dev-video2.toml"),
+        ({"camera": "USB摄像头"}, None),
+    ],
+)
+def test_a_profile_of_before_is_found_until_there_is_a_new_one(folder, titles, former):
+    new = profile_path("anna", camera_key(titles))
+    assert known_path("anna", titles) == new
+    if former is not None:
+        write_profile(folder / former, Profile(person="anna", camera="x"))
+        assert known_path("anna", titles) == folder / former
+    write_profile(new, Profile(person="anna", camera="x"))
+    assert known_path("anna", titles) == new
+    assert known_path("here/p.toml", titles).name == "p.toml"
 
 
 @pytest.mark.parametrize("command", [["list"], ["show", "eve"]])

@@ -19,8 +19,8 @@ from track.errors import InputError
 from track.messages import Command
 from track.profile.neutral import NeutralFace
 from track.profile.profile import Profile, read_profile, write_profile
-from track.session.calibration import Outcome
 from track.session.ranges import Ranges, by_lids
+from track.session.showing import Outcome
 from track.sinks.targets import open_sink, parse_target
 
 
@@ -114,7 +114,7 @@ def test_a_calibration_in_place_of_one_that_still_runs_has_the_known_neutral_fac
     ("neutral", "words"),
     [
         (NeutralFace(detector="mediapipe"), "takes a headset's pictures"),
-        (NeutralFace(pictures={"mouth": "AAAA"}), "no neutral picture of left_eye"),
+        (NeutralFace(pictures={"chin": "AAAA"}), "no neutral picture of left_eye, right_eye, mouth"),
         (
             NeutralFace(pictures=dict.fromkeys(HEADSET, "AAAAA")),
             "left_eye of the profile is none, and the model",
