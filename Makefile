@@ -78,7 +78,7 @@ headset-any: models/headset-any/report.html  ## A network for any headset, of dr
 	@echo "model:   models/headset-any"
 	@echo "report:  models/headset-any/report.html"
 
-models: $(RIG)  ## Train the ready-made models again, say whether they are the same; ADOPT=1 takes them; ICT= names a clone of ICT-FaceKit
+models: $(RIG)  ## Train two of the three ready-made models again (the third: headset-any), say whether they are the same; ADOPT=1 takes them; ICT= names a clone of ICT-FaceKit
 	@$(MAKE) --no-print-directory rig-of-clone
 	@$(MAKE) --no-print-directory SPEC=$(SHIPPED) models/landmarks-default/model.json
 	@$(MAKE) --no-print-directory models/headset/report.html

@@ -11,6 +11,9 @@ import pytest
 from PIL import Image
 from typer.main import get_command
 
+from tests.options_page import PAGE as OPTIONS
+from tests.options_page import options_page
+
 ROOT = Path(__file__).parents[1]
 PAGES = [
     ROOT / "README.md",
@@ -23,6 +26,10 @@ NAMES = [page.relative_to(ROOT).as_posix() for page in PAGES]
 PROGRAMS = ("facegen", "regress", "track", "room")
 
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+NAMED = re.compile(
+    r"`((?:tests|benchmarks|docs|datasets|facegen|regress|track|room)/[\w./-]+\.(?:py|toml|md))`"
+)
+"""Files of the clone that a page names between quotes of code."""
 FENCE = re.compile(r"^```.*?^```", re.M | re.S)
 
 
@@ -140,6 +147,16 @@ def _refused(call: list[str]) -> str | None:
 def test_commands_and_options_are_there(page: Path):
     refused = {" ".join(call): _refused(call) for call in _calls(page)}
     assert {call: why for call, why in refused.items() if why} == {}
+
+
+def test_the_page_of_options_is_what_the_programs_say():
+    assert _text(OPTIONS) == options_page(), "run: python -m tests.options_page"
+
+
+@pytest.mark.parametrize("page", [*PAGES[:1], *PAGES[2:]], ids=[*NAMES[:1], *NAMES[2:]])
+def test_files_that_words_name_are_there(page: Path):
+    for path in NAMED.findall(_text(page)):
+        assert "NAME" in path or (ROOT / path).is_file(), f"{page.name} names {path}, which is not there"
 
 
 def test_calls_are_found_and_wrong_ones_are_refused():

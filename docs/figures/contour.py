@@ -18,8 +18,10 @@ from facegen.rigs import Rig, evaluate, load_rig, occluder
 from facegen.sampling.cameras import FACING
 
 OUT = Path(__file__).resolve().parents[1] / "pictures" / "sliding-contour.jpg"
-POSES_DEG = ((0, 0), (15, 0), (30, 0), (45, 0), (-30, -15))
+POSES_DEG = ((0, 0), (15, 0), (30, 0), (40, 0), (-30, -15))
 SIZE, FINER, FOCAL_PX, DISTANCE_M = 300, 2, 780.0, 0.8
+MIDDLE_M = np.array([0.0, 0.0, -0.06])
+"""Of the head, which stays in the middle of each picture however it turns."""
 FIXED, SLID = (30, 70, 220), (220, 30, 30)
 
 
@@ -28,7 +30,8 @@ def picture(rig: Rig, yaw: float, pitch: float) -> Image.Image:
     gaze = np.array([[[0.0, 0.0, 1.0]] * 2])
     face = evaluate(rig, np.zeros((1, rig.components)), np.zeros((1, len(BLENDSHAPES))), gaze)
     rotation = FACING @ rotation_from_angles(np.radians(yaw), np.radians(pitch), 0.0)
-    camera = transform(rotation, np.array([0.0, -0.015, DISTANCE_M]))[None]
+    aside = -(rotation @ MIDDLE_M)[0]
+    camera = transform(rotation, np.array([aside, -0.015, DISTANCE_M]))[None]
     reduced, jaw = occluder(rig), face.landmarks[:, JAW]
     mesh = face.vertices[:, reduced.vertices]
     points = apply_transform(camera, jaw)

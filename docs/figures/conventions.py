@@ -37,12 +37,12 @@ def main() -> None:
         axis.set_title(title, fontsize=11)
         axis.axis("off")
         draw_axes(axis, yaw_deg)
-    front.text(62, 60, "subject's right\nat the picture's left", fontsize=9, ha="center")
-    front.text(448, 60, "subject's left\n(+x)", fontsize=9, ha="center")
+    front.text(45, 40, "subject's right\nat the picture's left", fontsize=9, ha="center")
+    front.text(455, 40, "subject's left\n(+x)", fontsize=9, ha="center")
     draw_camera(side, yaw_deg=-60)
     draw_pixels(pixels)
     figure.tight_layout()
-    figure.savefig(OUT)
+    figure.savefig(OUT, bbox_inches="tight", pad_inches=0.05)
 
 
 def to_picture(points: np.ndarray, yaw_deg: float) -> np.ndarray:

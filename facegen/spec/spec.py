@@ -147,7 +147,7 @@ class Head:
 
 @dataclass(frozen=True, kw_only=True, config=STRICT)
 class KeypointCamera:
-    """The camera that sees the keypoints: a pinhole before the face."""
+    """The camera that sees the keypoints, a pinhole before the face; rendered pictures are those of a headset."""
 
     width_px: Annotated[int, Field(ge=16, le=16384)] = 640
     """Width of the picture."""

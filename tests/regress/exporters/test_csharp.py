@@ -1,5 +1,6 @@
 """The C# examples, compiled by Mono, with stand-ins for Unity and onnxruntime, which cannot be had here."""
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -19,7 +20,13 @@ namespace UnityEngine {
     public class MonoBehaviour {
         public static SkinnedMeshRenderer[] Below = { };
         public T[] GetComponentsInChildren<T>() => (T[])(object)Below;
+        public static object Beside;
+        public T GetComponent<T>() => (T)Beside;
     }
+    public static class Application { public static string streamingAssetsPath; }
+    public class TextAsset { public string text; }
+    public static class Time { public static float deltaTime; }
+    public static class Debug { public static void LogError(string said) { System.Console.WriteLine(said); } }
     public class RangeAttribute : System.Attribute { public RangeAttribute(float least, float most) { } }
     public static class Mathf {
         public static float Min(float a, float b) => System.Math.Min(a, b);
@@ -50,7 +57,8 @@ namespace Unity.InferenceEngine {
     }
     public class Worker : System.IDisposable {
         public Worker(object model, BackendType backend) { }
-        public void SetInput(string name, Tensor<float> tensor) { }
+        public static List<string> Given = new List<string>();
+        public void SetInput(string name, Tensor<float> tensor) { Given.Add(name + " " + tensor.DownloadToArray()[0]); }
         public void Schedule() { }
         public object PeekOutput() => new Tensor<float>(null, Enumerable.Range(0, 52).Select(i => i / 100f).ToArray());
         public void Dispose() { }
@@ -59,12 +67,13 @@ namespace Unity.InferenceEngine {
 """
 
 
-def answer_of(example: str, stand_in: str, program: str, folder: Path) -> list[str]:
+def answer_of(examples: str | tuple[str, ...], stand_in: str, program: str, folder: Path) -> list[str]:
     """Lines that a program writes, of which the body of ``Main`` is given."""
     using = "".join(f"using {name};" for name in ("System", "System.Collections.Generic", "System.Linq"))
     (folder / "standin.cs").write_text(stand_in)
     (folder / "main.cs").write_text(f"{using} class Program {{ static void Main() {{ {program} }} }}")
-    files = [EXAMPLES / example, folder / "standin.cs", folder / "main.cs"]
+    examples = (examples,) if isinstance(examples, str) else examples
+    files = [*(EXAMPLES / example for example in examples), folder / "standin.cs", folder / "main.cs"]
     built = folder / "main.exe"
     for command in (["mcs", "-nologo", "-r:System.Core.dll", f"-out:{built}", *files], ["mono", built]):
         done = subprocess.run(command, capture_output=True, text=True, timeout=120)
@@ -108,6 +117,65 @@ def test_all_meshes_of_an_avatar_move_that_have_a_shape(tmp_path: Path):
     """Teeth and lashes are meshes of their own; jawOpen is weight 17 of the stand-in's, eyeBlinkLeft weight 0."""
     lines = answer_of("FaceWeights.cs", UNITY, MOVING, tmp_path)
     assert lines == ["EyeBlinkLeft 0 jawOpen 17 JawOpen 17 eyeBlink_L 0", "JawOpen 17"]
+
+
+PLAYING = """
+    System.Threading.Thread.CurrentThread.CurrentCulture = new System.Globalization.CultureInfo("de-DE");
+    Action<object, string> call = (what, method) => what.GetType().GetMethod(
+        method, System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance).Invoke(what, null);
+    Func<int, string> line = first => first + ".5 " + string.Join(" ", Enumerable.Range(1, 135).Select(i => i * i % 7));
+    foreach (var text in new[] { line(0) + "\\r\\n" + line(1) + "\\n" + line(2) + "\\n", "1 2 3" }) {
+        Unity.InferenceEngine.Worker.Given.Clear();
+        var face = new FaceWeights();
+        UnityEngine.MonoBehaviour.Beside = face;
+        var play = new PlayPoints { points = new UnityEngine.TextAsset { text = text } };
+        call(face, "Start");
+        call(play, "Start");
+        UnityEngine.Time.deltaTime = 1 / 45f;
+        for (int i = 0; i < 5; i++) call(play, "Update");
+        Console.WriteLine(string.Join(", ", Unity.InferenceEngine.Worker.Given.Select(each => each.Replace(",", "."))));
+    }
+"""
+
+
+def test_recorded_points_are_played_by_the_clock_and_the_first_one_is_neutral(tmp_path: Path):
+    """Updates at 0.67, 1.33, 2, 2.67 and 3.33 frames of three, where numbers are usually written with commas."""
+    played, refused, nothing = answer_of(("FaceWeights.cs", "PlayPoints.cs"), UNITY, PLAYING, tmp_path)
+    given = [f"points {first}, neutral 0.5" for first in ("0.5", "1.5", "2.5", "0.5")]
+    assert played == ", ".join(given)
+    assert refused.startswith("The first line is no neutral face")
+    assert nothing == ""
+
+
+PAGE_CLASSES = """
+using System.Collections.Generic;
+using UnityEngine;
+class Landmarks : MonoBehaviour { void Run(float[] neutral, float[] points) { %s } }
+class Pictures { void Run(Dictionary<string, byte[]> pictures, Dictionary<string, byte[]> neutral) { %s } }
+"""
+
+
+def test_the_code_of_the_page_is_compiled(tmp_path: Path):
+    page = (EXAMPLES.parent / "game-engines.md").read_text(encoding="utf-8")
+    snippets = re.findall(r"```csharp\n(.*?)```", page, flags=re.DOTALL)
+    texts = {"unity": UNITY, "runtime": ONNXRUNTIME, "page": PAGE_CLASSES % tuple(snippets)}
+    for name, text in texts.items():
+        (tmp_path / f"{name}.cs").write_text(text)
+    files = [
+        *(tmp_path / f"{name}.cs" for name in texts),
+        EXAMPLES / "FaceWeights.cs",
+        EXAMPLES / "HeadsetWeights.cs",
+    ]
+    command = [
+        "mcs",
+        "-nologo",
+        "-target:library",
+        "-r:System.Core.dll",
+        f"-out:{tmp_path / 'page.dll'}",
+        *files,
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 ONNXRUNTIME = """
