@@ -5,6 +5,7 @@ from facegen.store.blocks import draw_block, label_block
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
 from facegen.store.folder import (
+    LICENCES,
     DatasetFolder,
     commit_file,
     commit_folder,
@@ -21,6 +22,7 @@ from facegen.store.keypoint_table import (
     read_shard,
     write_shard,
 )
+from facegen.store.licences import licences, licences_of_sources, put_licences, recording_of
 from facegen.store.likeness import differing_rows
 from facegen.store.merging import Merged, merge
 from facegen.store.opening import open_dataset, resolve
@@ -29,6 +31,7 @@ from facegen.store.reference import labels_reference
 from facegen.store.stage import staging, sweep
 
 __all__ = [
+    "LICENCES",
     "Dataset",
     "DatasetFolder",
     "Merged",
@@ -44,15 +47,19 @@ __all__ = [
     "keypoint_table",
     "label_block",
     "labels_reference",
+    "licences",
+    "licences_of_sources",
     "merge",
     "open_dataset",
     "parse_png",
     "png_bytes",
+    "put_licences",
     "read_description",
     "read_exr",
     "read_json",
     "read_png",
     "read_shard",
+    "recording_of",
     "resolve",
     "sample_record",
     "shard_samples",

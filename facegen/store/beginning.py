@@ -20,6 +20,7 @@ from facegen.store.dataset import Dataset, rigs_of
 from facegen.store.description import FORMAT, read_description
 from facegen.store.folder import commit_file, write_json
 from facegen.store.folder_card import folder_cards
+from facegen.store.licences import licences_of_sources, recording_of
 from facegen.store.stage import staging
 
 _PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
@@ -179,12 +180,16 @@ def _renew(dataset: Dataset) -> None:
 
 
 def _write_cards(dataset: Dataset) -> None:
-    """Write what is missing of ``README.md`` and ``croissant.json``.
+    """Write what is missing of ``README.md``, ``croissant.json`` and ``LICENSE.txt``.
 
     They come last: a folder that holds them alone is somebody else's, and what a person wrote into them stays.
     """
     folder, spec = dataset.folder, dataset.spec
-    missing = [path for path in (folder.card, folder.croissant_json) if not os.path.lexists(path)]
+    missing = [
+        path
+        for path in (folder.card, folder.croissant_json, folder.licences_txt)
+        if not os.path.lexists(path)
+    ]
     if not missing:
         return
     texts = folder_cards(
@@ -194,6 +199,7 @@ def _write_cards(dataset: Dataset) -> None:
         split=spec.split,
         split_shares=spec.split_shares,
     )
+    texts[folder.licences_txt.name] = licences_of_sources(dataset).encode()
     with staging(folder, "card") as stage:
         for path in missing:
             (stage / path.name).write_bytes(texts[path.name])
@@ -210,11 +216,18 @@ def _description(dataset: Dataset) -> dict:
         "people": dataset.spec.people,
         **rigs_of(dataset),
         "headset": dataset.headset.name,
-        "licence": "Pictures and labels derive from "
-        + " and ".join(f"the rig {rig.name!r}: {rig.licence}" for rig in dataset.rigs),
+        "licence": "Pictures and labels derive from " + " and ".join(_sources(dataset)),
+        **recording_of(dataset.spec),
         "blendshapes": list(BLENDSHAPES),
         "versions": _versions(),
     }
+
+
+def _sources(dataset: Dataset) -> list[str]:
+    """What a dataset derives from, with licences."""
+    rigs = [f"the rig {rig.name!r}: {rig.licence}" for rig in dataset.rigs]
+    recordings = recording_of(dataset.spec).values()
+    return rigs + [f"the recording of {each['credit']}: {each['licence']}" for each in recordings]
 
 
 def _versions() -> dict[str, str]:

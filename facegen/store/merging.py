@@ -211,7 +211,9 @@ def _take_description(source: DatasetFolder, target: DatasetFolder) -> None:
     """The first dataset's description; the versions in it stay those that made the data, and a card stays as it is."""
     first = (*_first_files(source), source.dataset_json)
     cards = tuple(
-        path for path in (source.card, source.croissant_json) if not (target.path / path.name).exists()
+        path
+        for path in (source.card, source.croissant_json, source.licences_txt)
+        if not (target.path / path.name).exists()
     )
     with staging(target, "merge") as stage:
         for path in cards if target.dataset_json.is_file() else first + cards:

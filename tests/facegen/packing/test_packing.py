@@ -53,7 +53,7 @@ def test_equal_input_gives_equal_bytes_and_the_licence_goes_along(request, tmp_p
     assert about["dataset"]["spec_hash"] == rendered.hash
     index = json.loads((one / "index.json").read_text())
     assert sorted(entry["name"] for entry in index) == sorted(
-        files(one).keys() - {"pack.json", "index.json", "README.md", "croissant.json"}
+        files(one).keys() - {"pack.json", "index.json", "README.md", "croissant.json", "LICENSE.txt"}
     )
     assert all((one / entry["name"]).stat().st_size == entry["bytes"] for entry in index)
     again = write_pack(plan_pack(rendered, name), one)

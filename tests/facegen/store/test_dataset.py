@@ -178,7 +178,8 @@ def test_what_a_stopped_beginning_left_is_no_obstacle_and_what_is_another_stays(
     made = resolve(load_spec(folder / "spec.toml"), folder / "out")
     begin(made)
     texts = {path: path.read_bytes() for path in (made.folder.headset_toml, made.folder.spec_toml)}
-    for path in (made.folder.dataset_json, made.folder.card, made.folder.croissant_json):
+    ends = (made.folder.dataset_json, made.folder.card, made.folder.croissant_json, made.folder.licences_txt)
+    for path in ends:
         path.unlink()
     for path, text in texts.items():
         path.write_bytes(b"# mine\n" + text)

@@ -12,7 +12,7 @@ from facegen.spec import load_spec
 from facegen.store import Dataset, begin, merge, resolve
 
 SPEC = 'version = 1\nkind = "still"\nseed = 1\npeople = 3\n'
-CARDS = ("README.md", "croissant.json")
+CARDS = ("README.md", "croissant.json", "LICENSE.txt")
 
 
 @pytest.fixture
