@@ -1,6 +1,6 @@
 """Datasets on disk."""
 
-from facegen.store.beginning import begin, check_folder_is_free
+from facegen.store.beginning import begin, check_folder_is_free, holds_dataset
 from facegen.store.blocks import draw_block, label_block
 from facegen.store.dataset import Dataset
 from facegen.store.description import read_description
@@ -29,6 +29,7 @@ from facegen.store.opening import open_dataset, resolve
 from facegen.store.record import sample_record
 from facegen.store.reference import labels_reference
 from facegen.store.stage import staging, sweep
+from facegen.store.versions import check_renderer, version_note
 
 __all__ = [
     "LICENCES",
@@ -37,12 +38,14 @@ __all__ = [
     "Merged",
     "begin",
     "check_folder_is_free",
+    "check_renderer",
     "column_array",
     "commit_file",
     "commit_folder",
     "differing_rows",
     "draw_block",
     "exr_bytes",
+    "holds_dataset",
     "keypoint_schema",
     "keypoint_table",
     "label_block",
@@ -66,6 +69,7 @@ __all__ = [
     "shards_of",
     "staging",
     "sweep",
+    "version_note",
     "write_json",
     "write_shard",
 ]

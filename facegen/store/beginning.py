@@ -1,14 +1,12 @@
 """Begins the folder of a dataset: its spec and what that names, what it is, and its card."""
 
 import filecmp
-import importlib.metadata
 import os
 import shutil
 from pathlib import Path
 
 import tomli_w
 
-from facegen import __version__
 from facegen.conventions import BLENDSHAPES
 from facegen.documents import MOST_TOML_BYTES, read_bytes
 from facegen.errors import InputError
@@ -22,8 +20,7 @@ from facegen.store.folder import commit_file, write_json
 from facegen.store.folder_card import folder_cards
 from facegen.store.licences import licences_of_sources, recording_of
 from facegen.store.stage import staging
-
-_PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
+from facegen.store.versions import installed_versions
 
 _FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "headset.toml", "recording.csv")
 """What `begin` leaves if it is killed before ``dataset.json``, and what a farm puts there before it."""
@@ -219,7 +216,7 @@ def _description(dataset: Dataset) -> dict:
         "licence": "Pictures and labels derive from " + " and ".join(_sources(dataset)),
         **recording_of(dataset.spec),
         "blendshapes": list(BLENDSHAPES),
-        "versions": _versions(),
+        "versions": installed_versions(),
     }
 
 
@@ -228,14 +225,6 @@ def _sources(dataset: Dataset) -> list[str]:
     rigs = [f"the rig {rig.name!r}: {rig.licence}" for rig in dataset.rigs]
     recordings = recording_of(dataset.spec).values()
     return rigs + [f"the recording of {each['credit']}: {each['licence']}" for each in recordings]
-
-
-def _versions() -> dict[str, str]:
-    """Versions of what made the data; OpenCV's is its own word, as any of its four distributions will do."""
-    import cv2  # where a dataset begins, not where one is read
-
-    installed = {name: importlib.metadata.version(name) for name in _PACKAGES}
-    return {"facegen": __version__, **installed, "opencv": cv2.__version__}
 
 
 def _without_none(table: dict) -> dict:
