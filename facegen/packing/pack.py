@@ -128,7 +128,16 @@ def write_pack(
     OutputError
         If the folder cannot be written.
     """
-    folder, form = DatasetFolder(Path(out)), PACK_FORMATS[plan.name]
+    folder = DatasetFolder(Path(out))
+    try:
+        return _write(plan, folder, on_progress)
+    finally:
+        with contextlib.suppress(OSError):  # not there, or not empty: another run packs the same
+            (folder.path / "tmp").rmdir()
+
+
+def _write(plan: PackPlan, folder: DatasetFolder, on_progress: Callable[[int], None]) -> Packed:
+    form = PACK_FORMATS[plan.name]
     _begin(folder, _description(plan))
     sweep(folder)
     listed = _listed(folder.path)
@@ -152,8 +161,6 @@ def write_pack(
             commit_file(stage / name, folder.path / name)
         write_json(stage / INDEX, entries)
         commit_file(stage / INDEX, folder.path / INDEX)
-    with contextlib.suppress(OSError):  # not empty: another run packs the same
-        (folder.path / "tmp").rmdir()
     return Packed(samples=len(plan.samples), written=written, found=len(plan.parts) - written)
 
 

@@ -7,8 +7,9 @@ import pyarrow as pa
 
 CARD = "README.md"
 
-_SIZES = (1_000, 10_000, 100_000, 1_000_000, 10_000_000)
-"""Ends of the size classes that a card may name."""
+_SIZES = ("1K", "10K", "100K", "1M", "10M", "100M", "1B", "10B", "100B", "1T")
+"""Ends of the size classes that a card may name, each ten times the one before; the first is a thousand
+(https://github.com/huggingface/hub-docs/blob/main/datasetcard.md)."""
 
 
 def card(
@@ -149,8 +150,8 @@ def _type(field: pa.Field) -> str:
 
 
 def _size(samples: int) -> str:
-    names = ["1K", "10K", "100K", "1M", "10M"]
-    for number, end in enumerate(_SIZES):
-        if samples < end:
-            return f"{names[number - 1]}<n<{names[number]}" if number else "n<1K"
-    return f"n>{names[-1]}"
+    """Class of a number of samples; one that is an end itself belongs to the class above."""
+    number = max(len(str(samples)) - 3, 0)
+    if number == 0:
+        return f"n<{_SIZES[0]}"
+    return f"{_SIZES[number - 1]}<n<{_SIZES[number]}" if number < len(_SIZES) else f"n>{_SIZES[-1]}"

@@ -22,8 +22,10 @@ import pytest
 from facegen.conventions import BLENDSHAPES, SPLITS
 from facegen.errors import InputError, InvalidData
 from facegen.geometry import direction_from_angles
+from facegen.headsets.headset import TAKEN
 from facegen.packing import PACK_FORMATS, Options, PackFile, plan_pack, write_pack
-from facegen.packing.arrays import face_basis, write_part
+from facegen.packing.arrays import array_schema, face_basis, write_part
+from facegen.packing.parquet import row_schema
 from facegen.packing.view_points import view_points
 from facegen.packing.webdataset import write_tar
 from facegen.store import open_dataset, read_png
@@ -169,6 +171,13 @@ def test_coco_opens_in_pycocotools(rendered, tmp_path):
         )
 
 
+def test_no_camera_may_be_called_as_a_column_is(rendered):
+    views = rendered.headset.camera_names
+    for schema in (row_schema(rendered, views), array_schema(rendered, views)):
+        own = {name for name in schema.names if not any(view in name for view in views)}
+        assert own <= TAKEN
+
+
 def test_arrays_hold_the_datasets_pictures_and_labels(rendered, tmp_path):
     out = make(rendered, tmp_path / "pack", "arrays")
     about = json.loads((out / "arrays.json").read_text())
@@ -269,7 +278,7 @@ def test_damage_is_not_packed_and_no_half_file_appears(rendered, tmp_path):
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(InvalidData, match=r"mouth\.png: is not what was written"):
         make(open_dataset(copy), tmp_path / "pack", "webdataset")
-    assert sorted(p.name for p in (tmp_path / "pack").rglob("*")) == ["pack.json", "tmp"]
+    assert sorted(p.name for p in (tmp_path / "pack").rglob("*")) == ["pack.json"]
 
 
 def test_a_killed_run_leaves_whole_files_only_and_the_next_one_goes_on(rendered, tmp_path):
