@@ -162,13 +162,11 @@ def test_coco_opens_in_pycocotools(rendered, tmp_path):
         assert not found[~labelled].any()
         assert annotation["num_keypoints"] == labelled.sum() > 0
         x, y, width, height = annotation["bbox"]
-        # pixels are counted from the middle of the first one: the picture goes from -0.5 to its width - 0.5
-        assert (
-            (-0.5 <= x)
-            & (x + width < image["width"] - 0.5)
-            & (-0.5 <= y)
-            & (y + height < image["height"] - 0.5)
-        )
+        # boxes count from the picture's corner, points from the middle of its first pixel
+        low, high = found[labelled, :2].min(axis=0) + 0.5, found[labelled, :2].max(axis=0) + 0.5
+        np.testing.assert_allclose([x, y, x + width, y + height], [*low, *high])
+        assert (low >= 0).all()
+        assert (high <= [image["width"], image["height"]]).all()
 
 
 def test_no_camera_may_be_called_as_a_column_is(rendered):
