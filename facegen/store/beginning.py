@@ -14,7 +14,7 @@ from facegen.files import output_errors
 from facegen.formats.litter import is_litter
 from facegen.headsets import headset_path
 from facegen.spec import LABEL_VERSION, spec_table
-from facegen.store.dataset import Dataset, rigs_of
+from facegen.store.dataset import Dataset, otherwise_built, rigs_of
 from facegen.store.description import FORMAT, read_description
 from facegen.store.folder import commit_file, write_json
 from facegen.store.folder_card import folder_cards
@@ -46,7 +46,10 @@ def check_folder_is_free(dataset: Dataset) -> None:
         others = folder.path.is_dir() and any(not _is_first(p.name) for p in folder.path.iterdir())
     # looked at after the listing: another worker may be just beginning, and then this file is there by now
     if os.path.lexists(folder.dataset_json):
-        stored_hash = read_description(folder)["spec_hash"]
+        described = read_description(folder)
+        stored_hash = described["spec_hash"]
+        if stored_hash != dataset.hash and (built := otherwise_built(dataset, described)):
+            raise InputError(f"{folder.path}: {built}")
         if stored_hash != dataset.hash:
             raise InputError(
                 f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
