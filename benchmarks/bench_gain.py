@@ -26,7 +26,7 @@ from facegen.rigs import load_rig
 from regress import Model
 from regress.learning.training import read_dataset
 from regress.learning.training.gain import SEEN, gain_of
-from regress.learning.training.preparation import OUTPUT_COLUMNS, Faces, as_detected, faces_of
+from regress.learning.training.preparation import OUTPUT_COLUMNS, Faces, draw_detected, faces_of
 from regress.learning.training.recipes import RECIPES
 from regress.runtime.features import extract
 from regress.runtime.networks import evaluate
@@ -61,7 +61,7 @@ def main() -> None:
         # a share of ridge regression came later, and moves answers by more than any gain
         recipe = replace(RECIPES["default"], calibrated_gain=False, calibrated_linear=0.0)
         models = [train_calibrated(dataset, recipe, seed) for seed in range(arguments.seeds)]
-        people = as_detected(
+        people = draw_detected(
             faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(NOISE_SEED)
         )
         for name, cells in rows(models, people, played):

@@ -24,7 +24,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, LANDMARK_GROUPS, MIRRORED_BLENDSHAPES, MIRRORED_LANDMARKS
 from regress.learning.training import read_dataset
 from regress.learning.training.noise import DetectorNoise
-from regress.learning.training.preparation import Faces, as_detected, faces_of
+from regress.learning.training.preparation import Faces, draw_detected, faces_of
 from regress.learning.training.record import DETECTOR
 from regress.learning.training.scores import score_faces
 from regress.runtime.features import align_similarity
@@ -123,7 +123,7 @@ def symmetry(model: Model, alone: Faces, faces: Faces) -> Iterator[str]:
     for name, detector in (("exact", None), ("as detected", DETECTOR)):
         for kind, given in (("frame alone", alone), ("neutral frame", faces)):
             rng = np.random.default_rng(68)
-            judged = given if detector is None else as_detected(given, detector, rng)
+            judged = given if detector is None else draw_detected(given, detector, rng)
             r2 = [
                 np.mean([score_faces(each, judged)[s].r2 for s in VISIBLE_SHAPES]) for each in (model, both)
             ]
@@ -161,7 +161,7 @@ def trust(model: Model, faces: Faces) -> Iterator[str]:
     distances, errors = [], []
     for size in (0.0, 0.5, 1.0, 2.0, 3.0):
         noise = DetectorNoise(bias=size, drift=0.3 * size * calibrated, jitter=0.001 * size, clean=0.0)
-        judged = as_detected(faces, noise, np.random.default_rng(1)) if size else faces
+        judged = draw_detected(faces, noise, np.random.default_rng(1)) if size else faces
         z = (judged.features(model.features) - normalisation.feature_mean) / normalisation.feature_std
         distances.append(np.sqrt(np.mean(z**2, axis=1)))
         missed = (_weights(model, judged) - judged.weights)[:, VISIBLE] ** 2

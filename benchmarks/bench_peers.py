@@ -29,7 +29,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy and torch read it
 import numpy as np
 
 from regress.learning.levenberg_marquardt import Settings, minimise
-from regress.learning.networks import Layout, NetworkProblem, Rows, ridge_directions, ridge_knots
+from regress.learning.networks import Layout, NetworkProblem, Rows, draw_ridge_knots, ridge_directions
 from regress.learning.training import read_dataset
 from regress.learning.training.preparation import Split, network_columns, prepare
 from regress.runtime.features import Features, load_reference_shape, mean_shape
@@ -119,7 +119,7 @@ def network_problem(task: Task, kind: type) -> NetworkProblem:
 
 def our_start(split: Split, alpha: float) -> np.ndarray:
     layout = Layout(inputs=split.inputs.shape[1], hidden=HIDDEN, outputs=split.targets.shape[1])
-    w1, w2 = ridge_knots(
+    w1, w2 = draw_ridge_knots(
         layout=layout,
         inputs=split.inputs,
         targets=split.targets,

@@ -30,7 +30,7 @@ from regress.learning.training import RECIPES, Recipe, read_dataset, train
 from regress.learning.training.baseline import fit_baseline
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.noise import DetectorNoise, displace
-from regress.learning.training.preparation import OUTPUT_COLUMNS, Faces, as_detected, faces_of
+from regress.learning.training.preparation import OUTPUT_COLUMNS, Faces, draw_detected, faces_of
 from regress.learning.training.record import DETECTOR
 from regress.learning.training.scores import score, score_faces
 from regress.runtime.features import (
@@ -103,7 +103,7 @@ def figures(
     )
     faces = faces_of(exact, "test", calibrated=calibrated)
     levels = {f"{percent:g} %": noisy(faces, percent) for percent in NOISE_PERCENT}
-    levels["detector"] = as_detected(faces, DETECTOR, np.random.default_rng(68))
+    levels["detector"] = draw_detected(faces, DETECTOR, np.random.default_rng(68))
     rows = {}
     for level, shown in levels.items():
         networks = score_faces(model, shown)
@@ -171,7 +171,7 @@ def feature_kinds(trained: KeypointDataset, exact: KeypointDataset) -> dict[str,
         given = {name: faces_of(trained, name, calibrated=True) for name in ("train", "validation")}
         if noise is not None:
             given = {
-                name: as_detected(faces, noise, np.random.default_rng(number))
+                name: draw_detected(faces, noise, np.random.default_rng(number))
                 for number, (name, faces) in enumerate(given.items())
             }
         for kind, measure in kinds.items():

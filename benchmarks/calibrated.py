@@ -8,7 +8,7 @@ from regress import Model
 from regress.learning.training.baseline import Baseline
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.gain import SEEN, gain_of, stretched
-from regress.learning.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of
+from regress.learning.training.preparation import OUTPUT_COLUMNS, draw_detected, faces_of
 from regress.learning.training.recipes import Recipe
 from regress.learning.training.run import beside_neutral, fit_set
 from regress.runtime.features import (
@@ -57,6 +57,8 @@ def stretched_ridge(ridge: Baseline, features: Features, dataset: KeypointDatase
             target_mean=np.zeros_like(ridge.normalisation.target_mean),
         ),
     )
-    faces = as_detected(faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(_SEED))
+    faces = draw_detected(
+        faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(_SEED)
+    )
     gain = gain_of(at_rest.predict(faces.features(features)), faces.weights[:, OUTPUT_COLUMNS], OUTPUTS)
     return replace(at_rest, coefficients=at_rest.coefficients * gain)

@@ -32,7 +32,7 @@ from regress import Model
 from regress.learning.training import read_dataset
 from regress.learning.training.baseline import fit_baseline
 from regress.learning.training.dataset import KeypointDataset
-from regress.learning.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of
+from regress.learning.training.preparation import OUTPUT_COLUMNS, draw_detected, faces_of
 from regress.learning.training.recipes import RECIPES, Recipe
 from regress.learning.training.record import DETECTOR
 from regress.learning.training.scores import predicted_outputs, score
@@ -94,7 +94,7 @@ def own_figures(model: Model, dataset: KeypointDataset, recipe: Recipe, seed: in
     ``seed`` is the model's, which displaced its rows.
     """
     faces = faces_of(dataset, "test", calibrated=True)
-    seen = as_detected(faces, DETECTOR, np.random.default_rng(_NOISE_SEED))
+    seen = draw_detected(faces, DETECTOR, np.random.default_rng(_NOISE_SEED))
     columns, true = [OUTPUTS.index(name) for name in VISIBLE_SHAPES], seen.weights[:, OUTPUT_COLUMNS]
     beside = model.calibrated.features
     ridge = fit_baseline(

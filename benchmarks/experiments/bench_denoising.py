@@ -24,7 +24,14 @@ from threadpoolctl import threadpool_limits
 from benchmarks.bench_recipes import NOISE_PERCENT, noisy
 from facegen.conventions import LANDMARK_GROUPS, mirrored_name
 from regress.learning.levenberg_marquardt import Settings, minimise
-from regress.learning.networks import Layout, NetworkProblem, Rows, fit_ridge, ridge_directions, ridge_knots
+from regress.learning.networks import (
+    Layout,
+    NetworkProblem,
+    Rows,
+    draw_ridge_knots,
+    fit_ridge,
+    ridge_directions,
+)
 from regress.learning.probes.faces import frontal, read_faces
 from regress.learning.probes.winks import SHUT
 from regress.learning.training import RECIPES, read_dataset
@@ -32,7 +39,7 @@ from regress.learning.training.preparation import (
     OUTPUT_COLUMNS,
     Faces,
     Prepared,
-    as_detected,
+    draw_detected,
     faces_of,
     mirrored,
     network_columns,
@@ -76,7 +83,7 @@ def fitted(prepared: Prepared, picked: list[int], hidden: int) -> Network:
     start = [
         layout.join(w1[None], w2[None])[0]
         for w1, w2 in (
-            ridge_knots(
+            draw_ridge_knots(
                 layout=layout,
                 inputs=few.inputs,
                 targets=few.targets[:, columns[number]],
@@ -160,7 +167,7 @@ def main() -> None:
     )
     test = faces_of(exact, "test", calibrated=True)
     levels = {f"{percent:g} %": noisy(test, percent) for percent in NOISE_PERCENT}
-    levels["detector"] = as_detected(test, DETECTOR, np.random.default_rng(68))
+    levels["detector"] = draw_detected(test, DETECTOR, np.random.default_rng(68))
     true = test.weights[:, OUTPUT_COLUMNS][:, columns]
     winks = winking(arguments.dataset) if "eyes.blink" in arguments.networks else {}
     print("| networks | shape | " + " | ".join(levels) + " |\n|" + "---|" * (len(levels) + 2), flush=True)

@@ -43,8 +43,8 @@ def head_arrays() -> dict[str, np.ndarray]:
         colour[np.searchsorted(used, np.unique(corners[corners >= 0]))] = COLOURS[kind]
     positions, moved = [shapes.neutral[used]], [shapes.moved[:, used]]
     colours, all_triangles, ends = [colour], [triangles], [len(used)]
-    rng = np.random.Generator(np.random.PCG64(0))
-    for side, eye in enumerate(eyeballs(shapes.rig, iris=IRIS, rng=rng)):
+    picture = np.zeros((8, 8, 3), np.uint8)  # of which nothing is shown
+    for side, eye in enumerate(eyeballs(shapes.rig, picture=picture)):
         away = eye.positions - shapes.rig.eye_center[side]
         angle = np.arctan2(np.hypot(away[:, 0], away[:, 1]), away[:, 2])
         white = np.where(angle[:, None] < IRIS_RAD, IRIS, WHITE)

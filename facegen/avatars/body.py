@@ -11,7 +11,7 @@ from facegen.avatars.garments import OUTFITS, Garment, Measures, covered, garmen
 from facegen.avatars.glb import avatar_bytes
 from facegen.avatars.parts import face_parts
 from facegen.avatars.people import OWN, Person, body_of
-from facegen.avatars.pictures import noise
+from facegen.avatars.pictures import Waves, draw_waves, noise
 from facegen.avatars.shapes import face_shapes
 from facegen.avatars.surface import Bone, Material, Surface, cut, vertex_normals
 from facegen.raster import triangles_of
@@ -96,7 +96,9 @@ def body_bytes(
     skin = cut(skin, ~covered(outfit, skin.positions, measures)[skin.triangles].all(axis=1))
     surfaces = [skin, *(_on_bones(part) for part in parts.others)]
     surfaces.append(_limbs(body, vertices, normals, beyond, outfit, measures, look, person.seed))
-    surfaces += dressed(body, outfit, np.random.Generator(np.random.PCG64([person.seed, 11])))
+    surfaces += dressed(
+        body, outfit, draw_folds(outfit, np.random.Generator(np.random.PCG64([person.seed, 11])))
+    )
     feet = body.triangles("body")
     feet = feet[(vertices[feet, 1] < measures.ankle[1] + 0.04).all(axis=1)]
     used = np.unique(feet)
@@ -116,8 +118,13 @@ def person_body(wheel: zipfile.ZipFile, rig: Rig, person: Person, *, own: float 
     return PersonBody(source=source, vertices=vertices, bones=bones, shares=read_shares(wheel, bones))
 
 
-def dressed(body: PersonBody, outfit: tuple[Garment, ...], rng: np.random.Generator) -> list[Surface]:
-    """The garments on a body."""
+def draw_folds(outfit: tuple[Garment, ...], rng: np.random.Generator) -> tuple[Waves, ...]:
+    """The folds of each garment."""
+    return tuple(draw_waves(rng) for _ in outfit)
+
+
+def dressed(body: PersonBody, outfit: tuple[Garment, ...], folds: tuple[Waves, ...]) -> list[Surface]:
+    """The garments on a body, each with its ``folds``."""
     surfaces, measures = [], body.measures()
     for number, garment in enumerate(outfit):
         used, numbers = np.unique(body.triangles(garment.source), return_inverse=True)
@@ -130,7 +137,7 @@ def dressed(body: PersonBody, outfit: tuple[Garment, ...], rng: np.random.Genera
                 body.shares[used],
                 body.names,
                 measures,
-                folds=noise(at * [1.0, 0.45, 1.0], 0.09, rng),
+                folds=noise(at * [1.0, 0.45, 1.0], 0.09, folds[number]),
                 over=outfit[number + 1 :],
             )
         )
@@ -154,8 +161,8 @@ def _limbs(
     hidden = covered(outfit, at, measures) | (at[:, 1] < measures.ankle[1] - 0.045)
     triangles = triangles[~hidden[triangles].all(axis=1)]
     used, numbers = np.unique(triangles, return_inverse=True)
-    rng = np.random.Generator(np.random.PCG64([seed, 12]))
-    tone = np.array(look.skin) * (1.0 + 0.02 * noise(vertices[used], 0.05, rng))[:, None]
+    spots = draw_waves(np.random.Generator(np.random.PCG64([seed, 12])))
+    tone = np.array(look.skin) * (1.0 + 0.02 * noise(vertices[used], 0.05, spots))[:, None]
     # knuckles, palms and elbows are redder
     hand = np.clip((np.abs(at[used, 0]) - measures.wrist[0]) / 0.03, 0.0, 1.0)
     tone = tone - (float(np.mean(look.skin)) * hand)[:, None] * [0.0, 0.06, 0.055]

@@ -17,7 +17,7 @@ WIDE_PX, HIGH_PX = 512, 128
 HAIRS = 480
 
 
-def brow_surfaces(
+def draw_brow_surfaces(
     shapes: FaceShapes, *, colour: tuple[float, float, float], rng: np.random.Generator
 ) -> list[Surface]:
     """Both brows as one surface; ``colour`` is sRGB, 0 to 1."""
@@ -38,7 +38,7 @@ def brow_surfaces(
     used, numbers = np.unique(kept, return_inverse=True)
     at_rest = shapes.neutral[used]
     place = (np.stack([np.abs(at_rest[:, 0]), at_rest[:, 1]], axis=-1) - low) / (high - low)
-    picture = _paint(left, low, high, colour, rng)
+    picture = _draw_brow(left, low, high, colour, rng)
     return [
         Surface(
             mesh="Head",
@@ -55,7 +55,7 @@ def brow_surfaces(
     ]
 
 
-def _paint(
+def _draw_brow(
     line: np.ndarray,
     low: np.ndarray,
     high: np.ndarray,

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import ndimage
 
 from facegen.avatars.haircuts import STYLES, HairStyle, in_hair
-from facegen.avatars.pictures import noise
+from facegen.avatars.pictures import Waves, draw_waves, noise
 from facegen.avatars.shapes import FaceShapes
 from facegen.avatars.skin import OUTSIDE, chart
 from facegen.conventions import (
@@ -46,12 +46,38 @@ class Complexion:
     beard: float = 0.0
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SkinSpots:
+    """What differs from place to place on one person's skin, as waves of `facegen.avatars.pictures.noise`."""
+
+    speckle: Waves
+    wide: Waves
+    middling: Waves
+    pores: Waves
+    lip_lines: Waves
+    hairline: Waves
+
+
+def draw_skin_spots(rng: np.random.Generator) -> SkinSpots:
+    """Draw a person's spots."""
+    speckle, wide, middling = (draw_waves(rng) for _ in range(3))
+    pores, lip_lines = (draw_waves(rng, 28) for _ in range(2))
+    return SkinSpots(
+        speckle=speckle,
+        wide=wide,
+        middling=middling,
+        pores=pores,
+        lip_lines=lip_lines,
+        hairline=draw_waves(rng),
+    )
+
+
 def paint_skin(
     shapes: FaceShapes,
     look: Complexion,
     style: HairStyle,
     *,
-    rng: np.random.Generator,
+    spots: SkinSpots,
     size: int = PICTURE_PX,
 ) -> np.ndarray:
     """Picture (size, size, 3) uint8 sRGB of the head's skin on `facegen.avatars.skin.chart`."""
@@ -72,7 +98,7 @@ def paint_skin(
     shadow = _shadows(shapes.neutral, triangles, shapes.normals)
     light = np.einsum("nk,nk->n", share, shadow[corner])
     lips = _blurred(of_lips[number], row, column, size)
-    colour = skin_tones(point, lips, light, look, style, rig=rig, neutral=shapes.neutral, rng=rng)
+    colour = skin_tones(point, lips, light, look, style, rig=rig, neutral=shapes.neutral, spots=spots)
     picture = np.zeros((size, size, 3))
     picture[row, column] = colour
     nearest = ndimage.distance_transform_edt(drawn.triangle < 0, return_distances=False, return_indices=True)
@@ -94,7 +120,7 @@ def skin_tones(
     *,
     rig: Rig,
     neutral: np.ndarray,
-    rng: np.random.Generator,
+    spots: SkinSpots,
 ) -> np.ndarray:
     """Colours (n, 3), sRGB about 0 to 1, of places on a head's skin.
 
@@ -108,8 +134,8 @@ def skin_tones(
         Whose skin, and the hair that it bears.
     rig, neutral
         The rig, and the head's vertices (V, 3).
-    rng
-        Draws the spots.
+    spots
+        From `draw_skin_spots`.
     """
     marks = np.einsum("ln,lnc->lc", rig.landmark_weights, neutral[rig.landmark_vertices])
     skin = np.array(look.skin)
@@ -139,9 +165,11 @@ def skin_tones(
         * (np.abs(point[:, 1] + 0.02) < 0.05)
     )
     yellow += 0.5 * near(np.array([0.0, 0.065, 0.0]), 32e-3, (0.7, 1.0, 0.6))
-    speckle = noise(point, 3.5e-3, rng)
-    mottle = 0.5 * noise(point, 24e-3, rng) + 0.35 * noise(point, 9e-3, rng) + 0.25 * speckle
-    pores = noise(point, 1.6e-3, rng, 28)
+    speckle = noise(point, 3.5e-3, spots.speckle)
+    mottle = (
+        0.5 * noise(point, 24e-3, spots.wide) + 0.35 * noise(point, 9e-3, spots.middling) + 0.25 * speckle
+    )
+    pores = noise(point, 1.6e-3, spots.pores)
     red = look.flush * (red + 0.10 * mottle)
     colour = skin * (1.0 + 0.016 * mottle + 0.012 * pores)[:, None]
     depth = float(skin.mean())  # dark skins flush less
@@ -152,13 +180,16 @@ def skin_tones(
     )
     if look.beard > 0.0:
         colour *= 1.0 - look.beard * _beard(point, marks, pores)[:, None] * [0.20, 0.17, 0.12]
-    colour = _paint_lips(colour, point, lips, marks, look, noise(point * [1.0, 0.12, 0.3], 1.5e-3, rng, 28))
+    lines = noise(point * [1.0, 0.12, 0.3], 1.5e-3, spots.lip_lines)
+    colour = _paint_lips(colour, point, lips, marks, look, lines)
     rim = _lid_line(point, rig, neutral)
     colour *= 1.0 - rim[:, None] * [0.55, 0.62, 0.62]
     # folds: light that comes back from skin is red
     colour *= 1.0 - (1.0 - light[:, None]) * [0.42, 0.55, 0.58]
     # a cap hides cropped hair, of which its sides show some
-    inside = in_hair(STYLES["short"] if style.cloth else style, point) + 0.02 * noise(point, 5e-3, rng)
+    inside = in_hair(STYLES["short"] if style.cloth else style, point) + 0.02 * noise(
+        point, 5e-3, spots.hairline
+    )
     scalp = np.clip(inside / np.radians(8.0) + 0.3, 0.0, 1.0)
     # ears and what lies beside the face at their height have no roots
     scalp *= 1.0 - np.clip((np.abs(point[:, 0]) - 0.078) / 0.004, 0, 1) * (point[:, 1] < 0.045)

@@ -9,9 +9,8 @@ from facegen.avatars.body import body_bytes
 from facegen.avatars.complexion import Complexion
 from facegen.avatars.head import head_bytes
 from facegen.avatars.people import Person
-from facegen.documents import read_text
 from facegen.errors import InputError
-from facegen.rigs import load_rig, rigs_folder
+from facegen.rigs import licence_text, load_rig, rigs_folder
 from facegen.rigs.makehuman import download_wheel
 from facegen.rigs.versions import VERSIONS
 
@@ -26,8 +25,6 @@ HAIRS = {
     "african": ((0.11, 0.085, 0.075),),
     "asian": ((0.12, 0.09, 0.08), (0.17, 0.12, 0.09)),
 }
-MOST_LICENCE_BYTES = 65_536
-"""Of the licence text that goes with a rig: ten times MIT's, and longer than any."""
 GREY = np.array([0.66, 0.65, 0.63])
 GREYING = (42.0, 75.0)
 """Ages at which hair begins to grey and has."""
@@ -148,12 +145,11 @@ def _colour(values: np.ndarray) -> tuple[float, float, float]:
 
 def _licence_text(name: str, licence: str) -> str:
     """The text that goes with the shapes of a rig that is not CC0, or nothing where nobody gave one."""
-    path = rigs_folder() / f"{name}.LICENSE"
-    if path.is_file():
-        return read_text(path, most_bytes=MOST_LICENCE_BYTES)
-    if licence == "MIT":
+    text = licence_text(name)
+    if not text and licence == "MIT":
+        path = rigs_folder() / f"{name}.LICENSE"
         then = (
             "build the rig again with --path" if name in VERSIONS else "write the text of the licence there"
         )
         raise InputError(f"{path} is missing, and MIT asks that its text goes with the shapes; {then}")
-    return ""
+    return text

@@ -40,14 +40,12 @@ def clearance(points: np.ndarray, centre: np.ndarray, radius: float, axis: np.nd
     return length - drawn_radius(angle, radius)
 
 
-def eyeballs(rig: Rig, *, iris: tuple[float, float, float], rng: np.random.Generator) -> list[Surface]:
+def eyeballs(rig: Rig, *, picture: np.ndarray) -> list[Surface]:
     """Both eyes, subject's left first; each hangs on its bone and looks along +z.
 
-    ``iris`` is its colour (sRGB, 0 to 1).
+    ``picture`` is from `draw_eye`.
     """
-    material = Material(
-        name="eyes", roughness=0.12, picture=jpeg(paint_eye(iris, float(rig.eye_radius.mean()), rng))
-    )
+    material = Material(name="eyes", roughness=0.12, picture=jpeg(picture))
     surfaces = []
     for side, bone in enumerate(("LeftEye", "RightEye")):
         positions, triangles = _ball(float(rig.eye_radius[side]))
@@ -87,10 +85,13 @@ def _ball(radius: float) -> tuple[np.ndarray, np.ndarray]:
     return positions, np.concatenate([fan, 1 + halves(ring_quads(len(rings), SEGMENTS))])
 
 
-def paint_eye(
+def draw_eye(
     iris: tuple[float, float, float], radius: float, rng: np.random.Generator, size: int = PICTURE_PX
 ) -> np.ndarray:
-    """Picture (size, size, 3) uint8 sRGB of the eye's front, as far as `EDGE_RAD` from the axis."""
+    """Picture (size, size, 3) uint8 sRGB of the eye's front, as far as `EDGE_RAD` from the axis.
+
+    ``iris`` is its colour (sRGB, 0 to 1), ``radius`` the ball's in metres.
+    """
     middle = (size - 1) / 2.0
     y, x = np.mgrid[:size, :size]
     x, y = (x - middle) / middle, (middle - y) / middle
@@ -100,10 +101,10 @@ def paint_eye(
     white = np.array([0.93, 0.90, 0.875]) - 0.10 * np.clip((place - 1.3) / 2.2, 0.0, 1.0)[..., None] * (
         [0.4, 1.0, 1.0]
     )
-    white = white - _veins(size, rng)[..., None] * np.clip((place - 1.35) / 1.5, 0.0, 1.0)[..., None] * (
+    white = white - _draw_veins(size, rng)[..., None] * np.clip((place - 1.35) / 1.5, 0.0, 1.0)[..., None] * (
         [0.10, 0.42, 0.42]
     )
-    colour = _iris(np.array(iris), place, turn, rng)
+    colour = _draw_iris(np.array(iris), place, turn, rng)
     pupil = 0.34
     colour = colour * _step(place, pupil, 0.05)[..., None] + 0.012 * (
         1.0 - _step(place, pupil, 0.05)[..., None]
@@ -116,7 +117,9 @@ def paint_eye(
     return np.rint(255.0 * np.clip(picture * shade[..., None], 0.0, 1.0)).astype(np.uint8)
 
 
-def _iris(colour: np.ndarray, place: np.ndarray, turn: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+def _draw_iris(
+    colour: np.ndarray, place: np.ndarray, turn: np.ndarray, rng: np.random.Generator
+) -> np.ndarray:
     """Fibres that run outwards from the pupil, a lighter ring round it, light gathered below."""
     fibres = np.zeros_like(place)
     for waves, strength in ((9, 0.3), (23, 0.35), (47, 0.35), (83, 0.3)):
@@ -132,7 +135,7 @@ def _iris(colour: np.ndarray, place: np.ndarray, turn: np.ndarray, rng: np.rando
     return np.clip(colour * light[..., None] + warm, 0.0, 1.0)
 
 
-def _veins(size: int, rng: np.random.Generator) -> np.ndarray:
+def _draw_veins(size: int, rng: np.random.Generator) -> np.ndarray:
     """Fine lines (size, size), 0 to 1, that wander from the border inwards."""
     picture = np.zeros((size, size), np.float32)
     for _ in range(46):

@@ -6,7 +6,7 @@ from scipy import ndimage
 from facegen.avatars.haircuts import HairStyle, hairline
 from facegen.avatars.pictures import png
 from facegen.avatars.skull import SKULL_M, between, direction_of, distance_at, skull_distance
-from facegen.avatars.strands import LAYERS, strand_picture
+from facegen.avatars.strands import LAYERS, draw_strands
 from facegen.avatars.surface import Material, Surface, vertex_normals
 from facegen.geometry.grids import facing_back, grid_quads, halves
 
@@ -15,7 +15,7 @@ CROWN = np.array([0.0, np.cos(np.radians(35.0)), -np.sin(np.radians(35.0))])
 AROUND, ALONG = 44, 11
 
 
-def hair_surfaces(
+def draw_hair_surfaces(
     vertices: np.ndarray,
     triangles: np.ndarray,
     style: HairStyle,
@@ -26,7 +26,7 @@ def hair_surfaces(
     """Hair over the skin ``vertices`` (V, 3) with ``triangles`` (T, 3); ``colour`` is sRGB, 0 to 1."""
     skull = skull_distance(vertices, triangles)
     turn = np.linspace(-np.pi, np.pi, AROUND + 1)
-    clumps = _clumps(rng)
+    clumps = _draw_clumps(rng)
     pieces = []
     for layer in range(1 if style.cloth else LAYERS):
         height = (layer + 1.0) / LAYERS
@@ -68,7 +68,7 @@ def hair_surfaces(
         name="cap" if style.cloth else "hair",
         colour=(*(float(x) for x in linear), 1.0),
         roughness=0.85 if style.cloth else 0.62,
-        picture=b"" if style.cloth else png(strand_picture(style, rng)),
+        picture=b"" if style.cloth else png(draw_strands(style, rng)),
         alpha="OPAQUE" if style.cloth else "MASK",
         both_sides=True,
     )
@@ -150,7 +150,7 @@ def _thickness(style: HairStyle, direction: np.ndarray, v: np.ndarray) -> np.nda
     return thick + near_edge * front * (style.edge_m - thick)
 
 
-def _clumps(rng: np.random.Generator) -> np.ndarray:
+def _draw_clumps(rng: np.random.Generator) -> np.ndarray:
     """Unevenness (ALONG, AROUND + 1), about -1 to 1: locks that run along the hair."""
     field = np.zeros((ALONG, AROUND))
     for size, strength in ((1.2, 0.5), (3.0, 0.8), (7.0, 0.6)):

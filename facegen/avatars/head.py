@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from facegen.avatars.body import dressed, person_body
+from facegen.avatars.body import draw_folds, dressed, person_body
 from facegen.avatars.complexion import Complexion
 from facegen.avatars.garments import Garment
 from facegen.avatars.glb import avatar_bytes
@@ -72,7 +72,7 @@ def _bust(wheel: zipfile.ZipFile, rig: Rig) -> Surface:
     size = np.linalg.norm(np.diff(rig.eye_center, axis=0)) / np.linalg.norm(
         np.diff(body.source.rig.eye_center, axis=0)
     )
-    shirt = dressed(body, (BUST,), np.random.Generator(np.random.PCG64(SEED)))[0]
+    shirt = dressed(body, (BUST,), draw_folds((BUST,), np.random.Generator(np.random.PCG64(SEED))))[0]
     shirt = replace(shirt, positions=shirt.positions * size)
     shirt = trimmed(shirt, shirt.positions[:, 1] - CHEST_END_M)
     head = 0.35 * head_share(shirt.positions)

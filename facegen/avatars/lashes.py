@@ -14,8 +14,11 @@ WIDE_PX, HIGH_PX = 512, 64
 HAIRS = {"upper": 95, "lower": 60}
 
 
-def lash_surfaces(shapes: FaceShapes, *, rng: np.random.Generator) -> list[Surface]:
-    """The upper and lower lashes of both eyes as one surface; none where the rig has no strips."""
+def lash_surfaces(shapes: FaceShapes, *, picture: np.ndarray) -> list[Surface]:
+    """The upper and lower lashes of both eyes as one surface; none where the rig has no strips.
+
+    ``picture`` is from `draw_lashes`.
+    """
     strips = lash_strips(shapes.rig)
     if not strips:
         return []
@@ -32,7 +35,6 @@ def lash_surfaces(shapes: FaceShapes, *, rng: np.random.Generator) -> list[Surfa
         start += grid.size
     used, faces = np.concatenate(numbers), np.concatenate(triangles)
     positions = shapes.neutral[used]
-    picture = paint_lashes(rng)
     return [
         Surface(
             mesh="Head",
@@ -51,7 +53,7 @@ def lash_surfaces(shapes: FaceShapes, *, rng: np.random.Generator) -> list[Surfa
     ]
 
 
-def paint_lashes(rng: np.random.Generator) -> np.ndarray:
+def draw_lashes(rng: np.random.Generator) -> np.ndarray:
     """Picture (2 * `HIGH_PX`, `WIDE_PX`, 4) uint8: upper lashes above lower ones, inner corner at the left."""
     halves = []
     for lid, most in (("upper", 0.92), ("lower", 0.62)):

@@ -4,12 +4,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from facegen.avatars.brows import brow_surfaces
-from facegen.avatars.complexion import Complexion, paint_skin
-from facegen.avatars.eyeballs import eyeballs
-from facegen.avatars.hair import hair_surfaces
+from facegen.avatars.brows import draw_brow_surfaces
+from facegen.avatars.complexion import Complexion, draw_skin_spots, paint_skin
+from facegen.avatars.eyeballs import draw_eye, eyeballs
+from facegen.avatars.hair import draw_hair_surfaces
 from facegen.avatars.haircuts import STYLES
-from facegen.avatars.lashes import lash_surfaces
+from facegen.avatars.lashes import draw_lashes, lash_surfaces
 from facegen.avatars.mouth import mouth_surfaces
 from facegen.avatars.pictures import jpeg
 from facegen.avatars.shapes import FaceShapes
@@ -35,7 +35,7 @@ def face_parts(shapes: FaceShapes, look: Complexion, *, hair: str, seed: int) ->
         return np.random.Generator(np.random.PCG64([seed, part]))
 
     rig, style = shapes.rig, STYLES[hair]
-    picture = jpeg(paint_skin(shapes, look, style, rng=rng(0)))
+    picture = jpeg(paint_skin(shapes, look, style, spots=draw_skin_spots(rng(0))))
     material = Material(name="skin", roughness=0.6, picture=picture)
     skin, rows = part_of_face(shapes, OUTSIDE, mesh="Head", material=material)
     outer = triangles_of(rig.faces[np.isin(rig.part, OUTSIDE)])
@@ -44,9 +44,9 @@ def face_parts(shapes: FaceShapes, look: Complexion, *, hair: str, seed: int) ->
         rows=rows,
         others=(
             *mouth_surfaces(shapes, draw_mouth(rng(1))),
-            *brow_surfaces(shapes, colour=look.hair, rng=rng(2)),
-            *lash_surfaces(shapes, rng=rng(3)),
-            *eyeballs(rig, iris=look.iris, rng=rng(4)),
-            *hair_surfaces(shapes.neutral, outer, style, colour=look.hair, rng=rng(5)),
+            *draw_brow_surfaces(shapes, colour=look.hair, rng=rng(2)),
+            *lash_surfaces(shapes, picture=draw_lashes(rng(3))),
+            *eyeballs(rig, picture=draw_eye(look.iris, float(rig.eye_radius.mean()), rng(4))),
+            *draw_hair_surfaces(shapes.neutral, outer, style, colour=look.hair, rng=rng(5)),
         ),
     )

@@ -1,5 +1,7 @@
 """Encodes pictures for an avatar's file, and noise to paint them with."""
 
+from dataclasses import dataclass
+
 import cv2
 import numpy as np
 
@@ -23,12 +25,24 @@ def _encoded(kind: str, picture: np.ndarray, settings: list[int]) -> bytes:
     return cv2.imencode(kind, picture, settings)[1].tobytes()
 
 
-def noise(points: np.ndarray, wavelength_m: float, rng: np.random.Generator, waves: int = 20) -> np.ndarray:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Waves:
+    """Plane waves that add to noise: ``direction`` (n, 3), about 1 long, and ``phase`` (n,) in radians."""
+
+    direction: np.ndarray
+    phase: np.ndarray
+
+
+def draw_waves(rng: np.random.Generator, count: int = 20) -> Waves:
+    """Draw waves in all directions."""
+    direction = rng.standard_normal((count, 3))
+    direction *= (rng.uniform(0.6, 1.4, count) / np.linalg.norm(direction, axis=1))[:, None]
+    return Waves(direction=direction, phase=rng.uniform(0.0, 2.0 * np.pi, count))
+
+
+def noise(points: np.ndarray, wavelength_m: float, waves: Waves) -> np.ndarray:
     """Smooth noise at points (n, 3), about -1 to 1, whose spots are about half of ``wavelength_m`` wide."""
-    direction = rng.standard_normal((waves, 3))
-    direction *= (rng.uniform(0.6, 1.4, waves) / np.linalg.norm(direction, axis=1))[:, None]
-    phase = rng.uniform(0.0, 2.0 * np.pi, waves)
-    turns = (points @ (direction.T * (2.0 * np.pi / wavelength_m))).astype(np.float32) + phase.astype(
+    turns = (points @ (waves.direction.T * (2.0 * np.pi / wavelength_m))).astype(
         np.float32
-    )
-    return np.cos(turns).sum(axis=1) * np.sqrt(2.0 / waves) / 1.6
+    ) + waves.phase.astype(np.float32)
+    return np.cos(turns).sum(axis=1) * np.sqrt(2.0 / len(waves.phase)) / 1.6

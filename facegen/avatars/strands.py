@@ -10,7 +10,7 @@ LAYERS = 4
 WIDE_PX, BAND_PX = 512, 128
 
 
-def strand_picture(style: HairStyle, rng: np.random.Generator) -> np.ndarray:
+def draw_strands(style: HairStyle, rng: np.random.Generator) -> np.ndarray:
     """Picture (`WIDE_PX`, `WIDE_PX`, 4): one band a layer, strands running down, with gaps in the outer ones.
 
     Rows of a band are equal but for the strands' ends, which makes a small PNG.

@@ -94,12 +94,20 @@ class Renderer:
         return glimpse_of_passes(passes)
 
     def save(
-        self, scene: Scene, view_name: str, path: Path, *, samples: int, seed: int, denoise: bool = True
+        self,
+        scene: Scene,
+        view_name: str,
+        path: Path,
+        *,
+        samples: int,
+        seed: int,
+        denoise: bool = True,
+        licences: str = "",
     ) -> None:
         """Write a .blend file that renders a view's radiance as `render` does, but for glints; nothing lies outside it.
 
-        All cameras are in it, the view's own is active, and its lamps alone are lit. The other parameters are those of
-        `render`.
+        All cameras are in it, the view's own is active, and its lamps alone are lit. Its text ``LICENSE.txt`` holds
+        ``licences``. The other parameters are those of `render`.
 
         Raises
         ------
@@ -114,9 +122,10 @@ class Renderer:
         self._contents.light(view)
         self._sample(samples, seed, denoise)
         # cameras hold the compiled lens; its source is for readers
-        source = bpy.data.texts.get(LENS.name) or bpy.data.texts.new(LENS.name)
-        source.from_string(LENS.read_text(encoding="utf-8"))
-        source.use_fake_user = True
+        for name, content in ((LENS.name, LENS.read_text(encoding="utf-8")), ("LICENSE.txt", licences)):
+            text = bpy.data.texts.get(name) or bpy.data.texts.new(name)
+            text.from_string(content)
+            text.use_fake_user = True
         try:
             with quiet_stdout():
                 bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True, copy=True)

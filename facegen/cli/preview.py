@@ -166,18 +166,20 @@ def _statistics(dataset: Path, out: Path) -> None:
 
 def _sheet(dataset: Path, out: Path, samples: str | None, columns: int, landmarks: bool) -> None:
     """Write a contact sheet."""
+    from facegen.conventions import SHARD_ROWS
     from facegen.files import whole_file
     from facegen.preview import contact_sheet
     from facegen.spec import sample_numbers
-    from facegen.store import open_dataset
+    from facegen.store import open_dataset, shard_samples
 
     opened = open_dataset(dataset)
-    made = {int(number) for number in opened.keypoints(["sample"])["sample"].to_numpy()}
+    # a shard that is there is whole, so nothing is read to know what has been made
+    shards = {int(path.stem.removeprefix("shard-")) for path in opened.made_shards()}
     if samples is not None:
         numbers = sample_numbers(samples, total=opened.plan.samples, where="--samples")
     else:
-        numbers = opened.folder.rendered()[:8] or sorted(made)[:8]
-    missing = sorted(set(numbers) - made)
+        numbers = opened.folder.rendered()[:8] or shard_samples(min(shards), total=opened.plan.samples)[:8]
+    missing = sorted(number for number in numbers if number // SHARD_ROWS not in shards)
     if missing or not numbers:
         raise InputError(
             f"{dataset}: sample {missing[0] if missing else 0} has not been made; run facegen generate first"

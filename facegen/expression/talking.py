@@ -32,9 +32,10 @@ def draw_talk(rng: np.random.Generator, size: int, *, correlation: float) -> np.
     shut = rng.random(size) < TEETH_TOGETHER
     weights[shut, _JAW] = 0.06 * rng.random(int(shut.sum()))
     weights[shut, CLOSING] = 0.0
-    _add(rng, weights, PARTED, shut, correlation=correlation)
+    _add(weights, PARTED, shut, rises=_draw_rises(rng, size, correlation=correlation))
     for shape, share, most in MEANWHILE:
-        _add(rng, weights, ((shape, most),), rng.random(size) < share, correlation=correlation)
+        shown = rng.random(size) < share
+        _add(weights, ((shape, most),), shown, rises=_draw_rises(rng, size, correlation=correlation))
     aside = np.where(rng.random(size) < ASIDE, ASIDE_MOST * rng.random(size), 0.0)
     follows = rng.random(size)
     left = rng.random(size) < 0.5
@@ -45,19 +46,17 @@ def draw_talk(rng: np.random.Generator, size: int, *, correlation: float) -> np.
     return weights
 
 
+def _draw_rises(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
+    """How far shapes rise (size, 52), 0 to 1: equal but for their sides."""
+    sides = over_shapes(draw_sides(rng, size, correlation=correlation))
+    return np.broadcast_to(sides, (size, len(BLENDSHAPES)))
+
+
 def _add(
-    rng: np.random.Generator,
-    weights: np.ndarray,
-    shapes: tuple[tuple[str, float], ...],
-    where: np.ndarray,
-    *,
-    correlation: float,
+    weights: np.ndarray, shapes: tuple[tuple[str, float], ...], where: np.ndarray, *, rises: np.ndarray
 ) -> None:
     """Add shapes that rise together, in place, where (n,) bool says so."""
-    sides = over_shapes(draw_sides(rng, len(weights), correlation=correlation))
     for shape, most in shapes:
         for column in columns(shape):
-            rise = np.where(
-                where, most * np.broadcast_to(sides, (len(weights), len(BLENDSHAPES)))[:, column], 0.0
-            )
+            rise = np.where(where, most * rises[:, column], 0.0)
             weights[:, column] = together(weights[:, column], rise)

@@ -3,7 +3,9 @@
 References
 ----------
 .. [1] COCO, "Data format", https://cocodataset.org/#format-data. Keypoints are flat triples x, y, v: v is 0
-   for not labelled (then x = y = 0), 1 for labelled but hidden, 2 for visible. Skeletons count from 1.
+   for not labelled (then x = y = 0), 1 for labelled but hidden, 2 for visible. Skeletons count from 1. Keypoints are
+   places of pixels, (0, 0) in the middle of the first; boxes count from the picture's corner, and (0, 0, width, height)
+   is all of it, as ``pycocotools.mask`` fills them.
 """
 
 import json
@@ -19,6 +21,9 @@ KEYPOINT_NAMES: tuple[str, ...] = tuple(
     f"{group}_{index}" for group, members in LANDMARK_GROUPS.items() for index in range(len(members))
 )
 """Names of the 68 landmarks, in order: ``jaw_0`` is the subject's right end of the jaw."""
+
+_CORNER_PX = 0.5
+"""From the picture's corner, where boxes begin, to the middle of the first pixel, where points do."""
 
 _CLOSED = ("right_eye", "left_eye", "outer_lip", "inner_lip")
 
@@ -105,6 +110,6 @@ def _annotations(images: Iterable[LabelledImage]) -> Iterator[dict]:
             "iscrowd": 0,
             "num_keypoints": int(labelled.sum()),
             "keypoints": [value for x, y, v in triples.tolist() for value in (x, y, int(v))],
-            "bbox": [*low.tolist(), width, height],
+            "bbox": [*(low + _CORNER_PX).tolist(), width, height],
             "area": width * height,
         }

@@ -16,6 +16,20 @@ from facegen.headsets.cameras import HeadsetCamera
 from facegen.headsets.occluders import HeadsetOccluder
 from facegen.headsets.quantities import MM, Name, NotNegative, Positive, Spread, Vector, record
 
+TAKEN = frozenset(
+    {
+        *("sample", "person", "session", "clip", "frame", "time_s", "split", "neutral", "component", "sex"),
+        *("age_years", "weights", "identity", "rig", "points_2d", "detected_2d", "points_3d", "visibility"),
+        *("camera_from_head", "intrinsics", "contour_2d", "contour_3d", "gaze", "head_from_headset", "slip"),
+        "record",
+    }
+)
+"""Columns of packs beside the cameras' own, which are called after them."""
+RESERVED = frozenset(
+    {"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in range(10))}
+)
+"""Windows takes these for devices, whatever comes after a dot: pictures are files called after cameras."""
+
 
 @record()
 class Led:
@@ -122,6 +136,12 @@ class Headset:
             repeated = sorted({name for name in names if names.count(name) > 1})
             if repeated:
                 raise ValueError(f"two {kind} are named {repeated[0]!r}; names must differ")
+        for index, name in enumerate(cameras):
+            if name in TAKEN or name in RESERVED:
+                whose = (
+                    "a column of packs" if name in TAKEN else "a device of Windows, which has no such files"
+                )
+                raise ValueError(f"cameras[{index}].name is {name!r}, the name of {whose}; choose another")
         for index, led in enumerate(self.leds):
             if led.camera not in cameras:
                 raise ValueError(

@@ -85,7 +85,7 @@ def slide(points: np.ndarray, hidden: np.ndarray) -> np.ndarray:
     return np.take_along_axis(points, first[..., None, None], axis=2)[:, :, 0]
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=8)
 def paths_of(rig: Rig) -> Paths:
     """Paths over the cage of the rig's mean face; on other faces their points go with the skin.
 

@@ -42,6 +42,11 @@ def label_rendered(spec: Spec, rig: Rig, sample: SampleScene) -> RenderedSample:
         sample=sample,
         keypoints=label_keypoints(spec, rig, sample.row, sample.face),
         lid_gap_m=gap,
-        openness=gap / open_lid_gap(rig, tuple(sample.row.identity[0].tolist())),
+        openness=_share(gap, open_lid_gap(rig, tuple(sample.row.identity[0].tolist()))),
         views=label_views(rig, sample),
     )
+
+
+def _share(gap: np.ndarray, open_gap: np.ndarray) -> np.ndarray:
+    """Gaps (2,) as shares of those of open eyes; 0 for eyes whose lids touch at rest, as they may on a user's head."""
+    return np.divide(gap, open_gap, out=np.zeros_like(gap), where=open_gap > 0)

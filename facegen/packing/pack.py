@@ -23,11 +23,14 @@ from facegen.packing.rendered import chosen_views
 from facegen.packing.webdataset import WEBDATASET
 from facegen.spec import format_ranges
 from facegen.store import (
+    LICENCES,
     Dataset,
     DatasetFolder,
     commit_file,
+    licences,
     read_description,
     read_json,
+    recording_of,
     staging,
     sweep,
     write_json,
@@ -104,8 +107,8 @@ def write_pack(
     """Write a pack; run it again after a stop and it goes on, and after damage it is whole again.
 
     The folder gets ``pack.json`` (format, dataset, licence, samples) first and ``index.json`` (files with
-    sizes and checksums) last: a pack with an index is complete. Packs of Parquet have a card and Croissant
-    metadata as well (`facegen.packing.card`).
+    sizes and checksums) last: a pack with an index is complete. ``LICENSE.txt`` lies beside them. Packs of Parquet
+    have a card and Croissant metadata as well (`facegen.packing.card`).
 
     Parameters
     ----------
@@ -125,7 +128,16 @@ def write_pack(
     OutputError
         If the folder cannot be written.
     """
-    folder, form = DatasetFolder(Path(out)), PACK_FORMATS[plan.name]
+    folder = DatasetFolder(Path(out))
+    try:
+        return _write(plan, folder, on_progress)
+    finally:
+        with contextlib.suppress(OSError):  # not there, or not empty: another run packs the same
+            (folder.path / "tmp").rmdir()
+
+
+def _write(plan: PackPlan, folder: DatasetFolder, on_progress: Callable[[int], None]) -> Packed:
+    form = PACK_FORMATS[plan.name]
     _begin(folder, _description(plan))
     sweep(folder)
     listed = _listed(folder.path)
@@ -143,13 +155,12 @@ def write_pack(
         on_progress(done + 1)
     with staging(folder, "pack") as stage:
         texts = cards(folder.path, _description(plan), entries) if form.carded else {}
+        texts[LICENCES] = licences(plan.dataset)
         for name, content in texts.items():
             (stage / name).write_bytes(content)
             commit_file(stage / name, folder.path / name)
         write_json(stage / INDEX, entries)
         commit_file(stage / INDEX, folder.path / INDEX)
-    with contextlib.suppress(OSError):  # not empty: another run packs the same
-        (folder.path / "tmp").rmdir()
     return Packed(samples=len(plan.samples), written=written, found=len(plan.parts) - written)
 
 
@@ -168,7 +179,7 @@ def _flags(form: PackFormat) -> str:
 
 
 def _description(plan: PackPlan) -> dict:
-    described = read_description(plan.dataset.folder)
+    described = read_description(plan.dataset.folder) | recording_of(plan.dataset.spec)
     options = {key: list(v) if isinstance(v, tuple) else v for key, v in asdict(plan.options).items()}
     return {
         "format": plan.name,

@@ -6,8 +6,8 @@ from functools import lru_cache
 import cv2
 import numpy as np
 
-from facegen.avatars.complexion import skin_tones
-from facegen.avatars.hair import hair_surfaces
+from facegen.avatars.complexion import draw_skin_spots, skin_tones
+from facegen.avatars.hair import draw_hair_surfaces
 from facegen.avatars.haircuts import STYLES, HairStyle
 from facegen.avatars.strands import LAYERS
 from facegen.avatars.surface import vertex_normals
@@ -71,12 +71,19 @@ class Person:
 @lru_cache(maxsize=64)
 def _cached_skin(rig: Rig, look: Look) -> np.ndarray:
     style = STYLES.get(look.hair, _BALD)
-    rng = np.random.Generator(np.random.PCG64([look.seed, 0]))
+    spots = draw_skin_spots(np.random.Generator(np.random.PCG64([look.seed, 0])))
     lips = np.zeros(len(rig.vertices))
     of_lips = rig.faces[rig.part == Part.LIPS]
     lips[of_lips[of_lips >= 0]] = 1.0
     colour = skin_tones(
-        rig.vertices, lips, np.ones(len(lips)), look.colours, style, rig=rig, neutral=rig.vertices, rng=rng
+        rig.vertices,
+        lips,
+        np.ones(len(lips)),
+        look.colours,
+        style,
+        rig=rig,
+        neutral=rig.vertices,
+        spots=spots,
     )
     hair = np.array(look.colours.hair)
     cover = 0.92 * brow_cover(rig)[:, None]
@@ -114,7 +121,7 @@ def dressed_person(rig: Rig, identity: np.ndarray, look: Look) -> Person:
 def _hair(rig: Rig, neutral: np.ndarray, look: Look) -> Hair:
     outer = triangles_of(rig.faces[np.isin(rig.part, OUTSIDE)])
     rng = np.random.Generator(np.random.PCG64([look.seed, 5]))
-    (surface,) = hair_surfaces(neutral, outer, STYLES[look.hair], colour=look.colours.hair, rng=rng)
+    (surface,) = draw_hair_surfaces(neutral, outer, STYLES[look.hair], colour=look.colours.hair, rng=rng)
     uv = surface.uv
     band = np.floor(uv[surface.triangles, 1].mean(axis=1) * LAYERS).astype(int)
     strands = cv2.imdecode(np.frombuffer(surface.material.picture, np.uint8), cv2.IMREAD_UNCHANGED)

@@ -4,6 +4,7 @@ from facegen.rigs.callipers import measures_mm
 from facegen.rigs.evaluation import EvaluatedFaces, evaluate
 from facegen.rigs.eyes import EyeGeometry, eye_geometry, lid_support_radius, visual_axis
 from facegen.rigs.files import load_rig, save_rig
+from facegen.rigs.licence import licence_text
 from facegen.rigs.lid_margins import lid_gap, lid_margins, open_lid_gap
 from facegen.rigs.neutral import eye_centers, neutral_landmarks
 from facegen.rigs.occluder import FaceOccluder, closed_cage, occluder
@@ -19,6 +20,7 @@ __all__ = [
     "evaluate",
     "eye_centers",
     "eye_geometry",
+    "licence_text",
     "lid_gap",
     "lid_margins",
     "lid_support_radius",

@@ -115,7 +115,7 @@ def evaluate(
     )
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=8)
 def _cage_basis(rig: Rig) -> np.ndarray:
     """Rows (K + 53, 3 m) that identity, weights and a 1 multiply to give the m kept vertices with straight lids."""
     rows = np.concatenate([rig.identity, rig.expression, rig.vertices[None]])

@@ -84,7 +84,7 @@ def _stamp(path: Path) -> tuple[int, ...] | None:
     return found.st_mtime_ns, found.st_size, found.st_ino
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=8)
 def _load(name: str, folder: Path, *_stamps: tuple[int, ...] | None) -> Rig:
     """Read each version of the files once: 0.25 s, and a merge opens hundreds of data sets of one rig."""
     record = read_record(name, folder)

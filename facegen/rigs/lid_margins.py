@@ -9,7 +9,7 @@ from facegen.rigs.marking import face_sides
 from facegen.rigs.rig import Rig
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)  # two eyes
 def lid_margins(rig: Rig, eye: int) -> tuple[np.ndarray, np.ndarray]:
     """Vertices along the upper and the lower margin of eye 0 (subject's left) or 1, inner canthus first.
 

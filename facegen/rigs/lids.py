@@ -109,7 +109,7 @@ def columns(margin: np.ndarray, x: np.ndarray) -> np.ndarray:
     return np.array(chosen)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)  # cage or all
 def _lids(rig: Rig, cage_only: bool) -> tuple["Lids", "Lids"]:
     return _prepared(rig, 0, "Left", 1.0, cage_only), _prepared(rig, 1, "Right", -1.0, cage_only)
 

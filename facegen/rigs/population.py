@@ -56,10 +56,10 @@ def draw_population(
         Source of the draws.
     """
     traits = draw_traits(people, rng)
-    macro_names, macro_weights = _macro(traits, rng)
+    macro_names, macro_weights = _draw_macro(traits, rng)
     local_names, local_weights = draw_sliders(recipe, people, rng)
     by_sex = SIZE_BY_SEX * (1.0 - 2.0 * traits[:, TRAITS.index("female")])
-    size = 1.0 + by_sex + SIZE_SIGMA * _bounded_normal(rng, people)
+    size = 1.0 + by_sex + SIZE_SIGMA * _draw_bounded(rng, people)
     weights = np.concatenate([macro_weights, local_weights], axis=1)
     targets = _macro_targets(wheel, macro_names, rows)
     targets = np.concatenate([targets, read_targets(wheel, local_names, rows)])
@@ -75,18 +75,18 @@ def draw_traits(people: int, rng: np.random.Generator) -> np.ndarray:
     return np.stack([np.ones(people), female, age, ancestry[:, 0], ancestry[:, 1]], axis=1)
 
 
-def _bounded_normal(rng: np.random.Generator, *shape: int) -> np.ndarray:
+def _draw_bounded(rng: np.random.Generator, *shape: int) -> np.ndarray:
     return np.clip(rng.standard_normal(shape), -2.5, 2.5)  # sliders far out make caricatures
 
 
-def _macro(traits: np.ndarray, rng: np.random.Generator) -> tuple[list[tuple[str, ...]], np.ndarray]:
+def _draw_macro(traits: np.ndarray, rng: np.random.Generator) -> tuple[list[tuple[str, ...]], np.ndarray]:
     """Names and weights (n, m) of MakeHuman's macro targets: multilinear in the traits, muscle and weight."""
     people = len(traits)
     _, female, age, african, asian = traits.T
     # few people are as male or female as the extreme shapes
-    spread = np.abs(0.15 * _bounded_normal(rng, people))
+    spread = np.abs(0.15 * _draw_bounded(rng, people))
     woman = np.where(female > 0, 1.0 - spread, spread)
-    muscle, weight = np.clip(0.5 + 0.15 * _bounded_normal(rng, 2, people), 0.0, 1.0)
+    muscle, weight = np.clip(0.5 + 0.15 * _draw_bounded(rng, 2, people), 0.0, 1.0)
     gender = dict(zip(GENDERS, (1.0 - woman, woman), strict=True))
     years = dict(zip(AGES, (1.0 - age, age), strict=True))
     race = dict(zip(RACES, (african, asian, 1.0 - african - asian), strict=True))
@@ -106,7 +106,7 @@ def _macro(traits: np.ndarray, rng: np.random.Generator) -> tuple[list[tuple[str
 
 
 def _macro_targets(wheel: zipfile.ZipFile, names: list[tuple[str, ...]], rows: np.ndarray) -> np.ndarray:
-    """Targets of `_macro`; a universal one takes half of each height and proportion with it."""
+    """Targets of `_draw_macro`; a universal one takes half of each height and proportion with it."""
     targets = read_targets(wheel, ("macrodetails/" + "-".join(name) for name in names), rows)
     for index, (kind, *rest) in enumerate(names):
         if kind == "universal":
@@ -124,17 +124,17 @@ def draw_sliders(recipe: dict, people: int, rng: np.random.Generator) -> tuple[l
     names, columns = [], []
     for folder, positive, negative, sigma in recipe["sliders"]:
         if positive.startswith("*"):
-            common, left, right = _bounded_normal(rng, 3, people)
+            common, left, right = _draw_bounded(rng, 3, people)
             own = np.sqrt(1.0 - SIDE_CORRELATION)
             shared = np.sqrt(SIDE_CORRELATION) * common
             sides = {"l": shared + own * left, "r": shared + own * right}
         else:
-            sides = {"": _bounded_normal(rng, people)}
+            sides = {"": _draw_bounded(rng, people)}
         for side, values in sides.items():
             names += [f"{folder}/{name.replace('*', side, 1)}" for name in (positive, negative)]
             columns += [np.maximum(sigma * values, 0.0), np.maximum(-sigma * values, 0.0)]
     for name in recipe["asymmetries"]:
-        values = recipe["asymmetry_sigma"] * _bounded_normal(rng, people)
+        values = recipe["asymmetry_sigma"] * _draw_bounded(rng, people)
         names += [f"asym/asym-{name}-l", f"asym/asym-{name}-r"]
         columns += [np.maximum(values, 0.0), np.maximum(-values, 0.0)]
     return names, np.stack(columns, axis=1)

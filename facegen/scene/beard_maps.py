@@ -69,7 +69,7 @@ class BeardMap:
     landmarks: np.ndarray
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=8)
 def beard_map(rig: Rig) -> BeardMap:
     """Where beards may grow on a rig: outer skin within 8 mm of the largest one's outline."""
     landmarks = (rig.landmark_weights[..., None] * rig.vertices[rig.landmark_vertices]).sum(axis=1)

@@ -83,7 +83,7 @@ def sees_enough(headset: Headset, rig: Rig) -> bool:
     return True
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=8)
 def _mean_head(rig: Rig) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and landmarks of the mean person at rest, head frame, metres."""
     ahead = np.tile((0.0, 0.0, 1.0), (1, 2, 1))

@@ -143,7 +143,8 @@ def spec_hash(spec: Spec, *, asset_sha256: dict[str, str]) -> str:
     table["render"].pop("samples")
     table["render"].pop("headset")  # what it says is among the assets; where it lies does not matter
     if spec.playback is not None:
-        table["playback"].pop("recording")  # likewise
+        for key in ("recording", "credit", "licence"):  # likewise, and words change no sample
+            table["playback"].pop(key)
     content = {"spec": table, "assets": asset_sha256, "label_version": LABEL_VERSION}
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 

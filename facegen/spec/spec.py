@@ -11,6 +11,7 @@ from facegen.spec.layout_ranges import LayoutRanges
 from facegen.spec.rigs import Rigs
 from facegen.spec.tables import STRICT, Share, default
 
+Words = Annotated[str, Field(max_length=300)]
 Count = Annotated[int, Field(ge=1)]
 Weight = Annotated[float, Field(ge=0, le=1000, json_schema_extra={"x-unit": "share"})]
 
@@ -39,6 +40,10 @@ class Playback:
     """First frame of the recording that is played."""
     frames: Count | None = None
     """Frames that are played; none means to the end."""
+    credit: Words = ""
+    """Whose recording it is, and who recorded it; the dataset's card says so, or that it is unknown."""
+    licence: Words = ""
+    """Licence of the recording; likewise."""
 
 
 @dataclass(frozen=True, kw_only=True, config=STRICT)

@@ -1,14 +1,12 @@
 """Begins the folder of a dataset: its spec and what that names, what it is, and its card."""
 
 import filecmp
-import importlib.metadata
 import os
 import shutil
 from pathlib import Path
 
 import tomli_w
 
-from facegen import __version__
 from facegen.conventions import BLENDSHAPES
 from facegen.documents import MOST_TOML_BYTES, read_bytes
 from facegen.errors import InputError
@@ -16,13 +14,13 @@ from facegen.files import output_errors
 from facegen.formats.litter import is_litter
 from facegen.headsets import headset_path
 from facegen.spec import LABEL_VERSION, spec_table
-from facegen.store.dataset import Dataset, rigs_of
+from facegen.store.dataset import Dataset, otherwise_built, rigs_of
 from facegen.store.description import FORMAT, read_description
 from facegen.store.folder import commit_file, write_json
 from facegen.store.folder_card import folder_cards
+from facegen.store.licences import licences_of_sources, recording_of
 from facegen.store.stage import staging
-
-_PACKAGES = ("numpy", "scipy", "pyarrow", "bpy", "OpenEXR")
+from facegen.store.versions import installed_versions
 
 _FIRST_THINGS = ("tmp", "logs", "farm", "spec.toml", "headset.toml", "recording.csv")
 """What `begin` leaves if it is killed before ``dataset.json``, and what a farm puts there before it."""
@@ -48,7 +46,10 @@ def check_folder_is_free(dataset: Dataset) -> None:
         others = folder.path.is_dir() and any(not _is_first(p.name) for p in folder.path.iterdir())
     # looked at after the listing: another worker may be just beginning, and then this file is there by now
     if os.path.lexists(folder.dataset_json):
-        stored_hash = read_description(folder)["spec_hash"]
+        described = read_description(folder)
+        stored_hash = described["spec_hash"]
+        if stored_hash != dataset.hash and (built := otherwise_built(dataset, described)):
+            raise InputError(f"{folder.path}: {built}")
         if stored_hash != dataset.hash:
             raise InputError(
                 f"{folder.path}: holds a dataset of another spec (its hash is {stored_hash[:12]}, this spec's "
@@ -179,12 +180,16 @@ def _renew(dataset: Dataset) -> None:
 
 
 def _write_cards(dataset: Dataset) -> None:
-    """Write what is missing of ``README.md`` and ``croissant.json``.
+    """Write what is missing of ``README.md``, ``croissant.json`` and ``LICENSE.txt``.
 
     They come last: a folder that holds them alone is somebody else's, and what a person wrote into them stays.
     """
     folder, spec = dataset.folder, dataset.spec
-    missing = [path for path in (folder.card, folder.croissant_json) if not os.path.lexists(path)]
+    missing = [
+        path
+        for path in (folder.card, folder.croissant_json, folder.licences_txt)
+        if not os.path.lexists(path)
+    ]
     if not missing:
         return
     texts = folder_cards(
@@ -194,6 +199,7 @@ def _write_cards(dataset: Dataset) -> None:
         split=spec.split,
         split_shares=spec.split_shares,
     )
+    texts[folder.licences_txt.name] = licences_of_sources(dataset).encode()
     with staging(folder, "card") as stage:
         for path in missing:
             (stage / path.name).write_bytes(texts[path.name])
@@ -210,19 +216,18 @@ def _description(dataset: Dataset) -> dict:
         "people": dataset.spec.people,
         **rigs_of(dataset),
         "headset": dataset.headset.name,
-        "licence": "Pictures and labels derive from "
-        + " and ".join(f"the rig {rig.name!r}: {rig.licence}" for rig in dataset.rigs),
+        "licence": "Pictures and labels derive from " + " and ".join(_sources(dataset)),
+        **recording_of(dataset.spec),
         "blendshapes": list(BLENDSHAPES),
-        "versions": _versions(),
+        "versions": installed_versions(),
     }
 
 
-def _versions() -> dict[str, str]:
-    """Versions of what made the data; OpenCV's is its own word, as any of its four distributions will do."""
-    import cv2  # where a dataset begins, not where one is read
-
-    installed = {name: importlib.metadata.version(name) for name in _PACKAGES}
-    return {"facegen": __version__, **installed, "opencv": cv2.__version__}
+def _sources(dataset: Dataset) -> list[str]:
+    """What a dataset derives from, with licences."""
+    rigs = [f"the rig {rig.name!r}: {rig.licence}" for rig in dataset.rigs]
+    recordings = recording_of(dataset.spec).values()
+    return rigs + [f"the recording of {each['credit']}: {each['licence']}" for each in recordings]
 
 
 def _without_none(table: dict) -> dict:

@@ -7,8 +7,9 @@ import pyarrow as pa
 
 CARD = "README.md"
 
-_SIZES = (1_000, 10_000, 100_000, 1_000_000, 10_000_000)
-"""Ends of the size classes that a card may name."""
+_SIZES = ("1K", "10K", "100K", "1M", "10M", "100M", "1B", "10B", "100B", "1T")
+"""Ends of the size classes that a card may name, each ten times the one before; the first is a thousand
+(https://github.com/huggingface/hub-docs/blob/main/datasetcard.md)."""
 
 
 def card(
@@ -65,7 +66,7 @@ configs:
 # {title}
 
 {samples:,} samples {of}, with exact labels.
-Nobody in them exists, and nobody annotated anything.
+{_whose(described)}
 
 {contents}
 
@@ -98,17 +99,18 @@ def rig_names(described: Mapping) -> str:
 
 
 def licence_tag(described: Mapping) -> str:
-    """Hugging Face's word for the licence of a dataset's rigs, ``other`` where they differ."""
+    """Hugging Face's word for the licence of a dataset's rigs and recording, ``other`` where they differ."""
     tags = {
         "cc0-1.0" if licence.startswith("CC0") else "mit" if licence.startswith("MIT") else "other"
-        for licence in rig_licences(described)
+        for licence in licences_of(described)
     }
     return tags.pop() if len(tags) == 1 else "other"
 
 
-def rig_licences(described: Mapping) -> list[str]:
-    """Licence of each rig."""
-    return [rig["licence"] for rig in _rigs(described)]
+def licences_of(described: Mapping) -> list[str]:
+    """Licence of each rig, and of the recording that is played."""
+    recorded = [described["recording"]["licence"]] if "recording" in described else []
+    return [rig["licence"] for rig in _rigs(described)] + recorded
 
 
 def _rigs(described: Mapping) -> list[Mapping]:
@@ -121,6 +123,17 @@ def _heads(described: Mapping) -> str:
     return "\n".join(
         f"The heads {_of_whom(rig)}come from the rig {rig['name']!r}, {rig['version']}: {rig['source']}."
         for rig in _rigs(described)
+    )
+
+
+def _whose(described: Mapping) -> str:
+    """A sentence or two on who is in the data."""
+    if "recording" not in described:
+        return "Nobody in them exists, and nobody annotated anything."
+    recording = described["recording"]
+    return (
+        "Nobody with these heads exists, but all of them move as a real person did in a recording.\n"
+        f"Whose recording: {recording['credit']}. Licence of the recording: {recording['licence']}."
     )
 
 
@@ -137,8 +150,8 @@ def _type(field: pa.Field) -> str:
 
 
 def _size(samples: int) -> str:
-    names = ["1K", "10K", "100K", "1M", "10M"]
-    for number, end in enumerate(_SIZES):
-        if samples < end:
-            return f"{names[number - 1]}<n<{names[number]}" if number else "n<1K"
-    return f"n>{names[-1]}"
+    """Class of a number of samples; one that is an end itself belongs to the class above."""
+    number = max(len(str(samples)) - 3, 0)
+    if number == 0:
+        return f"n<{_SIZES[0]}"
+    return f"{_SIZES[number - 1]}<n<{_SIZES[number]}" if number < len(_SIZES) else f"n>{_SIZES[-1]}"

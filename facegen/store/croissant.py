@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pyarrow as pa
 
-from facegen.store.card import described_field, licence_tag, rig_licences
+from facegen.store.card import described_field, licence_tag, licences_of
 
 CROISSANT = "croissant.json"
 
@@ -49,7 +49,7 @@ def croissant(
         "name": f"facegen-{described['spec_hash'][:12]}",
         "description": f"{title}: synthetic people with exact labels. {described['licence']}.",
         "citeAs": f"{title}, facegen {described['versions']['facegen']}, spec {described['spec_hash']}",
-        "license": _LICENCES.get(tag, "; ".join(rig_licences(described))),
+        "license": _LICENCES.get(tag, "; ".join(licences_of(described))),
         "url": f"urn:sha256:{described['spec_hash']}",
         "version": f"{described['label_version']}.0.0",
         "distribution": list(distribution),

@@ -1,6 +1,6 @@
 """Opens datasets: a spec with everything that it names, and the folder of its samples."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,7 +10,7 @@ import pyarrow as pa
 from facegen.conventions import SHARD_ROWS
 from facegen.errors import InputError
 from facegen.headsets import Headset
-from facegen.rigs import Rig
+from facegen.rigs import Rig, rigs_folder
 from facegen.sampling import Plan, rig_of
 from facegen.spec import (
     Spec,
@@ -188,3 +188,23 @@ def rigs_of(dataset: Dataset) -> dict:
         return {"rig": about[0]}
     shares = shares_of(dataset.spec.rig)
     return {"rigs": [{**each, "share": shares[each["name"]]} for each in about]}
+
+
+def otherwise_built(dataset: Dataset, described: Mapping) -> str:
+    """A sentence where a rig of ``dataset.json`` is of this version but of other bytes; else nothing.
+
+    Products of matrices end in other last bits on other kinds of processors, and the rig's hash is part of a dataset's.
+    Of that rig's values ``dataset.json`` has none, so there is nothing to compare but the hash.
+    """
+    told = described["rigs"] if "rigs" in described else [described.get("rig")]
+    built = {each["name"]: each for each in told if isinstance(each, Mapping) and "name" in each}
+    for rig in dataset.rigs:
+        then = built.get(rig.name, {})
+        if then.get("version") == rig.version and then.get("sha256") != rig.sha256:
+            files = f"{rig.name}.npz and {rig.name}.json"
+            return (
+                f"its rig {rig.name!r} is of the same version as the one here, but was built on another kind of "
+                f"processor or from other sources, and has other bytes; copy {files} from where the dataset was made "
+                f"into {rigs_folder()}, or let FACEGEN_RIGS name their folder"
+            )
+    return ""

@@ -29,6 +29,9 @@ NAMES_OF_JSON = {
 """What people call values of JSON that are no tables, by Python's type."""
 
 
+LICENCES = "LICENSE.txt"
+"""Licences and credits of what data derive from; packs, developed pictures and models have one too."""
+
 _SHARD = re.compile(r"shard-[0-9]{5,15}\.parquet")
 _RENDER = re.compile("[0-9]{6,15}")
 
@@ -53,6 +56,11 @@ class DatasetFolder:
     def croissant_json(self) -> Path:
         """What the dataset is, for ``mlcroissant``."""
         return self.path / "croissant.json"
+
+    @property
+    def licences_txt(self) -> Path:
+        """Licences and credits of what the dataset derives from."""
+        return self.path / LICENCES
 
     @property
     def spec_toml(self) -> Path:

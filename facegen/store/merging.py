@@ -19,6 +19,7 @@ from facegen.store.folder import DatasetFolder, commit_file, commit_folder
 from facegen.store.likeness import same_labels
 from facegen.store.opening import open_dataset, resolve
 from facegen.store.stage import staging, sweep
+from facegen.store.versions import check_renderers
 
 _FIRST_THINGS = ("tmp", "spec.toml", "headset.toml", "recording.csv")
 """What a merge leaves if it is killed before ``dataset.json``."""
@@ -60,14 +61,15 @@ def merge(
     Raises
     ------
     InputError
-        If there is no dataset, or one of another spec, or together they ask for samples in more ranges than a
-        spec takes.
+        If there is no dataset, or one of another spec, if pictures are of two versions of Blender, or if together they
+        ask for samples in more ranges than a spec takes.
     InvalidData
         If two datasets hold different keypoints or pictures under one name, or keypoints cannot be read.
     OutputError
         If the folder cannot be written.
     """
-    datasets = [open_dataset(source) for source in sources]
+    # what has pictures comes first, whose Blender the description names that is taken over
+    datasets = sorted(map(open_dataset, sources), key=lambda dataset: not dataset.folder.rendered())
     if not datasets:
         raise InputError("merge: there is nothing to merge; give the folders of datasets")
     first, target = datasets[0], DatasetFolder(Path(out))
@@ -82,6 +84,9 @@ def merge(
         raise InputError(f"{target.path}: is not empty and holds no facegen dataset; choose another folder")
     else:
         _check_first_files(first.folder, target)
+    pictured = [dataset for dataset in datasets if dataset.folder.rendered()]
+    begun = datasets[:1] if target.dataset_json.is_file() and pictured else []
+    check_renderers([*begun, *pictured])
     joined = _asking_for_all(datasets, target)
     origins, doubles = _origins(datasets)
     for name, one, other in doubles:
@@ -211,7 +216,9 @@ def _take_description(source: DatasetFolder, target: DatasetFolder) -> None:
     """The first dataset's description; the versions in it stay those that made the data, and a card stays as it is."""
     first = (*_first_files(source), source.dataset_json)
     cards = tuple(
-        path for path in (source.card, source.croissant_json) if not (target.path / path.name).exists()
+        path
+        for path in (source.card, source.croissant_json, source.licences_txt)
+        if not (target.path / path.name).exists()
     )
     with staging(target, "merge") as stage:
         for path in cards if target.dataset_json.is_file() else first + cards:

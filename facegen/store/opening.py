@@ -18,7 +18,7 @@ from facegen.rigs import load_rig
 from facegen.sampling import plan_dataset
 from facegen.sessions import check_base
 from facegen.spec import LABEL_VERSION, Spec, load_spec, shares_of, spec_hash
-from facegen.store.dataset import Dataset, rigs_of
+from facegen.store.dataset import Dataset, otherwise_built, rigs_of
 from facegen.store.description import read_description
 from facegen.store.folder import DatasetFolder
 
@@ -95,6 +95,8 @@ def _otherness(dataset: Dataset, described: dict) -> str:
             f"{LABEL_VERSION}; make the dataset anew, or read it with the facegen "
             f"that made it ({described['versions'].get('facegen', 'of then')}, by its commit)"
         )
+    if built := otherwise_built(dataset, described):
+        return built
     if any(described.get(key, about) != about for key, about in rigs_of(dataset).items()):
         rigs = " or ".join(map(repr, shares_of(dataset.spec.rig)))
         return f"was made with another version of rig {rigs}; build that again, or make the dataset anew"

@@ -3,7 +3,7 @@
 from facegen.work.allocation import available_cpus, available_memory, side_by_side
 from facegen.work.blend import save_blend
 from facegen.work.developing import Settings, develop_dataset, develop_sample
-from facegen.work.generate import DEFAULT_GRACE_S, Summary, Work, generate, plan_work
+from facegen.work.generate import DEFAULT_GRACE_S, Summary, Work, check_versions, generate, plan_work
 from facegen.work.journal import Attempt, attempt_logs, read_journals
 from facegen.work.limits import Limits
 from facegen.work.tasks import Task, done_tasks, quarantined_tasks, wanted_tasks
@@ -19,6 +19,7 @@ __all__ = [
     "attempt_logs",
     "available_cpus",
     "available_memory",
+    "check_versions",
     "develop_dataset",
     "develop_sample",
     "done_tasks",

@@ -6,7 +6,7 @@ from facegen.conventions import BLOCK
 from facegen.errors import InputError
 from facegen.files import output_errors, whole_file
 from facegen.sampling import draw_samples
-from facegen.store import Dataset
+from facegen.store import Dataset, licences_of_sources
 from facegen.work.worker import draw_render_seed, label_sample
 
 
@@ -58,4 +58,5 @@ def save_blend(dataset: Dataset, number: int, path: Path, *, view: str | None = 
             samples=render.samples_per_pixel,
             seed=seed,
             denoise=render.denoise,
+            licences=licences_of_sources(dataset),
         )

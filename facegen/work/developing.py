@@ -17,7 +17,9 @@ from facegen.store import (
     DatasetFolder,
     commit_file,
     commit_folder,
+    licences,
     png_bytes,
+    put_licences,
     read_exr,
     read_json,
     staging,
@@ -60,7 +62,7 @@ def develop_dataset(
     """Develop rendered samples into ``out``, laid out as a dataset's ``renders``; returns how many were made.
 
     What is there already is kept, so a second run goes on. Beside the pictures of each sample, ``shots.json`` holds
-    its shots as `facegen.store.sample_record` has them.
+    its shots as `facegen.store.sample_record` has them, and ``LICENSE.txt`` beside all is as the dataset's.
 
     Raises
     ------
@@ -84,6 +86,7 @@ def develop_dataset(
     _begin(dataset, out, settings)
     folder, made = DatasetFolder(out), 0
     sweep(folder)
+    put_licences(licences(dataset), folder)
     for done, number in enumerate(numbers):
         on_progress(done)
         if folder.render(number).exists():

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
-from facegen.store import Dataset, begin, staging, sweep
+from facegen.store import Dataset, begin, check_renderer, holds_dataset, staging, sweep, version_note
 from facegen.work.allocation import available_cpus, available_memory, side_by_side
 from facegen.work.limits import Limits
 from facegen.work.supervisor import Supervisor
@@ -69,6 +69,26 @@ def plan_work(
     return Work(wanted=wanted, found=frozenset(done), quarantined=tuple(in_order))
 
 
+def check_versions(dataset: Dataset, work: Work) -> str:
+    """See that what goes on with a dataset is what it was begun with; reads the folder, writes nothing.
+
+    Returns
+    -------
+    str
+        A sentence where it is not, but only last bits may differ.
+
+    Raises
+    ------
+    InputError
+        If pictures are missing, and another version of Blender would render them.
+    """
+    if not holds_dataset(dataset) or not work.missing:
+        return ""
+    if work.left("sample"):
+        check_renderer(dataset)
+    return version_note(dataset)
+
+
 def generate(
     dataset: Dataset,
     ranges: str | None = None,
@@ -105,7 +125,8 @@ def generate(
     Raises
     ------
     InputError
-        If the folder holds a dataset of another spec, or a sample does not exist.
+        If the folder holds a dataset of another spec, or one that another version of Blender has begun to render, or a
+        sample does not exist.
     OutputError
         If the folder cannot be written.
     WorkersFailed
@@ -113,6 +134,7 @@ def generate(
     """
     work = plan_work(dataset, ranges, shards=shards, retry_quarantined=retry_quarantined)
     missing = work.missing  # refused before anything is written where that is too much
+    check_versions(dataset, work)
     begin(dataset)
     if not missing:
         return Summary(made=0, found=work.done, quarantined=work.quarantined, left=0)

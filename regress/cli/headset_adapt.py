@@ -118,5 +118,6 @@ def adapt(
     change = changes(heads, frames, np.arange(len(frames.fold)), pull=held.pull)
     trained, parent = predictor.model.training, predictor.model.network_sha256
     training = replace(trained, began_as=parent, adapted_from=(*trained.adapted_from, parent))
-    save_headset_model(replace(predictor.model, training=training), adapted_graph(graph, heads, change), out)
+    adapted = replace(predictor.model, training=training)
+    save_headset_model(adapted, adapted_graph(graph, heads, change), out, data=folder)
     say(f"{out}: {said}; `regress headset calibrate {out}` comes next")

@@ -43,7 +43,7 @@ def train(
     began = time.monotonic()
     with progress(unit="%") as draw:
         model = train_model(keypoints, chosen, seed=seed, progress=draw)
-    save_model(model, out)
+    save_model(model, out, data=dataset)
     say(
         f"trained on {counted(model.record.training_rows, 'row')} in {time.monotonic() - began:.0f} s; model in {out}"
     )

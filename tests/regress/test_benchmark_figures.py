@@ -15,7 +15,7 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.rigs import Rig
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.gain import SEEN
-from regress.learning.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of
+from regress.learning.training.preparation import OUTPUT_COLUMNS, draw_detected, faces_of
 from regress.learning.training.recipes import RECIPES
 from regress.runtime.model import Model
 from regress.targets import OUTPUTS
@@ -105,7 +105,7 @@ def test_ridge_is_finished_as_networks_are(benchmark, dataset: KeypointDataset, 
         dataset, features, mirror=True, calibrated=True, noise=RECIPES["default"].calibrated_noise
     )
     assert ridge.predict(np.zeros((1, features.count))) == pytest.approx(0)
-    people = as_detected(faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(27))
+    people = draw_detected(faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(27))
     true = people.weights[:, OUTPUT_COLUMNS]
     free = [OUTPUTS.index(name) for name in OUTPUTS if not name.startswith("eyeLook")]
     gaps = [

@@ -8,12 +8,12 @@ from regress.learning.networks import (
     Layout,
     NetworkProblem,
     Rows,
+    draw_nguyen_widrow,
+    draw_ridge_knots,
     fit_ridge,
     fold,
-    nguyen_widrow,
     ridge_coefficients,
     ridge_directions,
-    ridge_knots,
 )
 from regress.runtime.networks import evaluate
 from regress.targets import NETWORKS, NOT_OBSERVABLE, OUTPUTS, REGIONS, VISIBLE_SHAPES, observability
@@ -103,7 +103,7 @@ def test_ridge_knots_start_no_worse_than_ridge():
     targets = (targets - targets.mean(axis=0)) / targets.std(axis=0)
     coefficients = ridge_coefficients(inputs, targets, 3.0)
     layout = Layout(inputs=12, hidden=14, outputs=2)
-    w1, w2 = ridge_knots(
+    w1, w2 = draw_ridge_knots(
         layout=layout,
         inputs=inputs,
         targets=targets,
@@ -140,7 +140,7 @@ def test_directions_of_exact_rows_keep_what_displaced_rows_flood():
     of_exact = ridge_directions(inputs[exact], targets[exact], 1.0)
     errors = []
     for directions in (of_all, np.concatenate([of_all, of_exact], axis=1)):
-        w1, w2 = ridge_knots(
+        w1, w2 = draw_ridge_knots(
             layout=layout,
             inputs=inputs,
             targets=targets,
@@ -156,7 +156,7 @@ def test_directions_of_exact_rows_keep_what_displaced_rows_flood():
 
 def test_ridge_knots_bear_a_shape_that_inputs_do_not_show():
     layout = Layout(inputs=3, hidden=4, outputs=1)
-    w1, w2 = ridge_knots(
+    w1, w2 = draw_ridge_knots(
         layout=layout,
         inputs=np.ones((5, 3)),
         targets=np.zeros((5, 1)),
@@ -171,6 +171,6 @@ def test_ridge_knots_bear_a_shape_that_inputs_do_not_show():
 def test_nguyen_widrow_rows_have_their_length_in_any_axes():
     layout = Layout(inputs=9, hidden=20, outputs=2)
     rotation, _ = np.linalg.qr(np.random.default_rng(0).normal(size=(9, 9)))
-    w1, _ = nguyen_widrow(layout=layout, rotation=rotation, rng=np.random.default_rng(1))
+    w1, _ = draw_nguyen_widrow(layout=layout, rotation=rotation, rng=np.random.default_rng(1))
     assert np.linalg.norm(w1[:, :-1], axis=1) == pytest.approx(0.7 * 20 ** (1 / 9))
     assert np.abs(w1[:, -1]).max() <= 0.7 * 20 ** (1 / 9) + 1e-12

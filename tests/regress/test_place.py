@@ -29,6 +29,16 @@ def test_a_model_of_the_other_kind_stays(quick_model: Model, tmp_path: Path):
     assert contents(tmp_path) == before
 
 
+def test_the_licences_of_the_data_come_along(quick_model: Model, tmp_path: Path):
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "LICENSE.txt").write_text("Whose the heads are.\n")
+    save_model(quick_model, tmp_path / "model", data=tmp_path / "data")
+    assert (tmp_path / "model" / "LICENSE.txt").read_text() == "Whose the heads are.\n"
+    # of the old model, so it goes with that
+    save_model(quick_model, tmp_path / "model", data=tmp_path)
+    assert not (tmp_path / "model" / "LICENSE.txt").exists()
+
+
 @pytest.mark.parametrize(
     "text",
     [

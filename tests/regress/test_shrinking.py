@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from facegen.conventions import LANDMARK_COUNT
 from regress.learning.training.noise import DetectorNoise
-from regress.learning.training.preparation import Faces, as_detected
+from regress.learning.training.preparation import Faces, draw_detected
 from regress.learning.training.shrinking import REGIONS, shrink
 from regress.runtime.features import load_reference_shape
 
@@ -48,7 +48,7 @@ def test_each_region_of_a_training_face_has_one_share_and_neutral_faces_stay():
         weights=np.zeros((300, 52)),
     )
     rng = np.random.default_rng(1)
-    found = as_detected(faces, DetectorNoise(bias=0, drift=0, jitter=0, clean=0, movement=0.5), rng)
+    found = draw_detected(faces, DetectorNoise(bias=0, drift=0, jitter=0, clean=0, movement=0.5), rng)
     np.testing.assert_array_equal(found.neutral, faces.neutral)
     for region in REGIONS:
         numbers = [number for number in region if away[number].any()]
@@ -56,5 +56,5 @@ def test_each_region_of_a_training_face_has_one_share_and_neutral_faces_stay():
         np.testing.assert_allclose(shares, shares[:, :1, :1] * np.ones_like(shares), atol=1e-9)
         assert shares.min() == pytest.approx(0.5, abs=0.02)
         assert shares.max() == pytest.approx(1, abs=0.02)
-    whole = as_detected(faces, DetectorNoise(bias=0, drift=0, jitter=0, clean=0), rng)
+    whole = draw_detected(faces, DetectorNoise(bias=0, drift=0, jitter=0, clean=0), rng)
     np.testing.assert_array_equal(whole.points, faces.points)

@@ -46,12 +46,12 @@ class ClipKind:
     neutral: bool = False
 
 
-def _nothing(_rng: np.random.Generator, time_s: np.ndarray, _direction: Direction) -> np.ndarray:
+def _draw_nothing(_rng: np.random.Generator, time_s: np.ndarray, _direction: Direction) -> np.ndarray:
     return np.zeros((len(time_s), len(BLENDSHAPES)))
 
 
 CLIP_KINDS: dict[str, ClipKind] = {
-    "neutral": ClipKind(draw=(_nothing,), head_share=0.1, neutral=True),
+    "neutral": ClipKind(draw=(_draw_nothing,), head_share=0.1, neutral=True),
     "peak": ClipKind(draw=(draw_peak,), head_share=0.15),
     "sentence": ClipKind(draw=(draw_sentence,), head_gap_s=(0.4, 1.5)),
     "range_of_motion": ClipKind(

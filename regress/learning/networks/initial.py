@@ -22,7 +22,7 @@ def ridge_directions(inputs: np.ndarray, targets: np.ndarray, strength: float) -
     return np.where(spread > 1e-6, coefficients / np.maximum(spread, 1e-6), 0)
 
 
-def ridge_knots(
+def draw_ridge_knots(
     *,
     layout: Layout,
     inputs: np.ndarray,
@@ -71,7 +71,7 @@ def ridge_knots(
     return w1, w2
 
 
-def nguyen_widrow(
+def draw_nguyen_widrow(
     *, layout: Layout, rotation: np.ndarray, rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray]:
     """Random start that spreads the units' active regions over the inputs (D. Nguyen, B. Widrow 1990).

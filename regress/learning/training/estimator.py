@@ -9,7 +9,7 @@ from sklearn.utils import Tags, check_random_state
 from sklearn.utils.validation import check_is_fitted, validate_data
 
 from regress.learning.levenberg_marquardt import Result, Settings, minimise, minimise_with_evidence
-from regress.learning.networks import Layout, NetworkProblem, Rows, fold, ridge_directions, ridge_knots
+from regress.learning.networks import Layout, NetworkProblem, Rows, draw_ridge_knots, fold, ridge_directions
 from regress.runtime.networks import evaluate
 
 _RIDGE_FACTOR = 3.0
@@ -89,7 +89,7 @@ class LevenbergMarquardtRegressor(RegressorMixin, BaseEstimator):
         self._flat = targets.ndim == 1
         targets = np.asarray(targets, dtype=np.float64).reshape(len(targets), -1)
         rng = np.random.default_rng(check_random_state(self.random_state).randint(2**31))
-        kept, held_out = self._split(len(inputs), rng)
+        kept, held_out = self._split(rng.permutation(len(inputs)))
         input_mean, input_std = inputs[kept].mean(axis=0), _spread(inputs[kept])
         target_mean, target_std = targets[kept].mean(axis=0), _spread(targets[kept])
         standard = (inputs - input_mean) / input_std
@@ -107,7 +107,7 @@ class LevenbergMarquardtRegressor(RegressorMixin, BaseEstimator):
         )
         starts = []
         for alpha in alphas:
-            w1, w2 = ridge_knots(
+            w1, w2 = draw_ridge_knots(
                 layout=layout,
                 inputs=axes[kept],
                 targets=scaled[kept],
@@ -163,12 +163,11 @@ class LevenbergMarquardtRegressor(RegressorMixin, BaseEstimator):
             raise ValueError(f"alpha is {self.alpha!r}; numbers of 0 or more are needed")
         return alphas
 
-    def _split(self, count: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-        """Rows to train on and rows to hold out; the evidence needs none held out."""
-        order = rng.permutation(count)
+    def _split(self, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Rows to train on and rows to hold out, in that order; the evidence needs none held out."""
         if isinstance(self.alpha, str):
             return order, order
-        held = min(max(1, round(self.validation_fraction * count)), count - 1)
+        held = min(max(1, round(self.validation_fraction * len(order))), len(order) - 1)
         return order[held:], order[:held]
 
 

@@ -22,9 +22,9 @@ from regress.learning.networks import (
     Layout,
     NetworkProblem,
     Rows,
-    nguyen_widrow,
+    draw_nguyen_widrow,
+    draw_ridge_knots,
     ridge_directions,
-    ridge_knots,
 )
 from regress.learning.progress import Progress
 from regress.learning.training.preparation import WIDEST, Prepared, Split, network_columns, used_outputs
@@ -141,9 +141,9 @@ def _start(
     for number, columns in enumerate(network_columns()):
         rng = np.random.default_rng([seed, number])
         if recipe.start == "nguyen_widrow":
-            w1, w2 = nguyen_widrow(layout=layout, rotation=rotation, rng=rng)
+            w1, w2 = draw_nguyen_widrow(layout=layout, rotation=rotation, rng=rng)
         else:
-            w1, w2 = ridge_knots(
+            w1, w2 = draw_ridge_knots(
                 layout=layout,
                 inputs=few.inputs,
                 targets=few.targets[:, columns],

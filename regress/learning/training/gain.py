@@ -13,7 +13,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, mirrored_name
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.noise import DetectorNoise
-from regress.learning.training.preparation import as_detected, faces_of
+from regress.learning.training.preparation import draw_detected, faces_of
 from regress.learning.training.scores import predicted_outputs
 from regress.runtime.model import Model
 from regress.runtime.networks import FoldedNetworks, evaluate
@@ -30,7 +30,9 @@ _SEED = 27
 def stretched(model: Model, dataset: KeypointDataset) -> Model:
     """The model with offset and gain of its calibrated networks folded into their last layer."""
     about_zero = _finished(model, np.ones(len(model.outputs)))
-    faces = as_detected(faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(_SEED))
+    faces = draw_detected(
+        faces_of(dataset, "validation", calibrated=True), SEEN, np.random.default_rng(_SEED)
+    )
     truth = faces.weights[:, [BLENDSHAPE_INDEX[name] for name in model.outputs]]
     return _finished(
         model, gain_of(predicted_outputs(about_zero, faces.points, faces.neutral), truth, model.outputs)

@@ -153,7 +153,7 @@ def faces_of(dataset: KeypointDataset, split: str, *, calibrated: bool) -> Faces
     )
 
 
-def as_detected(faces: Faces, noise: DetectorNoise, rng: np.random.Generator) -> Faces:
+def draw_detected(faces: Faces, noise: DetectorNoise, rng: np.random.Generator) -> Faces:
     """Faces as a detector would give them, with a bias of its own for each."""
     frame, neutral = draw_displacements(noise, rng, len(faces.points))
     points = faces.points
@@ -193,11 +193,11 @@ def prepare(
         if mirror and split == "train":
             faces = _with_mirror_images(faces)
         if denoise and split == "train":
-            denoising = _denoising(features, faces, np.random.default_rng([seed, 3]))
+            denoising = _draw_denoising(features, faces, np.random.default_rng([seed, 3]))
         given = faces
         if noise is not None and split != "test":
             given = faces.repeated(noise.copies)
-            faces = as_detected(given, noise, np.random.default_rng([seed, number]))
+            faces = draw_detected(given, noise, np.random.default_rng([seed, number]))
         exact = (faces.points == given.points).all(axis=(1, 2))
         raw[split] = faces.features(features), faces.weights[:, OUTPUT_COLUMNS], exact
     inputs, targets, _ = raw["train"]
@@ -245,7 +245,7 @@ def _strengthened(squares: np.ndarray, whitening: float) -> np.ndarray:
     return factors * np.sqrt(squares[there].sum() / (squares * factors**2).sum())
 
 
-def _denoising(features: Features, faces: Faces, rng: np.random.Generator) -> Denoising:
+def _draw_denoising(features: Features, faces: Faces, rng: np.random.Generator) -> Denoising:
     def moved(points: np.ndarray) -> np.ndarray:
         return displace(points, _PROBE * rng.standard_normal(points.shape))
 

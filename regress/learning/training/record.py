@@ -11,7 +11,7 @@ from regress.learning.training.baseline import fit_baseline
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.fitting import Fit
 from regress.learning.training.noise import DetectorNoise
-from regress.learning.training.preparation import OUTPUT_COLUMNS, as_detected, faces_of
+from regress.learning.training.preparation import OUTPUT_COLUMNS, draw_detected, faces_of
 from regress.learning.training.recipes import Recipe
 from regress.learning.training.regression import regress_split
 from regress.learning.training.scores import evaluate_model, mean_r2, score, score_faces
@@ -102,7 +102,7 @@ def _summary(shapes: dict[str, Scores]) -> MeanScores:
 
 def _scores_as_detected(model: Model, dataset: KeypointDataset, *, calibrated: bool) -> dict[str, Scores]:
     faces = faces_of(dataset, "test", calibrated=calibrated)
-    return score_faces(model, as_detected(faces, DETECTOR, np.random.default_rng(_NOISE_SEED)))
+    return score_faces(model, draw_detected(faces, DETECTOR, np.random.default_rng(_NOISE_SEED)))
 
 
 def _baselines(

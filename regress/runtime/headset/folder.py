@@ -13,7 +13,7 @@ from regress.errors import InputError, ModelError
 from regress.runtime.documents import checked, read_document
 from regress.runtime.headset.figures import evaluation_from_json, evaluation_to_json
 from regress.runtime.headset.model import HeadsetModel
-from regress.runtime.model import HEADSET, KEYPOINTS, write_folder
+from regress.runtime.model import HEADSET, KEYPOINTS, licences_beside, write_folder
 from regress.runtime.ready_made import ready_made_names
 
 VERSION = 1
@@ -22,13 +22,21 @@ MOST_GRAPH_BYTES = 2**28
 """Of network.onnx: eighty times the largest network that the recipes make."""
 
 
-def save_headset_model(model: HeadsetModel, graph: bytes, folder: str | os.PathLike[str]) -> HeadsetModel:
+def save_headset_model(
+    model: HeadsetModel,
+    graph: bytes,
+    folder: str | os.PathLike[str],
+    *,
+    data: str | os.PathLike[str] | None = None,
+) -> HeadsetModel:
     """Write a model folder whole, by one rename.
 
     Parameters
     ----------
     graph
         Bytes of network.onnx.
+    data
+        Folder that it learned from; its ``LICENSE.txt`` comes along.
 
     Returns
     -------
@@ -42,7 +50,8 @@ def save_headset_model(model: HeadsetModel, graph: bytes, folder: str | os.PathL
     """
     folder = Path(folder)
     text = _text(replace(model, network_sha256=hashlib.sha256(graph).hexdigest()))
-    write_folder(folder, HEADSET, {"network.onnx": graph, "model.json": text.encode()})
+    licences = {} if data is None else licences_beside(data)
+    write_folder(folder, HEADSET, {"network.onnx": graph, "model.json": text.encode(), **licences})
     return read_headset_model(folder)
 
 

@@ -3,7 +3,7 @@
 from regress.runtime.model.fast import FastPredictor
 from regress.runtime.model.folder import load_model, save_model
 from regress.runtime.model.model import Calibrated, Model, Normalisation
-from regress.runtime.model.place import HEADSET, KEYPOINTS, check_place, write_folder
+from regress.runtime.model.place import HEADSET, KEYPOINTS, check_place, licences_beside, write_folder
 from regress.runtime.model.record import Regression, Scores, TrainingRecord
 from regress.runtime.model.symmetry import symmetrised
 
@@ -18,6 +18,7 @@ __all__ = [
     "Scores",
     "TrainingRecord",
     "check_place",
+    "licences_beside",
     "load_model",
     "save_model",
     "symmetrised",

@@ -20,7 +20,7 @@ from regress.runtime.documents import checked, read_document
 from regress.runtime.features import ALIGNMENTS, Features
 from regress.runtime.model.arrays import CALIBRATED, DENOISING, YOUNGER, Sizes, array_fault
 from regress.runtime.model.model import Calibrated, Model, Normalisation
-from regress.runtime.model.place import KEYPOINTS, write_folder
+from regress.runtime.model.place import KEYPOINTS, licences_beside, write_folder
 from regress.runtime.model.record import TrainingRecord, record_to_json
 from regress.runtime.networks import Denoising, FoldedNetworks
 from regress.runtime.ready_made import model_folder, ready_made_names
@@ -41,17 +41,22 @@ _INFERENCE = (
 """Of networks that see features, and of those that see what denoising leaves of them."""
 
 
-def save_model(model: Model, folder: str | os.PathLike[str]) -> None:
+def save_model(
+    model: Model, folder: str | os.PathLike[str], *, data: str | os.PathLike[str] | None = None
+) -> None:
     """Write a model folder whole, by one rename; equal models give equal bytes.
+
+    Where ``data``, the folder that it learned from, has a ``LICENSE.txt``, the model's folder gets that too.
 
     Raises
     ------
     OutputError
         Where the place cannot be written, or holds anything but an older model of 68 points (``check_place``).
     """
+    licences = {} if data is None else licences_beside(data)
     weights = _weights_bytes(model)
     text = json.dumps(_document(model, hashlib.sha256(weights).hexdigest()), indent=1, allow_nan=False) + "\n"
-    write_folder(Path(folder), KEYPOINTS, {"weights.npz": weights, "model.json": text.encode()})
+    write_folder(Path(folder), KEYPOINTS, {"weights.npz": weights, "model.json": text.encode(), **licences})
 
 
 def load_model(folder: str | os.PathLike[str]) -> Model:

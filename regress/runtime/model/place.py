@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from facegen.documents import read_bytes
 from facegen.files import output_errors, staging, swap_folders, sweep, sync, write_whole
 from facegen.formats.litter import is_litter
 from regress.errors import InputError, OutputError
@@ -48,8 +49,14 @@ HEADSET = ModelKind(
     numbers="network.onnx",
 )
 
-_MADE_OF_IT = ("report.html", "exports")
-"""What `make` puts into a model's folder: of the old model, so it goes with it."""
+LICENCES = "LICENSE.txt"
+"""Licences and credits of what a model learned from, as they lay beside the data."""
+
+MOST_LICENCES_BYTES = 1_048_576
+"""Of such a file: as many as `facegen` reads of a dataset's."""
+
+_MADE_OF_IT = ("report.html", "exports", LICENCES)
+"""What lies beside a model, some of it put there by `make`: of the old model, so it goes with it."""
 
 
 def check_place(folder: str | os.PathLike[str], kind: ModelKind) -> None:
@@ -72,6 +79,18 @@ def check_place(folder: str | os.PathLike[str], kind: ModelKind) -> None:
         parent = parent.parent
     if not (parent.is_dir() and os.access(parent, os.W_OK)):
         raise OutputError(f"the model cannot be written to {folder}: {parent} is not a writable folder")
+
+
+def licences_beside(data: str | os.PathLike[str]) -> dict[str, bytes]:
+    """The file ``LICENSE.txt`` of a folder of data or of a model, for the folder of a model that is made of it.
+
+    Raises
+    ------
+    InputError
+        Where it is longer than what is read.
+    """
+    path = Path(data) / LICENCES
+    return {LICENCES: read_bytes(path, most_bytes=MOST_LICENCES_BYTES)} if path.is_file() else {}
 
 
 def write_folder(folder: Path, kind: ModelKind, files: Mapping[str, bytes]) -> None:

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from facegen.avatars import export_avatar
 from facegen.avatars.eyeballs import clearance
-from facegen.avatars.hair import hair_surfaces
+from facegen.avatars.hair import draw_hair_surfaces
 from facegen.avatars.haircuts import STYLES
 from facegen.avatars.shapes import CLEAR_M, face_shapes
 from facegen.cli.rig import rig_app
@@ -73,7 +73,9 @@ def test_lids_never_cut_the_eye(anny: Rig) -> None:
 def test_hair_has_no_seam(anny: Rig) -> None:
     style = STYLES["bob"]
     drawn = {"colour": (0.5, 0.4, 0.3), "rng": np.random.default_rng(2)}
-    (hair,) = hair_surfaces(anny.vertices, triangles_of(anny.faces[anny.part == Part.SKIN]), style, **drawn)
+    (hair,) = draw_hair_surfaces(
+        anny.vertices, triangles_of(anny.faces[anny.part == Part.SKIN]), style, **drawn
+    )
     _, place, count = np.unique(np.round(hair.positions, 7), axis=0, return_inverse=True, return_counts=True)
     normals = hair.normals[np.argsort(place.ravel(), kind="stable")]
     for together in np.split(normals, np.cumsum(count)[:-1]):

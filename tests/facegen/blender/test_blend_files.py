@@ -46,6 +46,7 @@ said = {
     "missing": [image.filepath for image in bpy.data.images if image.source == "FILE" and not image.packed_file],
     "libraries": len(bpy.data.libraries),
     "texts": [text.name for text in bpy.data.texts],
+    "licences": bpy.data.texts["LICENSE.txt"].as_string(),
 }
 dataset = resolve(load_spec(sys.argv[2]), sys.argv[3])
 made = label_sample(dataset, 1, draw_samples(dataset.plan, dataset.rig, 0))
@@ -76,7 +77,9 @@ def test_an_opened_file_renders_the_same_radiance(anny, tmp_path):
     found = json.loads(run("-c", OPEN_AND_COMPARE, file, spec, tmp_path).splitlines()[-1])
     assert found["cameras"] == ["left_eye", "mouth", "right_eye"]
     assert found["active"] == "mouth"
-    assert (found["missing"], found["libraries"], found["texts"]) == ([], 0, ["lens.osl"])
+    assert (found["missing"], found["libraries"], found["texts"]) == ([], 0, ["lens.osl", "LICENSE.txt"])
+    assert "MakeHuman" in found["licences"]
+    assert "CC0-1.0" in found["licences"]
     assert found["brightest"] > 0.1
     assert found["difference"] < 1e-3 * found["brightest"], "16-bit floats hold three digits"
 

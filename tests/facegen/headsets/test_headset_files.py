@@ -219,3 +219,10 @@ def test_tracking3_is_a_subset_of_training9():
         training9.fit,
         training9.tolerances,
     )
+
+
+@pytest.mark.parametrize("name", ["nul", "com1", "weights", "points_2d"])
+def test_cameras_are_not_called_as_windows_devices_or_columns_are(name: str):
+    text = SMALL.replace('"eye"', f'"{name}"')
+    with pytest.raises(InputError, match=rf"cameras\[0\]\.name is '{name}'"):
+        parse_headset(tomllib.loads(text), source="small.toml")

@@ -10,6 +10,7 @@ from facegen.conventions import Visibility
 from facegen.geometry import rotation_from_angles
 from facegen.headsets import Lens, Tolerances
 from facegen.labels import VIEW_LABEL_KEYS, label_rendered
+from facegen.labels.rendered import _share
 from facegen.sampling import draw_samples
 from facegen.scene import draw_look
 from facegen.sessions import draw_sample_scene, sample_scene, session
@@ -178,3 +179,9 @@ def test_what_the_rim_of_a_lens_covers_is_hidden(dataset):
     aside = np.linalg.norm(clear.glints.points_2d - middle, axis=-1) > 0.25 * 64
     assert clear.glints.seen[aside].any()
     assert (covered.glints.seen == (clear.glints.seen & ~aside)).all()
+
+
+def test_eyes_that_are_shut_at_rest_are_not_open():
+    """A user's head may have lids that touch; nothing is divided by their gap."""
+    with np.errstate(all="raise"):
+        assert _share(np.array([0.004, 0.0]), np.array([0.008, 0.0])).tolist() == [0.5, 0.0]

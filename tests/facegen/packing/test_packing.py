@@ -22,8 +22,10 @@ import pytest
 from facegen.conventions import BLENDSHAPES, SPLITS
 from facegen.errors import InputError, InvalidData
 from facegen.geometry import direction_from_angles
+from facegen.headsets.headset import TAKEN
 from facegen.packing import PACK_FORMATS, Options, PackFile, plan_pack, write_pack
-from facegen.packing.arrays import face_basis, write_part
+from facegen.packing.arrays import array_schema, face_basis, write_part
+from facegen.packing.parquet import row_schema
 from facegen.packing.view_points import view_points
 from facegen.packing.webdataset import write_tar
 from facegen.store import open_dataset, read_png
@@ -53,7 +55,7 @@ def test_equal_input_gives_equal_bytes_and_the_licence_goes_along(request, tmp_p
     assert about["dataset"]["spec_hash"] == rendered.hash
     index = json.loads((one / "index.json").read_text())
     assert sorted(entry["name"] for entry in index) == sorted(
-        files(one).keys() - {"pack.json", "index.json", "README.md", "croissant.json"}
+        files(one).keys() - {"pack.json", "index.json", "README.md", "croissant.json", "LICENSE.txt"}
     )
     assert all((one / entry["name"]).stat().st_size == entry["bytes"] for entry in index)
     again = write_pack(plan_pack(rendered, name), one)
@@ -160,13 +162,18 @@ def test_coco_opens_in_pycocotools(rendered, tmp_path):
         assert not found[~labelled].any()
         assert annotation["num_keypoints"] == labelled.sum() > 0
         x, y, width, height = annotation["bbox"]
-        # pixels are counted from the middle of the first one: the picture goes from -0.5 to its width - 0.5
-        assert (
-            (-0.5 <= x)
-            & (x + width < image["width"] - 0.5)
-            & (-0.5 <= y)
-            & (y + height < image["height"] - 0.5)
-        )
+        # boxes count from the picture's corner, points from the middle of its first pixel
+        low, high = found[labelled, :2].min(axis=0) + 0.5, found[labelled, :2].max(axis=0) + 0.5
+        np.testing.assert_allclose([x, y, x + width, y + height], [*low, *high])
+        assert (low >= 0).all()
+        assert (high <= [image["width"], image["height"]]).all()
+
+
+def test_no_camera_may_be_called_as_a_column_is(rendered):
+    views = rendered.headset.camera_names
+    for schema in (row_schema(rendered, views), array_schema(rendered, views)):
+        own = {name for name in schema.names if not any(view in name for view in views)}
+        assert own <= TAKEN
 
 
 def test_arrays_hold_the_datasets_pictures_and_labels(rendered, tmp_path):
@@ -269,7 +276,7 @@ def test_damage_is_not_packed_and_no_half_file_appears(rendered, tmp_path):
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(InvalidData, match=r"mouth\.png: is not what was written"):
         make(open_dataset(copy), tmp_path / "pack", "webdataset")
-    assert sorted(p.name for p in (tmp_path / "pack").rglob("*")) == ["pack.json", "tmp"]
+    assert sorted(p.name for p in (tmp_path / "pack").rglob("*")) == ["pack.json"]
 
 
 def test_a_killed_run_leaves_whole_files_only_and_the_next_one_goes_on(rendered, tmp_path):

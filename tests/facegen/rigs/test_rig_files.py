@@ -10,9 +10,13 @@ import pytest
 
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, Part
 from facegen.errors import InputError, MissingAsset
-from facegen.rigs import Rig, load_rig, rigs_folder, save_rig
+from facegen.labels import contour
+from facegen.rigs import Rig, evaluation, files, lids, load_rig, rigs_folder, save_rig
 from facegen.rigs.building import build_rig
+from facegen.rigs.lid_margins import lid_margins
 from facegen.rigs.makehuman import check_wheel
+from facegen.scene import beard_maps
+from facegen.spec.rigs import MOST_RIGS
 
 pytestmark = pytest.mark.slow
 
@@ -189,3 +193,15 @@ def test_an_older_build_is_refused(anny: Rig, tmp_path: Path) -> None:
     save_rig(dataclasses.replace(anny, version="anny 0.6.2, build 3"), tmp_path)
     with pytest.raises(InputError, match=r"build 3', and this version takes .* facegen rig build anny"):
         load_rig("anny", tmp_path)
+
+
+@pytest.mark.parametrize(
+    "cached", [files._load, evaluation._cage_basis, contour.paths_of, beard_maps.beard_map]
+)
+def test_what_is_kept_of_rigs_is_kept_of_as_many_as_a_spec_may_name(cached):
+    assert cached.cache_info().maxsize >= MOST_RIGS
+
+
+def test_what_is_kept_of_eyes_is_kept_of_both():
+    for cached in (lid_margins, lids._lids):
+        assert cached.cache_info().maxsize >= 2 * MOST_RIGS

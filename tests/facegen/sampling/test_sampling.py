@@ -1,5 +1,6 @@
 """Draws: what follows from (spec, sample) alone."""
 
+import tracemalloc
 from dataclasses import fields
 
 import numpy as np
@@ -12,7 +13,7 @@ from facegen.randomness import stream
 from facegen.rigs import eye_centers
 from facegen.sampling import COMPONENT_NAMES, draw_samples, plan_dataset
 from facegen.sampling.gaze import axes_from_target, axes_from_weights, weights_from_axes
-from facegen.sampling.people import split_of
+from facegen.sampling.people import _split_of_everyone, split_of
 from facegen.spec import parse_spec
 from facegen.validation.ranges import impossible
 
@@ -180,3 +181,23 @@ def test_spread_zero_gives_the_mean_of_each_trait(anny):
     age = np.full(BLOCK, (40 - 25) / (90 - 25))
     known = np.stack([np.ones(BLOCK), np.ones(BLOCK), age, *samples.ancestry[:, :2].T], axis=-1)
     np.testing.assert_allclose(samples.identity, known @ anny.identity_from_traits.T, atol=1e-9)
+
+
+def test_people_are_split_in_chunks_as_all_at_once(monkeypatch):
+    shares = (0.7, 0.15, 0.15)
+    whole = _split_of_everyone.__wrapped__(3, 10_007, shares)
+    monkeypatch.setattr("facegen.sampling.people._CHUNK", 100)
+    np.testing.assert_array_equal(_split_of_everyone.__wrapped__(3, 10_007, shares), whole)
+    assert np.bincount(whole).tolist() == [7005, 1501, 1501]
+
+
+def test_splitting_many_people_takes_little_more_memory_than_their_order():
+    people = 10_000_000
+    tracemalloc.start()
+    try:
+        _split_of_everyone.__wrapped__(3, people, (0.7, 0.15, 0.15))
+        assert tracemalloc.get_traced_memory()[1] < 14 * people, (
+            "8 bytes of the order, 1 of the split, and a chunk"
+        )
+    finally:
+        tracemalloc.stop()

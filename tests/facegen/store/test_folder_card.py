@@ -10,9 +10,10 @@ import pytest
 from facegen.errors import InputError
 from facegen.spec import load_spec
 from facegen.store import Dataset, begin, merge, resolve
+from facegen.store.card import _size
 
 SPEC = 'version = 1\nkind = "still"\nseed = 1\npeople = 3\n'
-CARDS = ("README.md", "croissant.json")
+CARDS = ("README.md", "croissant.json", "LICENSE.txt")
 
 
 @pytest.fixture
@@ -83,3 +84,19 @@ def test_joined_datasets_keep_the_card(spec: Path, tmp_path: Path):
     copied = shutil.copytree(folder, tmp_path / "copy")
     merge([folder, copied], tmp_path / "joined")
     assert cards(tmp_path / "joined") == cards(folder)
+
+
+@pytest.mark.parametrize(
+    ("samples", "words"),
+    [
+        (999, "n<1K"),
+        (1_000, "1K<n<10K"),
+        (9_999_999, "1M<n<10M"),
+        (10_000_000, "10M<n<100M"),
+        (5_000_000_000, "1B<n<10B"),
+        (999_999_999_999, "100B<n<1T"),
+        (10**12, "n>1T"),
+    ],
+)
+def test_sizes_are_called_as_hugging_face_calls_them(samples: int, words: str):
+    assert _size(samples) == words

@@ -25,6 +25,7 @@ def test_plain_settings_give_the_datasets_own_bytes(rendered, tmp_path):
     own = pictures(rendered.folder.path)
     assert len(own) == 6
     assert pictures(tmp_path / "a") == own
+    assert (tmp_path / "a" / "LICENSE.txt").read_bytes() == rendered.folder.licences_txt.read_bytes()
     shots = json.loads((tmp_path / "a" / "renders" / "000" / "000001" / "shots.json").read_text())
     recorded = {name: view["shot"] for name, view in rendered.sample(1)["views"].items()}
     assert shots == recorded

@@ -105,8 +105,9 @@ def test_a_start_that_was_killed_is_no_obstacle(tmp_path):
     dataset = keypoints_dataset(tmp_path / "a")
     begin(dataset)
     folder = dataset.folder
-    last = (folder.croissant_json, folder.card, folder.dataset_json)  # the three that come last, backwards
-    for count in range(1, 4):
+    # those that come last, backwards
+    last = (folder.licences_txt, folder.croissant_json, folder.card, folder.dataset_json)
+    for count in range(1, 5):
         for path in last[:count]:
             path.unlink()
         begin(dataset)

@@ -243,7 +243,7 @@ def test_a_recipe_says_how_strong_patches_are(arrays: HeadsetArrays):
         training = start_training(arrays, replace(QUICK, patches=patches, plain=0.0, randomise=1.0))
         frames = TrainingFrames(arrays, training.recipe, arrays.rows("train"))
         batch = next(iter(frames.draw_epoch(np.random.default_rng(0))))
-        losses.append(training._loss(batch, np.random.default_rng(1)).item())
+        losses.append(training._draw_loss(batch, np.random.default_rng(1)).item())
     assert losses[0] != losses[1]
 
 

@@ -131,7 +131,7 @@ class _Run:
         order = random.permutation(len(self._pictures))
         for start in range(0, len(order) - self._batch + 1, self._batch):
             views, orientations = draw_views(random, self._pictures[order[start : start + self._batch]])
-            answer = self.network(_lit_anew(random, views, random.random(len(views)) < _PLAIN))
+            answer = self.network(_draw_light(random, views, random.random(len(views)) < _PLAIN))
             loss = functional.cross_entropy(
                 answer, torch.from_numpy(orientations), label_smoothing=_SMOOTHING
             )
@@ -177,7 +177,7 @@ def _rate(done: float) -> float:
     return _PEAK_RATE * min(1.0, done / _WARM_UP + 0.01) * 0.5 * (1 + math.cos(math.pi * done))
 
 
-def _lit_anew(random: np.random.Generator, views: np.ndarray, plain: np.ndarray) -> torch.Tensor:
+def _draw_light(random: np.random.Generator, views: np.ndarray, plain: np.ndarray) -> torch.Tensor:
     """Views (n, 64, 64) float32 as other cameras and lamps would have made them."""
     seen = torch.from_numpy(views).float()[:, None]
     lit, _ = draw_photometry(random, seen, seen.clone(), 1.0, plain)
@@ -191,7 +191,7 @@ def _scores(compass: MeanCompass, pictures: np.ndarray) -> CompassScores:
     random = np.random.default_rng(0)
     views, orientations = draw_views(random, pictures)
     with torch.no_grad():
-        told = compass(_lit_anew(random, views, np.zeros(len(views), bool))).argmax(dim=1).numpy()
+        told = compass(_draw_light(random, views, np.zeros(len(views), bool))).argmax(dim=1).numpy()
     return CompassScores(
         views=len(views),
         orientation=float(np.mean(told == orientations)),

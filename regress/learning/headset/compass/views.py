@@ -57,10 +57,10 @@ def _draw_view(random: np.random.Generator, picture: np.ndarray, orientation: in
         roll_deg=float((roll_deg + 180) % 360 - 180),
         mirror=bool(mirrored),
     )
-    return placement.view(_stretched(random, picture), width=COMPASS_SIDE, height=COMPASS_SIDE)
+    return placement.view(_draw_stretched(random, picture), width=COMPASS_SIDE, height=COMPASS_SIDE)
 
 
-def _stretched(random: np.random.Generator, picture: np.ndarray) -> np.ndarray:
+def _draw_stretched(random: np.random.Generator, picture: np.ndarray) -> np.ndarray:
     """A picture drawn out along some direction, as if the camera looked at the face from further to a side."""
     along, factor = random.uniform(0, np.pi), np.exp(_STRETCH * random.standard_normal())
     turn = np.array([[np.cos(along), -np.sin(along)], [np.sin(along), np.cos(along)]])

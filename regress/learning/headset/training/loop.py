@@ -141,7 +141,7 @@ class Training:
         for number, batch in enumerate(self._frames.draw_epoch(random)):
             done = (epoch + number / self._frames.batches) / self.recipe.epochs
             self.network.zero_grad(set_to_none=True)
-            loss = self._loss(batch, random)
+            loss = self._draw_loss(batch, random)
             loss.backward()
             for optimizer in self._optimizers:
                 for group in optimizer.param_groups:
@@ -155,7 +155,7 @@ class Training:
             )
         self.history.append({"loss": float(np.mean(losses)), "validation": self._validation_error()})
 
-    def _loss(self, batch: Batch, random: np.random.Generator) -> torch.Tensor:
+    def _draw_loss(self, batch: Batch, random: np.random.Generator) -> torch.Tensor:
         pictures, neutral, present, calibrated, terms = _tensors_of(batch)
         if self.recipe.randomise:
             pictures, neutral = draw_photometry(

@@ -122,7 +122,7 @@ def train_headset(
     )
     if (arrays.split == "test").any():
         model = replace(model, scores=evaluate(HeadsetGraph(graph, cameras), model, arrays))
-    written = save_headset_model(model, graph, folder)
+    written = save_headset_model(model, graph, folder, data=arrays.folder)
     checkpoint.unlink(missing_ok=True)
     return written
 
