@@ -7,14 +7,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
+from regress.runtime.headset.gaze_map import IRIS_MM, gaze_map
 from regress.runtime.headset.person import OwnEye, Person
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.pupils import pupil_share
 from regress.runtime.headset.vergence import meeting
 from regress.runtime.sample import EyeMeasures
-
-IRIS_MM = 11.7
-"""Diameter of an iris, nearly the same in all people (F. Rüfer et al., "White-to-white corneal diameter", 2005)."""
 
 HALF_SHUT = 0.5
 """Openness below which an eye's pupil is hidden in part: its gaze then follows the other eye's."""
@@ -65,9 +63,7 @@ class EyeReader:
             for name in predictor.sizes
             if traces_an_eye(predictor, name) and name in looks
         }
-        self._maps = {
-            name: None if looks[name].gaze is None else np.array(looks[name].gaze) for name in self._eyes
-        }
+        self._maps = {name: gaze_map(predictor, name) for name in self._eyes}
         self.sides = {
             name: int(any(point.startswith("right_pupil") for point in predictor.model.points[name]))
             for name in self._eyes

@@ -1,11 +1,10 @@
 """Reads from an eye's traced points how far its lids are open and where it looks, set right by what was looked at.
 
-The unit of length is the iris, nearly the same in all people. Where the eye looks follows from
-where the pupil lies between the eye's corners, by a linear map that training's labels have given for each camera (its
-pose and the eyeball's size are in it). That map is of the training's rig and of the mean person; targets that a person
-has looked at correct it for the person, camera and seat. The network's direct answer is corrected alike, and both are
-fused by how far each is off at the targets: of a camera unlike the training's the direct one says little. Where both
-eyes have a camera, their lines of sight meet in front (``regress.runtime.headset.vergence``).
+The unit of length is the iris, nearly the same in all people. Where the eye looks follows from where the pupil lies
+between the eye's corners, by a linear map (`regress.runtime.headset.gaze_map`) that is of the mean person. Targets that
+a person has looked at correct it for the person, camera and seat. The network's direct answer is corrected alike, and
+both are fused by how far each is off at the targets: of a camera unlike the training's the direct one says little.
+Where both eyes have a camera, their lines of sight meet in front (``regress.runtime.headset.vergence``).
 """
 
 import csv
@@ -17,8 +16,9 @@ import numpy as np
 
 from regress.errors import InputError
 from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
-from regress.runtime.headset.eye_reader import HALF_SHUT, HIDDEN_DEG, IRIS_MM
+from regress.runtime.headset.eye_reader import HALF_SHUT, HIDDEN_DEG
 from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.gaze_map import IRIS_MM, gaze_map
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.pupils import pupil_share
 from regress.runtime.headset.vergence import meeting
@@ -131,18 +131,17 @@ def _mapped(gaze_deg: np.ndarray, one: np.ndarray) -> np.ndarray:
 def own_gaze(looked: Sequence[np.ndarray], targets_deg: np.ndarray) -> OwnGaze:
     """What targets (k, 2) in degrees say of several answers (k, 2) at them.
 
-    An answer counts by the inverse of its squared error at the targets. What all together are off by is told by maps of
-    the other targets: six numbers fit five targets well. Fewer than `FEWEST_TARGETS` show no errors; the first answer
+    An answer counts by the inverse of its squared error at the targets. What it is off by is told by maps of the other
+    targets, for six numbers fit five targets well. Fewer than `FEWEST_TARGETS` show no errors; the first answer
     then stands alone.
     """
     maps = [correction(each, targets_deg) if len(each) else np.eye(2, 3) for each in looked]
     if len(targets_deg) < FEWEST_TARGETS:
         return OwnGaze(maps=tuple(maps), shares=np.eye(len(maps))[0], error_deg=1.0, decided=False)
-    off = [_mapped(each, one) - targets_deg for each, one in zip(looked, maps, strict=True)]
-    errors = (np.array(off) ** 2).sum(axis=2).mean(axis=1)
-    shares = 1 / (errors + _LEAST_DEG**2)
+    off = np.array([_off_at_others(each, targets_deg) for each in looked])
+    shares = 1 / ((off**2).sum(axis=2).mean(axis=1) + _LEAST_DEG**2)
     shares /= shares.sum()
-    together = np.tensordot(shares, [_off_at_others(each, targets_deg) for each in looked], axes=1)
+    together = np.tensordot(shares, off, axes=1)
     error_deg = float(np.sqrt((together**2).sum(axis=1).mean() + _LEAST_DEG**2))
     return OwnGaze(maps=tuple(maps), shares=shares, error_deg=error_deg)
 
@@ -187,8 +186,7 @@ def traced_eyes(
     if not cameras:
         raise InputError("no camera that traces an eye has pictures, so nothing is said of eyes")
     for name in cameras:
-        looks = predictor.model.looks.get(name)
-        if looks is None or looks.gaze is None:
+        if gaze_map(predictor, name) is None:
             raise InputError(
                 f"{name}: the model has no map from points to the gaze; train it with this version"
             )
@@ -202,12 +200,12 @@ def traced_eyes(
         points[~footage.present[:, footage.cameras.index(name)]] = np.nan
         eye = EyePoints.of(predictor, name)
         pupil, apart = eye_features(points, eye)
-        gaze = np.column_stack([pupil, np.ones(len(pupil))]) @ np.array(predictor.model.looks[name].gaze).T
+        gaze = np.column_stack([pupil, np.ones(len(pupil))]) @ gaze_map(predictor, name).T
         seen = [row for row in rows if np.isfinite(gaze[row]).all()]
         wanted = np.array([rows[row] for row in seen]).reshape(-1, 2)
         answers = [gaze, direct[:, int(_is_right(predictor, name))]]
         if predictor.model.of_many_headsets:
-            # of many headsets the map from points knows none: what the network says itself stands alone
+            # of many headsets the map does not know what is straight ahead: the network's own answer stands alone
             answers.reverse()
         own = own_gaze([answer[seen] for answer in answers], wanted)
         openness = apart / np.nanpercentile(apart, OWN_OPENNESS)
