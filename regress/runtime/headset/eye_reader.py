@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from regress.runtime.headset.eye_corners import EyeCorners, between_corners, calm_corners
 from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
 from regress.runtime.headset.gaze_map import IRIS_MM, gaze_map
 from regress.runtime.headset.person import OwnEye, Person
@@ -69,6 +70,7 @@ class EyeReader:
             for name in self._eyes
         }
         self._irises = {name: _IrisDiameter() for name in self._eyes}
+        self._corners = {name: EyeCorners() for name in self._eyes}
         # the eyes' turns do not fall on one frame
         self._pupils = {name: _Pupil(first_s=side * _PUPIL_EVERY_S / 2) for name, side in self.sides.items()}
         self._usual = {
@@ -117,6 +119,7 @@ class EyeReader:
         for name, eye in self._eyes.items():
             if name not in points or name not in pictures:
                 self._pupils[name].forget()
+                self._corners[name].forget()
                 continue
             side, seen = self.sides[name], points[name].astype(np.float64)
             diameter = self._irises[name].step(seconds, diameter_of(seen, eye))
@@ -124,6 +127,9 @@ class EyeReader:
             apart_mm = IRIS_MM * _apart(seen, eye) / diameter
             known = own if own.rest_mm is not None and own.shut_mm is not None else self._usual[name]
             open_to = known.openness(apart_mm)
+            self._corners[name].step(
+                seconds, between_corners(seen, eye), iris=diameter, shut=open_to < HALF_SHUT
+            )
             if self._pupils[name].due(seconds):
                 self._pupils[name].share = pupil_share(pictures[name], seen, eye)
             hidden = np.clip(1 - open_to / HALF_SHUT, 0, 1) if np.isfinite(open_to) else 0.0
@@ -132,31 +138,36 @@ class EyeReader:
                 continue  # another camera of this eye is surer
             openness_mm[side], openness[side], variance[side] = apart_mm, open_to, error
             pupil[side] = self._pupils[name].share
-            gaze_deg[side] = self._own_gaze(name, own, seen, diameter, direct[side])
+            gaze_deg[side] = self._own_gaze(name, own, seen, direct[side])
         met = meeting(gaze_deg[None], variance)[0]
         measured = EyeMeasures(openness_mm=openness_mm, openness=openness, pupil=pupil)
         return measured, np.radians(met).ravel()
 
-    def traced_gaze(self, camera: str, points: np.ndarray, diameter: float | None = None) -> np.ndarray:
-        """Yaw and pitch (2,) in degrees of a pupil between the eye's corners; NaN of models without such a map.
+    def traced_gaze(self, camera: str, points: np.ndarray, corners: np.ndarray) -> np.ndarray:
+        """Yaw and pitch (..., 2) in degrees of pupils of points (..., P, 2) between calm corners (..., 2).
 
-        ``diameter`` is the iris's; the median of the frames that were read without.
+        The iris is as large as in the frames that were read. NaN of models without such a map.
         """
-        if self._maps[camera] is None:
-            return np.full(2, np.nan)
-        eye = self._eyes[camera]
-        diameter = self._irises[camera].median if diameter is None else diameter
-        corners = points[[eye.upper[0], eye.upper[-1]]].mean(axis=0)
-        return self._maps[camera] @ np.append((points[eye.pupil] - corners) / diameter, 1.0)
+        one = self._maps[camera]
+        if one is None:
+            return np.full(corners.shape, np.nan)
+        pupil = (points[..., self._eyes[camera].pupil, :] - corners) / self._irises[camera].median
+        return pupil @ one[:, :2].T + one[:, 2]
 
-    def _own_gaze(
-        self, camera: str, own: OwnEye, points: np.ndarray, diameter: float, direct_deg: np.ndarray
+    def traced_take(
+        self, camera: str, points: np.ndarray, *, shut: np.ndarray, seconds: np.ndarray
     ) -> np.ndarray:
+        """The same (n, 2) of a take's points (n, P, 2) that was read, with the corners of the frames about each."""
+        iris = self._irises[camera].median
+        corners = calm_corners(points, self._eyes[camera], iris=iris, shut=shut, seconds=seconds)
+        return self.traced_gaze(camera, points, corners)
+
+    def _own_gaze(self, camera: str, own: OwnEye, points: np.ndarray, direct_deg: np.ndarray) -> np.ndarray:
         """Both answers (2,) in degrees, each set right, by their shares; the direct one where nothing is known."""
         if own.traced is None and own.direct is None:
             return direct_deg
         answers, shares = [], []
-        traced = self.traced_gaze(camera, points, diameter)
+        traced = self.traced_gaze(camera, points, self._corners[camera].middle)
         for answer, affine, share in (
             (traced, own.traced, own.traced_share),
             (direct_deg, own.direct, 1 - own.traced_share),

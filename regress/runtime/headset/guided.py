@@ -7,7 +7,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES, EYE_LOOK_INDICES
 from regress.errors import InputError
-from regress.runtime.headset.eye_reader import EyeReader
+from regress.runtime.headset.eye_reader import HALF_SHUT, EyeReader
 from regress.runtime.headset.person import (
     HIGHEST_REST,
     LEAST_SPAN,
@@ -18,6 +18,7 @@ from regress.runtime.headset.person import (
 )
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.traced_eyes import own_gaze
+from regress.runtime.stages.frame_clock import USUAL_FPS
 
 REST, LOOK = "rest", "look"
 
@@ -164,17 +165,26 @@ def _read(
 ) -> Readings:
     estimates, traced = predictor.see(take.pictures, neutral=neutral)
     count = len(estimates.weights)
-    openness, found = [], {name: np.full((count, 2), np.nan) for name in reader.sides if name in traced}
+    eyes = []
     for row in range(count):
         points = {name: pixels[row] for name, pixels in traced.items()}
         frame = {name: frames[row] for name, frames in take.pictures.items()}
-        openness.append(reader.read(0.0, frame, points, estimates.gaze[row].ravel())[0].openness_mm)
-        for name, gaze in found.items():
-            gaze[row] = reader.traced_gaze(name, points[name].astype(np.float64))
+        eyes.append(reader.read(0.0, frame, points, estimates.gaze[row].ravel())[0])
+    openness = np.array([each.openness for each in eyes])
+    found = {
+        name: reader.traced_take(
+            name,
+            traced[name].astype(np.float64),
+            shut=openness[:, side] < HALF_SHUT,
+            seconds=np.full(count, 1 / USUAL_FPS),
+        )
+        for name, side in reader.sides.items()
+        if name in traced
+    }
     direct = np.degrees(estimates.gaze.astype(np.float64))
     return Readings(
         weights=estimates.weights.astype(np.float64),
-        openness_mm=np.array(openness),
+        openness_mm=np.array([each.openness_mm for each in eyes]),
         traced_deg=found,
         direct_deg={name: direct[:, reader.sides[name]] for name in found},
     )

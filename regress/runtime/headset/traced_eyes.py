@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from regress.errors import InputError
+from regress.runtime.headset.eye_corners import between_corners, calm_corners
 from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
 from regress.runtime.headset.eye_reader import HALF_SHUT, HIDDEN_DEG
 from regress.runtime.headset.footage import Footage
@@ -22,6 +23,7 @@ from regress.runtime.headset.gaze_map import IRIS_MM, gaze_map
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.pupils import pupil_share
 from regress.runtime.headset.vergence import meeting
+from regress.runtime.stages.frame_clock import FrameClock
 
 OWN_OPENNESS = 90.0
 """Percentile of a take's openness that counts as the person's own: wide eyes are above."""
@@ -70,13 +72,34 @@ def eye_features(points: np.ndarray, eye: EyePoints) -> tuple[np.ndarray, np.nda
     points : (n, P, 2)
         Pixels of what the camera traces.
     """
+    diameter = iris_diameter(points, eye)
+    apart = np.linalg.norm(points[:, eye.upper] - points[:, eye.lower], axis=2).mean(axis=1)
+    return (points[:, eye.pupil] - between_corners(points, eye)) / diameter, apart / diameter
+
+
+def iris_diameter(points: np.ndarray, eye: EyePoints) -> float:
+    """Of a take's points (n, P, 2), in pixels; NaN where no frame shows the eye."""
     iris = points[:, eye.iris]
     diameter = 2 * np.linalg.norm(iris - iris.mean(axis=1, keepdims=True), axis=2).mean(axis=1)
     # an iris whose half is hidden is traced too small; a take's own hardly changes
-    diameter = np.nanmedian(diameter) if np.isfinite(diameter).any() else np.nan
-    corners = points[:, [eye.upper[0], eye.upper[-1]]].mean(axis=1)
-    apart = np.linalg.norm(points[:, eye.upper] - points[:, eye.lower], axis=2).mean(axis=1)
-    return (points[:, eye.pupil] - corners) / diameter, apart / diameter
+    return float(np.nanmedian(diameter)) if np.isfinite(diameter).any() else float("nan")
+
+
+def calm_pupil(points: np.ndarray, eye: EyePoints, *, shut: np.ndarray, seconds: np.ndarray) -> np.ndarray:
+    """Where the pupil lies (n, 2) in irises between the eye's corners as they were over about a second.
+
+    Parameters
+    ----------
+    points : (n, P, 2)
+        Pixels of what the camera traces in a take.
+    shut : (n,) bool
+        Frames whose lids are more shut than open.
+    seconds : (n,)
+        Since the frame before.
+    """
+    iris = iris_diameter(points, eye)
+    corners = calm_corners(points, eye, iris=iris, shut=shut, seconds=seconds)
+    return (points[:, eye.pupil] - corners) / iris
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,6 +214,8 @@ def traced_eyes(
                 f"{name}: the model has no map from points to the gaze; train it with this version"
             )
     rows = _rows(footage, targets or {})
+    clock = FrameClock()
+    seconds = np.array([clock.step(sample.time_s) for sample in footage.samples()])
     pictures = {name: footage.pictures[name] for name in cameras}
     estimates, traced = predictor.graph.see(pictures, present=footage.present)
     direct = np.degrees(estimates.gaze.astype(np.float64))
@@ -199,7 +224,9 @@ def traced_eyes(
         points = traced[name].astype(np.float64)
         points[~footage.present[:, footage.cameras.index(name)]] = np.nan
         eye = EyePoints.of(predictor, name)
-        pupil, apart = eye_features(points, eye)
+        _, apart = eye_features(points, eye)
+        openness = apart / np.nanpercentile(apart, OWN_OPENNESS)
+        pupil = calm_pupil(points, eye, shut=openness < HALF_SHUT, seconds=seconds)
         gaze = np.column_stack([pupil, np.ones(len(pupil))]) @ gaze_map(predictor, name).T
         seen = [row for row in rows if np.isfinite(gaze[row]).all()]
         wanted = np.array([rows[row] for row in seen]).reshape(-1, 2)
@@ -208,7 +235,6 @@ def traced_eyes(
             # of many headsets the map does not know what is straight ahead: the network's own answer stands alone
             answers.reverse()
         own = own_gaze([answer[seen] for answer in answers], wanted)
-        openness = apart / np.nanpercentile(apart, OWN_OPENNESS)
         eyes[name] = TracedEye(
             openness_mm=IRIS_MM * apart,
             openness=openness,

@@ -206,7 +206,14 @@ def test_of_two_cameras_on_one_eye_the_surer_one_says_the_gaze_and_corrects_it_o
             reader._eyes["left_eye"],
             {"left_eye": first, "left_eye_nasal": second},
         )
-        for table in (reader._maps, reader.sides, reader._irises, reader._pupils, reader._usual):
+        for table in (
+            reader._maps,
+            reader.sides,
+            reader._irises,
+            reader._corners,
+            reader._pupils,
+            reader._usual,
+        ):
             table["left_eye_nasal"] = table["left_eye"]
         both = {"left_eye": seen["left_eye"], "left_eye_nasal": seen["left_eye"]}
         _, gaze = reader.read(
