@@ -13,6 +13,7 @@ from regress.runtime.headset.orientation import told_by_compass, told_orientatio
 from regress.runtime.headset.points import check_points
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.temporal import TAPS
+from regress.runtime.headset.traced_eyes import TracedEye
 
 _SAME_LEVEL = 4
 """Grey levels by which any may be moved without a word."""
@@ -50,6 +51,13 @@ def level_notes(tables: Mapping[str, np.ndarray]) -> Iterator[str]:
                 f"{name}: its grey levels are not those of training and are stretched to them (64 becomes {table[64]}, "
                 f"192 {table[192]})"
             )
+
+
+def target_notes(eyes: Mapping[str, TracedEye]) -> Iterator[str]:
+    """A sentence for each target that says nothing of an eye."""
+    for name, eye in eyes.items():
+        for number in eye.left_out:
+            yield f"--looked-at {number}: {name} was shut or looked elsewhere there; the target is left out"
 
 
 def seat_notes(reseated: tuple[str, ...], *, keep_neutral: bool) -> Iterator[str]:
