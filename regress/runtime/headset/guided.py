@@ -10,6 +10,7 @@ from regress.errors import InputError
 from regress.runtime.headset.eye_reader import HALF_SHUT, EyeReader
 from regress.runtime.headset.guided_gaze import gaze_centred, gaze_of_targets
 from regress.runtime.headset.person import (
+    HIGHEST_KEPT,
     HIGHEST_REST,
     LEAST_SPAN,
     OwnEye,
@@ -45,6 +46,9 @@ WAY_INTO_FACE = 1 / 3
 
 _SHUT = 0.7
 """Of the lids' distance at rest, above which lids are not shut, or not seen."""
+
+_MISREAD = 4
+"""Shapes that a network reads high in a face at rest before cameras unlike the training's: as many were seen."""
 
 _LEAST_REST = 0.005
 """Reading at rest below which a shape is left out of the file."""
@@ -125,12 +129,11 @@ def person_of(
     readings = {face: _read(predictor, reader, take, neutral) for face, take in takes.items()}
     at_rest = np.median(readings[REST].weights, axis=0)
     # where somebody looks at rest is theirs
-    worst = int(np.argmax(np.where([name in looks for name in BLENDSHAPES], 0.0, at_rest)))
-    if at_rest[worst] > HIGHEST_REST:
-        raise InputError(
-            f"--{REST}: {BLENDSHAPES[worst]} reads {at_rest[worst]:.2f} there; at most {HIGHEST_REST} is a resting face"
-        )
+    strange = _strange(
+        {name: value for name, value in zip(BLENDSHAPES, at_rest, strict=True) if name not in looks}
+    )
     full, notes = _full(readings, at_rest)
+    notes += strange
     eyes = {}
     for camera, side in reader.sides.items():
         if camera in takes[REST].pictures:
@@ -139,7 +142,7 @@ def person_of(
     person = Person(
         network_sha256=predictor.model.network_sha256,
         rest={
-            name: round(float(value), 4)
+            name: round(float(min(value, HIGHEST_KEPT)), 4)
             for name, value in zip(BLENDSHAPES, at_rest, strict=True)
             if value >= _LEAST_REST and name not in looks
         },
@@ -148,6 +151,26 @@ def person_of(
         neutral={} if neutral is None else {name: packed_picture(kept[name][row]) for name in neutral},
     )
     return person, tuple(notes)
+
+
+def _strange(at_rest: Mapping[str, float]) -> list[str]:
+    """A sentence for each shape that reads high in a face at rest: a network may take a face for one that it makes.
+
+    Raises
+    ------
+    InputError
+        Where these are more than `_MISREAD`, or eyes are shut: then nobody was at rest.
+    """
+    high = sorted((name for name, value in at_rest.items() if value > HIGHEST_REST), key=at_rest.get)[::-1]
+    if len(high) > _MISREAD or any(BLENDSHAPE_INDEX[name] in BLINK_INDICES for name in high):
+        worst = high[0]
+        raise InputError(
+            f"--{REST}: {worst} reads {at_rest[worst]:.2f} there; at most {HIGHEST_REST} is a resting face"
+        )
+    return [
+        f"{REST}: the network reads {name} {at_rest[name]:.2f} there, where {HIGHEST_REST} is high; it counts as rest"
+        for name in high
+    ]
 
 
 def neutral_row(predictor: HeadsetPredictor, pictures: Mapping[str, np.ndarray]) -> int:
