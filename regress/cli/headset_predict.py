@@ -270,6 +270,7 @@ def predict(
         keep_neutral=keep_neutral,
         temporal=temporal,
         person=own,
+        still=dataset is not None,
         say=say,
     )
     of_rate = rate_note(predictor.model.temporal.fps, footage.fps) if temporal else ()

@@ -214,6 +214,7 @@ def test_of_two_cameras_on_one_eye_the_surer_one_says_the_gaze_and_corrects_it_o
             reader.sides,
             reader._irises,
             reader._corners,
+            reader._leads,
             reader._pupils,
             reader._usual,
         ):
