@@ -83,3 +83,28 @@ class GazeLead:
         after = direct_deg - self._direct
         self._together = kept * self._together + seconds * float(beside_traced @ after)
         self._own = kept * self._own + seconds * float(beside_direct @ after)
+
+
+def led_take(
+    traced_deg: np.ndarray, direct_deg: np.ndarray, *, seen: np.ndarray, seconds: np.ndarray
+) -> np.ndarray:
+    """Gaze (n, 2) in degrees of a take's frames, of which all were seen before.
+
+    Parameters
+    ----------
+    traced_deg, direct_deg : (n, 2)
+        Both answers; NaN of points that are not traced.
+    seen : (n,)
+        How much of the pupil lids leave to be seen, in [0, 1].
+    seconds : (n,)
+        Since the frame before.
+    """
+    lead = GazeLead()
+    frames = list(zip(seconds, traced_deg, direct_deg, seen, strict=True))
+    for passed, traced, direct, open_to in frames:
+        lead.step(passed, traced, direct, seen=open_to)
+    found = np.empty_like(direct_deg)
+    for row, (passed, traced, direct, open_to) in enumerate(frames):
+        lead.step(passed, traced, direct, seen=open_to)
+        found[row] = lead.led(traced, direct)
+    return found

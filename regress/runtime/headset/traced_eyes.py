@@ -19,9 +19,10 @@ from regress.runtime.headset.eye_corners import between_corners, calm_corners
 from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
 from regress.runtime.headset.eye_reader import HALF_SHUT, HIDDEN_DEG
 from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.gaze_lead import led_take
 from regress.runtime.headset.gaze_map import IRIS_MM, gaze_map
 from regress.runtime.headset.glances import glances
-from regress.runtime.headset.own_gaze import own_gaze
+from regress.runtime.headset.own_gaze import FEWEST_TARGETS, own_gaze
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.pupils import pupil_share
 from regress.runtime.headset.vergence import meeting
@@ -143,8 +144,12 @@ def traced_eyes(
         gaze = np.column_stack([pupil, np.ones(len(pupil))]) @ gaze_map(predictor, name).T
         answers = [gaze, direct[:, int(_is_right(predictor, name))]]
         if predictor.model.of_many_headsets:
-            # of many headsets the map does not know what is straight ahead: the network's own answer stands alone
+            # of many headsets the map does not know what is straight ahead: the network's own answer stands alone, led
+            # by points where they move farther
             answers.reverse()
+            if len(rows) < FEWEST_TARGETS:
+                pupil_seen = np.nan_to_num(np.clip(openness / HALF_SHUT, 0, 1))
+                answers[0] = led_take(gaze, answers[0], seen=pupil_seen, seconds=seconds)
         looked = glances(answers, openness, time_s, list(rows))
         seen = np.flatnonzero(np.isfinite(looked).all(axis=(0, 2)))
         own = own_gaze([each[seen] for each in looked], targets_deg[seen])

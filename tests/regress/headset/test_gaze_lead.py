@@ -14,10 +14,11 @@ from facegen.conventions import BLENDSHAPES
 from regress.cli.headset_input import read_footage
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.gaze_lead import GazeLead
+from regress.runtime.headset.gaze_lead import GazeLead, led_take
 from regress.runtime.headset.person import OwnEye, Person
 from regress.runtime.headset.predict import predict_footage
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.traced_eyes import traced_eyes
 from regress.runtime.stages.gaze import LOOKS, look_weights
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
@@ -82,6 +83,17 @@ def test_shut_eyes_and_what_is_not_traced_teach_nothing():
     assert lead.led(np.full(2, np.nan), AHEAD) is AHEAD
 
 
+def test_of_a_take_the_first_frames_are_led_as_the_last_are_but_shut_eyes_by_the_network():
+    true = looks(20, 30, 1)
+    direct, traced, seen = true / 2, AHEAD + true, np.ones(len(true))
+    seen[:5], traced[5:10] = 0.0, np.nan
+    said = led_take(traced, direct, seen=seen, seconds=np.full(len(true), 1 / 30))
+    np.testing.assert_array_equal(said[:10], direct[:10])
+    assert np.polyfit(true[10:, 0], said[10:, 0], 1)[0] == pytest.approx(1, abs=0.05)
+    slower = led_take(AHEAD + true / 3, direct, seen=np.ones(len(true)), seconds=np.full(len(true), 1 / 30))
+    np.testing.assert_array_equal(slower, direct)
+
+
 @dataclass(frozen=True)
 class _PulledIn:
     """A graph whose gaze is pulled to the middle, as of pictures that look strange."""
@@ -143,6 +155,14 @@ def test_of_a_strange_camera_predict_goes_by_traced_points(home: HeadsetPredicto
     np.testing.assert_allclose(last.weights[LOOKS], look_weights(last.gaze), atol=1e-3)
     others = [row for row in range(len(BLENDSHAPES)) if row not in LOOKS]
     np.testing.assert_array_equal(last.weights[others], still[-1].weights[others])
+
+
+def test_eyes_of_many_headsets_go_by_what_leads_where_no_target_decided(footage: Footage):
+    many = load_headset_predictor("headset-any")
+    pulled = replace(many, graph=_PulledIn(many.graph, 0.4))
+    own, led_ = (traced_eyes(one, footage)["left_eye"] for one in (many, pulled))
+    seen = own.openness > 0.5
+    assert led_.gaze_deg[seen, 0].std() > 0.6 * own.gaze_deg[seen, 0].std()
 
 
 @pytest.mark.parametrize("known", ["nothing", "the middle"])

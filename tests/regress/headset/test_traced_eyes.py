@@ -178,12 +178,15 @@ def test_a_picture_that_does_not_count_says_nothing_of_the_other_eye(tmp_path: P
     assert np.isnan(eyes["right_eye"].gaze_deg[40:]).all()
 
 
-def test_of_many_headsets_the_direct_gaze_stands_alone_where_no_target_decides():
+def test_of_many_headsets_the_direct_gaze_leads_at_home_where_no_target_decides():
     predictor = load_headset_predictor("headset-any")
     footage = read_footage(predictor, None, {"left_eye": TAKE / "left_eye"}, from_start=False, fps=None)
     eyes = traced_eyes(predictor, footage)
     direct, _ = predictor.graph.see({"left_eye": footage.pictures["left_eye"]}, present=footage.present)
-    np.testing.assert_allclose(eyes["left_eye"].gaze_deg, np.degrees(direct.gaze[:, 0]), atol=1e-3)
+    off = np.abs(eyes["left_eye"].gaze_deg - np.degrees(direct.gaze[:, 0]))
+    # by geometry alone the middle would be seventeen degrees lower
+    assert np.median(off) < 0.5
+    assert off.max() < 4
 
 
 def left_eye_seen() -> tuple[HeadsetPredictor, dict[str, np.ndarray], dict[str, np.ndarray]]:
