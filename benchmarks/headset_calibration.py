@@ -6,10 +6,11 @@
 People of `datasets/headset-guided.toml` do what `headset-guided.csv` says, in a seat of the headset; they are the same
 people as those of `headset-test.toml`, who sit otherwise there. Each person's minute is calibrated as
 `regress headset calibrate` does it. Errors are of the sixteen faces behind the minute in the same seat, and of ordinary
-frames of the other dataset in two other seats. Shut eyes and rest are the minute's own frames: after the minute these
-figures are of a fit, and say nothing of later frames. `--soft` blurs all pictures first, as a camera out of focus does.
-How far people open their eyes at rest is compared over people, as traced and as labelled. Prints Markdown, which stands
-in docs/measurements/headset-networks.md.
+frames of the other dataset in two other seats. Glances are read behind the frames of the look,
+as live at 30 a second. Shut eyes and rest are the minute's own frames: after the minute these figures are of a fit, and
+say nothing of later frames. `--soft` blurs all pictures first, as a camera out of focus does. How far people open their
+eyes at rest is compared over people, as traced and as labelled. Prints Markdown, which stands in
+docs/measurements/headset-networks.md.
 """
 
 import argparse
